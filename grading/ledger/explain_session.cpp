@@ -8,6 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
+#include "engine/session/lock_event.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/station_check.h"
 #include "engine/session/verify.h"
@@ -80,6 +81,13 @@ void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
     e.remarks.emplace_back("there is no ticket: that this exam was asked for, and of whom, is not shown");
 }
 
+/// What was tried to leave a locked exam.
+void say_attempts(SessionExplanation& e, const SessionReader& session) {
+  for (const LockSummary& s : lock_summary(session.events()))
+    e.remarks.push_back(fmt::format("during the exam, {} s after its beginning: {}{}", fixed(static_cast<double>(s.first_tick) * 1e-3, 1), s.words,
+                                    s.times > 1 ? fmt::format(" ({} times in all)", s.times) : ""));
+}
+
 /// Where it was recorded, how the clocks ran, and what lies beside the file.
 void say_circumstances(SessionExplanation& e, const SessionReader& session, const std::string& path) {
   for (const auto& event : session.events())
@@ -87,6 +95,7 @@ void say_circumstances(SessionExplanation& e, const SessionReader& session, cons
       e.remarks.push_back(
           fmt::format("from {} s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam",
                       fixed(static_cast<double>(event.tick) * 1e-3, 1)));
+  say_attempts(e, session);
   for (const auto& r : check_clocks(session))
     e.remarks.push_back(fmt::format("from tick {} ({} s): {}", r.first_tick, fixed(static_cast<double>(r.first_tick) * 1e-3, 1), r.what));
   if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)

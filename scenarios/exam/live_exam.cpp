@@ -43,6 +43,7 @@ void LiveExam::take(const ServoTick& tick) {
     report_.first_disagreement = tick.tick;
     exam_->recorder().add_event(tick.tick, "servo_disagrees", nlohmann::json{{"tick", tick.tick}}.dump());
   }
+  record_notes(tick.tick);
   if (end_asked_.load(std::memory_order_acquire) && !exam_->over()) exam_->end();
   const RunnerState& runner = exam_->runner_state();
   device_.held.store(Runner::paused(runner), std::memory_order_release);
@@ -73,6 +74,20 @@ void LiveExam::take(const ServoTick& tick) {
   if (view_.session != exam_->recorder().path()) view_.session = exam_->recorder().path();
 }
 
+void LiveExam::note(const std::string& kind, const std::string& detail_json) {
+  const std::lock_guard lock(mutex_);
+  notes_.emplace_back(kind, detail_json);
+}
+
+void LiveExam::record_notes(std::int64_t tick) {
+  std::vector<std::pair<std::string, std::string>> notes;
+  {
+    const std::lock_guard lock(mutex_);
+    notes.swap(notes_);
+  }
+  for (const auto& [kind, detail] : notes) exam_->recorder().add_event(tick, kind, detail);
+}
+
 void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) const {
   const std::lock_guard lock(tooth_mutex_);
   look(exam_->state().tooth);
@@ -94,6 +109,7 @@ const LiveReport& LiveExam::finish() {
   servo_->ask_to_stop();
   report_.servo = servo_->join();
   report_.writer = writer_->finish();
+  record_notes(std::max<std::int64_t>(0, exam_->recorder().ticks() - 1));
   return report_;
 }
 

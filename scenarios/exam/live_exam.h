@@ -8,6 +8,8 @@
 #include <memory>
 #include <mutex>
 #include <string>
+#include <utility>
+#include <vector>
 
 #include "engine/servo/real_time.h"
 #include "engine/session/session_writer.h"
@@ -57,6 +59,8 @@ class LiveExam {
   void start();
   /// The candidate stops: the exam is over with the next tick. Any thread.
   void ask_to_end() noexcept { end_asked_.store(true, std::memory_order_release); }
+  /// Records an event that nothing in the motion shows, with the next tick, or with the last one once none follows. Any thread, before `finish`.
+  void note(const std::string& kind, const std::string& detail_json);
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
@@ -90,6 +94,7 @@ class LiveExam {
   };
 
   void take(const ServoTick& tick);
+  void record_notes(std::int64_t tick);
 
   std::unique_ptr<Exam> exam_;
   ServoState servo_state_;
@@ -104,6 +109,7 @@ class LiveExam {
   mutable std::mutex tooth_mutex_;  // of the twin's tooth, between its thread and whoever draws it
   mutable std::mutex mutex_;        // of the view
   LiveView view_;
+  std::vector<std::pair<std::string, std::string>> notes_;  // kind, detail; of any thread, under mutex_
 };
 
 }  // namespace cavum::scenarios

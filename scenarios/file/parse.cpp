@@ -223,6 +223,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
   s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
   s.gauges = read_gauges(t);
+  s.hold_results = t.truth("hold_results", false);
   if (const auto* a = t.table("accommodations")) {
     CheckedTable at(*a, "[accommodations]", problems);
     s.accommodations.extra_time_percent = at.number("extra_time_percent", 0, 400, 0);

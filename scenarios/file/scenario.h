@@ -186,6 +186,7 @@ struct Scenario {
   Accommodations accommodations;
   PauseSpec pauses;
   GaugeSpec gauges;
+  bool hold_results = false;  ///< the station shows none: the school releases them
   std::vector<StepSpec> steps;
   ZoneSpec zones;
   PerforationSpec perforation;

@@ -185,6 +185,7 @@ class Scenarios(unittest.TestCase):
         full["zones"]["protected"] = SHAPES[-1:]
         full["pauses"] = {"count": 1, "longest_s": 60, "button": 2}
         full["gauges"] = ["speed"]
+        full["hold_results"] = True
         full["careless"] = {"fails_by": "perforation", "sides_mm": -0.5, "bottom_mm": 0.5, "opening_percent": 50, "perforates": True}
         full["steps"][0].update({"fail_when": "force_n > 50", "time_limit_s": 60, "failure_ends_exam": False})
         full["accommodations"] = {"extra_time_percent": 25, "extra_time_s": 60, "left_handed": True, "high_contrast": False}

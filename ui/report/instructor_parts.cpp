@@ -6,6 +6,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
+#include "engine/session/lock_event.h"
 #include "scenarios/file/accommodations.h"
 #include "ui/report/report_document.h"
 
@@ -151,6 +152,10 @@ void add_work(Document& d, const ReportSource& s) {
                      {late == 0 ? "none"
                                 : fmt::format("{} s after the end, {} mm³ removed in it; nothing of it counts",
                                               fixed(static_cast<double>(late) * k_tick_s, 1), fixed(m.late_removed_mm3, 2))}}});
+  for (const LockSummary& l : lock_summary(s.input.events))
+    t.rows.push_back({{{"the exam's lock"},
+                       {fmt::format("{}{}; first at {} s", l.words, l.times > 1 ? fmt::format(", {} times", l.times) : "",
+                                    fixed(static_cast<double>(l.first_tick) * k_tick_s, 1))}}});
   d.blocks.push_back(std::move(t));
 }
 

@@ -28,9 +28,10 @@ void require_report_place(const std::string& path, bool overwrite) {
 }
 
 void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,
-                          const grading::GradedSession& graded) {
+                          const grading::GradedSession& graded, ReportReader reader) {
   const grading::GradeInput input = graded.input();
   ReportSource source = report_source(result, input, graded.facts, graded.rubric);
+  source.reader = reader;
   source.integrity = read_integrity(session_path, false);
   write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
 }

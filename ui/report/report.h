@@ -15,9 +15,9 @@ namespace cavum::report {
 /// Throws Error when no report can be put at `path`: an earlier report may be written anew, any other file only with `overwrite`.
 void require_report_place(const std::string& path, bool overwrite = false);
 
-/// The instructor's report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
+/// The report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
 void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,
-                          const grading::GradedSession& graded);
+                          const grading::GradedSession& graded, ReportReader reader);
 
 /// The report of a scan that was marked, as `path` ends: .pdf or else HTML. `in` is what was marked.
 void write_scan_report(const std::string& path, const std::string& scan_path, const grading::GradedScan& graded, const grading::GradeInput& in,

@@ -26,7 +26,7 @@ double seconds_since(Clock::time_point t) { return std::chrono::duration<double>
 class Author {
  public:
   Author(const StationOptions& options, const std::string& scenario)
-      : document_(scenario), window_("Cavum: authoring", options.width, options.height) {
+      : document_(scenario), window_({"Cavum: authoring", options.width, options.height, options.monitor}) {
     if (!options.script.empty()) script_ = Script(read_text_file(options.script), options.script, options.pictures);
     ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;  // every key has a meaning of its own here
     state_.screen = Screen::author_busy;
@@ -59,7 +59,7 @@ class Author {
     script_.step(window_, state_.screen, 0.0, seconds_since(start_));
     window_.begin_frame();
     state_.view.stereo = false;  // points are shown for one eye
-    const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, true};
+    const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, true, window_.input()};
     const AuthorContext context{screen,          document_, author_,    zones_, landmarks_, busy() ? mistakes_ : findings_->problems,
                                 findings_.get(), busy(),    floor_z_mm_};
     const AuthorWish wish = author_screen(context);
@@ -80,11 +80,12 @@ class Author {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
-    if (state_.text_scale == dressed_scale_) return;
-    dressed_scale_ = state_.text_scale;
-    theme_ = make_theme(state_.high_contrast, state_.text_scale);
+    const double scale = state_.text_scale * window_.screen_scale();
+    if (scale == dressed_scale_) return;
+    dressed_scale_ = scale;
+    theme_ = make_theme(state_.high_contrast, scale);
     apply_theme(theme_);
-    window_.set_text_scale(state_.text_scale);
+    window_.set_text_scale(scale);
   }
 
   /// What the text says, at once; what it means on the tooth, when the hand has rested for a moment.

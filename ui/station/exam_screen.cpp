@@ -7,7 +7,9 @@
 #include <cmath>
 
 #include "ui/station/coach.h"
+#include "ui/station/colour_key.h"
 #include "ui/station/gauges.h"
+#include "ui/station/pointer_hand.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -44,7 +46,7 @@ void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layo
   ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
   const std::size_t steps = scenario.steps.size(), step = static_cast<std::size_t>(view.step);
   quiet_text(t, fmt::format("{}    {}{}", step < steps ? fmt::format("Step {} of {}", step + 1, steps) : fmt::format("All {} steps done", steps),
-                            c.sitting->candidate(), c.practice ? "    practice" : "    examination"));
+                            c.sitting->candidate(), c.sitting->device().simulated() ? "    demonstration" : c.practice ? "    practice" : "    examination"));
   wrapped_text(view.instruction);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -60,7 +62,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   const scenarios::Scenario& scenario = c.sitting->setup().scenario;
   begin_area(t, "side", l.side_at, l.side, true);
   // the buttons always have their place; gauges and hints can be scrolled when the text is large
-  const float row = t.px(36) + ImGui::GetStyle().ItemSpacing.y, rows = scenario.pauses.count > 0 ? 3.0F : 2.0F;
+  const float row = t.px(36) + ImGui::GetStyle().ItemSpacing.y, rows = 2.0F + (scenario.pauses.count > 0 ? 1.0F : 0.0F) + (c.practice ? 1.0F : 0.0F);
   ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
   const scenarios::GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
@@ -73,7 +75,9 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
   ImGui::Dummy({0, t.px(4)});
   if (c.sitting->device().pointer() != nullptr)
-    quiet_text(t, "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal");
+    quiet_text(t, s.mouse_free ? "Mouse: points at buttons. Tab: it is the stylus again"
+                               : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: upright. "
+                                 "Shift: finer. Tab: mouse for buttons");
   quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
   ImGui::EndChild();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -85,6 +89,8 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
     if (side_button(t, label.c_str(), width) || (may && key_pressed(GLFW_KEY_P))) s.pause_key_s = 0.1;
     ImGui::EndDisabled();
   }
+  if (c.practice && (side_button(t, s.tutorial ? "Tutorial off  (U)" : "Tutorial  (U)", width) || key_pressed(GLFW_KEY_U)))
+    s.tutorial ? s.tutorial.reset() : void(s.tutorial.emplace(c.sitting->device().pointer() != nullptr));
   if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
   if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   end_area();
@@ -138,36 +144,42 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
   end_area();
 }
 
+bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave; }
+
 /// Mouse and keyboard say where the hand wants the tip: across the picture along the surface; seen from the side, up and down is depth.
-void move_pointer(const ScreenContext& c, PointerStylus& pointer, bool over, float picture_height) {
+void move_pointer(const ScreenContext& c, PointerStylus& pointer, float picture_height) {
   StationState& s = c.state;
-  const ImGuiIO& io = ImGui::GetIO();
   const Camera& camera = s.view.camera;
-  const Vec3 axis = c.sitting->setup().zones.approach();
-  const auto across = [&axis](Vec3 v) {
-    const Vec3 flat = v - axis * dot(v, axis);
+  PointerView view;
+  view.out = c.sitting->setup().zones.approach();
+  const auto across = [&view](Vec3 v) {
+    const Vec3 flat = v - view.out * dot(v, view.out);
     constexpr double k_steep = 0.35;
     return length(flat) > k_steep ? normalized(flat) : normalized(v);
   };
-  const Vec3 right = across(camera.right()), up = across(camera.up());
-  const double mm_per_px = 2.0 * camera.distance_mm * std::tan(13.0 * 3.14159265 / 180.0) / picture_height;
-  constexpr double k_key_mm_s = 4.0, k_notch_mm = 0.08;
-  double x = 0, y = 0, deeper = 0;
-  if (over && !ImGui::IsMouseDown(ImGuiMouseButton_Right)) {
-    x = io.MouseDelta.x * mm_per_px;
-    y = -io.MouseDelta.y * mm_per_px;
-    if (!io.KeyCtrl) deeper = -k_notch_mm * io.MouseWheel;
-  }
-  const double step = k_key_mm_s * c.frame_s;
-  x += step * (key_held(GLFW_KEY_RIGHT) - key_held(GLFW_KEY_LEFT));
-  y += step * (key_held(GLFW_KEY_UP) - key_held(GLFW_KEY_DOWN));
-  deeper += step * (key_held(GLFW_KEY_PAGE_DOWN) - key_held(GLFW_KEY_PAGE_UP));
-  s.wanted_mm += right * x + up * y - axis * deeper;
+  view.right = across(camera.right());
+  view.up = across(camera.up());
+  view.mm_per_px = 2.0 * camera.distance_mm * std::tan(13.0 * 3.14159265 / 180.0) / picture_height;
+  view.mouse = c.mouse_captured;
+  if (!asked_something(s)) move_by_pointer(c.input, view, s.wanted_mm, s.wanted_rotation);
   PointerIntent intent;
   intent.tip_mm = s.wanted_mm;
   intent.rotation = s.wanted_rotation;
-  intent.pedal = key_held(GLFW_KEY_SPACE) || (over && ImGui::IsMouseDown(ImGuiMouseButton_Left)) ? 1.0 : 0.0;
+  intent.pedal = pointer_pedal(c.input, c.mouse_captured) && !asked_something(s) ? 1.0 : 0.0;
   pointer.want(intent);
+}
+
+TutorialSight tutorial_sight(const ScreenContext& c, const scenarios::LiveView& view) {
+  TutorialSight sight;
+  sight.tip_mm = view.output.proxy_mm;
+  sight.handle = rotation(view.input.pose().rotation) * Vec3{0, 0, 1};
+  sight.out = c.sitting->setup().zones.approach();
+  sight.turn_deg = c.state.view.camera.turn_deg;
+  sight.rise_deg = c.state.view.camera.rise_deg;
+  sight.contact = view.output.contact;
+  sight.cutting = view.output.cutting;
+  sight.rpm = view.output.rpm;
+  return sight;
 }
 
 void ask_whether_finished(const ScreenContext& c) {
@@ -199,6 +211,7 @@ void exam_screen(const ScreenContext& c) {
   s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
   s.view.point = view.ticks > 0 ? view.input.point : -1;
   turn_point(s.view, view.output.rpm, c.frame_s);
+  if (s.tutorial && view.ticks > 0) s.tutorial->see(tutorial_sight(c, view));
 
   top_bar(c, view, l);
   side_panel(c, view, l);
@@ -214,13 +227,26 @@ void exam_screen(const ScreenContext& c) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
   } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + problem, t.bad);
+  } else if (s.attempt_shown_s > 0) {
+    s.attempt_shown_s -= c.frame_s;
+    words_in_picture(t, l.tooth_at, l.tooth, "RECORDED",
+                     fmt::format("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn);
   } else if (view.paused) {
     words_in_picture(t, l.tooth_at, l.tooth, "PAUSE", "The clock stands still and the handpiece stays off. Press P to go on.", t.warn);
+  } else if (s.tutorial) {
+    const std::string where = s.tutorial->done() ? "TUTORIAL" : fmt::format("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);
+    words_in_picture(t, l.tooth_at, l.tooth, where.c_str(), s.tutorial->text(), s.tutorial->done() ? t.good : t.accent);
   } else if (c.practice) {
     words_in_picture(t, l.tooth_at, l.tooth, "PRACTICE", coaching_hint(c.sitting->setup(), view), t.accent);
   }
+  if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);
   end_area();
-  if (PointerStylus* pointer = c.sitting->device().pointer()) move_pointer(c, *pointer, over, l.tooth.y);
+  if (PointerStylus* pointer = c.sitting->device().pointer()) {
+    if (key_pressed(GLFW_KEY_TAB)) s.mouse_free = !s.mouse_free;
+    if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) s.mouse_free = false;
+    move_pointer(c, *pointer, l.tooth.y);
+    s.capture_mouse = !s.mouse_free && !asked_something(s);
+  }
   ask_whether_finished(c);
 
   const bool pressed = s.pause_key_s > 0;  // for a frame at least, however long it takes

@@ -34,7 +34,7 @@ void print_frame_times(const StationOptions& options, int frames) {
   exam.candidate = "bench";
   exam.tooth_file = options.sitting.tooth;
   const auto setup = scenarios::prepare_exam(options.sitting.scenario, exam);
-  const Window window("Cavum", options.width, options.height);
+  const Window window({"Cavum", options.width, options.height, options.monitor});
   const auto began = Clock::now();
   const double processor_before_s = processor_s();
   Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->points, nullptr);

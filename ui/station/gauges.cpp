@@ -28,9 +28,14 @@ void bar_gauge(const Theme& t, const char* name, const std::string& value, doubl
   ImGui::Dummy({width, height + t.px(6)});
 }
 
+std::string depth_text(double below_mm) {
+  constexpr double k_shown_as_0_mm = 0.05;
+  return below_mm <= -k_shown_as_0_mm ? number_text("%.1f mm above", -below_mm) : number_text("%.1f mm", std::max(0.0, below_mm));
+}
+
 void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_mm, float height) {
   const float width = ImGui::GetContentRegionAvail().x;
-  const std::string value = number_text("%.1f mm", std::max(0.0, tip_mm));
+  const std::string value = depth_text(tip_mm);
   ImGui::TextUnformatted("Depth");
   ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
   ImGui::TextUnformatted(value.c_str());

@@ -37,6 +37,16 @@ void criteria(const Theme& t, const grading::Result& r) {
   ImGui::EndTable();
 }
 
+/// The school tells the result, not the station.
+void held_result_screen(const ScreenContext& c) {
+  begin_card(c.theme, "Your exam is recorded and sealed", 640);
+  wrapped_text("The result is held until the school releases it.");
+  quiet_text(c.theme, fmt::format("{},  candidate {}", c.sitting->setup().scenario.title, c.sitting->candidate()));
+  ImGui::Dummy({0, c.theme.px(8)});
+  if (main_button(c.theme, "Done  (Enter)", true)) c.state.wish = Wish::next_candidate;
+  end_area();
+}
+
 }  // namespace
 
 void grading_screen(const ScreenContext& c) {
@@ -61,6 +71,7 @@ void trouble_screen(const ScreenContext& c) {
 }
 
 void result_screen(const ScreenContext& c) {
+  if (c.sitting->setup().scenario.hold_results && !c.practice) return held_result_screen(c);
   const Theme& t = c.theme;
   StationState& s = c.state;
   const ImVec2 screen = ImGui::GetIO().DisplaySize;

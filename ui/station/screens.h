@@ -3,6 +3,7 @@
 
 #include <vector>
 
+#include "ui/station/input_queue.h"
 #include "ui/station/replay_player.h"
 #include "ui/station/sitting.h"
 #include "ui/station/state.h"
@@ -20,6 +21,8 @@ struct ScreenContext {
   ReplayPlayer* replay = nullptr;          ///< only on the replay's screen
   double frame_s = 0.0;                    ///< since the frame before
   bool practice = false;
+  const InputQueue& input;      ///< what this picture plays
+  bool mouse_captured = false;  ///< the mouse is the stylus
 };
 
 void sign_in_screen(const ScreenContext& c);
@@ -32,6 +35,8 @@ void result_screen(const ScreenContext& c);
 void trouble_screen(const ScreenContext& c);
 void save_screen(const ScreenContext& c);
 void replay_screen(const ScreenContext& c);
+/// Over any of them, while `confirm_leave`. `locked`: only the supervisor's code closes the window.
+void ask_whether_to_leave(const ScreenContext& c, bool locked);
 
 /// The picture of the tooth, in the rest of the running window; turned with the mouse and by keys: A D W S round the tooth, + and - nearer and
 /// farther, 1 to 5 from occlusal, buccal, lingual, mesial, distal, M mirror, T both eyes, H handpiece, R rolls the picture. Returns whether the
@@ -39,6 +44,9 @@ void replay_screen(const ScreenContext& c);
 bool tooth_area(const ScreenContext& c, ImVec2 size);
 /// Its lower left corner on the screen and its size, of the last tooth_area: for words written into it.
 void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour);
+
+/// All over a picture whose hand is a simulated one, pixels.
+void demonstration_in_picture(const Theme& theme, ImVec2 at, ImVec2 size);
 
 /// The silhouette of a diamond point in a box of the screen, pixels.
 void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated);

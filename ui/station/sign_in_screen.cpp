@@ -35,6 +35,11 @@ void sign_in_screen(const ScreenContext& c) {
   const std::string code = s.code.data();
   const bool usable = !code.empty() && is_plain_text(code);
   if (main_button(t, "Continue  (Enter)", usable, false) || (entered && usable)) s.wish = Wish::sign_in;
+  if (c.practice) {
+    ImGui::SameLine(0, t.px(24));
+    bool tutorial = s.tutorial_wanted;
+    if (ImGui::Checkbox("Two-minute tutorial first", &tutorial)) s.tutorial_wanted = tutorial;
+  }
   if (entered && !usable) {
     s.focus_code = true;  // Enter would take it away
     s.message = "Type your candidate code first.";

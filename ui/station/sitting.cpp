@@ -67,6 +67,7 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.grant = options_.grant;
   exam.notes = device_->notes();
   if (options_.practice) exam.notes.emplace_back("practice", "true");
+  if (options_.locked) exam.notes.emplace_back("locked", "yes");
   exam.source = source();
   std::optional<ledger::HeldTicket> held;
   if (!options_.tickets.empty()) {
@@ -213,6 +214,10 @@ void Sitting::rescue() {
 
 void Sitting::ask_to_end() {
   if (live_) live_->ask_to_end();
+}
+
+void Sitting::note(const std::string& kind, const std::string& detail_json) {
+  if (stage_ == Stage::running) live_->note(kind, detail_json);
 }
 
 void Sitting::end_running() {

@@ -25,6 +25,7 @@ struct SittingOptions {
   std::string resume;  ///< a session to go on with, by the candidate who began it; scenario and all else are its own
   scenarios::Grant grant;
   bool practice = false;
+  bool locked = false;  ///< the station fills the screen, and only the supervisor closes it; the session says so
   DeviceChoice device;
 };
 
@@ -66,6 +67,8 @@ class Sitting {
   [[nodiscard]] scenarios::LiveExam& live() { return *live_; }
   [[nodiscard]] Desk& desk() noexcept { return desk_; }
   void ask_to_end();
+  /// Recorded as an event of the session, see LiveExam::note; nothing while it does not run.
+  void note(const std::string& kind, const std::string& detail_json);
   /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing while it does not run.
   void stop();
   /// For when nobody answers any more: stops what runs, waits until what was graded is sealed, and saves what is in memory only, where it is or else

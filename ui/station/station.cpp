@@ -19,6 +19,7 @@
 #include "ui/parts/interrupt.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
+#include "ui/station/exam_lock.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
 #include "ui/station/window.h"
@@ -63,7 +64,8 @@ class Station {
         replay_(options.replay.empty() ? nullptr : std::make_unique<ReplayPlayer>(options.replay)),
         scenario_(replay_ ? replay_->setup().scenario : scenario_of(options.sitting)),
         shelf_(read_shelf(options.sitting.scenario)),
-        window_("Cavum", options.width, options.height) {
+        lock_(options.supervisor_hash),
+        window_({"Cavum", options.width, options.height, options.monitor, lock_.locked()}) {
     if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
     usual_look();
     if (replay_) {
@@ -72,6 +74,7 @@ class Station {
       state_.screen = Screen::replay;
     }
     options_.candidate.copy(state_.code.data(), state_.code.size() - 1);
+    state_.tutorial_wanted = options_.tutorial;
   }
 
   int run() {
@@ -108,6 +111,13 @@ class Station {
   /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or waits.
   bool may_close() {
     if (!window_.closing()) return false;
+    if (!abandoned_ && !leave_granted_ && (lock_.locked() || examined())) {
+      window_.stay_open();
+      attempt({"close_asked", ""});
+      state_.confirm_end = false;
+      state_.confirm_leave = true;
+      return false;
+    }
     if (abandoned_ || !sitting_) return true;
     sitting_->stop();
     if (sitting_->stage() != Stage::grading && sitting_->stage() != Stage::unsaved) return true;
@@ -144,12 +154,26 @@ class Station {
     window_.begin_frame();
     show(frame_s);
     window_.end_frame();
+    const bool is_stylus = std::exchange(state_.capture_mouse, false) && state_.screen == Screen::exam;
+    window_.capture_mouse(is_stylus);
+    set_navigation(!pointer_at_work());
     sound();
+    watch();
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
     // no more pictures than eyes need, fewer when the processor draws: the servo shares it
     const double least_s = window_.software() ? 1.0 / 25.0 : 1.0 / 120.0;
     if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+  }
+
+  /// Mouse and keyboard are the stylus: every key has a meaning of its own, and none walks from button to button.
+  [[nodiscard]] bool pointer_at_work() const {
+    return state_.screen == Screen::exam && sitting_ && sitting_->device().pointer() != nullptr && !state_.confirm_end && !state_.confirm_close &&
+           !state_.confirm_leave;
+  }
+  static void set_navigation(bool by_keys) {
+    int& flags = ImGui::GetIO().ConfigFlags;
+    flags = by_keys ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
   }
 
   /// Colours and sizes as they were chosen.
@@ -158,7 +182,7 @@ class Station {
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
     const double scale =
-        std::min(state_.text_scale, std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
+        std::min(state_.text_scale * window_.screen_scale(), std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
     const bool scale_differs = scale != dressed_scale_;
     if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
     if (!scale_differs && state_.high_contrast == dressed_contrast_) return;
@@ -176,8 +200,22 @@ class Station {
   }
 
   void show(double frame_s) {
-    const ScreenContext context{theme_, state_, scenario_, shelf_, sitting_.get(), scene_.get(), replay_.get(), frame_s, options_.sitting.practice};
-    switch (state_.screen) {
+    const ScreenContext context{theme_,
+                                state_,
+                                scenario_,
+                                shelf_,
+                                sitting_.get(),
+                                scene_.get(),
+                                replay_.get(),
+                                frame_s,
+                                options_.sitting.practice,
+                                window_.input(),
+                                window_.mouse_captured()};
+    show_screen(context);
+    ask_whether_to_leave(context, lock_.locked());
+  }
+  static void show_screen(const ScreenContext& context) {
+    switch (context.state.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
       case Screen::preparing:
@@ -202,6 +240,48 @@ class Station {
       case Screen::author_busy:
         return;
     }
+  }
+
+  /// An exam runs that counts: leaving it is recorded.
+  [[nodiscard]] bool examined() const { return sitting_ && sitting_->stage() == Stage::running && !sitting_->practice(); }
+
+  void attempt(const LockAttempt& a) {
+    constexpr int k_most = 1000;  // in one exam: who goes on and on fills no disk
+    if (!examined() || state_.attempts >= k_most) return;
+    sitting_->note(k_lock_event, to_json(a));
+    if (a.what == "focus_back" || a.what == "screen_back") return;
+    ++state_.attempts;
+    state_.attempt = lock_words(a);
+    constexpr double k_shown_s = 10.0;
+    state_.attempt_shown_s = k_shown_s;
+  }
+
+  /// What was tried since the last picture; a locked station comes back to the front.
+  void watch() {
+    for (const LockAttempt& a : lock_.look(window_.input())) {
+      attempt(a);
+      if (lock_.locked() && (a.what == "screen_lost" || a.what == "screen_back")) window_.come_back();
+    }
+    constexpr double k_again_s = 0.5;
+    if (!lock_.locked() || !lock_.away() || seconds_since(came_back_) < k_again_s) return;
+    came_back_ = Clock::now();
+    window_.come_back();
+  }
+
+  /// Someone answered that the window shall close.
+  void leave() {
+    const std::string code = state_.supervisor_code.data();
+    state_.supervisor_code = {};
+    if (lock_.locked() && !lock_.opens(code)) {
+      attempt({"close_refused", ""});
+      state_.focus_supervisor = true;
+      state_.leave_message = "This is not the supervisor's code.";
+      return;
+    }
+    attempt({"close_granted", ""});
+    leave_granted_ = true;
+    state_.confirm_leave = false;
+    window_.ask_to_close();
   }
 
   /// What the handpiece does is heard.
@@ -230,6 +310,10 @@ class Station {
           break;
         case Wish::begin:
           sitting_->begin();
+          state_.attempts = 0;
+          state_.tutorial.reset();
+          if (state_.tutorial_wanted) state_.tutorial.emplace(sitting_->device().pointer() != nullptr);
+          state_.attempt_shown_s = 0.0;
           reserve_memory();
           go_to(Screen::exam);
           break;
@@ -252,6 +336,9 @@ class Station {
           abandoned_ = true;
           window_.ask_to_close();
           break;
+        case Wish::leave:
+          leave();
+          break;
         case Wish::report:
           write_report();
           break;
@@ -271,6 +358,8 @@ class Station {
 
   void sign_in() {
     SittingOptions o = options_.sitting;
+    o.locked = lock_.locked();
+    leave_granted_ = false;
     seen_ = Stage::preparing;
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
     if (fixed) {
@@ -293,7 +382,7 @@ class Station {
     const grading::ClosedExam& closed = sitting_->closed();
     const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
     report::require_report_place(path);
-    report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded);
+    report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded, report::ReportReader::student);
     state_.message = "Report: " + path;
   }
 
@@ -365,7 +454,7 @@ class Station {
   void go_to(Screen screen) {
     state_.screen = screen;
     state_.message.clear();
-    state_.confirm_end = state_.confirm_close = state_.rescue_failed = false;
+    state_.confirm_end = state_.confirm_close = state_.rescue_failed = false;  // a question whether to leave goes on
   }
 
   StationOptions options_;
@@ -374,6 +463,7 @@ class Station {
   std::vector<DiamondPoint> shelf_;
   ui::Interrupt interrupt_;
   ui::SoundOutput sound_;
+  ExamLock lock_;
   Window window_;
   Script script_;
   StationState state_;
@@ -383,8 +473,8 @@ class Station {
   std::unique_ptr<Sitting> sitting_;
   std::unique_ptr<Scene> scene_;
   Stage seen_ = Stage::preparing;  // of the sitting, by the screens
-  bool close_when_sealed_ = false, abandoned_ = false;
-  Clock::time_point start_ = Clock::now(), last_frame_ = start_;
+  bool close_when_sealed_ = false, abandoned_ = false, leave_granted_ = false;
+  Clock::time_point start_ = Clock::now(), last_frame_ = start_, came_back_ = start_;
 };
 
 }  // namespace

@@ -15,6 +15,9 @@ struct StationOptions {
   std::string replay;            ///< a session to look at, instead of sitting an exam
   std::string script, pictures;  ///< a file of keys, and where its pictures go; may be empty
   int width = 1280, height = 800;
+  std::string supervisor_hash;  ///< of the code that leaves a locked station (supervisor_code.h); empty: it is not locked
+  bool tutorial = false;        ///< the first steps, in practice
+  std::string monitor;          ///< number from 1 or name; empty: where the desktop puts the window
   double text_scale = 1.0;
   bool left_handed = false, high_contrast = false;
   std::optional<std::size_t> effects;  ///< of the picture, 0 (richest) to 5; else as the computer keeps up with

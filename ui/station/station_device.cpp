@@ -37,6 +37,7 @@ class SimulatedHand final : public StationDevice {
   [[nodiscard]] ServoDevice& for_exam() override { return *candidate_; }
   [[nodiscard]] Pose start() const override { return {candidate_->start_mm(), {}}; }
   [[nodiscard]] Vec3 tip_mm() override { return candidate_->start_mm(); }
+  [[nodiscard]] bool simulated() const override { return true; }
   [[nodiscard]] bool done() const override { return candidate_->done(); }
 
  private:

@@ -14,7 +14,7 @@
 namespace cavum::station {
 
 struct DeviceChoice {
-  std::string name = "simulated";        ///< or another of the table of styluses
+  std::string name;                      ///< of the table of styluses; none is taken for granted
   std::string operator_name = "expert";  ///< of the simulated candidate, see make_skill
   std::uint64_t seed = 1;
 };
@@ -38,6 +38,8 @@ class StationDevice {
   [[nodiscard]] virtual Pose start() const = 0;
   /// Where the tip is, tooth frame, while nobody reads the device.
   [[nodiscard]] virtual Vec3 tip_mm() = 0;
+  /// No person's hand: what is shown is a demonstration.
+  [[nodiscard]] virtual bool simulated() const { return false; }
   /// The candidate has nothing left to do: only simulated ones say so.
   [[nodiscard]] virtual bool done() const { return false; }
   /// What is wrong with it at the moment; empty when nothing is.

@@ -194,7 +194,8 @@ bool side_button(const Theme& theme, const char* label, float width) { return Im
 
 bool key_pressed(int key) {
   const ImGuiIO& io = ImGui::GetIO();
-  return ImGui::IsKeyPressed(key, false) && !io.KeyCtrl && !io.KeyAlt;
+  const bool covered = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) && !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
+  return !covered && ImGui::IsKeyPressed(key, false) && !io.KeyCtrl && !io.KeyAlt;
 }
 bool key_held(int key) { return ImGui::IsKeyDown(key); }
 

@@ -40,7 +40,7 @@ void end_question(bool asked);
 bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter = true);
 /// One that stays quiet.
 bool side_button(const Theme& theme, const char* label, float width = 0.0F);
-/// Pressed in this frame, with nothing held beside it; a key of GLFW.
+/// Pressed in this frame, with nothing held beside it; a key of GLFW. Not for what lies under a question: its keys answer it alone.
 [[nodiscard]] bool key_pressed(int key);
 [[nodiscard]] bool key_held(int key);
 /// Minutes and seconds, "12:05".

@@ -48,7 +48,11 @@ bool tooth_area(const ScreenContext& c, ImVec2 size) {
   const bool over = ImGui::IsItemHovered();
   const ImGuiIO& io = ImGui::GetIO();
   if (over && ImGui::IsMouseDragging(ImGuiMouseButton_Right, 0)) s.view.camera.orbit(-0.3F * io.MouseDelta.x, 0.3F * io.MouseDelta.y);
-  if (over && io.MouseWheel != 0 && (!mouse_is_stylus || io.KeyCtrl)) s.view.camera.approach(std::pow(0.92F, io.MouseWheel));
+  if (c.mouse_captured && c.input.button_down(GLFW_MOUSE_BUTTON_RIGHT))
+    for (const InputEvent& e : c.input.played())
+      if (e.kind == InputEvent::Kind::motion) s.view.camera.orbit(-0.3F * e.x, 0.3F * e.y);
+  if ((over || c.mouse_captured) && io.MouseWheel != 0 && (!mouse_is_stylus || io.KeyCtrl)) s.view.camera.approach(std::pow(0.92F, io.MouseWheel));
+  if (c.sitting != nullptr && c.sitting->device().simulated()) demonstration_in_picture(c.theme, at, size);
   if (s.view.camera.mirror) {
     const char* word = "MIRROR";
     ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word);

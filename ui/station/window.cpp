@@ -9,9 +9,12 @@
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <array>
+#include <chrono>
 #include <cstdlib>
 #include <filesystem>
+#include <limits>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -40,13 +43,44 @@ void load_fonts(double scale) {
     const char* file = i == 1 || i == 2 ? k_bold : k_regular;
     const auto px = static_cast<float>(k_font_px[i] * scale);
     if (std::filesystem::exists(file)) {
-      atlas.AddFontFromFileTTF(file, px, nullptr, k_letters.data());
+      atlas.AddFontFromFileTTF(file, px, nullptr, i == 2 ? nullptr : k_letters.data());  // the clock has no foreign letters
     } else {
       ImFontConfig config;
       config.SizePixels = px;
       atlas.AddFontDefault(&config);
     }
   }
+}
+
+double own_clock_s() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
+
+std::vector<GLFWmonitor*> monitors() {
+  int count = 0;
+  GLFWmonitor** all = glfwGetMonitors(&count);
+  return {all, all + count};
+}
+
+int monitor_count() { return static_cast<int>(monitors().size()); }
+
+/// Null when there is none.
+GLFWmonitor* find_monitor(const std::string& wanted) {
+  int number = 0;
+  for (GLFWmonitor* m : monitors())
+    if (wanted == std::to_string(++number) || wanted == glfwGetMonitorName(m)) return m;
+  return nullptr;
+}
+
+GLFWmonitor* monitor_of(const std::string& wanted) {
+  if (GLFWmonitor* found = find_monitor(wanted)) return found;
+  std::string known;
+  int number = 0;
+  for (GLFWmonitor* m : monitors()) {
+    const GLFWvidmode* mode = glfwGetVideoMode(m);
+    known += fmt::format("{}{} ({}, {} x {})", known.empty() ? "" : "; ", ++number, glfwGetMonitorName(m), mode->width, mode->height);
+  }
+  throw Error("--monitor " + wanted, "is not there", known.empty() ? "plug one in" : "name one of " + known);
 }
 
 }  // namespace
@@ -56,35 +90,58 @@ void pop_font() { ImGui::PopFont(); }
 
 void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
 
-Window::Window(const std::string& title, int width, int height) {
+Window::Window(const WindowOptions& options) : monitor_(options.monitor), full_screen_(options.full_screen) {
   spare_the_processor();
   if (glfwInit() != GLFW_TRUE)
     throw Error("window", fmt::format("cannot be opened ({})", glfw_reason()), "start the station from a desktop, or under xvfb-run");
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
-  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
-  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
-  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
-  window_ = glfwCreateWindow(width, height, title.c_str(), nullptr, nullptr);
-  if (window_ == nullptr) {
-    const std::string why = glfw_reason();
+  try {
+    open(options);
+  } catch (...) {
     glfwTerminate();
-    throw Error("window", fmt::format("has no OpenGL 3.3 ({})", why),
-                "install the driver of the graphics card, or libgl1-mesa-dri for drawing without one");
+    throw;
   }
   glfwMakeContextCurrent(window_);
   glfwSwapInterval(1);
   software_ = drawn_by_processor();
+  times_ = std::make_unique<ServerTimes>(window_, &own_clock_s);
   ImGui::CreateContext();
   ImGuiIO& io = ImGui::GetIO();
   io.IniFilename = nullptr;  // every candidate finds the same screen
   io.LogFilename = nullptr;
   io.ConfigFlags |= ImGuiConfigFlags_NavEnableKeyboard;
   load_fonts(1.0);
-  ImGui_ImplGlfw_InitForOpenGL(window_, true);
+  ImGui_ImplGlfw_InitForOpenGL(window_, false);
   ImGui_ImplOpenGL3_Init("#version 330 core");
+  listen();
+}
+
+void Window::open(const WindowOptions& options) {
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MAJOR, 3);
+  glfwWindowHint(GLFW_CONTEXT_VERSION_MINOR, 3);
+  glfwWindowHint(GLFW_OPENGL_PROFILE, GLFW_OPENGL_CORE_PROFILE);
+  glfwWindowHint(GLFW_OPENGL_FORWARD_COMPAT, GLFW_TRUE);
+  glfwWindowHint(GLFW_AUTO_ICONIFY, GLFW_FALSE);  // an exam is not hidden because something else has the keyboard
+  GLFWmonitor* monitor = monitor_.empty() ? nullptr : monitor_of(monitor_);
+  int width = options.width, height = options.height;
+  if (full_screen_) {
+    if (monitor == nullptr) monitor = glfwGetPrimaryMonitor();
+    if (monitor == nullptr) throw Error("--kiosk", "there is no monitor to fill", "plug one in");
+    const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+    width = mode->width;
+    height = mode->height;
+  }
+  window_ = glfwCreateWindow(width, height, options.title.c_str(), full_screen_ ? monitor : nullptr, nullptr);
+  if (window_ == nullptr)
+    throw Error("window", fmt::format("has no OpenGL 3.3 ({})", glfw_reason()),
+                "install the driver of the graphics card, or libgl1-mesa-dri for drawing without one");
+  if (monitor == nullptr || full_screen_) return;
+  int x = 0, y = 0;
+  glfwGetMonitorPos(monitor, &x, &y);
+  glfwSetWindowPos(window_, x, y);
 }
 
 Window::~Window() {
+  glfwSetMonitorCallback(nullptr);
   ImGui_ImplOpenGL3_Shutdown();
   ImGui_ImplGlfw_Shutdown();
   ImGui::DestroyContext();
@@ -92,14 +149,78 @@ Window::~Window() {
   glfwTerminate();
 }
 
-void Window::begin_frame() {
+void Window::push(InputEvent event) {
+  if (event.t_s == 0.0) event.t_s = own_clock_s();
+  input_.push(event);
+}
+
+void Window::moved_to(double x, double y) {
+  const auto to_x = static_cast<float>(x), to_y = static_cast<float>(y);
+  if (mouse_known_ && (to_x != mouse_x_ || to_y != mouse_y_))
+    push({.kind = InputEvent::Kind::motion, .x = to_x - mouse_x_, .y = to_y - mouse_y_});
+  mouse_x_ = to_x;
+  mouse_y_ = to_y;
+  mouse_known_ = true;
+}
+
+/// All that GLFW tells goes into the queue, and to Dear ImGui only when it is played.
+void Window::listen() {
+  using Kind = InputEvent::Kind;
+  static Window* one;  // GLFW's monitors belong to no window
+  one = this;
+  glfwSetWindowUserPointer(window_, this);
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) {
+    if (action == GLFW_REPEAT) return;
+    Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(w));
+    const bool down = action == GLFW_PRESS;
+    self.push({.kind = Kind::key, .code = key, .down = down, .t_s = self.times_->of_key(scancode, down)});
+  });
+  glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned letter) {
+    static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::text, .code = static_cast<int>(letter)});
+  });
+  glfwSetMouseButtonCallback(window_, [](GLFWwindow* w, int button, int action, int) {
+    Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(w));
+    const bool down = action == GLFW_PRESS;
+    self.push({.kind = Kind::button, .code = button, .down = down, .t_s = self.times_->of_button(button, down)});
+  });
+  glfwSetScrollCallback(window_, [](GLFWwindow* w, double x, double y) {
+    static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::wheel, .x = static_cast<float>(x), .y = static_cast<float>(y)});
+  });
+  glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { static_cast<Window*>(glfwGetWindowUserPointer(w))->moved_to(x, y); });
+  glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int won) {
+    static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::focus, .down = won == GLFW_TRUE});
+  });
+  glfwSetMonitorCallback([](GLFWmonitor*, int event) {
+    one->push({.kind = Kind::screens, .code = monitor_count(), .down = event == GLFW_CONNECTED});
+  });
+}
+
+void Window::take_events() {
+  times_->look();
   glfwPollEvents();
+}
+
+void Window::begin_frame() {
+  take_events();
   ImGui_ImplOpenGL3_NewFrame();
   ImGui_ImplGlfw_NewFrame();
-  if (mouse_) {
-    ImGui::GetIO().MousePos = {(*mouse_)[0], (*mouse_)[1]};
-    ImGui::GetIO().MouseDown[0] = mouse_pressed_;
-  }
+  ImGuiIO& io = ImGui::GetIO();
+  for (const InputEvent& e : input_.play(own_clock_s())) switch (e.kind) {
+      case InputEvent::Kind::key:
+        ImGui_ImplGlfw_KeyCallback(window_, e.code, 0, e.down ? GLFW_PRESS : GLFW_RELEASE, 0);
+        break;
+      case InputEvent::Kind::text:
+        io.AddInputCharacter(static_cast<unsigned>(e.code));
+        break;
+      case InputEvent::Kind::wheel:
+        io.MouseWheel += e.y;
+        break;
+      default:
+        break;
+    }
+  constexpr float k_nowhere = -std::numeric_limits<float>::max();
+  io.MousePos = captured_ || !mouse_known_ ? ImVec2{k_nowhere, k_nowhere} : ImVec2{mouse_x_, mouse_y_};
+  for (int i = 0; i < ImGuiMouseButton_COUNT; ++i) io.MouseDown[i] = !captured_ && input_.button_down(i);
   ImGui::NewFrame();
 }
 
@@ -122,7 +243,7 @@ void Window::end_frame() {
     picture_.clear();
   }
   glfwSwapBuffers(window_);
-  if (pressed_ != 0) ImGui_ImplGlfw_KeyCallback(window_, pressed_, 0, GLFW_RELEASE, 0);
+  if (pressed_ != 0) release(pressed_);
   pressed_ = 0;
 }
 
@@ -149,22 +270,53 @@ int Window::height() const {
   return h;
 }
 
+double Window::screen_scale() const {
+  // text of 18 pixels suits a window of 1600 x 900 and less
+  constexpr double k_width = 1600.0, k_height = 900.0, k_largest = 4.0;
+  float desktop_x = 1.0F, desktop_y = 1.0F;
+  glfwGetWindowContentScale(window_, &desktop_x, &desktop_y);
+  const double by_size = std::min(width() / k_width, height() / k_height);
+  return std::clamp(std::max({static_cast<double>(desktop_x), static_cast<double>(desktop_y), by_size}), 1.0, k_largest);
+}
+
+void Window::capture_mouse(bool captured) {
+  if (captured == captured_) return;
+  captured_ = captured;
+  if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, captured ? GLFW_TRUE : GLFW_FALSE);
+  mouse_known_ = false;  // where it goes on from is no way that a hand made
+  glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+}
+
+void Window::come_back() {
+  if (full_screen_) {
+    GLFWmonitor* monitor = monitor_.empty() ? glfwGetPrimaryMonitor() : find_monitor(monitor_);
+    if (monitor == nullptr) monitor = glfwGetPrimaryMonitor();
+    if (monitor != nullptr && glfwGetWindowMonitor(window_) != monitor) {
+      const GLFWvidmode* mode = glfwGetVideoMode(monitor);
+      glfwSetWindowMonitor(window_, monitor, 0, 0, mode->width, mode->height, mode->refreshRate);
+    }
+  }
+  glfwRestoreWindow(window_);
+  glfwShowWindow(window_);
+  glfwFocusWindow(window_);
+}
+
 void Window::press(int key, bool held) {
-  ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_PRESS, 0);
+  push({.kind = InputEvent::Kind::key, .code = key, .down = true});
   pressed_ = held ? 0 : key;
 }
 
-void Window::release(int key) { ImGui_ImplGlfw_KeyCallback(window_, key, 0, GLFW_RELEASE, 0); }
+void Window::release(int key) { push({.kind = InputEvent::Kind::key, .code = key, .down = false}); }
 
 void Window::point_at(float x, float y, bool pressed) {
-  mouse_ = {x, y};
-  mouse_pressed_ = pressed;
+  moved_to(static_cast<double>(x), static_cast<double>(y));
+  push({.kind = InputEvent::Kind::button, .code = GLFW_MOUSE_BUTTON_LEFT, .down = pressed});
 }
 
 bool Window::wants_text() const { return ImGui::GetIO().WantTextInput; }
 
 void Window::type(const std::string& text) {
-  for (const char c : text) ImGui_ImplGlfw_CharCallback(window_, static_cast<unsigned char>(c));
+  for (const char c : text) push({.kind = InputEvent::Kind::text, .code = static_cast<unsigned char>(c)});
 }
 
 }  // namespace cavum::station

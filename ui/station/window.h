@@ -2,10 +2,12 @@
 // door as those of a keyboard.
 #pragma once
 
-#include <array>
 #include <memory>
-#include <optional>
 #include <string>
+#include <vector>
+
+#include "ui/station/input_queue.h"
+#include "ui/station/server_times.h"
 
 struct GLFWwindow;
 
@@ -15,10 +17,17 @@ namespace cavum::station {
 /// environment, so before there are other threads; a Window asks for it too.
 void spare_the_processor() noexcept;
 
+struct WindowOptions {
+  std::string title = "Cavum";
+  int width = 1280, height = 800;  ///< pixels, unless it fills the screen
+  std::string monitor;             ///< number from 1 or name; empty: where the desktop puts it
+  bool full_screen = false;        ///< fills that monitor, and stays in front
+};
+
 class Window {
  public:
-  /// Throws Error when there is no display or no OpenGL 3.3. `width`, `height` in pixels.
-  Window(const std::string& title, int width, int height);
+  /// Throws Error when there is no display, no OpenGL 3.3, or no such monitor.
+  explicit Window(const WindowOptions& options);
   ~Window();
   Window(const Window&) = delete;
   Window& operator=(const Window&) = delete;
@@ -30,12 +39,22 @@ class Window {
   /// Fonts for another size of text, 1 = normal; between frames.
   void set_text_scale(double scale);
 
+  /// What this frame plays: keys with their times, the mouse's way, focus, screens.
+  [[nodiscard]] const InputQueue& input() const noexcept { return input_; }
+  /// While true the mouse has no pointer and no edge: only its way counts.
+  void capture_mouse(bool captured);
+  [[nodiscard]] bool mouse_captured() const noexcept { return captured_; }
+
   [[nodiscard]] bool closing() const;
   void ask_to_close();
   void stay_open();  ///< after all
   void set_visible(bool visible);
+  /// To the front, with the keyboard; over the whole monitor again when it fills the screen.
+  void come_back();
   [[nodiscard]] int width() const;   ///< pixels
   [[nodiscard]] int height() const;  ///< pixels
+  /// How large text must be to look as it does at 1280 x 800: by the desktop's scale and by the window's size, 1 or more.
+  [[nodiscard]] double screen_scale() const;
   /// The computer's processor draws: slow, and every core it takes is one less for the servo.
   [[nodiscard]] bool software() const noexcept { return software_; }
 
@@ -52,12 +71,21 @@ class Window {
   void keep_picture(const std::string& path) { picture_ = path; }
 
  private:
+  void open(const WindowOptions& options);
+  void listen();
+  void take_events();
+  void push(InputEvent event);
+  void moved_to(double x, double y);
+
   GLFWwindow* window_ = nullptr;
-  bool software_ = false;
-  std::optional<std::array<float, 2>> mouse_;  // of `point_at`
-  bool mouse_pressed_ = false;
-  int pressed_ = 0;      // by `press`, to be released
-  std::string picture_;  // of the running frame
+  std::string monitor_;
+  bool full_screen_ = false, software_ = false, captured_ = false;
+  std::unique_ptr<ServerTimes> times_;
+  InputQueue input_;
+  float mouse_x_ = 0.0F, mouse_y_ = 0.0F;
+  bool mouse_known_ = false;  // where it is
+  int pressed_ = 0;           // by `press`, to be released
+  std::string picture_;       // of the running frame
 };
 
 /// Fonts of the last set_text_scale.

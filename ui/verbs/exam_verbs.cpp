@@ -158,7 +158,7 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
   const int exit_code = failed_to ? 1 : 0;
   if (o.report.empty()) return exit_code;
   try {  // the exam is sealed by now, whatever becomes of its report
-    report::write_closing_report(o.report, session, result, *closed.graded);
+    report::write_closing_report(o.report, session, result, *closed.graded, report::ReportReader::instructor);
   } catch (const Error& e) {
     throw Error(o.report, fmt::format("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
                 fmt::format("write it later: `cavum report {} --out FILE`", session));

@@ -1,7 +1,10 @@
 // `station`: the exam window.
 #include <fmt/core.h>
+#include <termios.h>
+#include <unistd.h>
 
 #include <filesystem>
+#include <iostream>
 #include <memory>
 
 #include "engine/base/error.h"
@@ -13,6 +16,8 @@
 #include "ui/station/author.h"
 #include "ui/station/station.h"
 #include "ui/station/station_device.h"
+#include "ui/station/station_door.h"
+#include "ui/station/supervisor_code.h"
 #include "ui/verbs/enrol_station.h"
 #include "ui/verbs/verbs.h"
 
@@ -26,6 +31,8 @@ struct StationArguments {
   std::string author;
   EnrolOptions enrol;
   int frame_times = 0;
+  bool kiosk = false, set_code = false;
+  std::string code_file;  ///< of the supervisor's code; empty: the station's own
 };
 
 void require_second_place(const station::SittingOptions& o) {
@@ -50,6 +57,11 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
     throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
   if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
   if (!o.replay.empty()) return;
+  if (o.sitting.scenario.empty() && o.sitting.resume.empty())
+    throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+  if (o.sitting.device.name.empty())
+    throw Error("cavum station", "no device given",
+                "say what is in the candidate's hand: --device " + stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
@@ -57,7 +69,6 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
     require_second_place(o.sitting);
     return;
   }
-  if (o.sitting.scenario.empty()) throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   // a name that is none is refused now; what is plugged in is opened for each candidate
   if (station::station_stylus_kind(o.sitting.device.name).hand != StylusHand::person)
     static_cast<void>(station::make_station_device(o.sitting.device));
@@ -82,6 +93,33 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   static_cast<void>(scenarios::prepare_exam(o.sitting.scenario, trial));
 }
 
+/// Typed twice at a terminal, where it does not show; the first line of anything else.
+int set_code(const std::string& path) {
+  const bool asks = ::isatty(STDIN_FILENO) == 1;
+  termios shown{};
+  if (asks) ::tcgetattr(STDIN_FILENO, &shown);
+  const auto typed = [&](const char* what) {
+    if (asks) {
+      std::cerr << what << std::flush;
+      termios hidden = shown;
+      hidden.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+      ::tcsetattr(STDIN_FILENO, TCSANOW, &hidden);
+    }
+    std::string line;
+    std::getline(std::cin, line);
+    if (asks) {
+      ::tcsetattr(STDIN_FILENO, TCSANOW, &shown);
+      std::cerr << "\n";
+    }
+    return line;
+  };
+  const std::string code = typed("the supervisor's new code: ");
+  if (asks && typed("once more: ") != code) throw Error("the supervisor's code", "was typed differently the second time", "begin again");
+  station::set_supervisor_code(code, path);
+  std::cout << "written: " << path << "\n";
+  return 0;
+}
+
 int run(const StationArguments& o) {
   if (!o.enrol.code.empty() || o.enrol.replace_key) {
     EnrolOptions enrol = o.enrol;
@@ -89,10 +127,24 @@ int run(const StationArguments& o) {
     enrol_station(enrol);
     return 0;
   }
-  require_sound(o.station, o.author);
-  if (!o.author.empty()) return station::run_author(o.station, o.author);
-  if (o.frame_times == 0) return station::run_station(o.station);
-  station::print_frame_times(o.station, o.frame_times);
+  if (o.set_code) return set_code(o.code_file.empty() ? station::supervisor_code_path() : o.code_file);
+  station::StationDoor::pass();
+  station::StationOptions s = o.station;
+  if (s.tutorial) {
+    s.sitting.practice = true;
+    if (s.sitting.scenario.empty()) s.sitting.scenario = scenarios::find_data_file("scenarios", "class_1.toml", "");
+    if (s.candidate.empty()) s.candidate = "tutorial";
+  }
+  if ((s.sitting.practice || o.frame_times > 0) && s.sitting.device.name.empty()) s.sitting.device.name = "mouse";
+  if (o.kiosk) {
+    if (!s.replay.empty() || !o.author.empty() || s.sitting.practice)
+      throw Error("--kiosk", "was asked for with something that is no exam", "leave one of them out");
+    s.supervisor_hash = station::read_supervisor_code(o.code_file.empty() ? station::supervisor_code_path() : o.code_file);
+  }
+  require_sound(s, o.author);
+  if (!o.author.empty()) return station::run_author(s, o.author);
+  if (o.frame_times == 0) return station::run_station(s);
+  station::print_frame_times(s, o.frame_times);
   return 0;
 }
 
@@ -107,8 +159,8 @@ void add_places(CLI::App* station, station::StationOptions& s) {
 void add_device(CLI::App* station, station::StationOptions& s) {
   station
       ->add_option("--device", s.sitting.device.name,
-                   "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))
-      ->capture_default_str();
+                   "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}) +
+                       "; with --practice mouse unless another is named");
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
@@ -116,6 +168,7 @@ void add_device(CLI::App* station, station::StationOptions& s) {
 
 void add_candidate(CLI::App* station, station::StationOptions& s) {
   auto* practice = station->add_flag("--practice", s.sitting.practice, "tissue and target in clear colours, and a coach; the session says so");
+  station->add_flag("--tutorial", s.tutorial, "two minutes of practice for the first time, one step after the other");
   station->add_option("--tickets", s.sitting.tickets, "folder of tickets: only who has one sits, and as it promises (see `cavum ledger ticket`)")
       ->check(CLI::ExistingDirectory)
       ->excludes(practice);
@@ -132,8 +185,15 @@ void add_window(CLI::App* station, station::StationOptions& s) {
   station->add_flag("--high-contrast", s.high_contrast, "black, white and yellow; can be chosen at sign-in, too");
   station->add_option("--text-scale", s.text_scale, "size of the text, 0.8 to 1.8")->check(between(0.8, 1.8))->capture_default_str();
   station->add_option("--effects", s.effects, "of the picture, 0 (richest) to 5; without it, as the computer keeps up with")->check(CLI::Range(0, 5));
+  station->add_option("--monitor", s.monitor, "where the window opens: a monitor's number, from 1, or its name");
   station->add_option("--width", s.width, "of the window, pixels")->check(CLI::Range(640, 7680))->capture_default_str();
   station->add_option("--height", s.height, "of the window, pixels")->check(CLI::Range(480, 4320))->capture_default_str();
+}
+
+void add_lock(CLI::App* station, StationArguments& o) {
+  station->add_flag("--kiosk", o.kiosk, "locked: fills the screen, and only the supervisor's code closes it; what is tried is recorded");
+  station->add_option("--supervisor-code", o.code_file, "file with the hash of the supervisor's code, instead of the station's own");
+  station->add_flag("--set-supervisor-code", o.set_code, "ask for the supervisor's code, and keep its hash");
 }
 
 void add_script(CLI::App* station, station::StationOptions& s, int& frame_times) {
@@ -164,6 +224,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   add_device(station, s);
   add_candidate(station, s);
   add_window(station, s);
+  add_lock(station, *o);
   add_script(station, s, o->frame_times);
   add_enrolment(station, o->enrol);
   station->callback([o, &exit_code] { exit_code = run(*o); });

@@ -26,6 +26,7 @@ class SittingTest : public ::testing::Test {
     ::setenv("CAVUM_HOME", folder_.file("home").c_str(), 1);
     options_.scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
     options_.out = folder_.file("s.cavum");
+    options_.device.name = "simulated";
   }
   /// Goes on as a window does, until `enough` or for two minutes.
   static bool goes_on(Sitting& sitting, const std::function<bool()>& enough) {
@@ -251,6 +252,7 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
   EXPECT_GE(before, 2000);
   SittingOptions again;
   again.resume = options_.out;
+  again.device.name = "simulated";
   EXPECT_THROW(Sitting(again, "K8"), Error) << "another candidate";
   SittingOptions mouse = again;
   mouse.device.name = "mouse";

@@ -1,9 +1,6 @@
 // The station as a candidate and a supervisor meet it: the real program with a real window on a virtual screen, its keys pressed by a script. What
 // counts is what it leaves behind: sessions that verify or can be resumed, and ticks that know nothing of the window.
 #include <gtest/gtest.h>
-#include <spawn.h>
-#include <sys/wait.h>
-#include <unistd.h>
 
 #include <chrono>
 #include <csignal>
@@ -12,85 +9,22 @@
 #include <set>
 #include <thread>
 
-#include "engine/base/file.h"
 #include "engine/session/session_reader.h"
-#include "engine/session/verify.h"
 #include "scenarios/candidates/candidate_device.h"
 #include "scenarios/exam/live_exam.h"
-#include "tests/engine/support/basics.h"
-#include "tests/ui/station/virtual_screen.h"
+#include "tests/ui/station/station_window.h"
 #include "ui/station/picture_file.h"
-
-extern char** environ;
 
 namespace cavum::station {
 namespace {
 
 using namespace std::chrono_literals;
 
-const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
-
-class StationWindow : public ::testing::Test {
- protected:
-  static void SetUpTestSuite() { screen_ = std::make_unique<testing_station::VirtualScreen>(); }
-  static void TearDownTestSuite() { screen_.reset(); }
-  void SetUp() override {
-    if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
-    ::setenv("CAVUM_HOME", folder_.file("home").c_str(), 1);
-  }
-
-  [[nodiscard]] std::string session() const { return folder_.file("s.cavum"); }
-  [[nodiscard]] std::string said() const { return read_text_file(folder_.file("err")); }
-  [[nodiscard]] std::string printed() const { return read_text_file(folder_.file("out")); }
-
-  /// Starts the station with a script; `wait` gives its exit code, -signal when a signal ended it.
-  [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
-    write_text_file(folder_.file("script"), script);
-    const std::string command = "exec " CAVUM_BINARY " station " + scenario + " --out " + session() + " --script " + folder_.file("script") +
-                                " --pictures " CAVUM_PICTURES " " + size_ + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
-    return start_command(command);
-  }
-  static pid_t start_command(const std::string& command) {
-    std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
-    pid_t child = -1;
-    EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
-    return child;
-  }
-  static int wait(pid_t child) {
-    int status = 0;
-    ::waitpid(child, &status, 0);
-    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
-  }
-  int run(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
-    return wait(start(script, more, scenario));
-  }
-
-  /// What was recorded is whole, the exam goes on from there, and closed it verifies.
-  void expect_resumable(std::int64_t least_ticks) const {
-    const VerifyReport open = verify_session(session());
-    EXPECT_TRUE(open.intact) << (open.findings.empty() ? "" : open.findings[0]);
-    EXPECT_FALSE(open.closed);
-    EXPECT_GE(open.ticks, least_ticks);
-    const int status =
-        std::system((CAVUM_BINARY " exam --resume --end --quiet --out " + session() + " >" + folder_.file("resumed") + " 2>&1").c_str());
-    EXPECT_EQ(status, 0) << read_text_file(folder_.file("resumed"));
-    EXPECT_TRUE(verify_session(session()).verified);
-  }
-
-  testing_basics::Folder folder_;
-  std::string size_ = "--width 800 --height 500";  ///< of the window: the processor draws it
-
- private:
-  static inline std::unique_ptr<testing_station::VirtualScreen> screen_;
-};
-
 #ifdef __SANITIZE_THREAD__
 constexpr bool k_in_time = false;  // the servo comes many times later than it should, and the operator's work suffers as a person's would
 #else
 constexpr bool k_in_time = true;
 #endif
-
-constexpr const char* k_to_exam = "type T5\ngo device-check\ngo briefing\nkey enter\nwait exam\n";
 
 TEST_F(StationWindow, LeadsACandidateFromSignInToASealedResult) {
   const std::string script = R"(type A17
@@ -149,7 +83,7 @@ key enter
 }
 
 TEST_F(StationWindow, ClosedDuringTheExamLeavesASessionToResume) {
-  EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nclose\n"), 1);
+  EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nclose\nsleep 0.5\nkey f4\nsleep 30\nfail\n"), 1);
   EXPECT_NE(said().find("--resume"), std::string::npos) << said();
   expect_resumable(2000);
 }
@@ -176,7 +110,7 @@ class StationOnAFullDisk : public StationWindow {
     write_text_file(folder_.file("script"), script);
     for (const char* name : {"out", "err"}) write_text_file(folder_.file(name), "");
     const std::string command = "TMPDIR=" + temporary() + " exec unshare -m sh -c 'mount -t tmpfs -o size=90k none " + small() +
-                                " && exec " CAVUM_BINARY " station " + k_scenario + " --out " + small() + "/s.cavum --script " +
+                                " && exec " CAVUM_BINARY " station " + k_scenario + " --device simulated --out " + small() + "/s.cavum --script " +
                                 folder_.file("script") + " --pictures " CAVUM_PICTURES " >" + folder_.file("out") + " 2>" + folder_.file("err") + "'";
     return start_command(command);
   }
@@ -267,7 +201,7 @@ TEST_F(StationWindow, TheReportButtonOfTheResultWritesTheReportOfThisExam) {
   EXPECT_TRUE(html.ends_with("</html>\n"));
   // the same file as the command writes of the sealed session
   ASSERT_EQ(
-      std::system((CAVUM_BINARY " report " + session() + " --no-replay --out " + folder_.file("again.html") + " >" + folder_.file("out")).c_str()),
+      std::system((CAVUM_BINARY " report " + session() + " --no-replay --for student --out " + folder_.file("again.html") + " >" + folder_.file("out")).c_str()),
       0);
   EXPECT_TRUE(html == read_text_file(folder_.file("again.html")));
 }
@@ -455,11 +389,14 @@ TEST_F(StationWindow, ReadsWhatItIsToldBeforeItOpens) {
     EXPECT_NE(said().find(part), std::string::npos) << said();
   };
   refused("", "no scenario given");
-  refused(k_scenario + " --out " + folder_.file("none/at/all"), "is no folder");
+  refused(k_scenario, "no device given");
+  refused(k_scenario + " --device mouse --out " + folder_.file("none/at/all"), "is no folder");
+  refused(k_scenario + " --device mouse --kiosk --out " + folder_.file(""), "holds no supervisor's code");
+  refused(k_scenario + " --device mouse --monitor 7 --out " + folder_.file(""), "--monitor 7: is not there; name one of 1 ");
   refused(k_scenario + " --device whistle --out " + folder_.file(""), "name one of simulated, mouse");
-  refused(k_scenario + " --operator nobody --out " + folder_.file(""), "nobody");
+  refused(k_scenario + " --device simulated --operator nobody --out " + folder_.file(""), "nobody");
   write_text_file(folder_.file("bad"), "type A\nwhistle\n");
-  refused(k_scenario + " --out " + folder_.file("") + " --script " + folder_.file("bad"), ":2: 'whistle' is no command");
+  refused(k_scenario + " --device simulated --out " + folder_.file("") + " --script " + folder_.file("bad"), ":2: 'whistle' is no command");
 }
 
 }  // namespace

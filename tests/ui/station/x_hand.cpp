@@ -1,0 +1,101 @@
+#include "tests/ui/station/x_hand.h"
+
+#include <X11/Xlib.h>
+#include <X11/Xutil.h>
+#include <dlfcn.h>
+
+#include <chrono>
+#include <thread>
+
+namespace cavum::testing_station {
+namespace {
+
+Display* display_of(void* d) { return static_cast<Display*>(d); }
+void rest(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
+
+}  // namespace
+
+XHand::XHand() {
+  // libXtst has no header here that a build needs: two functions of it, as XTest.h declares them
+  library_ = ::dlopen("libXtst.so.6", RTLD_NOW);
+  if (library_ == nullptr) return;
+  display_ = XOpenDisplay(nullptr);
+  if (display_ == nullptr) return;
+  fake_key_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(::dlsym(library_, "XTestFakeKeyEvent"));
+  fake_motion_ = reinterpret_cast<int (*)(void*, int, int, unsigned long)>(::dlsym(library_, "XTestFakeRelativeMotionEvent"));
+}
+
+XHand::~XHand() {
+  if (display_ != nullptr) XCloseDisplay(display_of(display_));
+  if (library_ != nullptr) ::dlclose(library_);
+}
+
+void XHand::key(const std::string& key, bool down) const {
+  fake_key_(display_, XKeysymToKeycode(display_of(display_), XStringToKeysym(key.c_str())), down ? 1 : 0, 0);
+  XFlush(display_of(display_));
+}
+
+void XHand::tap(const std::string& name, int ms) const {
+  key(name, true);
+  rest(ms);
+  key(name, false);
+}
+
+void XHand::move(int x, int y) const {
+  fake_motion_(display_, x, y, 0);
+  XFlush(display_of(display_));
+}
+
+void XHand::take_the_keyboard(int ms) const {
+  Display* d = display_of(display_);
+  const Window other = XCreateSimpleWindow(d, DefaultRootWindow(d), 0, 0, 40, 40, 0, 0, 0);
+  XMapRaised(d, other);
+  XSync(d, False);
+  rest(100);
+  XSetInputFocus(d, other, RevertToParent, CurrentTime);
+  XSync(d, False);
+  rest(ms);
+  XDestroyWindow(d, other);
+  XSync(d, False);
+}
+
+unsigned long XHand::window_of(const std::string& title) const {
+  Display* d = display_of(display_);
+  Window root = 0, parent = 0, *children = nullptr, found = 0;
+  unsigned count = 0;
+  if (XQueryTree(d, DefaultRootWindow(d), &root, &parent, &children, &count) == 0) return 0;
+  for (unsigned i = 0; i < count; ++i) {
+    char* name = nullptr;
+    if (XFetchName(d, children[i], &name) != 0 && name != nullptr) {
+      if (name == title) found = children[i];
+      XFree(name);
+    }
+  }
+  if (children != nullptr) XFree(children);
+  return found;
+}
+
+bool XHand::ask_to_close(const std::string& title) const {
+  Display* d = display_of(display_);
+  const Window window = window_of(title);
+  if (window == 0) return false;
+  XEvent event{};
+  event.xclient.type = ClientMessage;
+  event.xclient.window = window;
+  event.xclient.message_type = XInternAtom(d, "WM_PROTOCOLS", False);
+  event.xclient.format = 32;
+  event.xclient.data.l[0] = static_cast<long>(XInternAtom(d, "WM_DELETE_WINDOW", False));
+  event.xclient.data.l[1] = CurrentTime;
+  XSendEvent(d, window, False, NoEventMask, &event);
+  XSync(d, False);
+  return true;
+}
+
+std::string XHand::size_of(const std::string& title) const {
+  const Window window = window_of(title);
+  XWindowAttributes a{};
+  if (window == 0 || XGetWindowAttributes(display_of(display_), window, &a) == 0) return "none";
+  return std::to_string(a.width) + " x " + std::to_string(a.height) + " at " + std::to_string(a.x) + ", " + std::to_string(a.y);
+}
+
+}  // namespace cavum::testing_station

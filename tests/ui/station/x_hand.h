@@ -1,0 +1,38 @@
+// A hand on the keyboard and mouse of an X server, for tests: the events are those of real devices (extension XTEST), not of our program.
+#pragma once
+
+#include <string>
+
+namespace cavum::testing_station {
+
+class XHand {
+ public:
+  /// On the display of the environment. `there` tells whether the server and libXtst can.
+  XHand();
+  ~XHand();
+  XHand(const XHand&) = delete;
+  XHand& operator=(const XHand&) = delete;
+  [[nodiscard]] bool there() const { return fake_key_ != nullptr; }
+
+  /// `key` as X names it: "space", "Next", "Up", "a".
+  void key(const std::string& key, bool down) const;
+  /// Down, and up again after so many ms.
+  void tap(const std::string& key, int ms) const;
+  /// The mouse by so many pixels.
+  void move(int x, int y) const;
+  /// Another window opens, takes the keyboard, and goes after so many ms.
+  void take_the_keyboard(int ms) const;
+  /// Asks the window with this title to close, as a desktop does. False when there is none.
+  [[nodiscard]] bool ask_to_close(const std::string& title) const;
+  /// Largest of all windows on the screen that cover it: width x height of the window with this title.
+  [[nodiscard]] std::string size_of(const std::string& title) const;
+
+ private:
+  [[nodiscard]] unsigned long window_of(const std::string& title) const;
+  void* display_ = nullptr;
+  void* library_ = nullptr;
+  int (*fake_key_)(void*, unsigned, int, unsigned long) = nullptr;
+  int (*fake_motion_)(void*, int, int, unsigned long) = nullptr;
+};
+
+}  // namespace cavum::testing_station

@@ -1,0 +1,29 @@
+// Mouse and keyboard as the hand that holds the handpiece: what of the input moves the tip, what tilts the handpiece, what presses the pedal. The
+// same keys, held as long, move it as far at any rate of pictures.
+#pragma once
+
+#include "engine/base/pose.h"
+#include "ui/station/input_queue.h"
+
+namespace cavum::station {
+
+/// What the picture makes of ways on the screen, tooth frame.
+struct PointerView {
+  Vec3 right{1, 0, 0}, up{0, 1, 0};  ///< along the surface, unit
+  Vec3 out{0, 0, 1};                 ///< out of the cavity, unit
+  double mm_per_px = 0.02;
+  bool mouse = true;  ///< its way counts
+};
+
+constexpr double k_pointer_mm_s = 4.0;       ///< of a held arrow key or PgUp PgDn, after its first step
+constexpr double k_pointer_step_mm = 0.05;   ///< of a tap
+constexpr double k_pointer_notch_mm = 0.08;  ///< of the wheel
+constexpr double k_pointer_fine = 0.2;       ///< of all this with Shift
+constexpr double k_pointer_tilt_deg = 70.0;  ///< of the handpiece at most, from upright in the cavity
+
+/// Mouse and arrows along the surface; wheel, PgUp and PgDn in and out; with Ctrl mouse and arrows tilt it; 0 makes it upright.
+void move_by_pointer(const InputQueue& input, const PointerView& view, Vec3& tip_mm, Quat& rotation);
+/// Space bar, or the left button where the mouse counts.
+[[nodiscard]] bool pointer_pedal(const InputQueue& input, bool mouse);
+
+}  // namespace cavum::station
