@@ -59,7 +59,8 @@ class Author {
     script_.step(window_, state_.screen, 0.0, seconds_since(start_));
     window_.begin_frame();
     state_.view.stereo = false;  // points are shown for one eye
-    const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, window_.software() ? 1 : 4, true, window_.input()};
+    const ScreenContext screen{theme_, state_,         scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, window_.software() ? 1 : 4,
+                               true,   window_.input()};
     const AuthorContext context{screen,          document_, author_,    zones_, landmarks_, busy() ? mistakes_ : findings_->problems,
                                 findings_.get(), busy(),    floor_z_mm_};
     const AuthorWish wish = author_screen(context);
