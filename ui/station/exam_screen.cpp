@@ -46,7 +46,10 @@ void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layo
   ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
   const std::size_t steps = scenario.steps.size(), step = static_cast<std::size_t>(view.step);
   quiet_text(t, fmt::format("{}    {}{}", step < steps ? fmt::format("Step {} of {}", step + 1, steps) : fmt::format("All {} steps done", steps),
-                            c.sitting->candidate(), c.sitting->device().simulated() ? "    demonstration" : c.practice ? "    practice" : "    examination"));
+                            c.sitting->candidate(),
+                            c.sitting->device().simulated() ? "    demonstration"
+                            : c.practice                    ? "    practice"
+                                                            : "    examination"));
   wrapped_text(view.instruction);
   ImGui::EndChild();
   ImGui::SameLine();
@@ -147,7 +150,7 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
 bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave; }
 
 /// Mouse and keyboard say where the hand wants the tip: across the picture along the surface; seen from the side, up and down is depth.
-void move_pointer(const ScreenContext& c, PointerStylus& pointer, float picture_height) {
+void move_pointer(const ScreenContext& c, const scenarios::LiveView& now, PointerStylus& pointer, float picture_height) {
   StationState& s = c.state;
   const Camera& camera = s.view.camera;
   PointerView view;
@@ -162,6 +165,7 @@ void move_pointer(const ScreenContext& c, PointerStylus& pointer, float picture_
   view.mm_per_px = 2.0 * camera.distance_mm * std::tan(13.0 * 3.14159265 / 180.0) / picture_height;
   view.mouse = c.mouse_captured;
   if (!asked_something(s)) move_by_pointer(c.input, view, s.wanted_mm, s.wanted_rotation);
+  if (now.output.contact) keep_in_reach(view, now.input.pose().tip_mm, s.wanted_mm);
   PointerIntent intent;
   intent.tip_mm = s.wanted_mm;
   intent.rotation = s.wanted_rotation;
@@ -244,7 +248,7 @@ void exam_screen(const ScreenContext& c) {
   if (PointerStylus* pointer = c.sitting->device().pointer()) {
     if (key_pressed(GLFW_KEY_TAB)) s.mouse_free = !s.mouse_free;
     if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) s.mouse_free = false;
-    move_pointer(c, *pointer, l.tooth.y);
+    move_pointer(c, view, *pointer, l.tooth.y);
     s.capture_mouse = !s.mouse_free && !asked_something(s);
   }
   ask_whether_finished(c);

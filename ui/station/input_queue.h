@@ -13,10 +13,10 @@ namespace cavum::station {
 struct InputEvent {
   enum class Kind : std::uint8_t { key, button, text, wheel, motion, focus, screens };
   Kind kind = Kind::key;
-  int code = 0;       ///< key of GLFW, button from 0, or letter (Unicode); of `screens` how many there are
-  bool down = false;  ///< pressed; of `focus` whether it was won
-  double t_s = 0.0;   ///< of one clock, never running back
-  float x = 0.0F, y = 0.0F;  ///< of `motion` the way, of `wheel` the turns
+  int code = 0;                      ///< key of GLFW, button from 0, or letter (Unicode); of `screens` how many there are
+  bool down = false;                 ///< pressed; of `focus` whether it was won
+  double t_s = 0.0;                  ///< of one clock, never running back
+  float x = 0.0F, y = 0.0F;          ///< of `motion` the way, of `wheel` the turns
   bool ctrl = false, shift = false;  ///< held then; set by `play`
 };
 

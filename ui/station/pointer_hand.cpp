@@ -48,8 +48,11 @@ void move_by_pointer(const InputQueue& input, const PointerView& view, Vec3& tip
   if (lean_x != 0 || lean_y != 0) tilt(view, lean_x, lean_y, rotation);
 }
 
-bool pointer_pedal(const InputQueue& input, bool mouse) {
-  return input.down(GLFW_KEY_SPACE) || (mouse && input.button_down(GLFW_MOUSE_BUTTON_LEFT));
+void keep_in_reach(const PointerView& view, Vec3 tip_mm, Vec3& wanted_mm) {
+  const double deeper_mm = dot(tip_mm - wanted_mm, view.out);
+  if (deeper_mm > k_pointer_reach_mm) wanted_mm += view.out * (deeper_mm - k_pointer_reach_mm);
 }
+
+bool pointer_pedal(const InputQueue& input, bool mouse) { return input.down(GLFW_KEY_SPACE) || (mouse && input.button_down(GLFW_MOUSE_BUTTON_LEFT)); }
 
 }  // namespace cavum::station

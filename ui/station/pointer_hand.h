@@ -19,10 +19,14 @@ constexpr double k_pointer_mm_s = 4.0;       ///< of a held arrow key or PgUp Pg
 constexpr double k_pointer_step_mm = 0.05;   ///< of a tap
 constexpr double k_pointer_notch_mm = 0.08;  ///< of the wheel
 constexpr double k_pointer_fine = 0.2;       ///< of all this with Shift
+constexpr double k_pointer_reach_mm = 1.5;   ///< of the wanted tip below the real one, where the tooth holds it: 3 N
 constexpr double k_pointer_tilt_deg = 70.0;  ///< of the handpiece at most, from upright in the cavity
 
 /// Mouse and arrows along the surface; wheel, PgUp and PgDn in and out; with Ctrl mouse and arrows tilt it; 0 makes it upright.
 void move_by_pointer(const InputQueue& input, const PointerView& view, Vec3& tip_mm, Quat& rotation);
+/// While the tip touches: the hand presses no deeper than its arm reaches, so that it lifts off as soon as it goes back. `tip_mm`: where the stylus
+/// is.
+void keep_in_reach(const PointerView& view, Vec3 tip_mm, Vec3& wanted_mm);
 /// Space bar, or the left button where the mouse counts.
 [[nodiscard]] bool pointer_pedal(const InputQueue& input, bool mouse);
 

@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <functional>
 
-// of GLFW/glfw3native.h, which asks for headers of RandR besides
+// of GLFW, whose own header of them asks for those of RandR besides
 extern "C" Display* glfwGetX11Display(void);
 extern "C" Window glfwGetX11Window(GLFWwindow* window);
 

@@ -29,27 +29,27 @@ struct StationState {
   double text_scale = 1.0;
   bool muted = false;
   bool confirm_end = false;
-  bool confirm_close = false;    ///< the window was asked to close on what is in memory only
-  bool confirm_leave = false;    ///< the window was asked to close where it must not without a word
+  bool confirm_close = false;              ///< the window was asked to close on what is in memory only
+  bool confirm_leave = false;              ///< the window was asked to close where it must not without a word
   std::array<char, 48> supervisor_code{};  ///< typed then
   bool focus_supervisor = false;           ///< its field waits for letters again
   std::string leave_message;               ///< shown with that question
   std::string attempt;                     ///< the last try to leave the exam, in words
   double attempt_shown_s = 0.0;            ///< so long it is still shown
   int attempts = 0;                        ///< in this exam
-  bool rescue_failed = false;    ///< no other place took it either
-  double replay_at = 0.0;        ///< ticks
-  double replay_speed = 1.0;     ///< times real time
-  bool playing = false;          ///< the replay
-  double pause_key_s = 0.0;      ///< for so long the pause button stays pressed
-  double handpiece_speed = 1.0;  ///< of the dial, 0.1..1
-  bool own_arrows = false;       ///< the screen has another use for the arrows than turning the tooth
-  Vec3 wanted_mm;                ///< where mouse and keyboard want the tip, tooth frame
-  Quat wanted_rotation;          ///< of the handpiece then
-  bool tutorial_wanted = false;      ///< chosen at sign-in
-  std::optional<Tutorial> tutorial;  ///< in practice, once it was asked for
-  bool mouse_free = false;       ///< in an exam: the mouse points at buttons instead of being the stylus
-  bool capture_mouse = false;    ///< the screen wants it as the stylus
+  bool rescue_failed = false;              ///< no other place took it either
+  double replay_at = 0.0;                  ///< ticks
+  double replay_speed = 1.0;               ///< times real time
+  bool playing = false;                    ///< the replay
+  double pause_key_s = 0.0;                ///< for so long the pause button stays pressed
+  double handpiece_speed = 1.0;            ///< of the dial, 0.1..1
+  bool own_arrows = false;                 ///< the screen has another use for the arrows than turning the tooth
+  Vec3 wanted_mm;                          ///< where mouse and keyboard want the tip, tooth frame
+  Quat wanted_rotation;                    ///< of the handpiece then
+  bool tutorial_wanted = false;            ///< chosen at sign-in
+  std::optional<Tutorial> tutorial;        ///< in practice, once it was asked for
+  bool mouse_free = false;                 ///< in an exam: the mouse points at buttons instead of being the stylus
+  bool capture_mouse = false;              ///< the screen wants it as the stylus
   bool focus_code = true;
 };
 

@@ -19,9 +19,9 @@
 #include "ui/parts/interrupt.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
-#include "ui/station/exam_lock.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
+#include "ui/station/station_lock.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -111,13 +111,7 @@ class Station {
   /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or waits.
   bool may_close() {
     if (!window_.closing()) return false;
-    if (!abandoned_ && !leave_granted_ && (lock_.locked() || examined())) {
-      window_.stay_open();
-      attempt({"close_asked", ""});
-      state_.confirm_end = false;
-      state_.confirm_leave = true;
-      return false;
-    }
+    if (!abandoned_ && !lock_.lets_close(window_, state_, sitting_.get())) return false;
     if (abandoned_ || !sitting_) return true;
     sitting_->stop();
     if (sitting_->stage() != Stage::grading && sitting_->stage() != Stage::unsaved) return true;
@@ -158,7 +152,8 @@ class Station {
     window_.capture_mouse(is_stylus);
     set_navigation(!pointer_at_work());
     sound();
-    watch();
+    note_tutorial();
+    lock_.watch(window_, state_, sitting_.get());
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
     // no more pictures than eyes need, fewer when the processor draws: the servo shares it
@@ -181,8 +176,8 @@ class Station {
     const ImGuiIO& io = ImGui::GetIO();
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
-    const double scale =
-        std::min(state_.text_scale * window_.screen_scale(), std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
+    const double scale = std::min(state_.text_scale * window_.screen_scale(),
+                                  std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
     const bool scale_differs = scale != dressed_scale_;
     if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
     if (!scale_differs && state_.high_contrast == dressed_contrast_) return;
@@ -242,46 +237,11 @@ class Station {
     }
   }
 
-  /// An exam runs that counts: leaving it is recorded.
-  [[nodiscard]] bool examined() const { return sitting_ && sitting_->stage() == Stage::running && !sitting_->practice(); }
-
-  void attempt(const LockAttempt& a) {
-    constexpr int k_most = 1000;  // in one exam: who goes on and on fills no disk
-    if (!examined() || state_.attempts >= k_most) return;
-    sitting_->note(k_lock_event, to_json(a));
-    if (a.what == "focus_back" || a.what == "screen_back") return;
-    ++state_.attempts;
-    state_.attempt = lock_words(a);
-    constexpr double k_shown_s = 10.0;
-    state_.attempt_shown_s = k_shown_s;
-  }
-
-  /// What was tried since the last picture; a locked station comes back to the front.
-  void watch() {
-    for (const LockAttempt& a : lock_.look(window_.input())) {
-      attempt(a);
-      if (lock_.locked() && (a.what == "screen_lost" || a.what == "screen_back")) window_.come_back();
-    }
-    constexpr double k_again_s = 0.5;
-    if (!lock_.locked() || !lock_.away() || seconds_since(came_back_) < k_again_s) return;
-    came_back_ = Clock::now();
-    window_.come_back();
-  }
-
-  /// Someone answered that the window shall close.
-  void leave() {
-    const std::string code = state_.supervisor_code.data();
-    state_.supervisor_code = {};
-    if (lock_.locked() && !lock_.opens(code)) {
-      attempt({"close_refused", ""});
-      state_.focus_supervisor = true;
-      state_.leave_message = "This is not the supervisor's code.";
-      return;
-    }
-    attempt({"close_granted", ""});
-    leave_granted_ = true;
-    state_.confirm_leave = false;
-    window_.ask_to_close();
+  /// Each step of the tutorial that was done is recorded.
+  void note_tutorial() {
+    const int done = state_.tutorial ? state_.tutorial->step() : 0;
+    if (done > tutorial_noted_) sitting_->note("tutorial", fmt::format("{{\"step\":{}}}", done));
+    tutorial_noted_ = done;
   }
 
   /// What the handpiece does is heard.
@@ -337,7 +297,7 @@ class Station {
           window_.ask_to_close();
           break;
         case Wish::leave:
-          leave();
+          lock_.leave(window_, state_, sitting_.get());
           break;
         case Wish::report:
           write_report();
@@ -359,7 +319,7 @@ class Station {
   void sign_in() {
     SittingOptions o = options_.sitting;
     o.locked = lock_.locked();
-    leave_granted_ = false;
+    lock_.begin_sitting();
     seen_ = Stage::preparing;
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
     if (fixed) {
@@ -463,7 +423,7 @@ class Station {
   std::vector<DiamondPoint> shelf_;
   ui::Interrupt interrupt_;
   ui::SoundOutput sound_;
-  ExamLock lock_;
+  StationLock lock_;
   Window window_;
   Script script_;
   StationState state_;
@@ -473,8 +433,9 @@ class Station {
   std::unique_ptr<Sitting> sitting_;
   std::unique_ptr<Scene> scene_;
   Stage seen_ = Stage::preparing;  // of the sitting, by the screens
-  bool close_when_sealed_ = false, abandoned_ = false, leave_granted_ = false;
-  Clock::time_point start_ = Clock::now(), last_frame_ = start_, came_back_ = start_;
+  int tutorial_noted_ = 0;         // steps
+  bool close_when_sealed_ = false, abandoned_ = false;
+  Clock::time_point start_ = Clock::now(), last_frame_ = start_;
 };
 
 }  // namespace

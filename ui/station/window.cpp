@@ -52,9 +52,7 @@ void load_fonts(double scale) {
   }
 }
 
-double own_clock_s() {
-  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
-}
+double own_clock_s() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
 
 std::vector<GLFWmonitor*> monitors() {
   int count = 0;
@@ -156,8 +154,7 @@ void Window::push(InputEvent event) {
 
 void Window::moved_to(double x, double y) {
   const auto to_x = static_cast<float>(x), to_y = static_cast<float>(y);
-  if (mouse_known_ && (to_x != mouse_x_ || to_y != mouse_y_))
-    push({.kind = InputEvent::Kind::motion, .x = to_x - mouse_x_, .y = to_y - mouse_y_});
+  if (mouse_known_ && (to_x != mouse_x_ || to_y != mouse_y_)) push({.kind = InputEvent::Kind::motion, .x = to_x - mouse_x_, .y = to_y - mouse_y_});
   mouse_x_ = to_x;
   mouse_y_ = to_y;
   mouse_known_ = true;
@@ -187,12 +184,15 @@ void Window::listen() {
     static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::wheel, .x = static_cast<float>(x), .y = static_cast<float>(y)});
   });
   glfwSetCursorPosCallback(window_, [](GLFWwindow* w, double x, double y) { static_cast<Window*>(glfwGetWindowUserPointer(w))->moved_to(x, y); });
+  glfwSetCursorEnterCallback(window_, [](GLFWwindow* w, int inside) {
+    Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(w));
+    if (inside == GLFW_FALSE && !self.captured_) self.mouse_known_ = false;
+  });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int won) {
     static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::focus, .down = won == GLFW_TRUE});
   });
-  glfwSetMonitorCallback([](GLFWmonitor*, int event) {
-    one->push({.kind = Kind::screens, .code = monitor_count(), .down = event == GLFW_CONNECTED});
-  });
+  glfwSetMonitorCallback(
+      [](GLFWmonitor*, int event) { one->push({.kind = Kind::screens, .code = monitor_count(), .down = event == GLFW_CONNECTED}); });
 }
 
 void Window::take_events() {

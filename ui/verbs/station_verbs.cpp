@@ -60,8 +60,9 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   if (o.sitting.scenario.empty() && o.sitting.resume.empty())
     throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   if (o.sitting.device.name.empty())
-    throw Error("cavum station", "no device given",
-                "say what is in the candidate's hand: --device " + stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}));
+    throw Error(
+        "cavum station", "no device given",
+        "say what is in the candidate's hand: --device " + stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
@@ -157,10 +158,9 @@ void add_places(CLI::App* station, station::StationOptions& s) {
 }
 
 void add_device(CLI::App* station, station::StationOptions& s) {
-  station
-      ->add_option("--device", s.sitting.device.name,
-                   "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}) +
-                       "; with --practice mouse unless another is named");
+  station->add_option("--device", s.sitting.device.name,
+                      "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}) +
+                          "; with --practice mouse unless another is named");
   station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();

@@ -99,6 +99,31 @@ TEST_F(LiveExamTest, ServoAndTwinAgreeAndTheSessionVerifies) {
               static_cast<long long>(report.servo.overruns), static_cast<long long>(report.servo.made_up), static_cast<long long>(report.late_ticks));
 }
 
+TEST_F(LiveExamTest, WhatTheStationNotesIsRecordedAndChangesNoTick) {
+  Drilling device;
+  LiveExam live(*setup_, session(), device, {0.3, 0, 0.6});
+  live.start();
+  ASSERT_TRUE(comes_true([&] { return live.view().ticks > 300; }));
+  std::thread another([&live] { live.note("lock", R"({"what":"focus_lost"})"); });
+  another.join();
+  ASSERT_TRUE(comes_true([&] { return live.view().ticks > 700; }));
+  live.ask_to_end();
+  ASSERT_TRUE(comes_true([&] { return !live.running(); }));
+  live.note("lock", R"({"what":"close_asked"})");  // no tick follows any more
+  EXPECT_EQ(live.finish().first_disagreement, -1);
+  live.exam().close("{}");
+  std::vector<SessionEvent> noted;
+  const SessionReader reader(session());
+  for (const auto& e : reader.events())
+    if (e.kind == "lock") noted.push_back(e);
+  ASSERT_EQ(noted.size(), 2u);
+  EXPECT_EQ(noted[0].detail_json, R"({"what":"focus_lost"})");
+  EXPECT_GT(noted[0].tick, 300);
+  EXPECT_LT(noted[0].tick, 700);
+  EXPECT_EQ(noted[1].tick, reader.ticks() - 1);
+  EXPECT_TRUE(verify_session(session()).verified);
+}
+
 TEST_F(LiveExamTest, InAPauseTheHandpieceStandsStillWhateverTheFootDoes) {
   Drilling device;
   LiveExam live(*setup_, session(), device, {0, 0, 0.6});

@@ -132,6 +132,18 @@ TEST(PointerHand, TheMouseGoesOnWithoutAnEdgeAndCtrlTiltsAsFarAsItMay) {
   EXPECT_NEAR(handle.z, std::cos(k_pointer_tilt_deg * 3.14159265358979 / 180.0), 1e-6);
 }
 
+TEST(PointerHand, PressesNoDeeperThanItReachesAndStaysFreeToLift) {
+  const PointerView view;
+  Vec3 wanted{1, 2, -9};
+  keep_in_reach(view, {1, 2, -0.5}, wanted);
+  EXPECT_EQ(wanted, (Vec3{1, 2, -0.5 - k_pointer_reach_mm}));
+  for (const double z : {-1.0, 0.0, 7.0}) {
+    Vec3 free{4, 2, z};
+    keep_in_reach(view, {1, 2, -0.5}, free);
+    EXPECT_EQ(free, (Vec3{4, 2, z}));
+  }
+}
+
 TEST(DepthGauge, Shows0AtTheSurfaceAlone) {
   EXPECT_EQ(depth_text(0.0), "0.0 mm");
   EXPECT_EQ(depth_text(1.24), "1.2 mm");
@@ -200,7 +212,8 @@ TEST(KeyboardWatch, SeesAKeyboardThatIsPluggedInAndNoMouse) {
   const testing_basics::Folder folder;
   const std::string mouse = "I: Bus=0003\nN: Name=\"A Mouse\"\nP: Phys=usb-1/input0\nB: EV=17\nB: KEY=ff0000 0 0 0 0\n\n";
   const auto keyboard = [](const std::string& name) {
-    return "I: Bus=0003\nN: Name=\"" + name + "\"\nP: Phys=usb-2/input0\nB: EV=120013\nB: KEY=1000000000007 ff9f207ac14057ff febeffdfffefffff fffffffffffffffe\n\n";
+    return "I: Bus=0003\nN: Name=\"" + name +
+           "\"\nP: Phys=usb-2/input0\nB: EV=120013\nB: KEY=1000000000007 ff9f207ac14057ff febeffdfffefffff fffffffffffffffe\n\n";
   };
   const std::string button = "I: Bus=0019\nN: Name=\"Power Button\"\nP: Phys=PNP0C0C/button/input0\nB: EV=3\nB: KEY=10000000000000 0\n\n";
   EXPECT_EQ(keyboards_in(mouse + button).size(), 0u);

@@ -38,7 +38,8 @@ class StationWindow : public ::testing::Test {
   /// Starts the station with a script; `wait` gives its exit code, -signal when a signal ended it.
   [[nodiscard]] pid_t start(const std::string& script, const std::string& more = "", const std::string& scenario = k_scenario) const {
     write_text_file(folder_.file("script"), script);
-    const std::string device = more.find("--device") == std::string::npos ? " --device simulated" : "";
+    const std::string device =
+        more.find("--device") == std::string::npos && more.find("--tutorial") == std::string::npos ? " --device simulated" : "";
     const std::string command = "exec " CAVUM_BINARY " station " + scenario + device + " --out " + session() + " --script " + folder_.file("script") +
                                 " --pictures " CAVUM_PICTURES " " + size_ + " " + more + " >" + folder_.file("out") + " 2>" + folder_.file("err");
     return start_command(command);

@@ -200,9 +200,10 @@ TEST_F(StationWindow, TheReportButtonOfTheResultWritesTheReportOfThisExam) {
   }
   EXPECT_TRUE(html.ends_with("</html>\n"));
   // the same file as the command writes of the sealed session
-  ASSERT_EQ(
-      std::system((CAVUM_BINARY " report " + session() + " --no-replay --for student --out " + folder_.file("again.html") + " >" + folder_.file("out")).c_str()),
-      0);
+  ASSERT_EQ(std::system(
+                (CAVUM_BINARY " report " + session() + " --no-replay --for student --out " + folder_.file("again.html") + " >" + folder_.file("out"))
+                    .c_str()),
+            0);
   EXPECT_TRUE(html == read_text_file(folder_.file("again.html")));
 }
 

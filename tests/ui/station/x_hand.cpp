@@ -11,6 +11,39 @@ namespace cavum::testing_station {
 namespace {
 
 Display* display_of(void* d) { return static_cast<Display*>(d); }
+/// As Xrandr.h declares them, as far as they are read here.
+struct RandrResources {
+  Time timestamp, config_timestamp;
+  int ncrtc;
+  XID* crtcs;
+  int noutput;
+  XID* outputs;
+};
+struct RandrCrtc {
+  Time timestamp;
+  int x, y;
+  unsigned width, height;
+  XID mode;
+};
+
+/// Shows a mode (0: none) on the first screen; gives the mode that was shown, or nothing when the server cannot.
+bool set_screen(Display* display, XID mode, unsigned long* was) {
+  void* library = ::dlopen("libXrandr.so.2", RTLD_NOW);
+  if (library == nullptr) return false;
+  const auto resources_of = reinterpret_cast<RandrResources* (*)(Display*, Window)>(::dlsym(library, "XRRGetScreenResourcesCurrent"));
+  const auto crtc_of = reinterpret_cast<RandrCrtc* (*)(Display*, RandrResources*, XID)>(::dlsym(library, "XRRGetCrtcInfo"));
+  const auto configure =
+      reinterpret_cast<int (*)(Display*, RandrResources*, XID, Time, int, int, XID, unsigned short, XID*, int)>(::dlsym(library, "XRRSetCrtcConfig"));
+  RandrResources* all = resources_of(display, DefaultRootWindow(display));
+  if (all == nullptr || all->ncrtc < 1 || all->noutput < 1) return false;
+  if (was != nullptr) *was = crtc_of(display, all, all->crtcs[0])->mode;
+  constexpr unsigned short k_upright = 1;
+  const int answer =
+      configure(display, all, all->crtcs[0], CurrentTime, 0, 0, mode, k_upright, mode == 0 ? nullptr : all->outputs, mode == 0 ? 0 : 1);
+  XSync(display, False);
+  return answer == 0;
+}
+
 void rest(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); }
 
 }  // namespace
@@ -90,6 +123,9 @@ bool XHand::ask_to_close(const std::string& title) const {
   XSync(d, False);
   return true;
 }
+
+bool XHand::unplug_screen() { return set_screen(display_of(display_), 0, &mode_); }
+bool XHand::plug_screen() { return set_screen(display_of(display_), mode_, nullptr); }
 
 std::string XHand::size_of(const std::string& title) const {
   const Window window = window_of(title);

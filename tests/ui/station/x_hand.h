@@ -24,13 +24,17 @@ class XHand {
   void take_the_keyboard(int ms) const;
   /// Asks the window with this title to close, as a desktop does. False when there is none.
   [[nodiscard]] bool ask_to_close(const std::string& title) const;
-  /// Largest of all windows on the screen that cover it: width x height of the window with this title.
+  /// Takes the screen away and gives it back, as a cable does (RandR). False when the server cannot.
+  [[nodiscard]] bool unplug_screen();
+  [[nodiscard]] bool plug_screen();
+  /// Width, height and place of the window with this title.
   [[nodiscard]] std::string size_of(const std::string& title) const;
 
  private:
   [[nodiscard]] unsigned long window_of(const std::string& title) const;
   void* display_ = nullptr;
   void* library_ = nullptr;
+  unsigned long mode_ = 0;  // of the screen that was taken away
   int (*fake_key_)(void*, unsigned, int, unsigned long) = nullptr;
   int (*fake_motion_)(void*, int, int, unsigned long) = nullptr;
 };
