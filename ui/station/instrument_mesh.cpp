@@ -68,8 +68,11 @@ void close(std::vector<Ring>& rings, bool below) {
     rings.insert(rings.end(), {edge, middle});
 }
 
-/// Of a little neck above the coated part the head is drawn with.
-constexpr float k_neck_mm = 0.7F;
+/// So high is what stays while the rest fades from who looks along the instrument: the head with a little neck, of a long one its lower end.
+float working_end_mm(const DiamondPoint& point) {
+  constexpr float k_neck_mm = 0.7F, k_most_mm = 2.2F;
+  return std::min(static_cast<float>(point.cutting_length_mm) + k_neck_mm, k_most_mm);
+}
 constexpr double k_fine_mm = 0.12, k_coarse_mm = 0.5;  // from ring to ring, of head and shank
 
 /// The profile from one height to another.
@@ -88,7 +91,7 @@ std::vector<Ring> rings_of(const DiamondPoint& point, float from_mm, float to_mm
 }  // namespace
 
 MeshData diamond_head_mesh(const DiamondPoint& point) {
-  std::vector<Ring> rings = rings_of(point, -1.0F, static_cast<float>(point.cutting_length_mm) + k_neck_mm, k_fine_mm);
+  std::vector<Ring> rings = rings_of(point, -1.0F, working_end_mm(point), k_fine_mm);
   MeshData mesh;
   if (rings.empty()) return mesh;
   close(rings, true);
@@ -99,25 +102,22 @@ MeshData diamond_head_mesh(const DiamondPoint& point) {
 
 MeshData shank_mesh(const DiamondPoint& point) {
   constexpr float k_shank_ends_mm = 13.0F;
-  const float from_mm = static_cast<float>(point.cutting_length_mm) + k_neck_mm;
-  std::vector<Ring> rings = rings_of(point, from_mm, k_shank_ends_mm, k_coarse_mm);
-  if (rings.empty()) rings = rings_of(point, -1.0F, k_shank_ends_mm, k_coarse_mm);
-  MeshData mesh;
-  if (rings.empty()) return mesh;
-  Ring end = rings.back();
-  if (end.z < k_shank_ends_mm) {
-    end.normal_r = 1;
-    end.normal_z = 0;
-    end.grain = false;
-    end.colour = k_steel;
-    end.z = std::max(end.z, from_mm);
-    rings = rings.size() > 1 && rings.front().z >= from_mm ? rings : std::vector<Ring>{};
-    rings.push_back(end);
-    end.z = k_shank_ends_mm;
+  // the coated part finely, so that its bands wind round; the rest as its profile needs
+  const auto coated_to = static_cast<float>(point.cutting_length_mm), from_mm = working_end_mm(point);
+  std::vector<Ring> rings = rings_of(point, from_mm, coated_to, k_fine_mm);
+  for (const Ring& ring : rings_of(point, std::max(from_mm, coated_to), k_shank_ends_mm, k_coarse_mm)) rings.push_back(ring);
+  Ring end = rings.empty() ? rings_of(point, -1.0F, k_shank_ends_mm, k_coarse_mm).back() : rings.back();
+  end.normal_r = 1;
+  end.normal_z = 0;
+  end.grain = false;
+  end.colour = k_steel;
+  for (const float z : {std::max(end.z, from_mm), k_shank_ends_mm}) {
+    end.z = z;
     rings.push_back(end);
   }
   close(rings, true);
   close(rings, false);
+  MeshData mesh;
   revolve(rings, glm::mat4(1.0F), mesh);
   return mesh;
 }

@@ -46,7 +46,7 @@ float along_tool(const SceneView& view, int eye) {
   return std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
 }
 /// The handpiece would hide the work from whoever looks along it, and so would the shank; the head of the point stays.
-float handpiece_opacity(const SceneView& view, int eye) { return 1.0F - glm::smoothstep(0.40F, 0.72F, along_tool(view, eye)); }
+float handpiece_opacity(const SceneView& view, int eye) { return 1.0F - glm::smoothstep(0.35F, 0.62F, along_tool(view, eye)); }
 float shank_opacity(const SceneView& view, int eye) { return 1.0F - 0.86F * glm::smoothstep(0.80F, 0.94F, along_tool(view, eye)); }
 
 template <class Make>
@@ -74,6 +74,19 @@ Table2D distances_of(const DiamondPoint& point) {
   Table2D table;
   table.put(k_radii, k_heights, 1, mm);
   return table;
+}
+
+/// Places of the head's surface, tool frame: enough to tell whether it touches.
+std::vector<Vec3> surface_of_head(const DiamondPoint& point) {
+  constexpr int k_around = 18;
+  constexpr double k_step_mm = 0.12;
+  std::vector<Vec3> all;
+  for (const auto& p : point.head.walk(k_step_mm, point.cutting_length_mm))
+    for (int i = 0; i < k_around; ++i) {
+      const double a = 6.283185307179586 * i / k_around;
+      all.push_back({p.at.r_mm * std::cos(a), p.at.r_mm * std::sin(a), p.at.z_mm});
+    }
+  return all;
 }
 
 /// A renderer on the processor leaves a core to the servo and shows ten pictures a second at least; a graphics card has more to spare.
@@ -124,7 +137,10 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
       glass_program_(glass_vertex(), plain_fragment()),
       smooth_program_(WholePicture::vertex_shader, smooth_fragment()),
       governor_(drawn_by_processor() ? EffectGovernor(k_budget_by_processor_ms, k_level_by_processor) : EffectGovernor(k_budget_ms, 0)) {
-  for (const DiamondPoint& point : tray) distances_.push_back(distances_of(point));
+  for (const DiamondPoint& point : tray) {
+    distances_.push_back(distances_of(point));
+    surfaces_.push_back(surface_of_head(point));
+  }
   const MeshData handpiece = handpiece_mesh();
   handpiece_.put(handpiece.vertices, handpiece.indices);
   if (target != nullptr) {
@@ -171,7 +187,7 @@ void Scene::light(const ShaderProgram& program, const SceneView& view, const Too
   program.set("to_picture", sight.to_picture);
   program.set("eye_mm", sight.eye_mm);
   program.set("lamp", lamp_.towards);
-  program.set("lamp_colour", glm::vec3(0.66F, 0.63F, 0.58F));
+  program.set("lamp_colour", glm::vec3(0.66F, 0.61F, 0.54F));
   program.set("to_lamp", lamp_.to_lamp);
   program.set("to_room", lamp_.to_room);
   program.set("falling", std::span(room_.falling()));
@@ -189,6 +205,15 @@ void Scene::light(const ShaderProgram& program, const SceneView& view, const Too
 glm::vec3 Scene::background_of(const SceneView& view) { return view.high_contrast ? glm::vec3(0) : k_night; }
 
 bool Scene::has_tool(const SceneView& view) const { return view.point >= 0 && static_cast<std::size_t>(view.point) < heads_.size(); }
+
+float Scene::touch(const SceneView& view) const {
+  const Mat3 r = rotation(view.tool.rotation);
+  double nearest_mm = 1.0;
+  for (const Vec3 p : surfaces_[static_cast<std::size_t>(view.point)])
+    nearest_mm = std::min(nearest_mm, tooth_.distance_mm(view.tool.tip_mm + Vec3{dot(r.row_x, p), dot(r.row_y, p), dot(r.row_z, p)}));
+  constexpr float k_touching_mm = 0.03F, k_clear_mm = 0.09F;  // the surface is cut a little wider than the head
+  return 1.0F - glm::smoothstep(k_touching_mm, k_clear_mm, static_cast<float>(nearest_mm));
+}
 
 void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   lamp_ = lamp_of(view.camera, effects.shadow_edge);
@@ -239,7 +264,7 @@ void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, 
   const ShaderProgram& touched = *programs.touched_tooth;
   prepare(touched);
   touched.set("to_tool", glm::inverse(to_glm(view.tool)));
-  touched.set("tool_table", k_tool_table);
+  touched.set("tool_table", glm::vec4(k_tool_table, touch(view)));
   touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.point)].texture());
   // the tip's ball, and as far as its touch is seen
   constexpr float k_half_mm = 3.0F, k_around_mm = 4.5F;
@@ -332,8 +357,9 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
     draw_tooth(view, sight, programs);
   }
   if (tool) {
-    metal(to_glm(view.tool));
+    metal(tool_matrix(view));
     draw_metal(shanks_[static_cast<std::size_t>(view.point)], *programs.metal, shank_opacity(view, eye));
+    programs.metal->set("model", to_glm(view.tool));
     if (view.handpiece) draw_metal(handpiece_, *programs.metal, handpiece_opacity(view, eye));
   }
   glDisable(GL_BLEND);

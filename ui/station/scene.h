@@ -66,6 +66,8 @@ class Scene {
     glm::vec3 target_mm{0};
     friend bool operator==(const ShadowOf&, const ShadowOf&) = default;
   };
+  /// How much the head touches, 0..1.
+  [[nodiscard]] float touch(const SceneView& view) const;
   void cast_shadows(const SceneView& view, const Effects& effects);
   void draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs);
   void draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
@@ -88,6 +90,7 @@ class Scene {
   std::vector<Tissue> tissues_;
   std::vector<GpuMesh> heads_, shanks_, bodies_;
   std::vector<Table2D> distances_;  // of the points
+  std::vector<std::vector<Vec3>> surfaces_;
   GpuMesh handpiece_, target_;
   ShaderProgram depth_program_, plain_program_, glass_program_, smooth_program_;
   std::map<std::pair<int, bool>, std::unique_ptr<Programs>> programs_;  // by taps and reflections

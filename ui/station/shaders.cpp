@@ -82,7 +82,7 @@ void main() {
   float enamel = share_of(1.0), pulp = share_of(3.0), open = light.x;
   tint = own_colour();
   // thin enamel is bluish and lets light through; dentin below warms it
-  vec3 thin = tint * vec3(0.90, 0.98, 1.06), thick = tint * vec3(1.03, 0.965, 0.845);
+  vec3 thin = tint * vec3(0.93, 0.98, 1.02), thick = tint * vec3(1.02, 0.955, 0.83);
   tint = mix(tint, mix(thin, thick, light.y), enamel * (1.0 - plain));
   // light that bounces between walls keeps their colour
   around = max(all, vec3(0.0)) * open * mix(vec3(1.0), sqrt(tint), 0.6 * (1.0 - open));
@@ -102,7 +102,7 @@ out vec4 pixel;
 )" + k_light_part +
          k_shadow_part + R"(
 uniform sampler2D tool_mm;    // distance from the instrument by radius and height
-uniform vec3 tool_table;      // of radius: scale; of height: scale, offset
+uniform vec4 tool_table;      // of radius: scale; of height: scale, offset; how much it touches, 0..1
 void main() {
   vec3 n = normalize(facing), v = normalize(eye_mm - place);
   float nv = dot(n, v);
@@ -115,7 +115,7 @@ void main() {
   vec2 where = vec2(length(in_tool.xy) * tool_table.x, in_tool.z * tool_table.y + tool_table.z);
   float mm = texture(tool_mm, where).r;
   near = 1.0 - 0.55 * exp2(-3.5 * max(mm, 0.0));
-  ring = 1.0 - 0.80 * (1.0 - smoothstep(0.04, 0.20, mm));
+  ring = 1.0 - 0.84 * tool_table.w * (1.0 - smoothstep(0.02, 0.50, mm));
 #endif
   float enamel = nature.x, pulp = nature.y, open = nature.z;
   float soft = mix(0.30, 0.18, enamel);  // light wanders in tissue

@@ -187,6 +187,21 @@ std::size_t ToothDrawing::update() {
   return patches;
 }
 
+double ToothDrawing::distance_mm(Vec3 at_mm) const {
+  const Vec3 p = (at_mm - leaves_.origin_mm()) / leaves_.leaf_mm() - Vec3{0.5, 0.5, 0.5};
+  const IVec3 low{static_cast<int>(std::floor(p.x)), static_cast<int>(std::floor(p.y)), static_cast<int>(std::floor(p.z))};
+  std::array<std::uint8_t, 8> tissue;
+  std::array<std::int8_t, 8> code;
+  leaves_.copy_cube(low, 2, tissue.data(), code.data());
+  double sum = 0;
+  for (int i = 0; i < 8; ++i) {
+    const double x = p.x - low.x, y = p.y - low.y, z = p.z - low.z;
+    const double share = ((i & 1) != 0 ? x : 1 - x) * ((i & 2) != 0 ? y : 1 - y) * ((i & 4) != 0 ? z : 1 - z);
+    sum += share * decode_distance(code[static_cast<std::size_t>(i)]);
+  }
+  return sum * leaves_.leaf_mm();
+}
+
 std::size_t ToothDrawing::triangles_kept() const noexcept {
   std::size_t n = 0;
   for (const Block& b : hard_.blocks) n += static_cast<std::size_t>(b.mesh.triangles());

@@ -37,6 +37,8 @@ class ToothDrawing {
   /// Where it lies open: its border with the hard tissue is the same surface as the chamber's wall.
   void draw_open_pulp(const Sight& sight, DrawCount& count) const { draw(pulp_, sight, count, true); }
   void draw_pulp(const Sight& sight, DrawCount& count) const { draw(pulp_, sight, count); }
+  /// Distance to the hard tissue, mm, negative inside; no more than two leaves either way.
+  [[nodiscard]] double distance_mm(Vec3 at_mm) const;
   /// Corners of a box around all of it.
   [[nodiscard]] const std::array<glm::vec3, 2>& box_mm() const noexcept { return box_mm_; }
   /// Of the hard tissue, if nothing were thinned.

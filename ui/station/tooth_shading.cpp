@@ -145,14 +145,14 @@ float ToothShading::look_up(const Pyramid& pyramid, const glm::vec3& at_mm, floa
 }
 
 float ToothShading::open(const glm::vec3& at_mm, const glm::vec3& normal) const {
-  constexpr float k_side = 0.82F, k_up = 0.57F;  // of a cone that leans by 55 degrees
+  constexpr float k_side = 0.82F, k_up = 0.57F, k_wide = 0.7F;  // of a cone that leans by 55 degrees
   constexpr std::array<float, 4> k_far_mm{0.25F, 0.55F, 1.1F, 2.1F};
   const glm::vec3 aside = std::fabs(normal.z) < 0.8F ? glm::vec3(0, 0, 1) : glm::vec3(1, 0, 0);
   const glm::vec3 right = glm::normalize(glm::cross(aside, normal)), up = glm::cross(normal, right);
   const glm::vec3 from = at_mm + 0.75F * cell_mm_ * normal;
   const auto seen_along = [&](const glm::vec3& way) {
     float left = 1.0F;
-    for (const float far : k_far_mm) left *= 1.0F - look_up(filled_, from + far * way, 0.5F * far);
+    for (const float far : k_far_mm) left *= 1.0F - look_up(filled_, from + far * way, k_wide * far);
     return left;
   };
   float light = 0.36F * seen_along(normal);
