@@ -78,4 +78,16 @@ Scan read_scan(const std::string& path, double unit_mm) {
   return scan;
 }
 
+Scan mirrored(Scan scan) {
+  for (TriangleMesh* mesh : {&scan.mesh, &scan.caps}) {
+    for (Vec3& v : mesh->vertices_mm) v.y = -v.y;
+    for (auto& t : mesh->triangles) std::swap(t[1], t[2]);
+  }
+  for (SurfacePoint& p : scan.points) {
+    p.at_mm.y = -p.at_mm.y;
+    p.normal.y = -p.normal.y;
+  }
+  return scan;
+}
+
 }  // namespace cavum

@@ -23,4 +23,7 @@ struct Scan {
 /// tooth has.
 [[nodiscard]] Scan read_scan(const std::string& path, double unit_mm);
 
+/// The scan in a mirror, its faces outwards again.
+[[nodiscard]] Scan mirrored(Scan scan);
+
 }  // namespace cavum

@@ -112,15 +112,20 @@ ScanFit fit_of(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, con
   return fit;
 }
 
+bool fits_tooth(const ScanFit& f) noexcept {
+  constexpr double k_most_noise_mm = 0.06, k_most_form_mm = 0.018, k_least_agreement = 0.88, k_most_beyond = 0.04;
+  return f.noise_mm <= k_most_noise_mm && f.form_mm <= k_most_form_mm && agreement(f) >= k_least_agreement && f.beyond <= k_most_beyond;
+}
+
 void require_same_tooth(const ScanFit& f, const std::string& where) {
-  constexpr double k_most_noise_mm = 0.06, k_most_form_mm = 0.018, k_least_agreement = 0.88, k_most_beyond = 0.04, k_least_crown = 0.45;
+  constexpr double k_least_crown = 0.45;
   const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
   const std::string found = fmt::format(
       "where it fits best, {} of its surface lies within {} mm of the tooth (RMS {} mm, patches of 0.7 mm {} mm), {} outside it and {} just below "
       "it; {} "
       "of the crown is seen",
       percent(f.fits), fixed(f.within_mm, 3), fixed(f.rms_mm, 3), fixed(f.form_mm, 3), percent(f.beyond), percent(f.shallow), percent(f.crown_seen));
-  if (f.noise_mm > k_most_noise_mm || f.form_mm > k_most_form_mm || agreement(f) < k_least_agreement || f.beyond > k_most_beyond)
+  if (!fits_tooth(f))
     throw Error(where, "is not the tooth of this exam: " + found,
                 "give the scan of this very tooth, without its neighbours, or name its tooth with --tooth");
   if (f.crown_seen < k_least_crown) throw Error(where, "shows too little of the crown to be sure: " + found, "scan the whole crown down to its neck");

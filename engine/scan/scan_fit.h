@@ -31,6 +31,9 @@ struct ScanFit {
   return all > 0 ? f.fits / all : 0.0;
 }
 
+/// Whether the surface that should fit does.
+[[nodiscard]] bool fits_tooth(const ScanFit& fit) noexcept;
+
 /// Throws Error(`where`, ...) saying what was found when the scan cannot be of this tooth, or shows too little of its crown.
 void require_same_tooth(const ScanFit& fit, const std::string& where);
 

@@ -9,6 +9,7 @@
 #include "engine/base/text.h"
 #include "engine/scan/cut_by_scan.h"
 #include "engine/scan/read_scan.h"
+#include "engine/scan/scale_fit.h"
 #include "engine/scan/smoothed.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "grading/grade.h"
@@ -40,6 +41,28 @@ void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const O
       fmt::format("is no scan of this tooth by its size: on average its surface lies {} mm from its middle, and the tooth's {} (crown alone {}) mm",
                   fmt::format("{:.2g}", size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
       hint);
+}
+
+/// Where a scan does not fit: throws Error when it does in another size, or in a mirror, and says so.
+void require_size_and_side(const Scan& scan, const Registration& found, const ScanOptions& options, const OuterSurface& outer,
+                           const std::string& path) {
+  std::vector<Rigid> poses{found.best.to_tooth};
+  if (found.second) poses.push_back(found.second->to_tooth);
+  for (const Rigid& pose : poses) {
+    const auto sized = fit_with_scale(scan.points, pose, outer);
+    if (!sized || !fits_tooth(fit_of(in_size(scan.points, sized->scale), sized->to_tooth, outer))) continue;
+    const double percent = 100 * (1 / sized->scale - 1);
+    throw Error(path,
+                fmt::format("is of this tooth by its form, but {} % too {}: in the tooth's size it fits", fixed(std::fabs(percent), 1),
+                            percent > 0 ? "large" : "small"),
+                fmt::format("calibrate the scanner (or the printer), or multiply the file's lengths by {}", fixed(sized->scale, 4)));
+  }
+  const Scan other = mirrored(scan);
+  const auto turned = register_scan(other.points, outer);
+  if (turned && fits_tooth(fit_of(other.points, turned->best.to_tooth, outer)))
+    throw Error(
+        path, "is the mirror image of this tooth",
+        options.mirror ? "leave --mirror out" : "if the tooth was imported as its mirror image, and the scan is of the real one, say --mirror");
 }
 
 /// Throws Error when another pose fits about as well.
@@ -139,11 +162,11 @@ GradeInput GradedScan::input(const scenarios::Scenario& scenario, const Tooth& t
   return in;
 }
 
-GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::Scenario& scenario, const scenarios::RubricSpec& rubric,
+GradedScan grade_scan(const std::string& path, const ScanOptions& options, const scenarios::Scenario& scenario, const scenarios::RubricSpec& rubric,
                       const Tooth& tooth, const scenarios::ZoneMap& zones) {
-  const Scan scan = read_scan(path, unit_mm);
+  const Scan scan = options.mirror ? mirrored(read_scan(path, options.unit_mm)) : read_scan(path, options.unit_mm);
   const OuterSurface outer(tooth);
-  require_size(scan.points, unit_mm, outer, path);
+  require_size(scan.points, options.unit_mm, outer, path);
   const auto registration = register_scan(scan.points, outer);
   if (!registration) throw Error(path, "cannot be laid upon the tooth anywhere", "check that it is a scan of this tooth, in mm");
   ScanFacts facts;
@@ -154,6 +177,7 @@ GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::
   facts.end_mm = scan.end_mm;
   facts.holes = scan.holes;
   facts.notes = scan.notes;
+  if (!fits_tooth(facts.fit)) require_size_and_side(scan, *registration, options, outer, path);
   require_same_tooth(facts.fit, path);
   require_one_pose(*registration, path);
 

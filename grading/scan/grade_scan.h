@@ -41,10 +41,16 @@ struct GradedScan {
   [[nodiscard]] GradeInput input(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones) const;
 };
 
-/// `path`: STL, PLY, OBJ or OFF, open or closed, in units of `unit_mm` millimetres, in any pose. `tooth`: the unprepared one that `zones` were laid
-/// into. Throws Error naming the file when it cannot be read, is too small or too full of holes, is of another size or another tooth, shows too
-/// little of the crown, or could as well lie otherwise. What is doubtful only makes the verdict `review`.
-[[nodiscard]] GradedScan grade_scan(const std::string& path, double unit_mm, const scenarios::Scenario& scenario, const scenarios::RubricSpec& rubric,
-                                    const Tooth& tooth, const scenarios::ZoneMap& zones);
+/// How a scan's file is to be read.
+struct ScanOptions {
+  double unit_mm = 1.0;  ///< of its lengths
+  bool mirror = false;   ///< it is of the real tooth, and the tooth was imported as its mirror image
+};
+
+/// `path`: STL, PLY, OBJ or OFF, open or closed, in any pose. `tooth`: the unprepared one that `zones` were laid
+/// into. Throws Error naming the file when it cannot be read, is too small or too full of holes, is of another size (by how much, where its form
+/// fits) or another tooth, shows too little of the crown, or could as well lie otherwise. What is doubtful only makes the verdict `review`.
+[[nodiscard]] GradedScan grade_scan(const std::string& path, const ScanOptions& options, const scenarios::Scenario& scenario,
+                                    const scenarios::RubricSpec& rubric, const Tooth& tooth, const scenarios::ZoneMap& zones);
 
 }  // namespace cavum::grading

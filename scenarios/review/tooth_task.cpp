@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
+#include "engine/tooth/tooth_notes.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
@@ -261,6 +262,15 @@ std::string present(const Tooth& tooth, const std::string& list) {
   return "[" + kept + "]";
 }
 
+/// The tooth, and what of it is only guessed or was not checked: lines of a comment.
+std::string about(const Tooth& tooth) {
+  std::string text = one_line(tooth.name);
+  const ToothNotes notes = notes_of(tooth);
+  for (const auto& guess : notes.guesses) text += "\n# Guessed by its shape: " + one_line(guess);
+  for (const auto& warning : notes.warnings) text += "\n# Unsure: " + one_line(warning);
+  return text;
+}
+
 /// Whole minutes, at least five: two and a half times what the expert needs.
 double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::max(5.0, std::ceil(2.5 * expert_s.value_or(0) / 60.0)); }
 
@@ -309,7 +319,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .title = asked->title,
                   .what = choice.what,
                   .tooth_file = tooth_file,
-                  .about = one_line(tooth.name),
+                  .about = about(tooth),
                   .points = asked->points,
                   .time_limit_s = 7200,
                   .access = asked->access,

@@ -59,6 +59,7 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
                                                    {"k_most_zone_steps", k_most_zone_steps},
                                                    {"k_most_removed_leaves", k_most_removed_leaves},
                                                    {"k_most_lattice_leaves", k_most_lattice_leaves},
+                                                   {"k_most_row_leaves", k_most_row_leaves},
                                                    {"k_most_placed", k_most_placed},
                                                    {"k_longest_landmark_name", k_longest_landmark_name},
                                                    {"k_most_near_triangles", k_most_near_triangles},

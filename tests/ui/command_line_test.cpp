@@ -58,7 +58,7 @@ class CommandLine : public testing_ui::Program {
         ASSERT_EQ(run("tooth mesh " + path("made.cvt") + " --tissue " + tissue + " --out " + path(std::string(tissue) + ".stl")).exit_code, 0);
     }
     const Ran import = run("tooth import --enamel " + mesh("Enamel") + " --dentin " + mesh("Dentin") + " --pulp " + mesh("Pulp") + " --leaf-mm " +
-                           (deep ? "0.05" : "0.1") + " --out " + out);
+                           (deep ? "0.05 --mesial-axis 0,-1,0" : "0.1") + " --out " + out);
     ASSERT_EQ(import.exit_code, 0) << import.err;
   }
 };

@@ -5,6 +5,8 @@
 #include <filesystem>
 #include <memory>
 #include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
 
 #include "engine/tooth/make/set_beside.h"
 #include "ui/parts/own_places.h"
@@ -17,6 +19,7 @@ namespace {
 
 struct NeighbourArgs {
   std::string file, mesial, distal, out;
+  std::vector<std::string> confirmed;
   BesideSpec spec;
   bool json = false;
 };
@@ -41,6 +44,7 @@ void run_neighbour(NeighbourArgs a) {
   std::optional<Tooth> mesial, distal;
   if (!a.mesial.empty()) a.spec.mesial.tooth = &mesial.emplace(load_tooth_file(a.mesial));
   if (!a.distal.empty()) a.spec.distal.tooth = &distal.emplace(load_tooth_file(a.distal));
+  a.spec.confirmed = !a.confirmed.empty();
   const SetBeside done = set_beside(tooth, a.spec, a.file);
   save_tooth_file(done.tooth, a.out);
   auto d = describe(done.tooth, std::filesystem::file_size(a.out));
@@ -70,6 +74,8 @@ void add_neighbour(CLI::App& tooth) {
       ->capture_default_str();
   verb->add_option("--distal-turn-deg", a->spec.distal.turn_deg, "Turns the distal neighbour")->capture_default_str();
   verb->add_flag("--gum", a->spec.gum, "Gum around the necks, with a papilla below each contact");
+  verb->add_option("--confirm", a->confirmed, "neighbours: set teeth side by side that no jaw has so")
+      ->check(CLI::IsMember(std::vector<std::string>{"neighbours"}));
   verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
   verb->add_flag("--json", a->json, "One JSON object on stdout");
   verb->callback([a] { run_neighbour(*a); });

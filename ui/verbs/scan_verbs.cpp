@@ -29,7 +29,7 @@ using Json = nlohmann::ordered_json;
 
 struct ScanArguments {
   std::string scan, scenario, tooth, rubric, units = "mm", out, out_tooth, report;
-  bool json = false;
+  bool mirror = false, json = false;
 };
 
 /// How the scan was laid upon the tooth. `rotation` turns the file's frame into the tooth's, row by row; lengths in mm.
@@ -39,6 +39,7 @@ Json facts_json(const grading::ScanFacts& f, const ScanArguments& o, double seco
   const Rigid& pose = f.pose.to_tooth;
   return {{"file", o.scan},
           {"units", o.units},
+          {"mirrored", o.mirror},
           {"triangles", f.triangles},
           {"rms_mm", grading::rounded(f.fit.rms_mm)},
           {"noise_mm", grading::rounded(f.fit.noise_mm)},
@@ -81,7 +82,7 @@ void run_scan_grade(const ScanArguments& o) {
   if (!o.rubric.empty()) scenarios::require_none(scenarios::not_in_this_exam(rubric, scenario, with_beside));
   const scenarios::ZoneMap zones = scenarios::build_zones(scenario, with_beside);
   const Tooth tooth = has_beside(with_beside) ? own_tooth(with_beside) : with_beside;  // a tooth is scanned alone
-  const grading::GradedScan g = grading::grade_scan(o.scan, unit_mm, scenario, rubric, tooth, zones);
+  const grading::GradedScan g = grading::grade_scan(o.scan, {unit_mm, o.mirror}, scenario, rubric, tooth, zones);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
   Json marked = grading::to_json(g.result);
   marked["scan"] = facts_json(g.facts, o, seconds);
@@ -106,6 +107,7 @@ void add_scan_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--tooth", o->tooth, "the unprepared tooth (.cvt), from `tooth import` or `tooth make`; left out: the scenario's");
   v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   v->add_option("--units", o->units, "unit of the scan: mm, cm, m, um or in")->capture_default_str();
+  v->add_flag("--mirror", o->mirror, "the scan is of the real tooth, and the tooth was imported as its mirror image");
   v->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
   v->add_option("--out-tooth", o->out_tooth, "write the tooth as the scan shows it (.cvt)");
   v->add_option("--report", o->report, "write a report with the tooth in 3D, sections and every figure (.html or .pdf)");

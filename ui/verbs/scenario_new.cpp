@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/landmarks.h"
+#include "engine/tooth/tooth_notes.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/tooth_task.h"
 #include "ui/parts/print_json.h"
@@ -70,14 +71,22 @@ int make_for_tooth(const NewArguments& o) {
   if (task.empty()) throw Error(o.tooth, "no task makes sense on this tooth", "see why: cavum scenario new --list --tooth " + o.tooth);
   const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, o.tooth), o.out, task);
   write_text_file(o.out, written.text, {.may_replace = o.force});
+  const ToothNotes notes = notes_of(tooth);
   if (o.json) {
     Json warnings = Json::array();
     for (const auto& p : written.problems) warnings.push_back(p.text());
-    print_json(Json{{"written", o.out}, {"tooth", tooth.name}, {"task", task}, {"chosen", written.chosen}, {"warnings", warnings}});
+    print_json(Json{{"written", o.out},
+                    {"tooth", tooth.name},
+                    {"task", task},
+                    {"chosen", written.chosen},
+                    {"warnings", warnings},
+                    {"guesses", notes.guesses},
+                    {"unsure", notes.warnings}});
     return 0;
   }
   std::cout << "written: " << o.out << "; " << task << " on " << one_line(tooth.name) << ": " << written.chosen << "\n";
   for (const auto& p : written.problems) std::cout << one_line(p.text()) << "\n";
+  for (const auto& warning : notes.warnings) std::cout << "unsure of the tooth: " << one_line(warning) << "\n";
   std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << "\n";
   return 0;
 }

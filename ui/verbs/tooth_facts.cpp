@@ -6,6 +6,7 @@
 
 #include "engine/base/text.h"
 #include "engine/tooth/octree_edit.h"
+#include "engine/tooth/tooth_notes.h"
 
 namespace cavum::ui {
 namespace {
@@ -42,10 +43,18 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
     if (count[t.id] > 0)
       tissues.push_back(
           {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
-  return {{"name", tooth.name},       {"source", tooth.source},
-          {"leaf_mm", o.leaf_mm()},   {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
-          {"tissues", tissues},       {"memory_bytes", o.memory_bytes()},
-          {"file_bytes", file_bytes}, {"hash", tooth_hash(tooth)}};
+  const ToothNotes notes = notes_of(tooth);
+  return {{"name", tooth.name},
+          {"source", tooth.source},
+          {"leaf_mm", o.leaf_mm()},
+          {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
+          {"tissues", tissues},
+          {"memory_bytes", o.memory_bytes()},
+          {"file_bytes", file_bytes},
+          {"hash", tooth_hash(tooth)},
+          {"guesses", notes.guesses},
+          {"warnings", notes.warnings},
+          {"mirror_image", notes.mirror_image}};
 }
 
 void print_tooth(const nlohmann::ordered_json& d) {
@@ -60,6 +69,8 @@ void print_tooth(const nlohmann::ordered_json& d) {
                 t["solid"].get<bool>() ? "" : "  (not solid)");
   std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
   std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
+  for (const auto& guess : d["guesses"]) std::printf("  guess   %s\n", one_line(guess.get<std::string>()).c_str());
+  for (const auto& warning : d["warnings"]) std::printf("  unsure  %s\n", one_line(warning.get<std::string>()).c_str());
 }
 
 }  // namespace cavum::ui

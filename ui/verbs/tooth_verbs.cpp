@@ -1,5 +1,6 @@
 // `cavum tooth`: make a tooth, import one, look at it, export its surface.
 #include <fmt/core.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 #include <charconv>
@@ -260,7 +261,8 @@ void add_make(CLI::App& tooth) {
 struct ImportArgs {
   std::string volume, enamel, dentin, pulp, map, spacing, occlusal, mesial, out, units, patient_frame;
   std::optional<int> fdi, universal;
-  bool mirror = false, anyway = false;
+  std::vector<std::string> confirmed;
+  bool mirror = false;
   std::optional<double> enamel_threshold, dentin_threshold;
   double leaf_mm = 0.05, periodontium_mm = 1.0, rotate_deg = 0.0;
   bool json = false;
@@ -289,7 +291,7 @@ SenseOptions sense_options(const ImportArgs& a) {
   if (a.universal) sense.number = from_universal(*a.universal, "--universal");
   sense.units = a.units;
   sense.patient_frame = a.patient_frame;
-  sense.anyway = a.anyway;
+  sense.confirmed = a.confirmed;
   if (!a.patient_frame.empty() && !sense.number)
     throw Error("--patient-frame", "tells where mesial is only for a tooth that is named", "give --tooth-number or --universal, too");
   return sense;
@@ -304,13 +306,8 @@ Json sense_json(const ToothSense& sense, const SenseOptions& options) {
           {"warnings", sense.warnings}};
 }
 
-/// Guesses beside the result; warnings where they are seen even when the result goes to a file.
-void show_sense(const ToothSense& sense, const SenseOptions& options, bool mirrored, bool json) {
-  if (!json) {
-    if (options.number)
-      std::printf("  tooth   %s: +y is %s\n", options.number->text().c_str(), options.number->y_is_buccal() != mirrored ? "buccal" : "lingual");
-    for (const auto& g : sense.guesses) std::printf("  guess   %s\n", one_line(g).c_str());
-  }
+/// Warnings where they are seen even when the result goes to a file; print_tooth says them and the guesses, too.
+void show_sense(const ToothSense& sense) {
   for (const auto& w : sense.warnings) std::fprintf(stderr, "cavum: notice: %s\n", one_line(w).c_str());
 }
 
@@ -335,7 +332,7 @@ void run_import(const ImportArgs& a) {
             {"overlap_leaves", done.overlap_leaves},
             {"gap_leaves", done.gap_leaves},
             {"sense", sense_json(done.sense, sense)}});
-    show_sense(done.sense, sense, a.mirror, a.json);
+    show_sense(done.sense);
     return;
   }
   if (!a.units.empty()) throw Error("--units", "belongs to meshes", "give --spacing-mm for a volume");
@@ -360,7 +357,7 @@ void run_import(const ImportArgs& a) {
           {"pulp_bodies", done.pulp_bodies},
           {"rim_percent", done.rim_percent},
           {"sense", sense_json(done.sense, sense)}});
-  show_sense(done.sense, sense, a.mirror, a.json);
+  show_sense(done.sense);
   if (!a.json) {
     std::printf("  voxels  enamel %llu, dentin %llu, pulp %llu (bodies: %llu); rim %.2f %%\n", static_cast<unsigned long long>(done.native_enamel),
                 static_cast<unsigned long long>(done.native_dentin), static_cast<unsigned long long>(done.native_pulp),
@@ -392,8 +389,13 @@ void add_import(CLI::App& tooth) {
   auto* fdi = verb->add_option("--tooth-number", a->fdi, "Which tooth it is, by its FDI number: 36");
   verb->add_option("--universal", a->universal, "Which tooth it is, by its universal number: 19")->excludes(fdi);
   verb->add_option("--patient-frame", a->patient_frame, "lps or ras: the file's axes are the patient's, and tell with the number where mesial is");
-  verb->add_flag("--mirror", a->mirror, "Mirror it, so that +y is buccal: the tooth of the other side of the jaw");
-  verb->add_flag("--anyway", a->anyway, "Take it although size, axis, class or pulp contradict");
+  verb->add_flag("--mirror", a->mirror, "Mirror it, so that +y is buccal: with a number of quadrant 2 or 4 it is done without asking");
+#ifdef CAVUM_WITH_IMPORT
+  verb->add_option(
+          "--confirm", a->confirmed,
+          fmt::format("Take what the shape contradicts, by the name that the refusal says: {}; may be given again", fmt::join(k_confirmable, ", ")))
+      ->check(CLI::IsMember(std::vector<std::string>(k_confirmable.begin(), k_confirmable.end())));
+#endif
   verb->add_option("--leaf-mm", a->leaf_mm, "Edge of a leaf, mm")->capture_default_str();
   verb->add_option("--periodontium-mm", a->periodontium_mm, "Supporting tissue around the roots, mm; 0 = none")->capture_default_str();
   verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();

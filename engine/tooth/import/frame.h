@@ -1,5 +1,5 @@
-// The tooth frame of an imported tooth: +z occlusal, +x mesial, +y = z cross x (buccal; lingual for a tooth
-// whose handedness is the other one), origin at the middle of the enamel's box. What the files do not say is
+// The tooth frame of an imported tooth: +z occlusal, +x mesial, +y buccal: z cross x, or turned over (the mirror image) for a tooth
+// whose handedness is the other one; origin at the middle of the enamel's box. What the files do not say is
 // assumed by one rule and named in Tooth::source.
 #pragma once
 

@@ -146,8 +146,9 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   ReadMesh enamel = read_closed_mesh(paths.enamel), dentin = read_closed_mesh(paths.dentin), pulp = read_closed_mesh(paths.pulp);
   const double unit_mm = options.sense.units.empty() ? 1.0 : mm_per_unit(options.sense.units);
   for (auto* m : {&enamel, &dentin, &pulp}) scale(*m, unit_mm);
-  const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, options.frame);
-  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes, options.frame.mirror);
+  const FrameOptions settled = settled_frame(options.frame, options.sense);
+  const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, settled);
+  for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes, settled.mirror);
   Box crown, all;
   crown.add(enamel.mesh);
   MeshImport out;
@@ -203,8 +204,8 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     for (const auto& note : m->notes) source << "; " << note;
   out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
   out.tooth.source = source.str();
-  sense_tooth(out.tooth, options.frame, options.sense, paths.enamel, out.sense);
-  name_tooth(out.sense, options.sense, options.frame.mirror, out.tooth);
+  sense_tooth(out.tooth, settled, options.sense, paths.enamel, out.sense);
+  name_tooth(out.sense, options.sense, settled.mirror, out.tooth);
   return out;
 }
 

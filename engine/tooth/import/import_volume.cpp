@@ -230,7 +230,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   Volume volume = read_volume(path, options.spacing_mm);
   const auto [s, how] = read_tissues(volume, options, path);
   volume.gray = {};
-  const Placement placed = place_tooth(volume, s, options.frame, path);
+  const FrameOptions settled = settled_frame(options.frame, options.sense);
+  const Placement placed = place_tooth(volume, s, settled, path);
   require_size_of_a_tooth(volume, placed.box, path);
 
   VolumeImport out;
@@ -259,8 +260,8 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
     source << "no periodontium added";
   out.tooth.source = source.str();
   out.tooth.name = "tooth from " + (file.empty() ? path : file);
-  sense_tooth(out.tooth, options.frame, options.sense, path, out.sense);
-  name_tooth(out.sense, options.sense, options.frame.mirror, out.tooth);
+  sense_tooth(out.tooth, settled, options.sense, path, out.sense);
+  name_tooth(out.sense, options.sense, settled.mirror, out.tooth);
   return out;
 }
 

@@ -2,43 +2,31 @@
 // only suggests is said with its reasons; what was assumed is named. Nothing of it changes the tooth's leaves.
 #pragma once
 
+#include <array>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/vec.h"
 #include "engine/tooth/anatomy/landmarks.h"
+#include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/import/frame.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
 
-/// A permanent tooth by its FDI number (ISO 3950): 11 to 48.
-struct ToothNumber {
-  int fdi = 0;
-  [[nodiscard]] int quadrant() const noexcept { return fdi / 10; }  ///< 1 upper right, 2 upper left, 3 lower left, 4 lower right
-  [[nodiscard]] int place() const noexcept { return fdi % 10; }     ///< 1 central incisor to 8 third molar
-  [[nodiscard]] bool upper() const noexcept { return quadrant() <= 2; }
-  [[nodiscard]] bool left() const noexcept { return quadrant() == 2 || quadrant() == 3; }
-  /// Number of the universal system, 1 to 32.
-  [[nodiscard]] int universal() const noexcept;
-  [[nodiscard]] ToothClass tooth_class() const noexcept;
-  /// "36 (universal 19), lower left first molar"
-  [[nodiscard]] std::string text() const;
-  /// z cross mesial, with z occlusal, points to the lips or cheek in quadrants 1 and 3, and to tongue or palate in 2 and 4.
-  [[nodiscard]] bool y_is_buccal() const noexcept { return quadrant() % 2 == 1; }
-};
-/// Throws Error(`option`, ...) for what is no permanent tooth.
-[[nodiscard]] ToothNumber from_fdi(int number, const std::string& option);
-[[nodiscard]] ToothNumber from_universal(int number, const std::string& option);
+/// What an import refuses unless the user confirms it by name: the crown's size, which way is occlusal, the class of the number, where the pulp is
+/// wide, a bay in the outline, where mesial is, and on which side of the jaw the tooth stands.
+inline constexpr std::array<std::string_view, 7> k_confirmable{"size", "upright", "class", "pulp", "outline", "mesial", "side"};
 
 /// What the user says about the tooth.
 struct SenseOptions {
   std::optional<ToothNumber> number;
-  std::string units;          ///< of the files; empty: mm is assumed, and checked
-  std::string patient_frame;  ///< "lps" or "ras": the file's axes are the patient's; empty: not known
-  bool anyway = false;        ///< take it although it contradicts: what would be refused becomes a warning
+  std::string units;                   ///< of the files; empty: mm is assumed, and checked
+  std::string patient_frame;           ///< "lps" or "ras": the file's axes are the patient's; empty: not known
+  std::vector<std::string> confirmed;  ///< of k_confirmable: what would be refused becomes a warning
 };
 
 /// Mesial in the patient's frame ("lps": +x left, +y back; "ras": +x right, +y front; +z up), a unit vector: forwards at the molars, towards the
@@ -56,6 +44,10 @@ struct ToothSense {
 /// ones from 6 to 11 (Nelson, Wheeler's Dental Anatomy, table of measurements), each with a spread of some 10 %.
 inline constexpr double k_least_crown_width_mm = 4.5, k_most_crown_width_mm = 14.0;
 
+/// The frame in which the tooth will stand: mirrored where the number says that +y is lingual, for every later task, picture and word takes +x for
+/// mesial and +y for buccal. Throws Error("--mirror", ...) where a mirror would make +y lingual.
+[[nodiscard]] FrameOptions settled_frame(const FrameOptions& frame, const SenseOptions& options);
+
 /// Throws Error(`where`, ...) when the enamel's box is no human crown's: says which unit would make it one.
 /// `of_volume`: its voxels have a spacing instead of a unit.
 void check_crown_size(Vec3 enamel_extent_mm, const SenseOptions& options, const std::string& where, bool of_volume, ToothSense& sense);
@@ -65,8 +57,8 @@ void check_crown_size(Vec3 enamel_extent_mm, const SenseOptions& options, const 
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,
                    ToothSense& sense);
 
-/// Looks at the tooth once it stands in its frame: class, pulp, mesiodistal line, higher side. Throws Error(`where`, ...) where they contradict the
-/// options.
+/// Looks at the tooth once it stands in its settled frame: class, pulp, outline, buccal and mesial side. Throws Error(`where`, ...) where they
+/// contradict the options.
 void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense);
 
 /// Writes number and guesses into the tooth's name and source.

@@ -8,8 +8,8 @@
 
 namespace cavum {
 
-/// "occlusal" (under the central pit, else the middle of the fissure), "mesial" or "distal" (under the contact area), "buccal" or "lingual" (under
-/// the height of contour).
+/// "occlusal" (under the central pit, else the middle of the fissure), "mesial" or "distal" (under the contact area, or as
+/// far below it as the dentin begins), "buccal" or "lingual" (under the height of contour).
 struct LesionSite {
   std::string surface = "occlusal";
   double width_mm = 2.0;  ///< along the border of enamel and dentin, 0.5 to 6

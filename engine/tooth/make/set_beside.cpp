@@ -16,7 +16,9 @@
 #include "engine/tooth/fill.h"
 #include "engine/tooth/make/add_gum.h"
 #include "engine/tooth/make/formula_tooth.h"
+#include "engine/tooth/make/in_a_row.h"
 #include "engine/tooth/octree_edit.h"
+#include "engine/tooth/tooth_notes.h"
 
 namespace cavum {
 namespace {
@@ -130,7 +132,7 @@ ContactFacts contact_facts(const Placed& n, const std::vector<Vec3>& places) {
 /// The same leaves with more air around.
 TissueGrid with_room(const TissueGrid& grid, IVec3 before, IVec3 after, const std::string& where) {
   const IVec3 size = grid.size + before + after;
-  check_lattice(size, grid.leaf_mm, where);
+  check_lattice(size, grid.leaf_mm, where, k_most_row_leaves);
   TissueGrid wide;
   wide.allocate(size, grid.leaf_mm, grid.origin_mm - Vec3{double(before.x), double(before.y), double(before.z)} * grid.leaf_mm);
   for (std::int32_t z = 0; z < grid.size.z; ++z)
@@ -163,6 +165,7 @@ struct Side {
   Placed placed;
   ContactFacts facts;
   double limit_x_mm = 0.0;
+  std::string doubt;  ///< whether it stands beside the tooth in a jaw: confirmed, or not checked
 };
 
 void lay_neighbour(TissueGrid& grid, const Side& s, const BesideIds& ids) {
@@ -215,6 +218,10 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   s.placed.tree = &s.filled.octree;
   s.placed.turn = det_sincos(beside.turn_deg * k_pi / 180);
   const Landmarks other = find_landmarks(s.filled);
+  const RowVerdict row = stand_in_a_row({tooth.name, marks.tooth_class}, {beside.tooth->name, other.tooth_class}, side);
+  if (!row.why_not.empty() && !spec.confirmed)
+    throw Error(place, row.why_not, "give its neighbour; where they shall stand so all the same, --confirm neighbours takes them");
+  s.doubt = row.why_not.empty() ? row.unchecked : "confirmed (neighbours): " + row.why_not;
   const Vec3 *own_contact = furthest_along(marks.height_of_contour_mm, Vec3{1.0 * side, 0, 0}),
              *its_contact = furthest_along(other.height_of_contour_mm, Vec3{-1.0 * side, 0, 0});
   if (own_contact != nullptr && its_contact != nullptr) {
@@ -343,6 +350,7 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
     contacts.push_back(s.facts.at_mm);
     (s.side > 0 ? out.mesial : out.distal) = s.facts;
     out.tooth.source += words_of(s, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg);
+    if (!s.doubt.empty()) add_warning(out.tooth, s.doubt);
   }
   if (spec.gum) {
     add_gum(grid, out.tooth.tissues, ids, marks, contacts, where);

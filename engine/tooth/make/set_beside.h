@@ -21,6 +21,7 @@ struct BesideSpec {
   double contact_mm = 0.0;  ///< distance at the contact, 0 to k_widest_contact_leaves leaves
   double reach_mm = 3.0;    ///< how far the neighbour is kept beyond the contact, 1 to 6
   bool gum = false;
+  bool confirmed = false;  ///< they are to stand side by side although no jaw has them so (in_a_row.h)
 };
 inline constexpr double k_widest_contact_leaves = 1.5;
 
@@ -42,7 +43,7 @@ struct SetBeside {
 /// surface to the neighbour's interpolated distance: good to a tenth of a leaf. The tooth's own leaves stay as they are. The neighbour's pulp is
 /// dentin here, its roots are cut off 5 mm below the contact. Throws Error (`where` names the asker) when a tooth is given that has neighbours
 /// already, the leaves differ, the lattice grows too large, the surfaces do not meet, a length is out of range, or gum is asked for around a tooth
-/// without a neck.
+/// without a neck, or teeth that are no neighbours are not confirmed. What was confirmed or could not be checked is a warning in the tooth's notes.
 [[nodiscard]] SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::string& where);
 
 }  // namespace cavum

@@ -7,6 +7,7 @@
 
 #include "engine/scan/cut_by_scan.h"
 #include "engine/scan/holes.h"
+#include "engine/scan/scale_fit.h"
 #include "engine/scan/scan_fit.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/octree_edit.h"
@@ -133,6 +134,37 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
     if (scan == &crown) {
       EXPECT_GT(cut.unseen_mm3, 50.0);
     }
+  }
+}
+
+// A crown with a cavity and 10 um of noise, measured too large or too small by a scanner.
+TEST(ScaleFit, TellsByHowMuchAScanIsTooLarge) {
+  Random random(drawn_seed("ScaleFit.TellsByHowMuch"));
+  Tooth drilled = molar();
+  std::vector<RemovedLeaf> removed;
+  removed.reserve(400000);
+  drilled.octree.reserve_edits(40000);
+  ASSERT_TRUE(drilled.octree.carve(
+      {-3, -2, -1}, {3, 2, 5},
+      [](Vec3 p) {
+        return std::max({std::fabs(p.x) - 2.0, std::fabs(p.y) - 0.8, 0.5 - p.z});
+      },
+      removed));
+  const TriangleMesh whole = outer_surface(drilled, outside().outside());
+  for (const double size : {1.01, 0.985, 1.03, 0.95}) {
+    TriangleMesh scan{whole.vertices_mm, {}};
+    for (const auto& t : whole.triangles)
+      if (std::all_of(t.begin(), t.end(), [&](std::uint32_t v) { return whole.vertices_mm[v].z > -3.5; })) scan.triangles.push_back(t);
+    const Mat3 turn = any_turn(random);
+    for (Vec3& v : scan.vertices_mm) v = turn * (v + Vec3{random.normal(), random.normal(), random.normal()} * 0.01) * size + Vec3{7, -3, 20};
+    const auto points = surface_points(scan, 0.15, "scan");
+    const auto found = register_scan(points, outside());
+    ASSERT_TRUE(found.has_value());
+    EXPECT_FALSE(fits_tooth(fit_of(points, found->best.to_tooth, outside()))) << size;
+    const auto sized = fit_with_scale(points, found->best.to_tooth, outside());
+    ASSERT_TRUE(sized.has_value()) << size;
+    EXPECT_NEAR(sized->scale * size, 1.0, 0.001);
+    EXPECT_TRUE(fits_tooth(fit_of(in_size(points, sized->scale), sized->to_tooth, outside()))) << size;
   }
 }
 

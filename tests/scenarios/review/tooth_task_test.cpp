@@ -5,6 +5,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/tooth_notes.h"
 #include "scenarios/review/check.h"
 #include "tests/engine/support/basics.h"
 
@@ -48,6 +49,15 @@ TEST(ToothTask, PitsThatAPersonPutMakeAFissureWhereNoneWasFound) {
   ASSERT_GE(landmarks.central_fissure_mm.size(), 2u);
   for (const Vec3& p : landmarks.central_fissure_mm) EXPECT_NEAR(p.y, p.x / 3, 1e-9);
   EXPECT_TRUE(offered_tasks(tooth, landmarks)[0].why_not.empty());
+}
+
+TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
+  Tooth tooth = load_tooth_file(file_of("upper_premolar.cvt"));
+  add_guess(tooth, "mesial towards +x: by three signs");
+  add_warning(tooth, "whether it is tooth 15 could not be checked");
+  const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml", "slot_mesial").text;
+  EXPECT_NE(text.find("\n# Guessed by its shape: mesial towards +x: by three signs\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# Unsure: whether it is tooth 15 could not be checked\n"), std::string::npos) << text;
 }
 
 TEST(ToothTask, WhatMakesNoSenseIsRefused) {

@@ -93,9 +93,13 @@ TEST_F(ToothVerbs, ImportSaysWhichToothItIsAndRefusesAnother) {
   const auto wrong = run(meshes + " --tooth-number 11 --out " + path("w.cvt"));
   EXPECT_EQ(wrong.exit_code, 2);
   EXPECT_NE(wrong.err.find("shape of a molar"), std::string::npos) << wrong.err;
-  const auto anyway = run(meshes + " --tooth-number 11 --anyway --out " + path("w.cvt"));
-  EXPECT_EQ(anyway.exit_code, 0);
-  EXPECT_NE(anyway.err.find("taken anyway"), std::string::npos) << anyway.err;
+  const auto confirmed = run(meshes + " --tooth-number 11 --confirm class --out " + path("w.cvt"));
+  EXPECT_EQ(confirmed.exit_code, 0);
+  EXPECT_NE(confirmed.err.find("confirmed against what was measured (class)"), std::string::npos) << confirmed.err;
+  const auto info = run("tooth info " + path("w.cvt"));
+  EXPECT_NE(info.out.find("  unsure  confirmed against what was measured (class)"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("  guess   class molar"), std::string::npos) << info.out;
+  EXPECT_EQ(run(meshes + " --tooth-number 11 --confirm all --out " + path("w.cvt")).exit_code, 2) << "by name, one by one";
   EXPECT_EQ(run(meshes + " --tooth-number 36 --universal 19 --out " + path("b.cvt")).exit_code, 2);
   EXPECT_EQ(run(meshes + " --units in --out " + path("u.cvt")).exit_code, 2);
 }

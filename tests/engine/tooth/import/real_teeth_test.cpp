@@ -24,6 +24,7 @@ TEST(RealTeeth, FirstMolarKeepsItsVolumes) {
   if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
   MeshImportOptions o;
   o.periodontium_mm = 0;
+  o.frame.mesial_axis = Vec3{0, -1, 0};
   const auto done = import_meshes(layers("L6"), o);
   EXPECT_NEAR(volume_mm3(done.tooth, k_enamel), 221.8, 2.2);
   EXPECT_NEAR(volume_mm3(done.tooth, k_dentin), 647.5, 6.5);
@@ -33,7 +34,9 @@ TEST(RealTeeth, FirstMolarKeepsItsVolumes) {
 
 TEST(RealTeeth, IncisorAndPremolarKeepTheirVolumes) {
   if (shared_folder().empty()) GTEST_SKIP() << "no shared/ folder beside the repository: real teeth not tested";
-  const auto incisor = import_meshes(layers("L1"), {}).tooth, premolar = import_meshes(layers("L4"), {}).tooth;
+  MeshImportOptions turned;
+  turned.frame.mesial_axis = Vec3{-0.8, -0.6, 0};
+  const auto incisor = import_meshes(layers("L1"), {}).tooth, premolar = import_meshes(layers("L4"), turned).tooth;
   EXPECT_NEAR(volume_mm3(incisor, k_enamel), 55.2, 0.55);
   EXPECT_NEAR(volume_mm3(incisor, k_dentin), 204.8, 2.0);
   EXPECT_NEAR(volume_mm3(incisor, k_pulp), 10.7, 0.21);

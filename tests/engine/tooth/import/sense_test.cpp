@@ -9,9 +9,11 @@
 
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/import/import_meshes.h"
+#include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/tooth_notes.h"
 #include "tests/engine/tooth/import/imported_surfaces.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
@@ -95,13 +97,15 @@ TEST(Sense, OtherUnitsAreRefusedWithTheirNameAndTakenWhenSaid) {
   EXPECT_TRUE(says(refusal(molar(), wrong), "give mm, cm, m, um or in"));
 }
 
-TEST(Sense, CrownsOfNoHumanAreRefusedUnlessTakenAnyway) {
+TEST(Sense, CrownsOfNoHumanAreRefusedUnlessConfirmed) {
   const Surfaces horse = molar().changed([](Vec3 v) { return v * 2.0; });
   MeshImportOptions o = upright(k_sensed_mm);
   o.leaf_mm = 0.2;
   EXPECT_TRUE(says(refusal(horse, o), "human crowns 4.5 to 14 mm"));
-  o.sense.anyway = true;
-  EXPECT_TRUE(says(import_meshes(horse.write(fresh_folder()), o).sense.warnings, "taken anyway"));
+  o.sense.confirmed = {"class", "mesial"};
+  EXPECT_TRUE(says(refusal(horse, o), "--confirm size")) << "another name confirms nothing of this";
+  o.sense.confirmed = {"size"};
+  EXPECT_TRUE(says(import_meshes(horse.write(fresh_folder()), o).sense.warnings, "confirmed against what was measured (size)"));
 }
 
 TEST(Sense, UpsideDownAndAcrossAreRefused) {
@@ -166,31 +170,84 @@ TEST(Sense, ANumberOfAnotherClassIsRefusedAndARightOneIsKept) {
   const auto done = import_meshes(molar().write(fresh_folder()), o);
   EXPECT_TRUE(says(done.tooth.name, "tooth 36 (universal 19), lower left first molar")) << done.tooth.name;
   EXPECT_TRUE(says(done.tooth.source, "+y is buccal")) << done.tooth.source;
-  o.sense.anyway = true;
+  o.sense.confirmed = {"class"};
   o.sense.number = from_fdi(11, "x");
-  EXPECT_TRUE(says(import_meshes(molar().write(fresh_folder()), o).sense.warnings, "taken anyway"));
+  EXPECT_TRUE(says(import_meshes(molar().write(fresh_folder()), o).sense.warnings, "confirmed against what was measured (class)"));
 }
 
-// A lower right molar is the mirror image of our lower left one: its +y is lingual, and --mirror makes it ours.
-TEST(Sense, MirroredTeethAreToldAndTurnedOver) {
-  const Surfaces other = [] {
-    Surfaces s = molar().changed([](Vec3 v) { return Vec3{v.x, -v.y, v.z}; });
-    for (auto* m : {&s.enamel, &s.dentin, &s.pulp}) turn_inside_out(*m);
-    return s;
-  }();
+/// The tooth of the other side of the jaw.
+Surfaces in_a_mirror(const Surfaces& of) {
+  Surfaces s = of.changed([](Vec3 v) { return Vec3{v.x, -v.y, v.z}; });
+  for (auto* m : {&s.enamel, &s.dentin, &s.pulp}) turn_inside_out(*m);
+  return s;
+}
+
+// A lower right molar is the mirror image of our lower left one: its +y is lingual, and every later task takes +y for buccal.
+TEST(Sense, AToothOfTheOtherSideIsTakenAsItsMirrorImageAndSaysSo) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.sense.number = from_fdi(46, "x");
-  const auto plain = import_meshes(other.write(fresh_folder()), o);
-  EXPECT_TRUE(says(plain.sense.warnings, "--mirror")) << "it says so";
-  EXPECT_TRUE(says(plain.tooth.source, "+y is lingual"));
-  o.frame.mirror = true;
-  const auto mirrored = import_meshes(other.write(fresh_folder()), o);
-  EXPECT_FALSE(says(mirrored.sense.warnings, "--mirror"));
-  EXPECT_TRUE(says(mirrored.tooth.source, "mirrored") && says(mirrored.tooth.source, "+y is buccal"));
+  const auto mirrored = import_meshes(in_a_mirror(molar()).write(fresh_folder()), o);
+  EXPECT_TRUE(says(mirrored.sense.warnings, "mirror image"));
+  EXPECT_TRUE(says(mirrored.tooth.name, "tooth 46 (universal 30), lower right first molar, mirror image")) << mirrored.tooth.name;
+  const ToothNotes notes = notes_of(mirrored.tooth);
+  EXPECT_TRUE(notes.mirror_image);
+  EXPECT_EQ(notes.warnings, mirrored.sense.warnings);
   const Landmarks ours = find_landmarks(import_meshes(molar().write(fresh_folder()), upright(k_sensed_mm)).tooth),
                   theirs = find_landmarks(mirrored.tooth);
   ASSERT_EQ(ours.cusps.size(), theirs.cusps.size());
-  for (std::size_t i = 0; i < ours.cusps.size(); ++i) EXPECT_LT(length(ours.cusps[i].tip_mm - theirs.cusps[i].tip_mm), 0.3) << ours.cusps[i].name;
+  for (std::size_t i = 0; i < ours.cusps.size(); ++i) {
+    EXPECT_EQ(ours.cusps[i].name, theirs.cusps[i].name);
+    EXPECT_LT(length(ours.cusps[i].tip_mm - theirs.cusps[i].tip_mm), 0.3) << ours.cusps[i].name;
+  }
+  o.frame.mirror = true;
+  EXPECT_EQ(tooth_hash(import_meshes(in_a_mirror(molar()).write(fresh_folder()), o).tooth), tooth_hash(mirrored.tooth))
+      << "--mirror says it once more";
+  o.sense.number = from_fdi(36, "x");
+  EXPECT_TRUE(says(refusal(molar(), o), "would make +y lingual"));
+}
+
+/// A grown molar's surfaces: its sides differ as those of a human one do.
+const Surfaces& grown_molar() {
+  static const Surfaces s(grow_molar({7, k_sensed_mm, 0}));
+  return s;
+}
+
+TEST(Sense, AMolarTurnedAboutItsLongAxisIsRefusedWithTheTurnThatMendsIt) {
+  MeshImportOptions o = upright(k_sensed_mm);
+  o.sense.number = from_fdi(36, "x");
+  EXPECT_EQ(refusal(grown_molar(), o), "");
+  for (const int deg : {90, 180, -90}) {
+    MeshImportOptions turned = o;
+    turned.frame.mesial_axis.reset();
+    turned.frame.rotate_deg = deg;
+    const std::string text = refusal(grown_molar(), turned);
+    const auto at = text.find("--rotate-deg ");
+    ASSERT_NE(at, std::string::npos) << deg << ": " << text;
+    EXPECT_TRUE(says(text, "--confirm mesial")) << text;
+    turned.frame.rotate_deg = std::stod(text.substr(at + 13));
+    EXPECT_LT(std::fabs(turned.frame.rotate_deg), 30) << "the tooth lies upright in its file: " << text;
+    EXPECT_EQ(refusal(grown_molar(), turned), "") << deg;
+    turned.frame.rotate_deg = deg;
+    turned.sense.confirmed = {"mesial"};
+    EXPECT_TRUE(says(notes_of(import_meshes(grown_molar().write(fresh_folder()), turned).tooth).warnings, "confirmed")) << deg;
+  }
+  // the plain molar is alike on both sides: its canals tell the line
+  o.frame.mesial_axis = Vec3{0, 1, 0};
+  EXPECT_TRUE(says(refusal(molar(), o), "the canals leave the chamber along it")) << refusal(molar(), o);
+}
+
+TEST(Sense, ANumberOfTheOtherSideOfTheJawIsRefused) {
+  MeshImportOptions o = upright(k_sensed_mm);
+  o.sense.number = from_fdi(46, "x");
+  const std::string text = refusal(grown_molar(), o);
+  EXPECT_TRUE(says(text, "the other side") && says(text, "36") && says(text, "--confirm side")) << text;
+  o.sense.number = from_fdi(36, "x");
+  const std::string mirrored = refusal(in_a_mirror(grown_molar()), o);
+  EXPECT_TRUE(says(mirrored, "the other side") && says(mirrored, "46")) << mirrored;
+  o.sense.number.reset();
+  EXPECT_TRUE(says(refusal(in_a_mirror(grown_molar()), o), "--tooth-number")) << refusal(in_a_mirror(grown_molar()), o);
+  o.sense.confirmed = {"side"};
+  EXPECT_TRUE(says(import_meshes(in_a_mirror(grown_molar()).write(fresh_folder()), o).sense.warnings, "(side)"));
 }
 
 // A blunt or worn canine has an edge: nobody is refused his canine for it.
@@ -220,8 +277,8 @@ TEST(Sense, APieceOfAnotherToothOnTheContactIsRefused) {
     s.enamel.triangles.push_back({first + a, first + b, first + c});
   MeshImportOptions o = upright(k_sensed_mm);
   EXPECT_TRUE(says(refusal(s, o), "a piece of another tooth")) << refusal(s, o);
-  o.sense.anyway = true;
-  EXPECT_TRUE(says(import_meshes(s.write(fresh_folder()), o).sense.warnings, "taken anyway"));
+  o.sense.confirmed = {"outline"};
+  EXPECT_TRUE(says(import_meshes(s.write(fresh_folder()), o).sense.warnings, "confirmed against what was measured (outline)"));
 }
 
 TEST(Sense, AFrontToothsEdgeTellsTheMesiodistalLine) {
@@ -231,10 +288,11 @@ TEST(Sense, AFrontToothsEdgeTellsTheMesiodistalLine) {
   EXPECT_TRUE(says(refusal(premolar(), o), "degrees off"));
   o.frame.mesial_axis.reset();
   o.frame.rotate_deg = 90;
-  const auto done = import_meshes(incisor().write(fresh_folder()), o);
-  EXPECT_TRUE(says(done.sense.warnings, "--rotate-deg") && says(done.sense.warnings, "was not said"));
+  EXPECT_TRUE(says(refusal(incisor(), o), "--rotate-deg")) << "also where nobody said what is mesial: it was measured";
   o.frame.rotate_deg = 0;
-  EXPECT_FALSE(says(import_meshes(incisor().write(fresh_folder()), o).sense.warnings, "--rotate-deg"));
+  const auto done = import_meshes(incisor().write(fresh_folder()), o);
+  EXPECT_TRUE(says(done.sense.warnings, "neither said nor told"));
+  EXPECT_FALSE(says(done.sense.warnings, "--rotate-deg"));
 }
 
 }  // namespace

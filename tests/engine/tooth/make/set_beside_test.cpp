@@ -7,11 +7,14 @@
 #include <iostream>
 
 #include "engine/base/error.h"
+#include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/beside.h"
+#include "engine/tooth/make/in_a_row.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
 #include "engine/tooth/octree_edit.h"
+#include "engine/tooth/tooth_notes.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum {
@@ -79,6 +82,7 @@ const SetBeside& molar_in_row() {
     spec.mesial.tooth = &premolar;
     spec.distal.tooth = &row_molar();
     spec.gum = true;
+    spec.confirmed = true;  // a lower molar between an upper premolar and its own like
     return set_beside(row_molar(), spec, "here");
   }();
   return set;
@@ -164,6 +168,56 @@ TEST(SetBeside, WhatCannotStandTogetherIsRefused) {
   spec.gum = true;
   EXPECT_THROW(static_cast<void>(set_beside(make_block({2, 2, 2}, {{"enamel", 2.0}}, 0.1), spec, "here")), Error);  // a block has no neck
   EXPECT_THROW(static_cast<void>(set_beside(molar_in_row().tooth, spec, "here")), Error);
+}
+
+/// A tooth that is known by its name and the class of its shape alone.
+RowVerdict row_of(const std::string& tooth, ToothClass kind, const std::string& beside, ToothClass other, int side) {
+  const ClassGuess a{kind, 0.9, ""}, b{other, 0.9, ""};
+  return stand_in_a_row({tooth, a}, {beside, b}, side);
+}
+std::string numbered(int fdi) { return name_with(from_fdi(fdi, "x")) + "; tooth from a scan"; }
+
+TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
+  constexpr auto k_any = ToothClass::unknown;
+  for (const auto& [tooth, beside, side] : {std::tuple(36, 35, 1), {36, 37, -1}, {11, 12, -1}, {13, 12, 1}, {47, 46, 1}, {25, 26, -1}}) {
+    EXPECT_EQ(row_of(numbered(tooth), k_any, numbered(beside), k_any, side).why_not, "") << tooth << ' ' << beside;
+    EXPECT_EQ(row_of(numbered(tooth), k_any, numbered(beside), k_any, side).unchecked, "");
+    EXPECT_NE(row_of(numbered(tooth), k_any, numbered(beside), k_any, -side).why_not, "") << "on the other side";
+    EXPECT_NE(row_of(numbered(tooth), k_any, numbered(from_fdi(beside, "x").other_side().fdi), k_any, side).why_not, "") << "of the other half";
+  }
+  EXPECT_NE(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not.find("distal of tooth 37 stands tooth 38"), std::string::npos);
+  EXPECT_NE(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not.find("no tooth stands distal"), std::string::npos);
+  EXPECT_NE(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not.find("mesial surfaces"), std::string::npos);
+}
+
+TEST(InARow, WithoutNumbersClassAndJawDecide) {
+  constexpr auto k_molar = ToothClass::molar, k_premolar = ToothClass::premolar, k_incisor = ToothClass::incisor;
+  EXPECT_EQ(row_of("scan", k_molar, "scan", k_premolar, 1).why_not, "");
+  EXPECT_NE(row_of("scan", k_molar, "scan", k_premolar, 1).unchecked, "") << "their numbers were not said";
+  EXPECT_NE(row_of("scan", k_molar, "scan", k_premolar, -1).why_not, "");
+  EXPECT_NE(row_of("scan", k_molar, "scan", k_incisor, 1).why_not, "");
+  EXPECT_NE(row_of(numbered(37), k_molar, "scan", k_premolar, -1).why_not, "") << "a premolar distal of a second molar";
+  EXPECT_NE(row_of(numbered(37), k_molar, "scan", k_premolar, 1).why_not, "") << "nor mesial: a first molar stands there";
+  EXPECT_EQ(row_of("scan", k_premolar, "scan", k_molar, -1).why_not, "");
+  EXPECT_NE(row_of("lower first molar (seed 3)", k_molar, "upper second premolar (seed 4)", k_premolar, 1).why_not.find("upper"), std::string::npos);
+  EXPECT_EQ(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).why_not, "");
+  EXPECT_NE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).unchecked, "");
+}
+
+TEST(SetBeside, TeethThatAreNoNeighboursAreRefusedUnlessConfirmedAndThatIsKept) {
+  PremolarShape shape;
+  shape.leaf_mm = 0.2;
+  Tooth premolar = make_premolar(shape);
+  BesideSpec spec;
+  spec.distal.tooth = &premolar;
+  Tooth tooth = premolar;
+  tooth.name = numbered(15);
+  premolar.name = numbered(14);
+  EXPECT_THROW(static_cast<void>(set_beside(tooth, spec, "here")), Error);
+  spec.confirmed = true;
+  const ToothNotes notes = notes_of(set_beside(tooth, spec, "here").tooth);
+  ASSERT_EQ(notes.warnings.size(), 1u);
+  EXPECT_NE(notes.warnings[0].find("distal of tooth 15 stands tooth 16, and this is tooth 14"), std::string::npos) << notes.warnings[0];
 }
 
 }  // namespace

@@ -1,0 +1,70 @@
+#include "engine/tooth/anatomy/tooth_number.h"
+
+#include <fmt/core.h>
+
+#include <array>
+#include <string_view>
+
+#include "engine/base/error.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::string_view k_numbered = "tooth ";
+
+}  // namespace
+
+int ToothNumber::universal() const noexcept {
+  switch (quadrant()) {
+    case 1:
+      return 9 - place();
+    case 2:
+      return 8 + place();
+    case 3:
+      return 25 - place();
+    default:
+      return 24 + place();
+  }
+}
+
+ToothClass ToothNumber::tooth_class() const noexcept {
+  return place() <= 2 ? ToothClass::incisor : place() == 3 ? ToothClass::canine : place() <= 5 ? ToothClass::premolar : ToothClass::molar;
+}
+
+std::string ToothNumber::text() const {
+  static constexpr std::array<const char*, 8> k_names{"central incisor", "lateral incisor", "canine",       "first premolar",
+                                                      "second premolar", "first molar",     "second molar", "third molar"};
+  return fmt::format("{} (universal {}), {} {} {}", fdi, universal(), upper() ? "upper" : "lower", left() ? "left" : "right",
+                     k_names[static_cast<std::size_t>(place() - 1)]);
+}
+
+ToothNumber from_fdi(int number, const std::string& option) {
+  const ToothNumber n{number};
+  if (number < 11 || n.quadrant() > 4 || n.place() < 1 || n.place() > 8)
+    throw Error(option, fmt::format("{} is no permanent tooth of the FDI", number), "give 11 to 18, 21 to 28, 31 to 38 or 41 to 48");
+  return n;
+}
+
+ToothNumber from_universal(int number, const std::string& option) {
+  if (number < 1 || number > 32) throw Error(option, fmt::format("{} is no permanent tooth of the universal system", number), "give 1 to 32");
+  const int fdi = number <= 8 ? 10 + 9 - number : number <= 16 ? 20 + number - 8 : number <= 24 ? 30 + 25 - number : 40 + number - 24;
+  return from_fdi(fdi, option);
+}
+
+std::string name_with(const ToothNumber& number) { return std::string(k_numbered) + number.text(); }
+
+std::optional<ToothNumber> number_in(const std::string& name) {
+  for (int quadrant = 1; quadrant <= 4; ++quadrant)
+    for (int place = 1; place <= 8; ++place)
+      if (const ToothNumber n{10 * quadrant + place}; name.starts_with(name_with(n))) return n;
+  return std::nullopt;
+}
+
+std::optional<bool> upper_in(const std::string& name) {
+  if (const auto n = number_in(name)) return n->upper();
+  if (name.starts_with("upper ")) return true;
+  if (name.starts_with("lower ")) return false;
+  return std::nullopt;
+}
+
+}  // namespace cavum

@@ -1,0 +1,79 @@
+#include "engine/tooth/make/in_a_row.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <optional>
+
+#include "engine/tooth/anatomy/tooth_number.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_sure_class = 0.6;  // a class guessed less surely contradicts nobody
+constexpr int k_last_place = 8;
+
+/// Places from the midline, 1 to 8; none: 0 to 0.
+struct Places {
+  int first = 0, last = 0;
+};
+
+/// Where a tooth may stand. By shape alone incisors and canines pass for one another.
+Places places_of(const RowTooth& tooth) {
+  if (const auto n = number_in(tooth.name)) return {n->place(), n->place()};
+  if (tooth.shape.sureness < k_sure_class) return {};
+  switch (tooth.shape.kind) {
+    case ToothClass::incisor:
+    case ToothClass::canine:
+      return {1, 3};
+    case ToothClass::premolar:
+      return {4, 5};
+    case ToothClass::molar:
+      return {6, k_last_place};
+    default:
+      return {};
+  }
+}
+
+std::string words_for(const RowTooth& tooth) {
+  if (const auto n = number_in(tooth.name)) return fmt::format("tooth {}", n->fdi);
+  return fmt::format("'{}', by its shape a {}", tooth.name, name_of(tooth.shape.kind));
+}
+
+/// By numbers alone; none where one of them was not said.
+std::optional<RowVerdict> by_numbers(const RowTooth& tooth, const RowTooth& beside, int side) {
+  const auto n = number_in(tooth.name), other = number_in(beside.name);
+  if (!n || !other) return std::nullopt;
+  const char* where = side > 0 ? "mesial" : "distal";
+  if (side > 0 && n->place() == 1)
+    return RowVerdict{
+        fmt::format("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it", n->fdi,
+                    n->other_side().fdi),
+        ""};
+  if (side < 0 && n->place() == k_last_place) return RowVerdict{fmt::format("no tooth stands distal of tooth {}", n->fdi), ""};
+  const int wanted = n->fdi - side;
+  if (other->fdi == wanted) return RowVerdict{};
+  return RowVerdict{fmt::format("{} of tooth {} stands tooth {}, and this is tooth {}", where, n->fdi, wanted, other->fdi), ""};
+}
+
+}  // namespace
+
+RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int side) {
+  if (const auto verdict = by_numbers(tooth, beside, side)) return *verdict;
+  const auto jaw = upper_in(tooth.name), other_jaw = upper_in(beside.name);
+  if (jaw && other_jaw && *jaw != *other_jaw)
+    return {
+        fmt::format("'{}' is {} tooth and '{}' {} one", tooth.name, *jaw ? "an upper" : "a lower", beside.name, *other_jaw ? "an upper" : "a lower"),
+        ""};
+  const Places own = places_of(tooth), other = places_of(beside);
+  if (own.first == 0 || other.first == 0)
+    return {"", fmt::format("whether '{}' may stand beside '{}' could not be checked: {} class is not told", beside.name, tooth.name,
+                            own.first == 0 ? "the tooth's" : "its")};
+  if (std::max(own.first - side, other.first) > std::min(own.last - side, other.last))
+    return {fmt::format("no tooth like {} stands {} of {}", words_for(beside), side > 0 ? "mesial" : "distal", words_for(tooth)), ""};
+  const bool made = jaw && other_jaw && !number_in(tooth.name) && !number_in(beside.name);  // by our makers: they have kinds, and no numbers
+  if (made) return {};
+  return {"", fmt::format("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said", beside.name, tooth.name)};
+}
+
+}  // namespace cavum
