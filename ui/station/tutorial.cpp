@@ -49,6 +49,7 @@ bool Tutorial::did(const TutorialSight& s) {
       if (s.cutting) hole_mm_ = std::max(hole_mm_, dot(touched_mm_ - s.tip_mm, s.out));
       return hole_mm_ >= k_hole_mm;
     default:
+      if (s.cutting) hole_mm_ = std::max(hole_mm_, dot(touched_mm_ - s.tip_mm, s.out));
       return !s.contact && dot(s.tip_mm - touched_mm_, s.out) > k_off_mm && s.rpm < k_standing_rpm;
   }
 }

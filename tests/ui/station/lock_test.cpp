@@ -186,8 +186,8 @@ key 0
 sleep 0.3
 picture 18-tutorial
 hold space
-key pagedown 3.5
-sleep 0.3
+key pagedown 1.5
+sleep 3
 key pageup 2
 release space
 sleep 1
