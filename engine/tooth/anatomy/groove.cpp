@@ -29,11 +29,11 @@ struct Reach {
 };
 
 /// Heights and lengths along a way, mm.
-struct Profile {
+struct GrooveProfile {
   std::vector<double> z, s;
 };
-Profile profile_of(const HeightMap& map, const std::vector<int>& way) {
-  Profile p;
+GrooveProfile profile_of(const HeightMap& map, const std::vector<int>& way) {
+  GrooveProfile p;
   for (std::size_t i = 0; i < way.size(); ++i) {
     double sum = 0;
     const std::size_t from = i >= k_smooth_cells ? i - k_smooth_cells : 0, to = std::min(i + k_smooth_cells, way.size() - 1);
@@ -46,7 +46,7 @@ Profile profile_of(const HeightMap& map, const std::vector<int>& way) {
 }
 
 /// From the way's first place inwards: where it no longer climbs the side, and from there the highest place of a ridge.
-std::optional<GrooveEnd> end_of(const Profile& p) {
+std::optional<GrooveEnd> end_of(const GrooveProfile& p) {
   std::size_t behind = 0, ahead = 0;
   for (std::size_t i = 0; i < p.z.size(); ++i) {
     while (p.s[i] - p.s[behind] > 0.5 * k_slope_over_mm) ++behind;
@@ -113,8 +113,8 @@ std::optional<Groove> find_groove(const HeightMap& map, double least_z, double l
   const auto bend = surface_curvature(map);
   Groove groove;
   groove.way = valley_way(map, allowed, bend, mesial, distal);
-  const Profile there = profile_of(map, groove.way);
-  Profile back = there;
+  const GrooveProfile there = profile_of(map, groove.way);
+  GrooveProfile back = there;
   std::reverse(back.z.begin(), back.z.end());
   for (std::size_t i = 0; i < back.s.size(); ++i) back.s[i] = there.s.back() - there.s[there.s.size() - 1 - i];
   const auto mesial_end = end_of(there), distal_end = end_of(back);

@@ -63,20 +63,20 @@ Slices slices_of(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp)
   return s;
 }
 
-struct Piece {
+struct PulpPiece {
   int cells = 0;
   double x = 0, y = 0;  // sums
   bool goes_on = false;
 };
 
 /// Pieces of a slice that hang together by sides; `below`: the slice that a piece must reach straight down to go on.
-std::vector<Piece> pieces_of(const Slices& s, int z, int below) {
-  std::vector<Piece> pieces;
+std::vector<PulpPiece> pieces_of(const Slices& s, int z, int below) {
+  std::vector<PulpPiece> pieces;
   std::vector<std::uint8_t> seen(s.index(0, 0, 1), 0);
   std::vector<int> stack;
   for (int start = 0; start < s.nx * s.ny; ++start) {
     if (s.in[s.index(start % s.nx, start / s.nx, z)] == 0 || seen[static_cast<std::size_t>(start)] != 0) continue;
-    Piece piece;
+    PulpPiece piece;
     stack.assign(1, start);
     seen[static_cast<std::size_t>(start)] = 1;
     while (!stack.empty()) {
@@ -111,7 +111,7 @@ int floor_slice(const Slices& s, int widest) {
   int since = -1;
   for (int z = widest; z >= 0; --z) {
     const auto pieces = pieces_of(s, z, z);
-    const auto branches = std::count_if(pieces.begin(), pieces.end(), [&](const Piece& p) { return p.cells >= least; });
+    const auto branches = std::count_if(pieces.begin(), pieces.end(), [&](const PulpPiece& p) { return p.cells >= least; });
     if (branches < 2)
       since = -1;
     else if (since < 0)
@@ -121,7 +121,7 @@ int floor_slice(const Slices& s, int widest) {
   return -1;
 }
 
-CanalOpening opening_of(const Slices& s, const Piece& p, double z_mm) {
+CanalOpening opening_of(const Slices& s, const PulpPiece& p, double z_mm) {
   const Vec3 at = s.place(p.x / p.cells, p.y / p.cells, 0);
   return {{at.x, at.y, z_mm}, std::sqrt(p.cells / k_pi) * k_cell};
 }
@@ -230,7 +230,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
     const int z = static_cast<int>((*neck_z - s.low.z) / k_cell + 0.5);
     if (z > 0 && z < s.nz) {
       const auto pieces = pieces_of(s, z, z);
-      const auto main = std::max_element(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.cells < b.cells; });
+      const auto main = std::max_element(pieces.begin(), pieces.end(), [](const PulpPiece& a, const PulpPiece& b) { return a.cells < b.cells; });
       if (main != pieces.end()) marks.mouths.push_back(opening_of(s, *main, *neck_z));
     }
     marks.notes.emplace_back("one canal: the chamber has no floor, its canal begins at the neck");
