@@ -267,7 +267,7 @@ std::string about(const Tooth& tooth) {
   std::string text = one_line(tooth.name);
   const ToothNotes notes = notes_of(tooth);
   for (const auto& guess : notes.guesses) text += "\n# Guessed by its shape: " + one_line(guess);
-  for (const auto& warning : notes.warnings) text += "\n# Unsure: " + one_line(warning);
+  for (const auto& warning : notes.warnings) text += "\n# Notice: " + one_line(warning);
   return text;
 }
 

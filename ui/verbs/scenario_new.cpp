@@ -80,13 +80,13 @@ int make_for_tooth(const NewArguments& o) {
                     {"task", task},
                     {"chosen", written.chosen},
                     {"warnings", warnings},
-                    {"guesses", notes.guesses},
-                    {"unsure", notes.warnings}});
+                    {"tooth_guesses", notes.guesses},
+                    {"tooth_notices", notes.warnings}});
     return 0;
   }
   std::cout << "written: " << o.out << "; " << task << " on " << one_line(tooth.name) << ": " << written.chosen << "\n";
   for (const auto& p : written.problems) std::cout << one_line(p.text()) << "\n";
-  for (const auto& warning : notes.warnings) std::cout << "unsure of the tooth: " << one_line(warning) << "\n";
+  for (const auto& warning : notes.warnings) std::cout << "notice: " << one_line(warning) << "\n";
   std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << "\n";
   return 0;
 }

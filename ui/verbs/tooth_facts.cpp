@@ -70,7 +70,7 @@ void print_tooth(const nlohmann::ordered_json& d) {
   std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
   std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
   for (const auto& guess : d["guesses"]) std::printf("  guess   %s\n", one_line(guess.get<std::string>()).c_str());
-  for (const auto& warning : d["warnings"]) std::printf("  unsure  %s\n", one_line(warning.get<std::string>()).c_str());
+  for (const auto& warning : d["warnings"]) std::printf("  notice  %s\n", one_line(warning.get<std::string>()).c_str());
 }
 
 }  // namespace cavum::ui

@@ -103,32 +103,32 @@ std::optional<SeenTurn> by_canals(const Landmarks& l) {
 void count_sign(double mesial_minus_distal, double least, const char* words, Orientation& o) {
   if (std::fabs(mesial_minus_distal) < least) return;
   ++(mesial_minus_distal > 0 ? o.mesial_for : o.mesial_against);
-  o.mesial_signs += fmt::format("{}{} {} x", o.mesial_signs.empty() ? "" : ", ", words, mesial_minus_distal > 0 ? "towards +" : "towards -");
+  o.mesial_signs += fmt::format("{}{} {}x", o.mesial_signs.empty() ? "" : ", ", words, mesial_minus_distal > 0 ? "+" : "-");
 }
 
 /// Of back teeth: the mesial side has the higher height of contour and cervical line and is the broader one, and roots bend to distal (Nelson,
 /// Wheeler's); of three canals of a lower molar two are mesial.
 void count_mesial_signs(const Landmarks& l, bool lower_molar, Orientation& o) {
   if (const auto fall = fall_of(l.height_of_contour_mm, l.long_axis)) {
-    count_sign(-2 * fall->x, k_rise_mm, "higher contour", o);
+    count_sign(-2 * fall->x, k_rise_mm, "higher contour towards", o);
     const auto [low, high] =
         std::minmax_element(l.height_of_contour_mm.begin(), l.height_of_contour_mm.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
     const double middle = 0.5 * (low->x + high->x), off = 0.3 * (high->x - low->x);
-    count_sign(width_at(l.height_of_contour_mm, middle + off) - width_at(l.height_of_contour_mm, middle - off), k_taper_mm, "broader side", o);
+    count_sign(width_at(l.height_of_contour_mm, middle + off) - width_at(l.height_of_contour_mm, middle - off), k_taper_mm, "broader towards", o);
   }
   if (const auto fall = fall_of(l.neck_mm, l.long_axis)) {
-    count_sign(-2 * fall->x, k_rise_mm, "higher neck", o);
+    count_sign(-2 * fall->x, k_rise_mm, "higher neck towards", o);
     double apex = 0;
     for (const Vec3 p : l.apices_mm) apex += (p.x - l.long_axis.through_mm.x) / static_cast<double>(l.apices_mm.size());
-    count_sign(-apex, k_root_mm, "roots bent away, mesial", o);
+    count_sign(-apex, k_root_mm, "roots bent away from", o);
   }
   if (lower_molar && l.canal_mouths.size() == 3) {
     std::vector<double> x;
     for (const auto& m : l.canal_mouths) x.push_back(m.at_mm.x);
     std::sort(x.begin(), x.end());
     constexpr double k_pair = 1.5;
-    if (x[1] - x[0] > k_pair * (x[2] - x[1])) count_sign(1, 0.5, "two canals", o);
-    if (x[2] - x[1] > k_pair * (x[1] - x[0])) count_sign(-1, 0.5, "two canals", o);
+    if (x[1] - x[0] > k_pair * (x[2] - x[1])) count_sign(1, 0.5, "two canals towards", o);
+    if (x[2] - x[1] > k_pair * (x[1] - x[0])) count_sign(-1, 0.5, "two canals towards", o);
   }
 }
 

@@ -57,7 +57,7 @@ TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
   add_warning(tooth, "whether it is tooth 15 could not be checked");
   const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml", "slot_mesial").text;
   EXPECT_NE(text.find("\n# Guessed by its shape: mesial towards +x: by three signs\n"), std::string::npos) << text;
-  EXPECT_NE(text.find("\n# Unsure: whether it is tooth 15 could not be checked\n"), std::string::npos) << text;
+  EXPECT_NE(text.find("\n# Notice: whether it is tooth 15 could not be checked\n"), std::string::npos) << text;
 }
 
 TEST(ToothTask, WhatMakesNoSenseIsRefused) {
