@@ -91,7 +91,8 @@ std::vector<Ring> rings_of(const DiamondPoint& point, float from_mm, float to_mm
 }  // namespace
 
 MeshData diamond_head_mesh(const DiamondPoint& point) {
-  std::vector<Ring> rings = rings_of(point, -1.0F, working_end_mm(point), k_fine_mm);
+  // a ring farther than where the shank begins: no gap between the two
+  std::vector<Ring> rings = rings_of(point, -1.0F, working_end_mm(point) + static_cast<float>(k_fine_mm), k_fine_mm);
   MeshData mesh;
   if (rings.empty()) return mesh;
   close(rings, true);

@@ -103,7 +103,8 @@ Lamp lamp_of(const Camera& camera, int shadow_edge) {
   const glm::vec3 up(0, 0, 1), to_eye(-std::sin(turn), std::cos(turn), 0), left = glm::cross(to_eye, up);
   Lamp lamp;
   constexpr float k_lean = 0.58F;  // tangent of how far it leans
-  lamp.towards = glm::normalize(up + k_lean * (0.94F * left + 0.34F * to_eye));
+  // from behind the tooth: shadows fall towards the eye, where the instrument does not hide them
+  lamp.towards = glm::normalize(up + k_lean * (0.84F * left - 0.54F * to_eye));
   constexpr float k_far_mm = 30.0F, k_above_mm = 24.0F, k_below_mm = 8.0F;  // what lies lower is in the shadow of what lies above, or lit
   const glm::mat4 look = glm::lookAt(camera.target_mm + k_far_mm * lamp.towards, camera.target_mm, to_eye);
   lamp.to_lamp =

@@ -1,4 +1,4 @@
-// The light of the scene: a lamp over the mouth, a little to the left of the eye and turning with it, and a room around. The room is a few formulas
+// The light of the scene: a lamp over the mouth, to the left and a little beyond, turning with the eye, and a room around. The room is a few formulas
 // (sky, wall, tray, window), worked out once into what falls on a surface from all sides (spherical harmonics) and what is mirrored by it (a small
 // table, at three roughnesses).
 #pragma once

@@ -115,12 +115,12 @@ void main() {
   vec2 where = vec2(length(in_tool.xy) * tool_table.x, in_tool.z * tool_table.y + tool_table.z);
   float mm = texture(tool_mm, where).r;
   near = 1.0 - 0.55 * exp2(-3.5 * max(mm, 0.0));
-  ring = 1.0 - 0.84 * tool_table.w * (1.0 - smoothstep(0.02, 0.50, mm));
+  ring = 1.0 - 0.90 * tool_table.w * (1.0 - smoothstep(0.02, 0.50, mm));
 #endif
   float enamel = nature.x, pulp = nature.y, open = nature.z;
   float soft = mix(0.30, 0.18, enamel);  // light wanders in tissue
   float from_lamp = max((nl + soft) / (1.0 + soft), 0.0) * lit;
-  float from_eye = 0.17 * nv * (0.35 + 0.65 * open);
+  float from_eye = 0.25 * nv * (0.35 + 0.65 * open);
   float rim = enamel * (1.0 - nv) * (1.0 - nv);
   vec3 c = tint * ((around + from_eye) * near + lamp_colour * from_lamp);
   c = mix(c, vec3(0.80, 0.86, 0.92) * (0.35 * around + 0.5 * lamp_colour * lit), 0.38 * rim * open);  // the paler edge of enamel
