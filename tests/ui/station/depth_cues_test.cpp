@@ -190,7 +190,7 @@ TEST_F(DepthCues, TheRingTellsTouchingFromAThirdOfAMillimetreAndTheShadowFromThr
   std::vector<DiamondPoint> tray;
   for (const auto& name : testing_engine::point_names()) tray.push_back(testing_engine::diamond_point(name));
 
-  const Window window("Cavum", 640, 480);
+  const Window window({"Cavum", 640, 480, {}});
   Scene scene(tooth.octree, tooth.tissues, tray, nullptr);
   int right = 0, ring_right = 0, shadow_right = 0, lifted_right = 0;
   for (int n = 0; n < poses; ++n) {
