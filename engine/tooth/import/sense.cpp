@@ -82,10 +82,22 @@ std::string other_number(const SenseOptions& options) {
                         : "give its --tooth-number: those of quadrants 2 and 4 are mirrored";
 }
 
-/// Which way mesial and buccal are, against what was said: nothing of it is taken silently.
+/// The user has said nothing of where mesial and buccal are: the file's axes stand for them by rule alone.
+bool said_nothing_of_sides(const FrameOptions& frame, const SenseOptions& options) {
+  return !options.number && !frame.mesial_axis && options.patient_frame.empty() && frame.rotate_deg == 0 && !frame.mirror;
+}
+
+/// Which way mesial and buccal are. What contradicts what was said is refused; where nothing was said there is nothing to contradict, and a warning
+/// says what the shape shows, here and in every task for the tooth.
 void sense_orientation(const Landmarks& l, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense) {
   const Orientation seen = seen_orientation(l, options.number);
   const int mesial = seen.mesial();
+  const auto contradict = [&](std::string_view name, const std::string& what, const std::string& what_to_do) {
+    if (said_nothing_of_sides(frame, options))
+      sense.warnings.push_back(fmt::format("nothing was said of mesial, and by rule {}; {}", what, what_to_do));
+    else
+      object(options, name, where, what, what_to_do, sense);
+  };
   if (seen.turn) {
     const auto& [deg, line, reason] = *seen.turn;
     sense.guesses.push_back(line ? fmt::format("mesiodistal line {:.0f} degrees from +x: {}", deg, reason)
@@ -95,10 +107,10 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
     const std::string what = line ? fmt::format("+x should be mesial, but the shape puts the mesiodistal line {:.0f} degrees off ({})", deg, reason)
                                   : fmt::format("+y should be buccal, but the shape puts that side {:.0f} degrees off ({})", deg, reason);
     if (off > 180 - k_wrong_deg && (mesial > 0 || (mesial == 0 && frame.mesial_axis)))
-      object(options, "side", where, what + (mesial > 0 ? ", and mesial where it should be: the tooth of the other side of the jaw" : ""),
-             fmt::format("{}, or say {} if mesial is on the other end", other_number(options), turn), sense);
+      contradict("side", what + (mesial > 0 ? ", and mesial where it should be: the tooth of the other side of the jaw" : ""),
+                 fmt::format("{}, or say {} if mesial is on the other end", other_number(options), turn));
     else if (off > k_wrong_deg)
-      object(options, "mesial", where, what, fmt::format("say {}{}", turn, frame.mesial_axis ? ", or another --mesial-axis" : ""), sense);
+      contradict("mesial", what, fmt::format("say {}{}", turn, frame.mesial_axis ? ", or another --mesial-axis" : ""));
     else if (off > k_askew_deg)
       sense.warnings.push_back(fmt::format("{}: {} would bring it there", what, turn));
     if (off > k_wrong_deg) return;  // confirmed: mesial's own signs were looked for along the wrong line
@@ -108,9 +120,9 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
     const std::string what = fmt::format("+x should be mesial, but the shape puts that side towards -x ({})", seen.mesial_signs);
     const std::string turn = fmt::format("--rotate-deg {:.0f}", rotate_deg(frame, 180));
     if (seen.buccal_told)
-      object(options, "side", where, what + ", and buccal where it should be: the tooth of the other side of the jaw", other_number(options), sense);
+      contradict("side", what + ", and buccal where it should be: the tooth of the other side of the jaw", other_number(options));
     else
-      object(options, "mesial", where, what, fmt::format("say {}", turn), sense);
+      contradict("mesial", what, fmt::format("say {}", turn));
   }
   if (!seen.turn && mesial == 0 && l.tooth_class.kind != ToothClass::unknown)
     sense.warnings.emplace_back("neither buccal nor mesial could be told from the shape: where they are was not checked");

@@ -231,6 +231,13 @@ TEST(Sense, AMolarTurnedAboutItsLongAxisIsRefusedWithTheTurnThatMendsIt) {
     turned.sense.confirmed = {"mesial"};
     EXPECT_TRUE(says(notes_of(import_meshes(grown_molar().write(fresh_folder()), turned).tooth).warnings, "confirmed")) << deg;
   }
+  // where nothing is said of sides there is nothing to contradict: it is taken, and the tooth bears the warning
+  MeshImportOptions silent = o;
+  silent.sense.number.reset();
+  silent.frame.mesial_axis.reset();
+  const auto taken = import_meshes(grown_molar().changed([](Vec3 p) { return Vec3{p.y, -p.x, p.z}; }).write(fresh_folder()), silent);
+  EXPECT_TRUE(says(notes_of(taken.tooth).warnings, "nothing was said of mesial")) << taken.tooth.source;
+  EXPECT_TRUE(says(notes_of(taken.tooth).warnings, "--rotate-deg"));
   // the plain molar is alike on both sides: its canals tell the line
   o.frame.mesial_axis = Vec3{0, 1, 0};
   EXPECT_TRUE(says(refusal(molar(), o), "the canals leave the chamber along it")) << refusal(molar(), o);
