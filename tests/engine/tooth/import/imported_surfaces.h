@@ -19,7 +19,7 @@ struct Surfaces {
     return out;
   }
   [[nodiscard]] MeshPaths write(const fs::path& folder) const {
-    const MeshPaths paths{(folder / "enamel.stl").string(), (folder / "dentin.stl").string(), (folder / "pulp.stl").string()};
+    MeshPaths paths{(folder / "enamel.stl").string(), (folder / "dentin.stl").string(), (folder / "pulp.stl").string()};
     write_mesh_file(enamel, paths.enamel);
     write_mesh_file(dentin, paths.dentin);
     write_mesh_file(pulp, paths.pulp);
