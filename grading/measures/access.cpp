@@ -160,9 +160,11 @@ void measure_canals(const GradeInput& input, const AimLeaves& aim, AccessMeasure
   for (const IVec3 leaf : mouths) {
     const bool blocked = mouth.at(leaf) == k_covered;
     bool at_rim = false, at_edge = false;
-    for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}}) {
+    // what covers a mouth's corner alone lies over the leaf beyond that corner
+    for (const IVec3 step :
+         {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{1, 1, 0}, IVec3{1, -1, 0}, IVec3{-1, 1, 0}, IVec3{-1, -1, 0}}) {
       const std::uint8_t beside = mouth.at(leaf + step);
-      at_rim = at_rim || beside == 0;
+      at_rim = at_rim || (beside == 0 && step.x * step.y == 0);
       // beside a mouth the floor is hard: what covers lies above it
       const bool blocked_beside = beside == 0 ? covered_from(tree.leaf_at(zones.centre_mm(leaf + step) + up * 2.0)) : beside == k_covered;
       at_edge = at_edge || blocked_beside != blocked;

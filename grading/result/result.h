@@ -15,7 +15,7 @@
 namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points or another criterion than before. It stands in every result.
-inline constexpr int k_grading_version = 6;
+inline constexpr int k_grading_version = 7;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
 inline constexpr std::int64_t k_untimed_tick = 0x7fffffff;

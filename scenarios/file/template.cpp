@@ -1,7 +1,8 @@
 #include "scenarios/file/template.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <array>
 #include <string_view>
 
@@ -11,28 +12,14 @@
 namespace cavum::scenarios {
 namespace {
 
-/// A tooth that tasks are written for. A new tooth is a new line here, with a line in k_tasks for each task it is good for.
-struct ToothKind {
-  std::string_view word, file, how;  ///< as --tooth names it; file of data/teeth; where it comes from
-};
-constexpr std::array<ToothKind, 5> k_teeth{{
-    {"molar", "lower_molar.cvt", "lower first molar, ships with Cavum"},
-    {"premolar", "upper_premolar.cvt", "upper second premolar, ships with Cavum"},
-    {"incisor", "upper_incisor.cvt", "upper central incisor, ships with Cavum"},
-    {"carious_molar", "molar_lesion.cvt", "lower first molar with a hidden lesion: cavum tooth make molar --lesion 0.2,0,-0.85,1.5,1.1,0.55"},
-    {"block", "block.cvt",
-     "ships with Cavum: cavum tooth make block --size-mm 10,10,6 --layers enamel:1.2,dentin:2.0,pulp:1.5,dentin:1.3 --leaf-mm 0.05"},
-}};
+constexpr std::array<ShippedTooth, 4> k_shipped_teeth{
+    {{"molar", "lower_molar.cvt"}, {"premolar", "upper_premolar.cvt"}, {"incisor", "upper_incisor.cvt"}, {"carious_molar", "molar_lesion.cvt"}}};
 
-/// A task on a tooth. `zones` is what is to be removed, in the tooth's own lengths; `kind` chooses steps, margins and rubric.
-enum class Kind { cavity, access };
-struct Task {
-  std::string_view tooth, word;
-  Kind kind;
-  std::string_view title, what, points;
+/// A task on the block. `zones` is what is to be removed.
+struct BlockTask {
+  std::string_view word, title, what;
   double time_limit_s;
-  std::string_view aims, faults;
-  std::string_view zones, guard;
+  std::string_view zones;
 };
 
 constexpr std::string_view k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
@@ -42,131 +29,23 @@ shape = "tissue"
 tissue = "pulp"
 offset_mm = 0.5
 )";
-constexpr std::string_view k_lesion_guard =
-    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
-shape = "tissue"
-tissue = "pulp"
-offset_mm = 0.3
-)";
-constexpr std::string_view k_root_guard =
-    R"([[zones.protected]]                  # must stay, even inside leeway and container: counts as outside; may be left out
-shape = "tissue"
-tissue = "periodontium"
-)";
-
-constexpr std::array<Task, 10> k_tasks{{
-    {"molar", "access", Kind::access, "Access to the pulp chamber", "Remove the whole roof of the pulp chamber; leave walls and floor.",
-     R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
-     R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to the chamber's floor.
-[[zones.target]]
-shape = "column"
-outline = { kind = "projection", tissue = "pulp", part = "chamber", offset_mm = 0.1, rounding_mm = 0.55 }
-bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
-)",
-     k_root_guard},
-    {"molar", "class_1", Kind::cavity, "Class I cavity along the central fissure", "Flat floor 1.8 mm below the fissure, 1.4 mm wide, upright walls.",
-     k_cavity_tray, 480, "[]", R"(["pulp", "periodontium"])",
-     R"(# A stroke along the fissure: half circles of 0.7 mm at its ends, 4.4 mm long in all.
-[[zones.target]]
-shape = "column"
-outline = { kind = "stroke", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }
-bottom = { kind = "below_lowest", depth_mm = 1.8 }
-taper_deg = 0
-)",
-     k_pulp_guard},
-    {"molar", "class_2", Kind::cavity, "Class II cavity, mesial", "An occlusal step along the fissure, and a box through the mesial ridge.",
-     k_cavity_tray, 900, "[]", R"(["pulp", "periodontium"])",
-     R"(# The occlusal step ...
-[[zones.target]]
-shape = "column"
-outline = { kind = "stroke", points_mm = [[-1.5, 0], [3.6, 0]], width_mm = 1.4 }
-bottom = { kind = "below_lowest", depth_mm = 1.8 }
-
-# ... and the box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
-[[zones.target]]
-shape = "prism"
-at_mm = [0, 0, -1.0]
-height_mm = 6
-outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
-)",
-     k_pulp_guard},
-    {"molar", "slot", Kind::cavity, "Slot at the mesial surface", "A box through the mesial ridge without a step in the fissure.", k_cavity_tray, 600,
-     "[]", R"(["pulp", "periodontium"])",
-     R"(# The box at the mesial surface, open to the neighbouring tooth. at_mm is the middle of its lower face.
-[[zones.target]]
-shape = "prism"
-at_mm = [0, 0, -1.0]
-height_mm = 6
-outline = { kind = "polygon", points_mm = [[3.8, -1.6], [6.5, -1.6], [6.5, 1.6], [3.8, 1.6]] }
-)",
-     k_pulp_guard},
-    {"premolar", "access", Kind::access, "Access to the pulp chamber",
-     "Remove the whole roof of the pulp chamber with both horns; spare the mesial and distal walls.",
-     R"(["cylinder-round-1.0", "endo-access-1.0", "round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
-     R"(# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canal begins.
-[[zones.target]]
-shape = "column"
-outline = { kind = "projection", tissue = "pulp", part = "chamber", offset_mm = 0.1, rounding_mm = 0.55 }
-bottom = { kind = "tissue_floor", tissue = "pulp", part = "chamber" }
-)",
-     k_root_guard},
-    {"incisor", "access", Kind::access, "Access to the pulp chamber",
-     "From the lingual side: remove roof, horns and lingual shoulder; leave the labial wall.",
-     R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", 900, R"(["pulp"])", R"(["periodontium"])",
-     R"(# A triangle with rounded corners in the lingual fossa, along an axis that leans 30 degrees towards lingual: the first body's axis is the
-# way in. In the prism's frame y runs to incisal; at_mm is the middle of its lower face.
-[[zones.target]]
-shape = "prism"
-at_mm = [0, 0, -3.0]
-axis = [0, -0.5, 0.8660254]
-height_mm = 12
-outline = { kind = "polygon", points_mm = [[-0.95, 2.65], [-0.45, 0.05], [0.45, 0.05], [0.95, 2.65]], offset_mm = 0.55 }
-
-# Nothing labial of the pulp: a plane just inside its labial wall.
-[[zones.target]]
-shape = "box"
-combine = "subtract"
-at_mm = [0, 4.04, -0.255]
-size_mm = [12, 6, 24]
-axis = [0, 0.085, 0.9964]
-)",
-     k_root_guard},
-    {"carious_molar", "lesion", Kind::cavity, "Removal of a hidden lesion",
-     "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])",
-     600, "[]", R"(["pulp", "periodontium"])",
-     R"(# The lesion itself ...
-[[zones.target]]
-shape = "tissue"
-tissue = "lesion"
-
-# ... and the way to it: its shadow, down to its roof.
-[[zones.target]]
-shape = "column"
-outline = { kind = "projection", tissue = "lesion", rounding_mm = 0.55 }
-bottom = { kind = "tissue_roof", tissue = "lesion" }
-)",
-     k_lesion_guard},
-    {"block", "class_1", Kind::cavity, "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.",
-     k_cavity_tray, 480, "[]", R"(["pulp"])",
+constexpr std::array<BlockTask, 3> k_block_tasks{{
+    {"class_1", "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.", 480,
      R"(# A stroke of 1.4 mm with half circles at its ends, 4.4 mm long in all.
 [[zones.target]]
 shape = "column"
 outline = { kind = "stroke", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }
 bottom = { kind = "below_surface", depth_mm = 1.8 }
 taper_deg = 0
-)",
-     k_pulp_guard},
-    {"block", "slot", Kind::cavity, "Slot through a block", "1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side.",
-     k_cavity_tray, 480, "[]", R"(["pulp"])",
+)"},
+    {"slot", "Slot through a block", "1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side.", 480,
      R"(# A box that stands out over the block: only tissue counts. at_mm is its centre.
 [[zones.target]]
 shape = "box"
 at_mm = [3.0, 0, 0]
 size_mm = [6, 1.5, 3.6]
-)",
-     k_pulp_guard},
-    {"block", "cross", Kind::cavity, "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.", k_cavity_tray, 600,
-     "[]", R"(["pulp"])",
+)"},
+    {"cross", "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.", 600,
      R"(# One groove from mesial to distal ...
 [[zones.target]]
 shape = "column"
@@ -178,8 +57,7 @@ bottom = { kind = "below_surface", depth_mm = 1.5 }
 shape = "column"
 outline = { kind = "stroke", points_mm = [[0, -2.3], [0, 2.3]], width_mm = 1.4 }
 bottom = { kind = "below_surface", depth_mm = 1.5 }
-)",
-     k_pulp_guard},
+)"},
 }};
 
 constexpr std::string_view k_head = R"(# A scenario of Cavum. Lengths in mm, times in s, forces in N.
@@ -355,49 +233,32 @@ std::string line(const std::string& text, const std::string& comment) {
 }
 std::string in_quotes(std::string_view text) { return fmt::format("\"{}\"", text); }
 
-std::string all_choices() {
-  std::string text;
-  for (const auto& tooth : k_teeth) {
-    text += fmt::format("{}{} with", text.empty() ? "" : "; ", tooth.word);
-    bool first = true;
-    for (const auto& task : k_tasks)
-      if (task.tooth == tooth.word) {
-        text += (first ? " " : ", ") + std::string(task.word);
-        first = false;
-      }
-  }
-  return text;
-}
-
 }  // namespace
 
-std::vector<TemplateChoice> template_choices() {
-  std::vector<TemplateChoice> list;
-  for (const auto& t : k_tasks) list.push_back({std::string(t.tooth), std::string(t.word)});
-  return list;
+std::span<const ShippedTooth> shipped_teeth() { return k_shipped_teeth; }
+
+std::vector<std::string> block_task_words() {
+  std::vector<std::string> words;
+  for (const auto& t : k_block_tasks) words.emplace_back(t.word);
+  return words;
 }
 
-std::string scenario_template(const std::string& tooth_word, const std::string& task_word) {
-  const ToothKind* tooth = nullptr;
-  const Task* task = nullptr;
-  for (const auto& t : k_teeth)
-    if (t.word == tooth_word) tooth = &t;
-  for (const auto& t : k_tasks)
-    if (t.tooth == tooth_word && t.word == task_word) task = &t;
-  if (tooth == nullptr) throw Error("--tooth " + tooth_word, "there is no such tooth to write a scenario for", "choose " + all_choices());
-  if (task == nullptr) throw Error("--task " + task_word, "there is no such task for the " + tooth_word, "choose " + all_choices());
-  return scenario_text({.id = fmt::format("{}_{}", tooth_word, task_word),
+std::string block_task(const std::string& word) {
+  const auto* const task = std::find_if(k_block_tasks.begin(), k_block_tasks.end(), [&](const BlockTask& t) { return t.word == word; });
+  if (task == k_block_tasks.end())
+    throw Error("--task " + word, "there is no such task for the block", fmt::format("choose {}", fmt::join(block_task_words(), ", ")));
+  return scenario_text({.id = fmt::format("block_{}", word),
                         .title = std::string(task->title),
                         .what = std::string(task->what),
-                        .tooth_file = std::string(tooth->file),
-                        .about = std::string(tooth->how),
-                        .points = std::string(task->points),
+                        .tooth_file = "block.cvt",
+                        .about = "the block that ships",
+                        .points = std::string(k_cavity_tray),
                         .time_limit_s = task->time_limit_s,
-                        .access = task->kind == Kind::access,
-                        .aims = std::string(task->aims),
-                        .faults = std::string(task->faults),
+                        .access = false,
+                        .aims = "[]",
+                        .faults = R"(["pulp"])",
                         .zones = std::string(task->zones),
-                        .guard = std::string(task->guard)});
+                        .guard = std::string(k_pulp_guard)});
 }
 
 std::string scenario_text(const TaskText& task) {

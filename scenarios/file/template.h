@@ -1,7 +1,9 @@
-// Commented scenarios to start from, for the teeth and tasks that Cavum knows how to combine.
+// The text of a scenario to start from, with its comments; the teeth that ship, and tasks on the block.
 #pragma once
 
+#include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace cavum::scenarios {
@@ -23,13 +25,15 @@ struct TaskText {
 /// A whole scenario with comments.
 [[nodiscard]] std::string scenario_text(const TaskText& task);
 
-/// A tooth and a task that there is a template for.
-struct TemplateChoice {
-  std::string tooth, task;
+/// A tooth of data/teeth by the word that `--tooth` takes for it. Tasks on it follow its landmarks (scenarios/review/tooth_task.h).
+struct ShippedTooth {
+  std::string_view word, file;
 };
-[[nodiscard]] std::vector<TemplateChoice> template_choices();
+[[nodiscard]] std::span<const ShippedTooth> shipped_teeth();
 
-/// A whole scenario with comments, without mistakes on its tooth. Throws Error listing the choices for any other combination.
-[[nodiscard]] std::string scenario_template(const std::string& tooth, const std::string& task);
+/// Tasks on the block that ships, which has no landmarks.
+[[nodiscard]] std::vector<std::string> block_task_words();
+/// A whole scenario with comments, without mistakes. Throws Error that lists the tasks for any other word.
+[[nodiscard]] std::string block_task(const std::string& word);
 
 }  // namespace cavum::scenarios

@@ -31,8 +31,8 @@ constexpr double k_in_dentin_mm = 0.2;
 constexpr double k_crown_walls_share = 0.1;  // a crown's shell is large: a quarter of it is more than its container holds
 constexpr double k_least_walls_mm3 = 0.6;    // twice what the template's criterion on walls gives full marks for
 
-/// Looked at once one is sound, in the hope of one without a warning.
-constexpr std::size_t k_most_tried = 4, k_none = 1000;
+/// Sound ones looked at: the first without a warning that passes its trial is taken.
+constexpr std::size_t k_most_tried = 4;
 // The last step of a task asks for 87 % of the cavity, and the expert removes some 3 % less than that reach.
 constexpr double k_least_reach = 0.895;
 
@@ -163,16 +163,16 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
 std::vector<TaskChoice> access(const Tooth& tooth, const Landmarks& l) {
   if (!l.incisal_edge_mm.empty()) return front_access(tooth, l);
   std::vector<TaskChoice> list;
-  for (const char* rounding : {"0.55", "0.5"})
+  for (const auto& [wider, rounding] :
+       {std::pair("0.1", "0.55"), {"0.1", "0.5"}, {"0.2", "0.55"}, {"0.3", "0.55"}})  // a narrow chamber: as points need it
     list.push_back(
         {fmt::format(
-             "# The chamber's shadow seen from above, a tenth of a millimetre wider, from the surface down to where the canals "
-             "begin.\n[[zones.target]]\n"
-             "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1, rounding_mm = {} }}\n"
+             "# The chamber's shadow seen from above, {} mm wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
+             "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = {}, rounding_mm = {} }}\n"
              "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
-             rounding),
+             wider, wider, rounding),
          "", "Remove the whole roof of the pulp chamber with its horns; leave walls and floor.",
-         "the chamber's shadow, corners of " + std::string(rounding) + " mm"});
+         fmt::format("the chamber's shadow, {} mm wider, corners of {} mm", wider, rounding)});
   return list;
 }
 
@@ -296,7 +296,7 @@ std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& land
 }
 
 WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path,
-                             const std::string& task) {
+                             const std::string& task, const TaskTrial& trial) {
   const ToothTask* asked = nullptr;
   std::string words;
   for (const auto& t : tasks()) {
@@ -308,11 +308,15 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why),
                 "see `cavum tooth landmarks`, or choose another of " + words);
 
-  WrittenTask best;
   const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
                                beside_criteria(tooth, asked->opens);
-  std::string refused;
-  std::size_t fewest = k_none, tried = 0;
+  std::string refused, against;
+  const auto holds = [&](const std::string& text) {
+    against = trial ? trial(text) : "";
+    return against.empty();
+  };
+  std::vector<WrittenTask> unwise;  // sound, with warnings: only when there is none without
+  std::size_t tried = 0;
   double reaches = 0;
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
     TaskText text{.id = id_of(tooth_file, task),
@@ -338,22 +342,30 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
       text.walls_limit_mm3 = wall_limit_mm3(scenario_text(text), path, tooth, asked->walls_share);
       const std::string written = scenario_text(text);
       checked = check_whole(written, path);
-      if (checked.sound() && checked.problems.size() < fewest) {
-        fewest = checked.problems.size();
-        best = {written, checked.problems, choice.chosen};
+      if (checked.sound()) {
+        WrittenTask found{written, checked.problems, choice.chosen};
+        if (!found.problems.empty())
+          unwise.push_back(std::move(found));
+        else if (holds(written))
+          return found;
+        if (++tried == k_most_tried) break;
       }
     }
-    if (fewest == 0 || (fewest < k_none && ++tried >= k_most_tried)) return best;
     if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
   }
-  if (fewest == k_none && reaches > 0)
+  std::stable_sort(unwise.begin(), unwise.end(), [](const auto& a, const auto& b) { return a.problems.size() < b.problems.size(); });
+  for (WrittenTask& found : unwise)
+    if (holds(found.text)) return found;
+
+  if (!against.empty())
+    throw Error("--task " + task, fmt::format("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
+                "choose another task or tooth; --untried writes it all the same, as a draft");
+  if (reaches > 0)
     throw Error("--task " + task,
                 fmt::format("in '{}' no point of its tray reaches more than {} % of the cavity, which is too narrow for them", tooth.name,
                             fixed(100 * reaches, 0)),
                 "choose another task or tooth");
-  if (fewest == k_none)
-    throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
-  return best;
+  throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
 }
 
 }  // namespace cavum::scenarios

@@ -2,6 +2,7 @@
 // published preparation guides where the tooth has room for them, and less where it has not; what was chosen is said.
 #pragma once
 
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -24,9 +25,12 @@ struct WrittenTask {
   std::vector<Problem> problems;  ///< what `check` still says of it: warnings only
   std::string chosen;             ///< the lengths, for people
 };
-/// Writes a scenario that `check` finds no mistake in. `tooth_file` stands in it as its tooth and must be found from `path`, where it will be saved.
-/// Throws Error when the tooth is not offered that task, or has no room for it; it says what is in the way.
+/// Tries a written scenario; says what is against it, or nothing.
+using TaskTrial = std::function<std::string(const std::string& text)>;
+/// Writes a scenario that `check` finds no mistake in, and `trial` has nothing against: of several choices of lengths the first. `tooth_file` stands
+/// in it as its tooth and must be found from `path`, where it will be saved. Throws Error when the tooth is not offered that task, has no room for
+/// it, or no choice holds; it says what is in the way.
 [[nodiscard]] WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path,
-                                           const std::string& task);
+                                           const std::string& task, const TaskTrial& trial = {});
 
 }  // namespace cavum::scenarios

@@ -28,10 +28,12 @@ class Games : public ::testing::TestWithParam<std::string> {
   }
 };
 
-/// Below the line under which a rubric fails an exam for what of the target was left.
-bool below_critical(const Task& t, const Seen& seen) {
-  for (const auto& c : t.scenario.rubric.criteria)
-    if (c.metric == "target_removed_percent" && c.critical_below && seen.target_percent < *c.critical_below - 0.5) return true;
+/// Below the line under which a rubric fails an exam for what of the target was left, by more than the mark's own bound.
+bool below_critical(const Task& t, const Seen& seen, const grading::Result& r) {
+  for (std::size_t i = 0; i < t.scenario.rubric.criteria.size(); ++i) {
+    const auto& c = t.scenario.rubric.criteria[i];
+    if (c.metric == "target_removed_percent" && c.critical_below && seen.most_percent < *c.critical_below - r.criteria[i].bound) return true;
+  }
   return false;
 }
 
@@ -44,7 +46,7 @@ void judge(const Task& t, const grading::Result& honest, const Game& game) {
   const std::string all = t.name + " " + game.name + ": " + told(r);
   EXPECT_LE(r.points, honest.points + k_rounding) << "better than honest work: " << all;
   EXPECT_LE(rank(r.verdict), rank(honest.verdict)) << "better than honest work: " << all;
-  const bool unfinished = below_critical(t, saw);
+  const bool unfinished = below_critical(t, saw, r);
   const int most = game.fair == Fair::fail || unfinished || saw.fault_opened ? 0 : game.fair == Fair::not_pass ? 1 : 2;
   EXPECT_LE(rank(r.verdict), most) << (saw.fault_opened ? "a fault was opened" : unfinished ? "unfinished" : "no fair examiner") << ": " << all;
   std::printf("%-16s %-32s %6.2f %% of the target, %6.2f mm3 beyond, fault %d: %s\n", t.name.c_str(), game.name.c_str(), saw.target_percent,
@@ -107,7 +109,7 @@ TEST_P(Games, MoreHonestWorkIsNeverMarkedLower) {
           GetParam() + " " + all[o].name + " " + std::to_string(5 * static_cast<std::size_t>(every) * (k + 1)) + " %: " + told(r);
       if (std::getenv("CAVUM_GAMES_TELL") != nullptr) std::printf("%s\n", all_of_it.c_str());
       EXPECT_LE(r.points, honest_mark().points + k_rounding) << all_of_it;
-      const int most = below_critical(ground(), saw) ? 0 : r.progress.finish != "completed" ? 1 : 2;
+      const int most = below_critical(ground(), saw, r) ? 0 : r.progress.finish != "completed" ? 1 : 2;
       EXPECT_LE(rank(r.verdict), most) << saw.target_percent << " % of the target: " << all_of_it;
       if (k == 0) continue;
       const grading::Result& last = list[k - 1].second;

@@ -94,6 +94,25 @@ grading::Result Sitting::marked_by(const scenarios::RubricSpec& rubric) const {
   return grading::grade(input, rubric);
 }
 
+namespace {
+
+/// Leaves of the target, of which so many lie at its border, and leaves just outside.
+struct Counted {
+  double inside = 0, inner_rim = 0, outer_rim = 0;
+  void count(const Task& t, IVec3 leaf) {
+    const bool in = t.zones.zone(leaf) == scenarios::Zone::target;
+    const bool rim = std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
+                                 [&](IVec3 step) { return (t.zones.zone(leaf + step) == scenarios::Zone::target) != in; });
+    inside += in ? 1 : 0;
+    inner_rim += in && rim ? 1 : 0;
+    outer_rim += !in && rim ? 1 : 0;
+  }
+  /// With so much of each leaf at the border lying in the target.
+  [[nodiscard]] double sum(double inner, double outer) const { return inside - inner_rim + inner * inner_rim + outer * outer_rim; }
+};
+
+}  // namespace
+
 Seen seen(const Sitting& s) {
   const Task& t = s.task();
   const Octree& before = t.tooth.octree;
@@ -101,17 +120,23 @@ Seen seen(const Sitting& s) {
   for (const auto& tissue : t.tooth.tissues)
     fault[tissue.id] = std::count(t.scenario.perforation.faults.begin(), t.scenario.perforation.faults.end(), tissue.name) > 0;
   Seen seen;
-  std::size_t in_target = 0, beyond = 0;
+  Counted all, gone;
+  t.zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone) {
+    if (before.tissue(leaf) != k_air) all.count(t, leaf);
+  });
+  std::size_t beyond = 0;
   for (const auto& r : s.removed()) {
     const IVec3 l = r.leaf.leaf();
     const scenarios::Zone z = t.zones.zone(l);
-    if (z == scenarios::Zone::target) ++in_target;
+    gone.count(t, l);
     if (z != scenarios::Zone::target && z != scenarios::Zone::leeway_sides && z != scenarios::Zone::leeway_bottom) ++beyond;
     seen.fault_opened = seen.fault_opened || fault[r.leaf.tissue];
     if (before.is_solid(r.leaf.tissue))
       for (const IVec3 n : scenarios::k_six_neighbours) seen.fault_opened = seen.fault_opened || fault[before.tissue(l + n)];
   }
-  seen.target_percent = 100.0 * static_cast<double>(in_target) / static_cast<double>(t.leaves.size());
+  seen.target_percent = 100.0 * gone.inside / all.inside;
+  for (const auto& [inner, outer] : {std::pair(1.0, 0.0), {0.5, 0.0}, {1.0, 0.5}, {0.5, 0.5}})
+    seen.most_percent = std::max(seen.most_percent, 100.0 * gone.sum(inner, outer) / all.sum(inner, outer));
   seen.beyond_leeway_mm3 = static_cast<double>(beyond) * t.zones.leaf_volume_mm3();
   return seen;
 }
@@ -121,7 +146,7 @@ int rank(grading::Verdict v) { return v == grading::Verdict::pass ? 2 : v == gra
 std::string told(const grading::Result& r) {
   std::string text = fmt::format("{} {:.3f}/{:.0f} ({})", grading::verdict_name(r.verdict), r.points, r.max_points, r.progress.finish);
   for (const auto& c : r.criteria) {
-    text += c.value ? fmt::format("; {} {:.4f}", c.id, *c.value) : fmt::format("; {} none", c.id);
+    text += c.value ? fmt::format("; {} {:.4f} ± {:.4f}", c.id, *c.value, c.bound) : fmt::format("; {} none", c.id);
     text += fmt::format(" -> {:.3f}/{:.0f}{}", c.points, c.max, c.critical_failed ? "!" : "");
     if (c.work_share < 1) text += fmt::format(" x{:.3f}", c.work_share);
   }

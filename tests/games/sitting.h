@@ -56,6 +56,7 @@ class Sitting {
 /// What an examiner sees who counts leaves.
 struct Seen {
   double target_percent = 0;       ///< of the target's leaves
+  double most_percent = 0;         ///< the most that this may be: a leaf with its centre just inside may lie half outside, and the other way round
   bool fault_opened = false;       ///< a hard leaf went beside a leaf of a fault's tissue, or such a leaf itself
   double beyond_leeway_mm3 = 0.0;  ///< removed beyond target and leeway
 };

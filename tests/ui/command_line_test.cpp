@@ -162,7 +162,7 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   EXPECT_EQ(run("replay " + path("hasty.cavum") + " --verify").exit_code, 0);
   expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
   expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
-  expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "molar with access"});
+  expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "choose molar, premolar"});
 }
 
 TEST_F(CommandLine, SolveLetsTheCarelessCandidateFailByTheCriterionThatTheScenarioNames) {

@@ -1,7 +1,8 @@
 #include "ui/verbs/scenario_new.h"
 
-#include <fmt/core.h>
+#include <fmt/ranges.h>
 
+#include <cmath>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -9,12 +10,17 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/scratch_folder.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth_notes.h"
+#include "grading/battery/battery.h"
+#include "grading/result/result_json.h"
+#include "scenarios/exam/exam.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/tooth_task.h"
 #include "ui/parts/print_json.h"
+#include "ui/verbs/solved_exam.h"
 
 namespace cavum::ui {
 namespace {
@@ -23,32 +29,41 @@ using Json = nlohmann::ordered_json;
 
 struct NewArguments {
   std::string tooth = "molar", task, out;
-  bool force = false, list = false, json = false;
-  [[nodiscard]] bool own_tooth() const { return tooth.ends_with(".cvt"); }
+  bool force = false, list = false, json = false, untried = false;
+  [[nodiscard]] bool on_the_block() const { return tooth == "block"; }
 };
 
-/// The task that is written when none is named: a class I where the tooth has one.
-std::string first_task(const std::string& tooth) {
-  std::string first = "class_1";  // of an unknown tooth, which is refused with all choices
-  bool any = false;
-  for (const auto& c : scenarios::template_choices()) {
-    if (c.tooth != tooth || (any && c.task != "class_1")) continue;
-    first = c.task;
-    any = true;
-  }
-  return first;
+std::string tooth_words() {
+  std::string words;
+  for (const auto& t : scenarios::shipped_teeth()) words += std::string(t.word) + ", ";
+  return words + "block, or a tooth file (.cvt)";
 }
 
-/// A tooth's file as the scenario beside `out` names it: by its name where both lie together, else by its whole path.
+/// The file of the tooth that `--tooth` names.
+std::string tooth_file(const NewArguments& o) {
+  if (o.tooth.ends_with(".cvt")) return o.tooth;
+  for (const auto& t : scenarios::shipped_teeth())
+    if (t.word == o.tooth) return scenarios::find_data_file("teeth", std::string(t.file), o.out);
+  throw Error("--tooth " + o.tooth, "there is no such tooth to write a scenario for", "choose " + tooth_words());
+}
+
+/// Words of before: a mesial box was the only one that there was.
+std::string task_word(const std::string& word) { return word == "class_2" || word == "slot" ? word + "_mesial" : word; }
+
+/// A tooth's file as the scenario beside `out` names it: by its name where both lie together or it ships, else by its whole path.
 std::string named_from(const std::string& out, const std::string& tooth_file) {
   namespace fs = std::filesystem;
+  for (const auto& t : scenarios::shipped_teeth())
+    if (fs::path(tooth_file).filename() == t.file && fs::equivalent(tooth_file, scenarios::find_data_file("teeth", std::string(t.file), out)))
+      return std::string(t.file);
   const fs::path tooth = fs::absolute(tooth_file).lexically_normal(), folder = fs::absolute(out).lexically_normal().parent_path();
   return tooth.parent_path() == folder ? tooth.filename().string() : tooth.string();
 }
 
 int list_tasks(const NewArguments& o) {
-  if (!o.own_tooth()) throw Error("--list", "is for a tooth file", "name one: --tooth mine.cvt");
-  const Tooth tooth = load_tooth_file(o.tooth);
+  if (o.on_the_block())
+    throw Error("--list", "is for a tooth", fmt::format("tasks on the block: {}", fmt::join(scenarios::block_task_words(), ", ")));
+  const Tooth tooth = load_tooth_file(tooth_file(o));
   const auto offered = scenarios::offered_tasks(tooth, find_landmarks(tooth));
   if (o.json) {
     Json tasks = Json::array();
@@ -61,21 +76,57 @@ int list_tasks(const NewArguments& o) {
   return 0;
 }
 
-/// By the landmarks of a tooth of one's own.
+/// What the last task that was tried showed.
+struct Trial {
+  double expert_percent = 0;
+  std::size_t wrong_work = 0;
+};
+
+/// What is against a written task as an exam: the expert must pass with nine tenths of the points, and no wrong piece of work may.
+std::string against(const std::string& text, const std::string& file, Trial& trial) {
+  constexpr double k_least_percent = 90.0;
+  const ScratchFolder scratch;
+  const std::string scenario = scratch.file("task.toml");
+  write_text_file(scenario, text);
+  scenarios::ExamOptions options;
+  options.candidate = "built-in expert";
+  options.tooth_file = file;
+  const auto setup = scenarios::prepare_exam(scenario, options);
+  const Solved solved = solve_exam(*setup, 1, scratch.file("expert.cavum"));
+  if (!solved.result) return solved.reasons.front();
+  trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
+  if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent)
+    return fmt::format("the built-in expert gets {} % of the points ({}){}", fixed(trial.expert_percent, 0),
+                       grading::verdict_name(solved.result->verdict), solved.reasons.empty() ? "" : ": " + solved.reasons.front());
+  const grading::Battery battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
+  trial.wrong_work = battery.rows.size();
+  for (const auto& p : battery.problems)
+    if (!p.warning) return p.what;
+  return "";
+}
+
+/// By the tooth's landmarks.
 int make_for_tooth(const NewArguments& o) {
-  const Tooth tooth = load_tooth_file(o.tooth);
+  const std::string file = tooth_file(o);
+  const Tooth tooth = load_tooth_file(file);
   const Landmarks landmarks = find_landmarks(tooth);
-  std::string task = o.task;
+  std::string task = task_word(o.task);
   for (const auto& t : scenarios::offered_tasks(tooth, landmarks))
     if (task.empty() && t.why_not.empty()) task = t.task;
   if (task.empty()) throw Error(o.tooth, "no task makes sense on this tooth", "see why: cavum scenario new --list --tooth " + o.tooth);
-  const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, o.tooth), o.out, task);
+  Trial trial;
+  scenarios::TaskTrial tried;
+  if (!o.untried) tried = [&](const std::string& text) { return against(text, file, trial); };
+  const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, file), o.out, task, tried);
   write_text_file(o.out, written.text, {.may_replace = o.force});
   const ToothNotes notes = notes_of(tooth);
   if (o.json) {
     Json warnings = Json::array();
     for (const auto& p : written.problems) warnings.push_back(p.text());
+    Json shown = nullptr;
+    if (!o.untried) shown = {{"expert_percent", std::round(10 * trial.expert_percent) / 10}, {"wrong_work", trial.wrong_work}};
     print_json(Json{{"written", o.out},
+                    {"tried", shown},
                     {"tooth", tooth.name},
                     {"task", task},
                     {"chosen", written.chosen},
@@ -87,7 +138,11 @@ int make_for_tooth(const NewArguments& o) {
   std::cout << "written: " << o.out << "; " << task << " on " << one_line(tooth.name) << ": " << written.chosen << "\n";
   for (const auto& p : written.problems) std::cout << one_line(p.text()) << "\n";
   for (const auto& warning : notes.warnings) std::cout << "notice: " << one_line(warning) << "\n";
-  std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << "\n";
+  if (o.untried)
+    std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << " --battery\n";
+  else
+    std::cout << "tried: the built-in expert passes with " << fixed(trial.expert_percent, 0) << " % of the points; none of " << trial.wrong_work
+              << " wrong pieces of work passes\nnext: cavum scenario show " << o.out << " --out F.svg\n";
   return 0;
 }
 
@@ -96,8 +151,8 @@ int make_new(const NewArguments& o) {
   if (o.out.empty()) throw Error("--out", "is missing", "name the file to write");
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
-  if (o.own_tooth()) return make_for_tooth(o);
-  write_text_file(o.out, scenarios::scenario_template(o.tooth, o.task.empty() ? first_task(o.tooth) : o.task), {.may_replace = o.force});
+  if (!o.on_the_block()) return make_for_tooth(o);
+  write_text_file(o.out, scenarios::block_task(o.task.empty() ? "class_1" : o.task), {.may_replace = o.force});
   if (o.json)
     print_json(Json{{"written", o.out}});
   else
@@ -110,16 +165,13 @@ int make_new(const NewArguments& o) {
 void add_scenario_new(CLI::App& scenario, int& exit_code) {
   const auto o = std::make_shared<NewArguments>();
   auto* news = scenario.add_subcommand("new", "Write a commented scenario to start from");
-  std::string known, words;
-  for (const auto& c : scenarios::template_choices()) known += fmt::format("{}{} {}", known.empty() ? "" : ", ", c.tooth, c.task);
-  for (const auto& w : scenarios::tooth_task_words()) words += (words.empty() ? "" : ", ") + w;
-  news->add_option("--tooth", o->tooth,
-                   fmt::format("kind of tooth, with the task one of: {}; or a tooth file (.cvt), whose landmarks the zones follow, with one of: {}",
-                               known, words))
-      ->capture_default_str();
-  news->add_option("--task", o->task, "kind of task; when it is left out, class_1 or the first that there is for the tooth");
+  news->add_option("--tooth", o->tooth, tooth_words())->capture_default_str();
+  news->add_option("--task", o->task,
+                   fmt::format("on a tooth, whose landmarks the zones follow: {}; on the block: {}; left out: the first that there is",
+                               fmt::join(scenarios::tooth_task_words(), ", "), fmt::join(scenarios::block_task_words(), ", ")));
   news->add_option("--out", o->out, "file to write");
-  news->add_flag("--list", o->list, "of a tooth file: which tasks make sense on it, and why others do not");
+  news->add_flag("--list", o->list, "which tasks make sense on the tooth, and why others do not");
+  news->add_flag("--untried", o->untried, "write a task for a tooth without trying it: the expert need not pass, wrong work may");
   news->add_flag("--force", o->force, "overwrite");
   news->add_flag("--json", o->json, "one JSON object on standard output");
   news->callback([o, &exit_code] { exit_code = make_new(*o); });

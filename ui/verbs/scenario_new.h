@@ -1,4 +1,4 @@
-// `cavum scenario new`: a commented scenario to start from, by a kind of tooth or by the landmarks of a tooth of one's own.
+// `cavum scenario new`: a commented scenario to start from, by the landmarks of a tooth, or on the block.
 #pragma once
 
 #include <CLI/CLI.hpp>

@@ -26,6 +26,7 @@
 #include "ui/parts/print_json.h"
 #include "ui/parts/seed_check.h"
 #include "ui/verbs/scenario_new.h"
+#include "ui/verbs/solved_exam.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
@@ -124,72 +125,6 @@ int show(const ScenarioArguments& o) {
   return 0;
 }
 
-/// A simulated candidate takes the exam; the session is sealed with the result.
-grading::Result taken(const scenarios::ExamSetup& setup, scenarios::SimulatedCandidate& candidate, const std::string& session) {
-  const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
-  scenarios::run_exam(*exam, candidate);
-  exam->recorder().flush();
-  const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now());
-  grading::Result r = grading::grade(graded->input(), graded->rubric);
-  exam->close(grading::to_json(r).dump());
-  return r;
-}
-
-/// What `solve` found out; `result` is missing when the expert could not even begin.
-struct Solved {
-  std::optional<grading::Result> result;
-  std::string point;
-  std::vector<std::string> reasons;  ///< why it was not passed
-  std::string advice;                ///< what to change then
-};
-
-/// What an instructor can do when the expert did not pass.
-std::string advice_for_expert(const grading::Result& r) {
-  if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
-  for (const auto& c : r.criteria)
-    if (!c.value) return fmt::format("take '{}' out: this cavity has nothing that it measures", c.id);
-  for (const auto& c : r.criteria)
-    if (c.critical_failed)
-      return fmt::format("move the critical limit of '{}' beyond what the expert reaches, or change the zones so that it can be kept", c.id);
-  if (r.verdict == grading::Verdict::review)
-    return r.progress.open_last_step.empty() ? "lower pass_percent, or make the borderline band narrower: the expert lies within it"
-                                             : "make the last step's condition one that the expert reaches";
-  const grading::CriterionResult* worst = nullptr;
-  for (const auto& c : r.criteria)
-    if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
-  return worst == nullptr
-             ? "give the rubric criteria"
-             : fmt::format(
-                   "begin with '{}', which cost most: set its full and zero within what the expert reaches, or allow a point that fits the target",
-                   worst->id);
-}
-
-/// The built-in expert takes the exam.
-Solved solve_exam(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
-  Solved solved;
-  std::unique_ptr<scenarios::SimulatedCandidate> expert;
-  try {
-    expert = std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, "expert", o.seed, OmniModel{}));
-  } catch (const Error& e) {
-    solved.reasons.emplace_back(e.what());
-    solved.advice = "see what `cavum scenario check` warns of";
-    return solved;
-  }
-  solved.point = setup.point_names[expert->point()];
-  const grading::Result& r = solved.result.emplace(taken(setup, *expert, session));
-  if (r.verdict == grading::Verdict::pass) return solved;
-  solved.reasons = r.verdict_reasons;
-  if (r.progress.finish == "time")
-    solved.reasons.push_back(fmt::format("time was up after {} s: the expert was not finished", fixed(r.motion.time_s, 1)));
-  for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
-    solved.reasons.push_back(fmt::format("step {} was not completed ({})", setup.scenario.steps[i].id, setup.scenario.steps[i].complete_when));
-  for (const auto& c : r.criteria)
-    if (c.points < c.max && !c.critical_failed)
-      solved.reasons.push_back(fmt::format("criterion {}: {}", c.id, c.reason));  // a critical one is named already
-  solved.advice = advice_for_expert(r);
-  return solved;
-}
-
 /// The careless candidate's exam: whether it was failed, and by the criterion that the scenario names.
 struct Caught {
   grading::Result result;
@@ -219,7 +154,7 @@ std::string advice_for(const Caught& c) {
 
 Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
   scenarios::SimulatedCandidate candidate = scenarios::make_simulated_candidate(setup, "careless", o.seed, OmniModel{});
-  Caught c{taken(setup, candidate, session), {}, false, {}};
+  Caught c{sat_by(setup, candidate, session), {}, false, {}};
   for (const auto& one : c.result.criteria)
     if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
   // running out of time is another reason than the one the task is there for
@@ -265,7 +200,7 @@ int solve(const ScenarioArguments& o) {
     throw Error(o.scenario, "the scenario says nothing of a careless candidate",
                 "add [careless] with the mistake it is to catch, or leave out --careless");
   const ScratchFolder scratch;
-  const Solved solved = solve_exam(o, *setup, o.out.empty() ? scratch.file("expert.cavum") : o.out);
+  const Solved solved = solve_exam(*setup, o.seed, o.out.empty() ? scratch.file("expert.cavum") : o.out);
   const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;
   std::optional<Caught> careless;
   if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless.cavum"));

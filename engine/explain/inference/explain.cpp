@@ -224,6 +224,8 @@ void put_figures(Explanation& e, const ExplainOptions& options, const Step& firs
   e.noise = last.view.noise;
   e.spread = last.view.spread;
   e.gain = heldout_gain(first.view, first.null, options, last.view.spread, e.noise.sd_n);
+  const Motion& m = *last.view.scene->motion;
+  e.position_error_n = std::sqrt((e.base.k_n_per_mm * m.sd_x_mm).square().mean() + (e.base.c_n_s_per_mm * m.sd_v_mm_s).square().mean());
   e.structures = last.scores.structures;
   e.candidates = first.scores.candidates;
   e.before = first.view;
@@ -267,10 +269,10 @@ std::optional<Unexplained> sessions_apart(const Explanation& e) {
       e.spread[k_lateness] * std::sqrt(e.after->effects->col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects->rows()));
   if (late_n > k_zero_differs * e.noise.sd_n)
     return Unexplained{"session", "a lateness of the force, or c, that differs from session to session", late_n};
-  // an error of the position looks like that, too
-  if (e.after->scene->motion->possible.empty() && e.gain.base_rmse_n > k_more_than_noise * e.gain.noise_floor_n)
+  const double known_n = std::hypot(e.gain.noise_floor_n, e.position_error_n);
+  if (e.gain.base_rmse_n > k_more_than_noise * known_n)
     return Unexplained{"session", "more than the noise, of no form that is looked for",
-                       std::sqrt(e.gain.base_rmse_n * e.gain.base_rmse_n - e.gain.noise_floor_n * e.gain.noise_floor_n)};
+                       std::sqrt(e.gain.base_rmse_n * e.gain.base_rmse_n - known_n * known_n)};
   return std::nullopt;
 }
 

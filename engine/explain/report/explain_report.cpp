@@ -94,9 +94,10 @@ std::vector<std::string> fold_names(const Explanation& e) {
 
 std::string left_over_words(const Explanation& e) {
   constexpr double k_more_than_noise = 1.5;
-  if (!e.causes.empty() || e.unexplained || e.verdict == "data_fault" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
-  return printed("The simulation misses by %.4f N rms where the noise is %.4f N: something is there, and these data cannot say what.",
-                 e.gain.base_rmse_n, e.gain.noise_floor_n);
+  if (e.verdict != "clean" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
+  return printed(
+      "The simulation misses by %.4f N rms where the noise of the force is %.4f N: as much as the errors of the position may make (%.4f N).",
+      e.gain.base_rmse_n, e.gain.noise_floor_n, e.position_error_n);
 }
 
 std::string to_text(const Explanation& e) {

@@ -1,4 +1,4 @@
-// Every template that `cavum scenario new` writes, on its tooth.
+// Every task that `cavum scenario new` writes on the block.
 #include "scenarios/file/template.h"
 
 #include <gtest/gtest.h>
@@ -9,10 +9,10 @@
 namespace cavum::scenarios {
 namespace {
 
-class Template : public ::testing::TestWithParam<TemplateChoice> {};
+class BlockTask : public ::testing::TestWithParam<std::string> {};
 
-TEST_P(Template, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml", text = scenario_template(GetParam().tooth, GetParam().task);
+TEST_P(BlockTask, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
+  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml", text = block_task(GetParam());
   const CheckedScenario checked = check_whole(text, path);
   for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
   ASSERT_TRUE(checked.expert.time_s);
@@ -23,16 +23,15 @@ TEST_P(Template, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Every, Template, ::testing::ValuesIn(template_choices()),
-                         [](const auto& test) { return test.param.tooth + "_" + test.param.task; });
+INSTANTIATE_TEST_SUITE_P(Every, BlockTask, ::testing::ValuesIn(block_task_words()), [](const auto& test) { return test.param; });
 
-TEST(Templates, ThatDoNotExistAreRefusedWithTheListOfThoseThatDo) {
-  for (const auto& [tooth, task] : {std::pair("incisor", "class_2"), std::pair("molar", "lesion"), std::pair("", "")}) {
+TEST(BlockTasks, ThatDoNotExistAreRefusedWithTheListOfThoseThatDo) {
+  for (const char* task : {"class_2", "lesion", ""}) {
     try {
-      static_cast<void>(scenario_template(tooth, task));
-      ADD_FAILURE() << tooth << " " << task;
+      static_cast<void>(block_task(task));
+      ADD_FAILURE() << task;
     } catch (const Error& e) {
-      EXPECT_NE(std::string(e.what()).find("molar with access, class_1"), std::string::npos) << e.what();
+      EXPECT_NE(std::string(e.what()).find("choose class_1, slot, cross"), std::string::npos) << e.what();
     }
   }
 }

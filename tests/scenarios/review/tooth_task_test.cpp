@@ -29,7 +29,7 @@ TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {
   for (const auto& [file, task, relation] : {std::tuple("lower_molar.cvt", "class_1", "kind = \"fissure\", width_mm = 1.4"),
                                              std::tuple("upper_premolar.cvt", "slot_mesial", "shape = \"proximal_box\"\nside"),
                                              std::tuple("upper_incisor.cvt", "access", "lean = \"lingual\""),
-                                             std::tuple("upper_premolar.cvt", "class_5", "shape = \"side_cavity\"\nside = \"buccal\""),
+                                             std::tuple("lower_molar.cvt", "class_5", "shape = \"side_cavity\"\nside = \"buccal\""),
                                              std::tuple("upper_incisor.cvt", "dexterity_cross", "heights = \"level\"")}) {
     const Tooth tooth = load_tooth_file(file_of(file));
     const WrittenTask written = write_tooth_task(tooth, find_landmarks(tooth), file_of(file), "here.toml", task);
