@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/language/shown.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -173,24 +174,32 @@ void end_question(bool asked) {
   ImGui::EndPopup();
 }
 
-void wrapped_text(const std::string& text) {
+void text_line(const std::string& english) {
+  const std::string text = shown(english);
+  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+}
+
+void wrapped_text(const std::string& english) {
+  const std::string text = shown(english);
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
   ImGui::PopTextWrapPos();
 }
+
+std::string shown_label(const char* english) { return fmt::format("{}###{}", shown(english), english); }
 
 bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter) {
   ImGui::PushStyleColor(ImGuiCol_Button, enabled ? theme.accent : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, enabled ? mixed(theme.accent, theme.text, 0.25F) : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_Text, enabled ? theme.on_accent : theme.quiet);
   ImGui::BeginDisabled(!enabled);
-  const bool clicked = ImGui::Button(label, {0, theme.px(44)});
+  const bool clicked = ImGui::Button(shown_label(label).c_str(), {0, theme.px(44)});
   ImGui::EndDisabled();
   ImGui::PopStyleColor(3);
   return enabled && (clicked || (by_enter && (key_pressed(GLFW_KEY_ENTER) || key_pressed(GLFW_KEY_KP_ENTER))));
 }
 
-bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(label, {width, theme.px(36)}); }
+bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
 
 bool key_pressed(int key) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -207,7 +216,7 @@ std::string clock_text(double seconds) {
 std::string number_text(const char* format, double value) {
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+  return shown(text.data());
 }
 
 }  // namespace cavum::station

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/base/version.h"
 
 #ifdef __SANITIZE_ADDRESS__
@@ -88,11 +89,11 @@ struct PdfSheet::State {
       pango_layout_set_height(l.get(), static_cast<int>(t.most_pt * PANGO_SCALE));
       pango_layout_set_ellipsize(l.get(), PANGO_ELLIPSIZE_END);
     }
-    const std::string text = one_line(t.text);
+    const std::string text = with_isolates(t.text, one_line, k_isolate, k_isolate_end);
     if (t.lead.empty()) {
       pango_layout_set_text(l.get(), text.c_str(), -1);
     } else {
-      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), xml_text(text));
+      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), with_isolates(text, xml_text, k_isolate, k_isolate_end));
       pango_layout_set_markup(l.get(), markup.c_str(), -1);
     }
     return l;
@@ -130,7 +131,7 @@ struct PdfSheet::State {
     cairo_line_to(cairo, k_page_width - k_side, foot - 4);
     cairo_stroke(cairo);
     if (!document.footer.empty()) furniture(document.footer.front(), k_side, foot, width - 70, false);
-    furniture(fmt::format("page {}{}", page, pages > 0 ? fmt::format(" of {}", pages) : ""), k_page_width - k_side - 66, foot, 66, true);
+    furniture(pages > 0 ? tr("page {} of {}", page, pages) : tr("page {}", page), k_page_width - k_side - 66, foot, 66, true);
   }
   void new_page() {
     cairo_show_page(cairo);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "ui/report/print/pdf_sheet.h"
 
 namespace cavum::report {
@@ -71,7 +72,7 @@ class Printer {
   void operator()(const LessonList& b) {
     int number = 0;
     for (const auto& i : b.items) {
-      PdfText text{fmt::format("{} ({}{})", i.instead, i.weight, i.jump ? ", at " + fixed(i.jump->t_s, 1) + " s" : ""), k_text_pt, false};
+      PdfText text{i.jump ? tr("{} ({}, at {} s)", i.instead, i.weight, fixed(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight), k_text_pt, false};
       text.lead = fmt::format("{}. {}", ++number, i.what.ends_with('.') ? i.what.substr(0, i.what.size() - 1) : i.what);
       s_.lines(text, s_.width_pt());
       s_.space(k_gap_pt / 2);
@@ -79,7 +80,7 @@ class Printer {
     s_.space(k_gap_pt / 2);
     Pictures pictures{{}, 3};
     for (std::size_t i = 0; i < b.items.size(); ++i)
-      if (b.items[i].picture) pictures.list.push_back({b.items[i].picture->svg, fmt::format("To {}", i + 1), true});
+      if (b.items[i].picture) pictures.list.push_back({b.items[i].picture->svg, tr("To {}", i + 1), true});
     if (!pictures.list.empty()) (*this)(pictures);
   }
   void operator()(const Fold& b) { (*this)(Heading{b.title}); }
@@ -87,7 +88,7 @@ class Printer {
   void operator()(const VerdictBox& b) {
     const double left = 0.36 * s_.width_pt(), inner = 8;
     const PdfColour colour = verdict_colour(b.verdict);
-    const PdfText verdict{b.verdict, 20, true, colour}, score{b.score, 11, true};
+    const PdfText verdict{shown(b.verdict), 20, true, colour}, score{b.score, 11, true};
     double height_left = s_.height(verdict, left) + s_.height(score, left), height_right = 0;
     for (const auto& line : b.lines) height_left += s_.height({line, k_small_pt, false}, left) + 1;
     const double right = s_.width_pt() - left - 3 * inner;
