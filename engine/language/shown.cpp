@@ -15,14 +15,16 @@
 namespace cavum {
 namespace {
 
-constexpr int k_deepest = 8;
-constexpr std::size_t k_most_remembered = 4000;
+constexpr int k_deepest = 12;
+constexpr std::size_t k_most_remembered = 4000, k_telling_letters = 5;
 constexpr char k_open[] = "\u27e6";  // of the pseudo-language
 
 /// The screens of a station say the same sentences sixty times a second. Of one thread.
 std::unordered_map<std::string, std::string>& memory() {
   thread_local std::unordered_map<std::string, std::string> m;
-  if (m.size() > k_most_remembered) m.clear();
+  thread_local std::string language;
+  if (m.size() > k_most_remembered || language != catalogue().language()) m.clear();
+  language = catalogue().language();
   return m;
 }
 
@@ -76,7 +78,7 @@ bool whole(std::string_view text, int depth, std::string& out) {
   const std::string exact(text);
   if (c.kind() != Catalogue::Kind::pseudo || c.knows(exact))
     if (auto t = c.find(exact)) {
-      out = Pattern::fill(*t, {});
+      out = Pattern(exact).gaps() == 0 ? Pattern::fill(*t, {}) : *t;  // the page's messages keep their gaps
       return true;
     }
   for (const Said& s : Catalogue::said_sentences()) {
@@ -84,8 +86,13 @@ bool whole(std::string_view text, int depth, std::string& out) {
     if (!gaps) continue;
     const auto t = c.find(s.message);
     if (!t) continue;
-    bool any = false;
-    for (auto& g : *gaps) g = sentence(g, depth + 1, any);
+    bool all_known = true;
+    for (auto& g : *gaps) {
+      bool known = !has_letters(g) || g.find(' ') == std::string::npos;
+      g = sentence(g, depth + 1, known);
+      all_known = all_known && known;
+    }
+    if (!all_known && s.pattern.all_letters() < k_telling_letters) continue;  // " is " is in many sentences that nobody knows
     const std::string before = s.before ? gaps->front() : "", after = s.after ? gaps->back() : "";
     if (s.before) gaps->erase(gaps->begin());
     if (s.after) gaps->pop_back();
@@ -100,8 +107,33 @@ bool whole(std::string_view text, int depth, std::string& out) {
   return false;
 }
 
+std::ptrdiff_t characters(std::string_view text) {
+  return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; });
+}
+
+/// Columns, with two spaces or more between them: those behind stay where they were, as long as there is room.
+bool in_columns(std::string_view text, int depth, std::string& out) {
+  if (text.find("  ") == std::string_view::npos) return false;
+  bool any = false;
+  std::string all;
+  std::ptrdiff_t longer = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("  ", at), text.size()), next = std::min(text.find_first_not_of(' ', end), text.size());
+    const std::string_view column = text.substr(at, end - at);
+    const std::string said_so = sentence(column, depth + 1, any);
+    longer += characters(said_so) - characters(column);
+    const std::ptrdiff_t spaces = static_cast<std::ptrdiff_t>(next - end), kept = end == text.size() ? 0 : std::max<std::ptrdiff_t>(1, spaces - longer);
+    all += said_so + std::string(static_cast<std::size_t>(kept), ' ');
+    longer += kept - spaces;
+    at = next;
+  }
+  if (any) out = std::move(all);
+  return any;
+}
+
 /// The parts that a text was put together from, each by itself.
 bool in_parts(std::string_view text, int depth, std::string& out) {
+  if (in_columns(text, depth, out)) return true;
   constexpr std::array<std::string_view, 6> k_between{"; ", ". ", ": ", " (", ", ", " \u00b7 "};
   for (const std::string_view between : k_between) {
     if (text.find(between) == std::string_view::npos) continue;
@@ -124,9 +156,28 @@ bool in_parts(std::string_view text, int depth, std::string& out) {
 
 std::string sentence(std::string_view text, int depth, bool& changed) {
   if (depth > k_deepest || text.empty() || text.starts_with(k_open)) return std::string(text);
-  if (text.front() == ' ') return " " + sentence(text.substr(1), depth, changed);
-  if (text.back() == ' ') return sentence(text.substr(0, text.size() - 1), depth, changed) + " ";
-  if (is_number(text)) return with_decimal_sign(text);
+  if (text.front() == ' ' || text.back() == ' ') {
+    std::string part;  // ", at " and the like
+    if (has_letters(text) && whole(text, depth, part)) {
+      changed = true;
+      return part;
+    }
+    if (text.front() == ' ') return " " + sentence(text.substr(1), depth, changed);
+    return sentence(text.substr(0, text.size() - 1), depth, changed) + " ";
+  }
+  if (is_number(text)) {
+    const std::string number = with_decimal_sign(text);
+    changed = changed || number != text;
+    return number;
+  }
+  for (const std::string_view begin : {"- ", "\u2022 ", "* ", ": ", "; ", ", "})  // of a list, or of what follows another part
+    if (text.starts_with(begin) && text.size() > begin.size()) {
+      bool rest_changed = false;
+      const std::string rest = sentence(text.substr(begin.size()), depth + 1, rest_changed);
+      if (!rest_changed) break;
+      changed = true;
+      return std::string(begin) + rest;
+    }
   if (!has_letters(text)) return std::string(text);
   if (const auto known = memory().find(std::string(text)); known != memory().end()) {
     changed = changed || known->second != text;
