@@ -28,12 +28,19 @@ std::unordered_map<std::string, std::string>& memory() {
   return m;
 }
 
+/// What files brought. Read by all threads.
+std::map<std::string, std::string>& of_files() {
+  static std::map<std::string, std::string> texts;
+  return texts;
+}
+
 bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Numbers with their units and signs and nothing else: "0.30 ± 0.02 mm".
 bool is_number(std::string_view text) {
-  static const std::unordered_set<std::string_view> k_beside{"mm", "mm²", "mm³", "mm2", "mm3", "s", "ms", "µs", "N", "%", "°", "±", "/", "–", "-",
-                                                              "rpm", "min", "Hz", "kHz", "x", "×", "µm", "N/mm", "N·s/mm", "mm/s", "deg"};
+  static const std::unordered_set<std::string_view> k_beside{"mm",  "mm²", "mm³", "mm2", "mm3",  "s",      "ms",   "µs",  "N",
+                                                             "%",   "°",   "±",   "/",   "–",    "-",      "rpm",  "min", "Hz",
+                                                             "kHz", "x",   "×",   "µm",  "N/mm", "N·s/mm", "mm/s", "deg"};
   bool any = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
@@ -48,7 +55,8 @@ bool is_number(std::string_view text) {
     if (word.ends_with("°")) word.remove_suffix(2);
     const std::size_t dot = word.find('.');
     if (word.empty() || !is_digit(word.front()) || !is_digit(word.back())) return false;
-    if (!std::all_of(word.begin(), word.end(), [](char c) { return is_digit(c) || c == '.'; }) || (dot != word.npos && word.find('.', dot + 1) != word.npos))
+    if (!std::all_of(word.begin(), word.end(), [](char c) { return is_digit(c) || c == '.'; }) ||
+        (dot != word.npos && word.find('.', dot + 1) != word.npos))
       return false;
     any = true;
   }
@@ -122,7 +130,8 @@ bool in_columns(std::string_view text, int depth, std::string& out) {
     const std::string_view column = text.substr(at, end - at);
     const std::string said_so = sentence(column, depth + 1, any);
     longer += characters(said_so) - characters(column);
-    const std::ptrdiff_t spaces = static_cast<std::ptrdiff_t>(next - end), kept = end == text.size() ? 0 : std::max<std::ptrdiff_t>(1, spaces - longer);
+    const std::ptrdiff_t spaces = static_cast<std::ptrdiff_t>(next - end),
+                         kept = end == text.size() ? 0 : std::max<std::ptrdiff_t>(1, spaces - longer);
     all += said_so + std::string(static_cast<std::size_t>(kept), ' ');
     longer += kept - spaces;
     at = next;
@@ -184,6 +193,10 @@ std::string sentence(std::string_view text, int depth, bool& changed) {
     return known->second;
   }
   std::string out;
+  if (const auto own = of_files().find(std::string(text)); own != of_files().end()) {
+    changed = true;
+    return own->second;
+  }
   bool found = whole(text, depth, out);
   if (const char last = text.back(); !found && (last == '.' || last == ')' || last == ',' || last == ';' || last == ':') && text.size() > 1) {
     out = sentence(text.substr(0, text.size() - 1), depth + 1, found);
@@ -198,6 +211,11 @@ std::string sentence(std::string_view text, int depth, bool& changed) {
 }
 
 }  // namespace
+
+void add_translations(const std::map<std::string, std::string>& texts) {
+  for (const auto& [english, translated] : texts) of_files().insert_or_assign(english, translated);
+  memory().clear();
+}
 
 std::string shown(std::string_view english) {
   if (catalogue().kind() == Catalogue::Kind::english) return std::string(english);

@@ -9,10 +9,11 @@
 #include <vector>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/base/version.h"
+#include "engine/language/say.h"
 #include "scenarios/review/picture.h"
 #include "ui/parts/chart_svg.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/report/print/html_writer.h"
 #include "ui/report/print/pdf_writer.h"
 #include "ui/report/report_document.h"
@@ -105,13 +106,13 @@ std::vector<Picture> class_pictures(const ClassTooth& t) {
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   d.blocks.emplace_back(Heading{tr("Where on the tooth")});
-  d.blocks.emplace_back(
-      Paragraph{trn("{} cavity laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
-                    "place inside the target.",
-                    "{} cavities laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
-                    "place inside the target.",
-                    static_cast<long long>(t.map->sessions()), t.map->sessions()),
-                ""});
+  d.blocks.emplace_back(Paragraph{
+      trn("{} cavity laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+          "place inside the target.",
+          "{} cavities laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+          "place inside the target.",
+          static_cast<long long>(t.map->sessions()), t.map->sessions()),
+      ""});
   d.blocks.emplace_back(LiveFigure{"tooth-3d",
                                    tr("The tooth with the planned cavity"),
                                    tr("The tooth in 3D needs a browser with scripts and WebGL; the sections below show the same."),
@@ -122,15 +123,17 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(), ""}}, 1, false});
   d.blocks.emplace_back(Paragraph{tr("The sections run through the middle of what was cut too much."), "", Paragraph::Kind::small});
   if (t.left_out > 0)
-    d.blocks.emplace_back(
-        Paragraph{tr("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out), tr("Note"),
-                  Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{tr("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out),
+                                    tr("Note"), Paragraph::Kind::note});
   for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, tr("Not in these pictures"), Paragraph::Kind::note});
   if (f.walls.empty()) return;
-  ReportTable walls{
-      {{tr("Wall"), false, 3}, {tr("Cut by"), true, 2}, {tr("Mean, mm"), true, 2}, {tr("95th percentile, mm"), true, 3}, {tr("Largest of all, mm"), true, 3}},
-      {},
-      tr("Walls")};
+  ReportTable walls{{{tr("Wall"), false, 3},
+                     {tr("Cut by"), true, 2},
+                     {tr("Mean, mm"), true, 2},
+                     {tr("95th percentile, mm"), true, 3},
+                     {tr("Largest of all, mm"), true, 3}},
+                    {},
+                    tr("Walls")};
   for (const auto& w : f.walls)
     walls.rows.push_back({{{w.wall}, {std::to_string(w.n)}, {fixed(w.mean_mm, 2)}, {fixed(w.p95_mm, 2)}, {fixed(w.worst_mm, 2)}}});
   d.blocks.emplace_back(std::move(walls));
@@ -140,7 +143,11 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
 
 void add_criteria(Document& d, const ClassFigures& f) {
   d.blocks.emplace_back(Heading{tr("Criteria")});
-  ReportTable t{{{tr("Criterion"), false, 3}, {tr("Measure"), false, 4}, {tr("Share of points"), true, 2}, {tr("Discrimination"), true, 2}, {tr("Remark"), false, 5}},
+  ReportTable t{{{tr("Criterion"), false, 3},
+                 {tr("Measure"), false, 4},
+                 {tr("Share of points"), true, 2},
+                 {tr("Discrimination"), true, 2},
+                 {tr("Remark"), false, 5}},
                 {},
                 tr("Criteria")};
   for (const auto& c : f.criteria) {
@@ -151,10 +158,10 @@ void add_criteria(Document& d, const ClassFigures& f) {
     t.rows.push_back({{{c.id}, {c.metric}, {fixed(c.difficulty, 2)}, {number(c.discrimination, 2)}, {remark}}});
   }
   d.blocks.emplace_back(std::move(t));
-  d.blocks.emplace_back(
-      Paragraph{tr("Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
-                "one skill, and a rubric of few and different ones has a low one without being unfair."),
-                "", Paragraph::Kind::small});
+  d.blocks.emplace_back(Paragraph{
+      tr("Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
+         "one skill, and a rubric of few and different ones has a low one without being unfair."),
+      "", Paragraph::Kind::small});
   if (const std::string few = few_words(f, "discrimination"); !few.empty())
     d.blocks.emplace_back(Paragraph{tr("Discrimination, {}.", few), tr("Few candidates"), Paragraph::Kind::note});
 }
@@ -172,9 +179,9 @@ void add_stations(Document& d, const ClassFigures& f) {
   const auto& e = *f.station_effect;
   d.blocks.emplace_back(
       Paragraph{tr("F = {}; stations hold {} % of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
-                            fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
-                            e.chance < 0.01 ? tr("One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there.")
-                                            : tr("No station stands out.")),
+                   fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
+                   e.chance < 0.01 ? tr("One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there.")
+                                   : tr("No station stands out.")),
                 ""});
 }
 
@@ -185,7 +192,8 @@ void add_agreement(Document& d, const ClassFigures& f) {
     d.blocks.emplace_back(Paragraph{tr("No marks of people were given (--marks)."), ""});
     return;
   }
-  d.blocks.emplace_back(Paragraph{tr("{} marked by {}.", candidates(a.n), trn("{} judge", "{} judges", static_cast<long long>(a.judges), a.judges)), ""});
+  d.blocks.emplace_back(
+      Paragraph{tr("{} marked by {}.", candidates(a.n), trn("{} judge", "{} judges", static_cast<long long>(a.judges), a.judges)), ""});
   ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 3}, {tr("What it says"), false, 6}}, {}, tr("Agreement with people")};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   if (a.icc) {
@@ -204,8 +212,10 @@ void add_agreement(Document& d, const ClassFigures& f) {
                     fixed(f.pass_points, 1)));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
-    d.blocks.emplace_back(Paragraph{trn("{} candidate was not marked by all judges, and left out of the ICC.", "{} candidates were not marked by all judges, and left out of the ICC.", static_cast<long long>(a.incomplete), a.incomplete),
-                                    "", Paragraph::Kind::small});
+    d.blocks.emplace_back(
+        Paragraph{trn("{} candidate was not marked by all judges, and left out of the ICC.",
+                      "{} candidates were not marked by all judges, and left out of the ICC.", static_cast<long long>(a.incomplete), a.incomplete),
+                  "", Paragraph::Kind::small});
 }
 
 void add_to_look_at(Document& d, const ClassFigures& f) {
@@ -222,17 +232,17 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 }  // namespace
 
 Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
+  ui::show_texts_of(tooth.scenario);
   Document d;
   d.title = tr("{}: the class", shown(tooth.scenario.title));
-  d.subtitle = tr("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not",
-                           candidates(f.n), f.exam);
+  d.subtitle = tr("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not", candidates(f.n), f.exam);
   if (f.simulated > 0)
-    d.blocks.emplace_back(Paragraph{
-        f.simulated == f.n
-            ? tr("All of them were sat by simulated operators.")
-            : tr("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
-                          f.simulated),
-        tr("Note"), Paragraph::Kind::note});
+    d.blocks.emplace_back(
+        Paragraph{f.simulated == f.n
+                      ? tr("All of them were sat by simulated operators.")
+                      : tr("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
+                           f.simulated),
+                  tr("Note"), Paragraph::Kind::note});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);
@@ -240,8 +250,7 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   add_stations(d, f);
   add_agreement(d, f);
   add_to_look_at(d, f);
-  d.footer = {tr("Class of the exam {}, {}", f.exam, candidates(f.n)),
-              tr("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
+  d.footer = {tr("Class of the exam {}, {}", f.exam, candidates(f.n)), tr("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
   return in_language(std::move(d));
 }
 

@@ -12,6 +12,7 @@
 #include "grading/result/loss.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/review/picture.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/report/figures/from_above.h"
 #include "ui/report/figures/section_pictures.h"
 #include "ui/report/motion_charts.h"
@@ -36,18 +37,17 @@ std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
     const std::string by = fixed(std::fabs(off), 1), pass = fixed(mark, 1), percent = plain_number(r.pass_percent);
-    lines.push_back((off < 0 ? tr("{} points below the pass mark of {} points ({} %)", by, pass, percent)
-                             : tr("{} points above the pass mark of {} points ({} %)", by, pass, percent)) +
-                    (r.borderline_percent > 0
-                         ? tr("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1))
-                         : ""));
+    lines.push_back(
+        (off < 0 ? tr("{} points below the pass mark of {} points ({} %)", by, pass, percent)
+                 : tr("{} points above the pass mark of {} points ({} %)", by, pass, percent)) +
+        (r.borderline_percent > 0 ? tr("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1)) : ""));
   } else {
     const grading::CriterionResult* lowest = nullptr;
     const auto percent = [](const grading::CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
     for (const auto& c : r.criteria)
       if (c.max > 0 && (lowest == nullptr || percent(c) < percent(*lowest))) lowest = &c;
     lines.push_back(tr("each criterion must reach {} % by itself{}", plain_number(r.pass_percent),
-                                lowest != nullptr ? tr("; the lowest, {}, reaches {} %", lowest->title, fixed(percent(*lowest), 1)) : ""));
+                       lowest != nullptr ? tr("; the lowest, {}, reaches {} %", lowest->title, fixed(percent(*lowest), 1)) : ""));
   }
   if (reader == ReportReader::instructor) lines.push_back(tr("± {} if every figure were off by its whole bound", fixed(r.points_bound, 1)));
   return lines;
@@ -76,14 +76,14 @@ std::string shown_value(const grading::CriterionResult& c, bool with_bound = tru
 std::vector<std::string> how_to_read(const grading::Result& r) {
   std::vector<std::string> words{
       tr("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {} mm. ± after points: what the "
-                  "value at either end of its ± would give.",
-                  plain_number(r.leaf_mm))};
+         "value at either end of its ± would give.",
+         plain_number(r.leaf_mm))};
   const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
   if (any([](const grading::CriterionResult& c) { return c.work_share < 1; }))
     words.push_back(
         tr("Care counts for as much as was done: where less than {} % of the target at the place in question was removed, points are given "
-                    "in proportion, and their ± holds that share at either end of its own ±, too.",
-                    plain_number(grading::k_care_counts_percent)));
+           "in proportion, and their ± holds that share at either end of its own ±, too.",
+           plain_number(grading::k_care_counts_percent)));
   if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.push_back(shown(k_floor_words));
   return words;
 }
@@ -91,7 +91,9 @@ std::vector<std::string> how_to_read(const grading::Result& r) {
 void add_criteria(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Criteria")});
   ReportTable t{
-      {{tr("Criterion"), false, 2.2}, {tr("Value"), true, 1.9}, {tr("Limits"), false, 2.4}, {tr("Points"), true, 1.8}, {tr("Why"), false, 3.8}}, {}, tr("Criteria")};
+      {{tr("Criterion"), false, 2.2}, {tr("Value"), true, 1.9}, {tr("Limits"), false, 2.4}, {tr("Points"), true, 1.8}, {tr("Why"), false, 3.8}},
+      {},
+      tr("Criteria")};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     const std::string points =
@@ -107,7 +109,8 @@ void add_criteria(Document& d, const ReportSource& s) {
 /// What a student reads first of the criteria: no bounds, places and ticks.
 void add_marks(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Marks")});
-  ReportTable t{{{tr("What was looked at"), false, 2.6}, {tr("Yours"), true, 1.6}, {tr("Asked"), false, 3.6}, {tr("Points"), true, 1.4}}, {}, tr("Marks")};
+  ReportTable t{
+      {{tr("What was looked at"), false, 2.6}, {tr("Yours"), true, 1.6}, {tr("Asked"), false, 3.6}, {tr("Points"), true, 1.4}}, {}, tr("Marks")};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     t.rows.push_back({{{c.title},
@@ -179,7 +182,11 @@ void add_moments(Document& d, const ReportSource& s) {
     const auto& c = w.criterion;
     const double lost = c.max - c.points;
     d.blocks.push_back(Heading{tr("{}: {} of {} points lost", c.title, fixed(lost, lost < 0.05 ? 3 : 1), fixed(c.max, 1)), 3});
-    ReportTable t{{{tr("Time"), true, 1.2}, {tr("Place x, y, z, mm"), true, 2}, {tr("What"), false, 6}, {tr("How much"), true, 1.7}, {tr("Points lost"), true, 1.2}},
+    ReportTable t{{{tr("Time"), true, 1.2},
+                   {tr("Place x, y, z, mm"), true, 2},
+                   {tr("What"), false, 6},
+                   {tr("How much"), true, 1.7},
+                   {tr("Points lost"), true, 1.2}},
                   {},
                   tr("Moments behind {}", c.title)};
     for (const auto& m : w.items) {
@@ -222,11 +229,14 @@ void add_sections(Document& d, const ReportSource& s) {
 
 void add_course(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Force, depth and speed")});
-  d.blocks.push_back(
-      LiveFigure{"charts", tr("Force, depth and handpiece speed over time"), tr("The charts that move need a browser with scripts."), motion_charts(s)});
+  d.blocks.push_back(LiveFigure{"charts", tr("Force, depth and handpiece speed over time"), tr("The charts that move need a browser with scripts."),
+                                motion_charts(s)});
   if (s.events.empty()) return;
   d.blocks.push_back(Heading{tr("Events"), 3});
-  ReportTable t{{{tr("No."), true, 0.6}, {tr("Time"), true, 1.2}, {tr("Kind"), false, 1.4}, {tr("What"), false, 6}, {tr("Place x, y, z, mm"), true, 2}}, {}, tr("Events")};
+  ReportTable t{
+      {{tr("No."), true, 0.6}, {tr("Time"), true, 1.2}, {tr("Kind"), false, 1.4}, {tr("What"), false, 6}, {tr("Place x, y, z, mm"), true, 2}},
+      {},
+      tr("Events")};
   for (std::size_t i = 0; i < s.events.size(); ++i) {
     const ReportEvent& e = s.events[i];
     t.rows.push_back({{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {e.kind}, {e.text}, {place_text(e.site_mm)}},
@@ -239,14 +249,14 @@ void add_course(Document& d, const ReportSource& s) {
 std::string progress_words(const ReportFiling& f) {
   if (!f.scatter)
     return tr("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
-                       cohort::k_least_steps, cohort::k_least_repeaters);
+              cohort::k_least_steps, cohort::k_least_repeaters);
   if (!f.progress) return tr("This is the first attempt that counts.");
   const cohort::Progress& p = *f.progress;
   const std::string by_chance = tr("up to {} % may be chance, as {} steps of {} candidates from one attempt to the next show",
-                                            fixed(p.bound_percent, 0), f.scatter->steps, f.scatter->candidates);
+                                   fixed(p.bound_percent, 0), f.scatter->steps, f.scatter->candidates);
   if (!p.told())
     return tr("Over {} attempts no change can be told from chance: {}{} %, and {}.", p.attempts, p.change_percent < 0 ? "" : "+",
-                       fixed(p.change_percent, 0), by_chance);
+              fixed(p.change_percent, 0), by_chance);
   const std::string by = fixed(std::fabs(p.change_percent), 0);
   return p.change_percent > 0 ? tr("Over {} attempts the mark rose by {} %: more than chance explains ({}).", p.attempts, by, by_chance)
                               : tr("Over {} attempts the mark fell by {} %: more than chance explains ({}).", p.attempts, by, by_chance);
@@ -259,7 +269,12 @@ void add_attempts(Document& d, const ReportSource& s) {
     return;
   }
   const bool all = s.reader == ReportReader::instructor;
-  ReportTable t{{{tr("Attempt"), true, 1}, {tr("Filed (UTC)"), false, 3}, {tr("Verdict"), false, 1.5}, {tr("Points"), true, 2}, {tr("Entry"), true, 1}, {"", false, 2.5}},
+  ReportTable t{{{tr("Attempt"), true, 1},
+                 {tr("Filed (UTC)"), false, 3},
+                 {tr("Verdict"), false, 1.5},
+                 {tr("Points"), true, 2},
+                 {tr("Entry"), true, 1},
+                 {"", false, 2.5}},
                 {},
                 tr("Attempts")};
   std::vector<ReportAttempt> shown;
@@ -318,7 +333,9 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
   return {fixed(t_s, 3) + " s", Jump{t_s, site_mm}};
 }
 
-std::string place_text(const std::optional<Vec3>& p) { return p ? shown(fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2))) : ""; }
+std::string place_text(const std::optional<Vec3>& p) {
+  return p ? shown(fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2))) : "";
+}
 
 std::string finish_words(const std::string& finish) {
   if (finish == scenarios::finish_name(scenarios::Finish::completed)) return tr("its last step was completed");
@@ -381,6 +398,7 @@ Document in_language(Document document) {
 }
 
 Document report_document(const ReportSource& s) {
+  ui::show_texts_of(s.input.scenario);
   const grading::Result& r = s.result;
   Document d;
   d.title = report_title(s);
@@ -388,9 +406,10 @@ Document report_document(const ReportSource& s) {
   if (s.scan)
     d.subtitle = tr("Scan of a prepared tooth · {} · {}", as_is(s.scan->file), r.tooth_name);
   else
-    d.subtitle = fmt::format("{} · {} · {} · {}{}",
-                             named ? tr("{}, candidate {}", as_is(*s.filing->name), as_is(s.facts.candidate)) : tr("Candidate {}", as_is(s.facts.candidate)),
-                             s.facts.created, shown(r.tooth_name), shown(s.facts.device), s.reader == ReportReader::instructor ? tr(" · instructor's report") : "");
+    d.subtitle = fmt::format(
+        "{} · {} · {} · {}{}",
+        named ? tr("{}, candidate {}", as_is(*s.filing->name), as_is(s.facts.candidate)) : tr("Candidate {}", as_is(s.facts.candidate)),
+        s.facts.created, shown(r.tooth_name), shown(s.facts.device), s.reader == ReportReader::instructor ? tr(" · instructor's report") : "");
   d.created = s.facts.created;
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", tr("Regrade"), Paragraph::Kind::note});
   add_filing_notes(d, s);
@@ -399,10 +418,9 @@ Document report_document(const ReportSource& s) {
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
-    d.blocks.push_back(
-        Paragraph{tr("{} was opened at {} s, which this task asks to spare: {} mm² of its wall lie open, {} mm³ of it were removed",
-                              p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
-                  tr("Perforation"), Paragraph::Kind::note});
+    d.blocks.push_back(Paragraph{tr("{} was opened at {} s, which this task asks to spare: {} mm² of its wall lie open, {} mm³ of it were removed",
+                                    p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
+                                 tr("Perforation"), Paragraph::Kind::note});
   add_lessons(d, s);
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, tr("Note")});
   const bool student = s.reader == ReportReader::student;

@@ -1,5 +1,5 @@
-// Sentences in the reader's language: what tr() says, what shown() makes of English sentences that were made elsewhere, which language is chosen, and that
-// the German catalogue takes every argument that the English sentence has.
+// Sentences in the reader's language: what tr() says, what shown() makes of English sentences that were made elsewhere, which language is chosen, and
+// that the German catalogue takes every argument that the English sentence has.
 #include "engine/language/language.h"
 
 #include <gtest/gtest.h>
@@ -55,7 +55,8 @@ TEST_F(Language, NumbersWithTheirUnitsGetTheDecimalSignAndNamesDoNot) {
 TEST_F(Language, ASentenceThatWasMadeElsewhereIsTranslatedWithWhatStandsInItsGaps) {
   set_language("de");
   EXPECT_EQ(shown("The pulp was opened mesiobuccally at 1:05."), "Eröffnet wurde Pulpa mesiobukkal bei 1:05.");
-  EXPECT_EQ(shown("You pressed with 1.5 N on average and up to 3.0 N at 0:12."), "Sie drückten im Mittel mit 1,5 N und höchstens mit 3,0 N bei 0:12.");
+  EXPECT_EQ(shown("You pressed with 1.5 N on average and up to 3.0 N at 0:12."),
+            "Sie drückten im Mittel mit 1,5 N und höchstens mit 3,0 N bei 0:12.");
   EXPECT_EQ(shown("full marks; critical"), "volle Punktzahl; kritisch");
   EXPECT_EQ(shown("nothing like this is in any catalogue"), "nothing like this is in any catalogue");
   EXPECT_EQ(shown(shown("full marks")), "volle Punktzahl") << "a translation is not translated again";
