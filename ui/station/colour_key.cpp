@@ -31,6 +31,7 @@ void draw_colour_key(const Theme& t, const std::vector<ColourKeyEntry>& key, ImV
   draw.AddRectFilled(corner, {corner.x + box.x, corner.y + box.y}, ink(ground), t.px(6));
   corner = {corner.x + pad, corner.y + pad};
   for (const ColourKeyEntry& e : key) {
+    ImGui::LogText("%s\n", shown(e.word).c_str());
     draw.AddRectFilled(corner, {corner.x + side, corner.y + side}, ink(e.colour), t.px(3));
     draw.AddRect(corner, {corner.x + side, corner.y + side}, ink(t.text), t.px(3));
     draw.AddText({corner.x + side + t.px(8), corner.y}, ink(t.text), shown(e.word).c_str());

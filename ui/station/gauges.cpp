@@ -59,6 +59,7 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
   const std::string deepest = number_text("deepest %.1f", deepest_mm);
   draw.AddLine({right, y_of(deepest_mm)}, {right + t.px(10), y_of(deepest_mm)}, ink(t.text), t.px(2));
   draw.AddText({right + t.px(14), std::min(y_of(deepest_mm) - t.px(8), at.y + height - t.px(14))}, ink(t.quiet), deepest.c_str());
+  ImGui::LogText("%s\n", deepest.c_str());
   pop_font();
   ImGui::Dummy({width, height + t.px(12)});
 }

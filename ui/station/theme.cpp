@@ -108,6 +108,11 @@ namespace {
 constexpr ImGuiWindowFlags k_plain =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// Into the window's file, where one is wanted (Window::keep_words); until the end of this area.
+void keep_words() {
+  if (ImGui::GetIO().LogFilename != nullptr) ImGui::LogToFile();
+}
+
 }  // namespace
 
 void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel) {
@@ -115,6 +120,7 @@ void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, panel ? theme.panel : theme.back);
   ImGui::Begin(id, nullptr, k_plain);
+  keep_words();
 }
 
 void end_area() {
@@ -131,6 +137,7 @@ void begin_card(const Theme& theme, const char* heading, float width) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(10));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme.panel);
   ImGui::Begin(heading, nullptr, k_plain | ImGuiWindowFlags_AlwaysAutoResize);
+  keep_words();
   ImGui::PopStyleVar(2);
   ImGui::Dummy({width - theme.px(72), 0});
   heading_text(heading);
@@ -164,6 +171,7 @@ bool begin_question(const Theme& theme, const char* name, const char* heading, b
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return false;
+  keep_words();
   heading_text(heading);
   ImGui::Dummy({0, theme.px(2)});
   return true;

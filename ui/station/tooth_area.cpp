@@ -65,6 +65,7 @@ void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* up
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const std::string lower = shown(english);
   draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), shown(upper).c_str());
+  ImGui::LogText("%s\n%s\n", shown(upper).c_str(), lower.c_str());
   if (lower.empty()) return;
   const float width = std::min(size.x - theme.px(40), theme.px(680)), pad = theme.px(12);
   const ImVec2 text = ImGui::CalcTextSize(lower.c_str(), nullptr, false, width - 2 * pad);
