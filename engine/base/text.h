@@ -29,6 +29,9 @@ namespace cavum {
 /// JSON for a terminal: control characters above ASCII, which JSON does not escape, as \u escapes. It reads the same.
 [[nodiscard]] std::string terminal_json(std::string_view json);
 
+/// Marks words that are shown to people later, in their language: the catalogue of messages takes them from here (docs/languages.md).
+[[nodiscard]] constexpr const char* said(const char* english) noexcept { return english; }
+
 /// 3.5 as "3.5", 60.0 as "60"; six digits at most.
 [[nodiscard]] std::string plain_number(double v);
 /// With exactly `digits` digits after the point.

@@ -13,6 +13,7 @@
 #include "engine/base/toml_limits.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
+#include "scenarios/file/parse_languages.h"
 #include "scenarios/file/parse_steps.h"
 #include "scenarios/file/parse_zones.h"
 #include "scenarios/file/surface_files.h"
@@ -252,6 +253,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
   s.rubric.path = path;
   if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s, problems);
+  s.languages = read_languages(t, s, problems);
   t.finish();
   return s;
 }

@@ -175,6 +175,9 @@ struct GaugeSpec {
   bool speed = false, force = false, depth = false;
 };
 
+/// By language ("de"): what stands for each English text of a scenario.
+using Translations = std::map<std::string, std::map<std::string, std::string>>;
+
 struct Scenario {
   std::string id, title, description;
   std::string path;                 ///< file it was read from
@@ -192,6 +195,7 @@ struct Scenario {
   PerforationSpec perforation;
   RubricSpec rubric;
   CarelessSpec careless;
+  Translations languages;
   std::map<std::string, Place> places;  ///< by "time_limit_s", "points/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
 };
 

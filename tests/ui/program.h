@@ -26,7 +26,10 @@ struct Ran {
 
 class Program : public ::testing::Test {
  protected:
-  void SetUp() override { setenv("CAVUM_HOME", path("home").c_str(), 1); }
+  void SetUp() override {
+    setenv("CAVUM_HOME", path("home").c_str(), 1);
+    setenv("LANGUAGE", "en", 1);  // whatever the machine speaks
+  }
 
   /// A file of the test's folder, which goes away with it.
   [[nodiscard]] std::string path(const std::string& name) const { return folder_.file(name); }

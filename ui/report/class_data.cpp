@@ -58,7 +58,7 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
 
   nlohmann::json cells = cells_json(grid, box);
   cells["heat"] = packed_array(heat);
-  return {{"schema", 1},
+  nlohmann::json data = {{"schema", 1},
           {"kind", "class"},
           {"title", t.scenario.title},
           {"n", figures.n},
@@ -67,6 +67,8 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
           {"tissues", tissues_json(t.tooth, false)},
           {"grid", std::move(cells)},
           {"scale_mm", k_colours_end_mm}};
+  add_words(data);
+  return data;
 }
 
 }  // namespace cavum::report

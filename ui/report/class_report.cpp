@@ -3,16 +3,20 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
 #include "engine/base/text.h"
 #include "engine/base/version.h"
+#include "engine/language/say.h"
 #include "scenarios/review/picture.h"
 #include "ui/parts/chart_svg.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/report/print/html_writer.h"
 #include "ui/report/print/pdf_writer.h"
+#include "ui/report/report_document.h"
 
 namespace cavum::report {
 namespace {
@@ -23,13 +27,13 @@ using cohort::ClassTooth;
 constexpr int k_bins = 20;
 
 std::string number(const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : "–"; }
-std::string count(std::size_t n, const char* one, const char* many) { return fmt::format("{} {}", n, n == 1 ? one : many); }
+std::string candidates(std::size_t n) { return trn("{} candidate", "{} candidates", static_cast<long long>(n), n); }
 
 /// A warning before what a figure says, when it comes from few.
 std::string few_first(const ClassFigures& f, const char* figure) {
-  std::string words = few_words(f, figure);
+  std::string words = shown(few_words(f, figure));
   if (words.empty()) return "";
-  words[0] = 'F';
+  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
   return words + "; ";
 }
 
@@ -38,8 +42,8 @@ Picture distribution(const ClassFigures& f) {
   std::vector<double> in_bin(k_bins, 0.0);
   for (const double p : f.points) in_bin[static_cast<std::size_t>(std::clamp(static_cast<int>(p / f.max_points * k_bins), 0, k_bins - 1))] += 1;
   ui::Chart c;
-  c.x_label = "points";
-  c.y_label = "candidates";
+  c.x_label = tr("points");
+  c.y_label = tr("candidates");
   ui::ChartSeries steps;
   steps.colour = "#0072b2";
   for (int i = 0; i < k_bins; ++i) {
@@ -49,24 +53,24 @@ Picture distribution(const ClassFigures& f) {
   c.series = {steps};
   c.x_range = {0, f.max_points};
   c.y_range = {0, 1.15 * std::max(1.0, *std::max_element(in_bin.begin(), in_bin.end()))};
-  c.marks = {{f.pass_points, true, "pass mark"}};
-  if (f.agreement.cut) c.marks.push_back({*f.agreement.cut, true, "borderline regression"});
+  c.marks = {{f.pass_points, true, tr("pass mark")}};
+  if (f.agreement.cut) c.marks.push_back({*f.agreement.cut, true, tr("borderline regression")});
   c.width_px = 760;
   c.height_px = 300;
-  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), "How the points of the class lie around the pass mark"};
+  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), tr("How the points of the class lie around the pass mark")};
 }
 
 ReportTable key_figures(const ClassFigures& f) {
-  ReportTable t{{{"Figure", false, 3}, {"Value", true, 2}, {"What it says", false, 6}}, {}, "The class in figures"};
+  ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 2}, {tr("What it says"), false, 6}}, {}, tr("The class in figures")};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
-  row("mean", fmt::format("{} of {}", fixed(f.mean, 1), plain_number(f.max_points)), "points");
-  row("standard deviation", fixed(f.sd, 1), "points");
-  row("pass / review / fail", fmt::format("{} / {} / {}", f.pass, f.review, f.fail), "candidates");
+  row(tr("mean"), tr("{} of {}", fixed(f.mean, 1), plain_number(f.max_points)), tr("points"));
+  row(tr("standard deviation"), fixed(f.sd, 1), tr("points"));
+  row(tr("pass / review / fail"), fmt::format("{} / {} / {}", f.pass, f.review, f.fail), tr("candidates"));
   const auto few = [&f](const char* figure) { return few_first(f, figure); };
-  row("Cronbach's alpha", number(f.alpha, 2),
-      few("alpha") + "how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951");
-  row("standard error", number(f.sem, 1),
-      few("standard_error") + "points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again");
+  row(tr("Cronbach's alpha"), number(f.alpha, 2),
+      few("alpha") + tr("how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951"));
+  row(tr("standard error"), number(f.sem, 1),
+      few("standard_error") + tr("points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again"));
   return t;
 }
 
@@ -94,122 +98,133 @@ std::vector<Picture> class_pictures(const ClassTooth& t) {
     spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
     return Picture{scenarios::section_svg(t.tooth, nullptr, t.zones, spec), title};
   };
-  return {draw(scenarios::View::occlusal, 0, "From above"),
+  return {draw(scenarios::View::occlusal, 0, tr("From above")),
           draw(scenarios::View::mesio_distal, at.y, fmt::format("Mesio-distal, y = {} mm", fixed(at.y, 2))),
           draw(scenarios::View::bucco_lingual, at.x, fmt::format("Bucco-lingual, x = {} mm", fixed(at.x, 2))),
           draw(scenarios::View::horizontal, at.z, fmt::format("Horizontal, z = {} mm", fixed(at.z, 2)))};
 }
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
-  d.blocks.emplace_back(Heading{"Where on the tooth"});
-  d.blocks.emplace_back(
-      Paragraph{count(t.map->sessions(), "cavity", "cavities") +
-                    " laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
-                    "place inside the target.",
-                ""});
+  d.blocks.emplace_back(Heading{tr("Where on the tooth")});
+  d.blocks.emplace_back(Paragraph{
+      trn("{} cavity laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+          "place inside the target.",
+          "{} cavities laid over each other. Orange: how many of the class removed a place outside target and leeway; blue: how many left a "
+          "place inside the target.",
+          static_cast<long long>(t.map->sessions()), t.map->sessions()),
+      ""});
   d.blocks.emplace_back(LiveFigure{"tooth-3d",
-                                   "The tooth with the planned cavity",
-                                   "The tooth in 3D needs a browser with scripts and WebGL; the sections below show the same.",
+                                   tr("The tooth with the planned cavity"),
+                                   tr("The tooth in 3D needs a browser with scripts and WebGL; the sections below show the same."),
                                    {}});
   Pictures pictures{{}, 2, false};
   pictures.list = class_pictures(t);
   d.blocks.emplace_back(std::move(pictures));
   d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(), ""}}, 1, false});
-  d.blocks.emplace_back(Paragraph{"The sections run through the middle of what was cut too much.", "", Paragraph::Kind::small});
+  d.blocks.emplace_back(Paragraph{tr("The sections run through the middle of what was cut too much."), "", Paragraph::Kind::small});
   if (t.left_out > 0)
-    d.blocks.emplace_back(
-        Paragraph{fmt::format("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out), "Note",
-                  Paragraph::Kind::note});
-  for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, "Not in these pictures", Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{tr("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out),
+                                    tr("Note"), Paragraph::Kind::note});
+  for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, tr("Not in these pictures"), Paragraph::Kind::note});
   if (f.walls.empty()) return;
-  ReportTable walls{
-      {{"Wall", false, 3}, {"Cut by", true, 2}, {"Mean, mm", true, 2}, {"95th percentile, mm", true, 3}, {"Largest of all, mm", true, 3}},
-      {},
-      "Walls"};
+  ReportTable walls{{{tr("Wall"), false, 3},
+                     {tr("Cut by"), true, 2},
+                     {tr("Mean, mm"), true, 2},
+                     {tr("95th percentile, mm"), true, 3},
+                     {tr("Largest of all, mm"), true, 3}},
+                    {},
+                    tr("Walls")};
   for (const auto& w : f.walls)
     walls.rows.push_back({{{w.wall}, {std::to_string(w.n)}, {fixed(w.mean_mm, 2)}, {fixed(w.p95_mm, 2)}, {fixed(w.worst_mm, 2)}}});
   d.blocks.emplace_back(std::move(walls));
   d.blocks.emplace_back(
-      Paragraph{"Signed distance of the cut surface from the target's wall, + = overcut, averaged over the class.", "", Paragraph::Kind::small});
+      Paragraph{tr("Signed distance of the cut surface from the target's wall, + = overcut, averaged over the class."), "", Paragraph::Kind::small});
 }
 
 void add_criteria(Document& d, const ClassFigures& f) {
-  d.blocks.emplace_back(Heading{"Criteria"});
-  ReportTable t{{{"Criterion", false, 3}, {"Measure", false, 4}, {"Share of points", true, 2}, {"Discrimination", true, 2}, {"Remark", false, 5}},
+  d.blocks.emplace_back(Heading{tr("Criteria")});
+  ReportTable t{{{tr("Criterion"), false, 3},
+                 {tr("Measure"), false, 4},
+                 {tr("Share of points"), true, 2},
+                 {tr("Discrimination"), true, 2},
+                 {tr("Remark"), false, 5}},
                 {},
-                "Criteria"};
+                tr("Criteria")};
   for (const auto& c : f.criteria) {
-    const std::string remark = c.difficulty > 0.95                           ? "nearly everybody has all of it: it tells candidates apart little"
-                               : c.difficulty < 0.2                          ? "hardly anybody has it: is the task clear, the limit right?"
-                               : c.discrimination && *c.discrimination < 0.1 ? "goes its own way: who does well elsewhere does not here"
+    const std::string remark = c.difficulty > 0.95                           ? tr("nearly everybody has all of it: it tells candidates apart little")
+                               : c.difficulty < 0.2                          ? tr("hardly anybody has it: is the task clear, the limit right?")
+                               : c.discrimination && *c.discrimination < 0.1 ? tr("goes its own way: who does well elsewhere does not here")
                                                                              : "";
     t.rows.push_back({{{c.id}, {c.metric}, {fixed(c.difficulty, 2)}, {number(c.discrimination, 2)}, {remark}}});
   }
   d.blocks.emplace_back(std::move(t));
-  d.blocks.emplace_back(
-      Paragraph{"Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
-                "one skill, and a rubric of few and different ones has a low one without being unfair.",
-                "", Paragraph::Kind::small});
+  d.blocks.emplace_back(Paragraph{
+      tr("Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
+         "one skill, and a rubric of few and different ones has a low one without being unfair."),
+      "", Paragraph::Kind::small});
   if (const std::string few = few_words(f, "discrimination"); !few.empty())
-    d.blocks.emplace_back(Paragraph{fmt::format("Discrimination, {}.", few), "Few candidates", Paragraph::Kind::note});
+    d.blocks.emplace_back(Paragraph{tr("Discrimination, {}.", few), tr("Few candidates"), Paragraph::Kind::note});
 }
 
 void add_stations(Document& d, const ClassFigures& f) {
-  d.blocks.emplace_back(Heading{"Stations"});
+  d.blocks.emplace_back(Heading{tr("Stations")});
   if (f.stations.size() < 2) {
-    d.blocks.emplace_back(Paragraph{"All sat at one station.", ""});
+    d.blocks.emplace_back(Paragraph{tr("All sat at one station."), ""});
     return;
   }
-  ReportTable t{{{"Station (public key)", false, 4}, {"Candidates", true, 2}, {"Mean points", true, 2}}, {}, "Stations"};
+  ReportTable t{{{tr("Station (public key)"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations")};
   for (const auto& s : f.stations) t.rows.push_back({{{s.key.substr(0, 16) + "…"}, {std::to_string(s.n)}, {fixed(s.mean, 1)}}});
   d.blocks.emplace_back(std::move(t));
   if (!f.station_effect) return;
   const auto& e = *f.station_effect;
   d.blocks.emplace_back(
-      Paragraph{fmt::format("F = {}; stations hold {} % of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
-                            fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
-                            e.chance < 0.01 ? "One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there."
-                                            : "No station stands out."),
+      Paragraph{tr("F = {}; stations hold {} % of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
+                   fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
+                   e.chance < 0.01 ? tr("One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there.")
+                                   : tr("No station stands out.")),
                 ""});
 }
 
 void add_agreement(Document& d, const ClassFigures& f) {
   const auto& a = f.agreement;
-  d.blocks.emplace_back(Heading{"Agreement with people"});
+  d.blocks.emplace_back(Heading{tr("Agreement with people")});
   if (a.n == 0) {
-    d.blocks.emplace_back(Paragraph{"No marks of people were given (--marks).", ""});
+    d.blocks.emplace_back(Paragraph{tr("No marks of people were given (--marks)."), ""});
     return;
   }
-  d.blocks.emplace_back(Paragraph{fmt::format("{} marked by {}.", count(a.n, "candidate", "candidates"), count(a.judges, "judge", "judges")), ""});
-  ReportTable t{{{"Figure", false, 3}, {"Value", true, 3}, {"What it says", false, 6}}, {}, "Agreement with people"};
+  d.blocks.emplace_back(
+      Paragraph{tr("{} marked by {}.", candidates(a.n), trn("{} judge", "{} judges", static_cast<long long>(a.judges), a.judges)), ""});
+  ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 3}, {tr("What it says"), false, 6}}, {}, tr("Agreement with people")};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   if (a.icc) {
-    row("ICC(2,1)", fixed(a.icc->single_random, 2),
-        few_first(f, "icc") + "agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)");
-    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), few_first(f, "icc") + "the same when a judge may be harder than another throughout");
-    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), few_first(f, "icc") + "consistency of all judges' mean");
+    row(tr("ICC(2,1)"), fixed(a.icc->single_random, 2),
+        few_first(f, "icc") + tr("agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)"));
+    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), few_first(f, "icc") + tr("the same when a judge may be harder than another throughout"));
+    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), few_first(f, "icc") + tr("consistency of all judges' mean"));
   }
   if (a.limits)
-    row("program less people", fmt::format("{} ({} to {})", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1)),
-        few_first(f, "limits") + "points: mean, and limits within which about 95 % lie (Bland and Altman 1986)");
-  row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + "fail, borderline, pass; quadratic weights (Cohen 1968)");
+    row(tr("program less people"), tr("{} ({} to {})", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1)),
+        few_first(f, "limits") + tr("points: mean, and limits within which about 95 % lie (Bland and Altman 1986)"));
+  row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + tr("fail, borderline, pass; quadratic weights (Cohen 1968)"));
   if (a.cut)
-    row("cut by borderline regression", fixed(*a.cut, 1),
+    row(tr("cut by borderline regression"), fixed(*a.cut, 1),
         fmt::format("{}points at the rating that means borderline; the rubric's pass mark is {}", few_first(f, "borderline_cut"),
                     fixed(f.pass_points, 1)));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
-    d.blocks.emplace_back(Paragraph{count(a.incomplete, "candidate was", "candidates were") + " not marked by all judges, and left out of the ICC.",
-                                    "", Paragraph::Kind::small});
+    d.blocks.emplace_back(
+        Paragraph{trn("{} candidate was not marked by all judges, and left out of the ICC.",
+                      "{} candidates were not marked by all judges, and left out of the ICC.", static_cast<long long>(a.incomplete), a.incomplete),
+                  "", Paragraph::Kind::small});
 }
 
 void add_to_look_at(Document& d, const ClassFigures& f) {
-  d.blocks.emplace_back(Heading{"To look at"});
+  d.blocks.emplace_back(Heading{tr("To look at")});
   if (f.to_look_at.empty()) {
-    d.blocks.emplace_back(Paragraph{"Nothing stands out.", ""});
+    d.blocks.emplace_back(Paragraph{tr("Nothing stands out."), ""});
     return;
   }
-  ReportTable t{{{"Entry", true, 1}, {"Candidate", false, 3}, {"Why", false, 6}}, {}, "Sessions to look at"};
+  ReportTable t{{{tr("Entry"), true, 1}, {tr("Candidate"), false, 3}, {tr("Why"), false, 6}}, {}, tr("Sessions to look at")};
   for (const auto& l : f.to_look_at) t.rows.push_back({{{l.session > 0 ? std::to_string(l.session) : "–"}, {l.candidate}, {l.why}}});
   d.blocks.emplace_back(std::move(t));
 }
@@ -217,17 +232,17 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 }  // namespace
 
 Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
+  ui::show_texts_of(tooth.scenario);
   Document d;
-  d.title = tooth.scenario.title + ": the class";
-  d.subtitle = fmt::format("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not",
-                           count(f.n, "candidate", "candidates"), f.exam);
+  d.title = tr("{}: the class", shown(tooth.scenario.title));
+  d.subtitle = tr("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not", candidates(f.n), f.exam);
   if (f.simulated > 0)
-    d.blocks.emplace_back(Paragraph{
-        f.simulated == f.n
-            ? "All of them were sat by simulated operators."
-            : fmt::format("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
-                          f.simulated),
-        "Note", Paragraph::Kind::note});
+    d.blocks.emplace_back(
+        Paragraph{f.simulated == f.n
+                      ? tr("All of them were sat by simulated operators.")
+                      : tr("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
+                           f.simulated),
+                  tr("Note"), Paragraph::Kind::note});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);
@@ -235,9 +250,8 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   add_stations(d, f);
   add_agreement(d, f);
   add_to_look_at(d, f);
-  d.footer = {fmt::format("Class of the exam {}, {}", f.exam, count(f.n, "candidate", "candidates")),
-              fmt::format("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
-  return d;
+  d.footer = {tr("Class of the exam {}, {}", f.exam, candidates(f.n)), tr("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
+  return in_language(std::move(d));
 }
 
 std::string class_html(const ClassFigures& f, const ClassTooth& tooth) { return html_of(class_document(f, tooth), class_data(f, tooth)); }

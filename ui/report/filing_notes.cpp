@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {
@@ -10,32 +11,32 @@ void add_filing_notes(Document& d, const ReportSource& s) {
     d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
   };
   if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty()))
-    note("Does not hold", fmt::format("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
-                                      s.integrity.findings.size() > 1 ? "; and more, under \"What is proved\"" : ""));
+    note(tr("Does not hold"), tr("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
+                                      s.integrity.findings.size() > 1 ? tr("; and more, under \"What is proved\"") : ""));
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade)
-    note("Why it was regraded",
-         fmt::format("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
-  if (!s.filing->not_filed.empty()) note("Not the ledger's result", s.filing->not_filed);
+    note(tr("Why it was regraded"),
+         tr("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
+  if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), s.filing->not_filed);
   if (s.filing->findings.empty()) return;
   std::string all;
-  for (const auto& f : s.filing->findings) all += (all.empty() ? "" : "; ") + f;
-  note("In doubt", "The result of this session does not stand as sound. " + all);
+  for (const auto& f : s.filing->findings) all += (all.empty() ? "" : "; ") + shown(f);
+  note(tr("In doubt"), tr("The result of this session does not stand as sound. {}", all));
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {
-  std::string out = a.doubt.empty() ? a.verdict : fmt::format("in doubt ({})", a.verdict.empty() ? "no verdict" : a.verdict);
-  if (a.regraded) out += ", regraded";
-  if (a.simulated) out += ", simulated operator";
+  std::string out = a.doubt.empty() ? shown(a.verdict) : tr("in doubt ({})", a.verdict.empty() ? tr("no verdict") : a.verdict);
+  if (a.regraded) out += tr(", regraded");
+  if (a.simulated) out += tr(", simulated operator");
   return out;
 }
 
 std::string attempt_remark(const ReportAttempt& a) {
   std::string out;
   const auto say = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
-  if (a.this_one) say("this report");
-  if (!a.released) say("not released");
-  if (!a.doubt.empty()) say(one_line(a.doubt));
+  if (a.this_one) say(tr("this report"));
+  if (!a.released) say(tr("not released"));
+  if (!a.doubt.empty()) say(shown(one_line(a.doubt)));
   return out;
 }
 

@@ -5,6 +5,7 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/base/version.h"
 #include "engine/session/lock_event.h"
 #include "scenarios/file/accommodations.h"
@@ -21,40 +22,40 @@ std::string bounded(double v, double bound, int digits, const std::string& unit)
 }
 
 void add_volumes(Document& d, const grading::Result& r) {
-  d.blocks.push_back(Heading{"Volumes"});
-  ReportTable t{{{"What", false, 4}, {"Volume", true, 3}, {"First at", true, 1.4}, {"Place x, y, z, mm", true, 2.2}}, {}, "Volumes"};
+  d.blocks.push_back(Heading{tr("Volumes")});
+  ReportTable t{{{tr("What"), false, 4}, {tr("Volume"), true, 3}, {tr("First at"), true, 1.4}, {tr("Place x, y, z, mm"), true, 2.2}}, {}, tr("Volumes")};
   const auto volume = [&](const std::string& name, const grading::BoundedVolume& v, const grading::Trace& first = {}) {
     t.rows.push_back({{{name},
                        {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
                        first.tick < 0 ? TableCell{""} : time_cell(first.tick, first.site_mm),
                        {first.tick < 0 ? "" : place_text(first.site_mm)}}});
   };
-  volume("target", r.volumes.target);
-  t.rows.push_back({{{"target removed"}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
-  volume("target left standing", r.volumes.missed);
-  volume("removed in all", r.volumes.removed);
+  volume(tr("target"), r.volumes.target);
+  t.rows.push_back({{{tr("target removed")}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
+  volume(tr("target left standing"), r.volumes.missed);
+  volume(tr("removed in all"), r.volumes.removed);
   const auto zone = [&](const std::string& name, scenarios::Zone z) {
     const grading::ZoneVolume& v = r.volumes.zone[static_cast<std::size_t>(z)];
     volume(name, v.alone(), v.removed.mm3 > 0 ? v.first : grading::Trace{});
   };
   for (const scenarios::Zone z :
        {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
-    zone(fmt::format("removed, {}", scenarios::zone_name(z)), z);
-  volume("removed, outside", r.volumes.outside());
-  zone("of it in no zone", scenarios::Zone::none);
-  zone("of it protected", scenarios::Zone::protected_);
+    zone(tr("removed, {}", scenarios::zone_name(z)), z);
+  volume(tr("removed, outside"), r.volumes.outside());
+  zone(tr("of it in no zone"), scenarios::Zone::none);
+  zone(tr("of it protected"), scenarios::Zone::protected_);
   for (const auto& tissue : r.tissues)
-    if (r.volumes.tissue[tissue.id].mm3 > 0) volume(fmt::format("removed of {}, in whole leaves", tissue.name), r.volumes.tissue[tissue.id]);
-  t.rows.push_back({{{"agreement (Dice)"}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
+    if (r.volumes.tissue[tissue.id].mm3 > 0) volume(tr("removed of {}, in whole leaves", tissue.name), r.volumes.tissue[tissue.id]);
+  t.rows.push_back({{{tr("agreement (Dice)")}, {bounded(r.volumes.dice, r.volumes.dice_bound, 3, "")}, {""}, {""}}});
   d.blocks.push_back(std::move(t));
 }
 
 void add_walls(Document& d, const grading::Result& r) {
-  d.blocks.push_back(Heading{"Walls"});
+  d.blocks.push_back(Heading{tr("Walls")});
   ReportTable t{
-      {{"mm, + = overcut", false, 1.6}, {"mean", true}, {"p95", true}, {"over", true}, {"at", true, 0.9}, {"under", true}, {"at", true, 0.9}},
+      {{tr("mm, + = overcut"), false, 1.6}, {tr("mean"), true}, {"p95", true}, {tr("over"), true}, {tr("at"), true, 0.9}, {tr("under"), true}, {tr("at"), true, 0.9}},
       {},
-      "Walls"};
+      tr("Walls")};
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const grading::WallMeasures& m = r.shape.wall[w];
     const auto cell = [&](double v, double bound) {
@@ -69,60 +70,60 @@ void add_walls(Document& d, const grading::Result& r) {
                        time_cell(m.worst_under.tick, m.worst_under.site_mm)}});
   }
   d.blocks.push_back(std::move(t));
-  d.blocks.push_back(Paragraph{k_floor_words, "", Paragraph::Kind::small});
-  d.blocks.push_back(Heading{"Cavity"});
-  ReportTable c{{{"What", false, 3}, {"Measured", true, 2}, {"Target", true, 2}}, {}, "Cavity"};
-  const auto shape = [&](const char* name, const std::optional<double>& v, double target) {
+  d.blocks.push_back(Paragraph{shown(k_floor_words), "", Paragraph::Kind::small});
+  d.blocks.push_back(Heading{tr("Cavity")});
+  ReportTable c{{{tr("What"), false, 3}, {tr("Measured"), true, 2}, {tr("Target"), true, 2}}, {}, tr("Cavity")};
+  const auto shape = [&](const std::string& name, const std::optional<double>& v, double target) {
     c.rows.push_back({{{name}, {v ? bounded(*v, r.shape.bound_mm, 2, "mm") : k_dash}, {fixed(target, 2) + " mm"}}});
   };
-  shape("length", r.shape.length_mm, r.shape.target_length_mm);
-  shape("width", r.shape.width_mm, r.shape.target_width_mm);
-  shape("depth", r.shape.depth_mm, r.shape.target_depth_mm);
-  c.rows.push_back({{{"wall taper"},
+  shape(tr("length"), r.shape.length_mm, r.shape.target_length_mm);
+  shape(tr("width"), r.shape.width_mm, r.shape.target_width_mm);
+  shape(tr("depth"), r.shape.depth_mm, r.shape.target_depth_mm);
+  c.rows.push_back({{{tr("wall taper")},
                      {r.shape.taper_deg ? bounded(*r.shape.taper_deg, r.shape.taper_bound_deg, 1, "°") : k_dash},
                      {r.access.target_taper_deg ? bounded(*r.access.target_taper_deg, r.access.target_taper_bound_deg, 1, "°") : k_dash}}});
   if (r.access.overhang) {
-    c.rows.push_back({{{"roof left over"}, {bounded(r.access.overhang->mm3, r.access.overhang->bound_mm3, 2, "mm³")}, {"0 mm³"}}});
-    c.rows.push_back({{{"canals covered"},
+    c.rows.push_back({{{tr("roof left over")}, {bounded(r.access.overhang->mm3, r.access.overhang->bound_mm3, 2, "mm³")}, {"0 mm³"}}});
+    c.rows.push_back({{{tr("canals covered")},
                        {r.access.canals_covered_percent ? bounded(*r.access.canals_covered_percent, r.access.canals_bound_percent, 1, "%") : k_dash},
                        {"0 %"}}});
-    c.rows.push_back({{{"cut below the target"}, {bounded(r.access.floor_cut.mm3, r.access.floor_cut.bound_mm3, 2, "mm³")}, {"0 mm³"}}});
+    c.rows.push_back({{{tr("cut below the target")}, {bounded(r.access.floor_cut.mm3, r.access.floor_cut.bound_mm3, 2, "mm³")}, {"0 mm³"}}});
   }
   d.blocks.push_back(std::move(c));
 }
 
 void add_perforation(Document& d, const grading::Result& r) {
-  d.blocks.push_back(Heading{"Perforation"});
+  d.blocks.push_back(Heading{tr("Perforation")});
   const grading::PerforationMeasures& p = r.perforation;
   if (!p.agree())
-    d.blocks.push_back(Paragraph{p.detected() ? "the force shows a faulty breakthrough, the tissue does not: the tissue decides"
-                                              : "the tissue shows a faulty breakthrough, the force does not: the tissue decides",
-                                 "Force and tissue disagree", Paragraph::Kind::note});
+    d.blocks.push_back(Paragraph{p.detected() ? tr("the force shows a faulty breakthrough, the tissue does not: the tissue decides")
+                                              : tr("the tissue shows a faulty breakthrough, the force does not: the tissue decides"),
+                                 tr("Force and tissue disagree"), Paragraph::Kind::note});
   ReportTable t{
-      {{"Source", false, 1}, {"Kind", false, 0.9}, {"Time", true, 1.3}, {"Place x, y, z, mm", true, 2}, {"What", false, 5}}, {}, "Perforation"};
+      {{tr("Source"), false, 1}, {tr("Kind"), false, 0.9}, {tr("Time"), true, 1.3}, {tr("Place x, y, z, mm"), true, 2}, {tr("What"), false, 5}}, {}, tr("Perforation")};
   for (const auto& e : p.events)
     t.rows.push_back(
-        {{{"force"},
-          {e.fault ? "fault" : "aim"},
+        {{{tr("force")},
+          {e.fault ? tr("fault") : tr("aim")},
           time_cell(e.tick, e.site_mm),
           {place_text(e.site_mm)},
-          {fmt::format("{} N to {} N while the tip went on by {} mm; sureness {}; {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
-                       fixed(e.advance_mm, 2), fixed(e.sureness, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue")}},
+          {tr("{} N to {} N while the tip went on by {} mm; sureness {}; {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
+                       fixed(e.advance_mm, 2), fixed(e.sureness, 2), e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue"))}},
          e.fault});
   for (const auto& [kind, truth] : {std::pair{"fault", &p.fault}, std::pair{"aim", &p.aim}}) {
     if (truth == &p.aim && !p.has_aims) continue;
-    t.rows.push_back({{{"tissue"},
+    t.rows.push_back({{{tr("tissue")},
                        {kind},
                        time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
                        {truth->perforated ? place_text(truth->first.site_mm) : ""},
-                       {truth->perforated ? fmt::format("{} opened, {} of its wall lie open, {} removed", truth->tissue,
+                       {truth->perforated ? tr("{} opened, {} of its wall lie open, {} removed", truth->tissue,
                                                         bounded(truth->area_mm2, truth->area_bound_mm2, 3, "mm²"),
                                                         bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³"))
-                                          : "not opened"}},
+                                          : tr("not opened")}},
                       truth == &p.fault && truth->perforated});
     if (truth->drop)
       t.rows.push_back(
-          {{{"drop"}, {kind}, time_cell(truth->drop->from_tick, truth->drop->site_mm), {""}, {drop_text(*truth->drop)}}, truth == &p.fault});
+          {{{tr("drop")}, {kind}, time_cell(truth->drop->from_tick, truth->drop->site_mm), {""}, {drop_text(*truth->drop)}}, truth == &p.fault});
   }
   d.blocks.push_back(std::move(t));
 }
@@ -130,31 +131,31 @@ void add_perforation(Document& d, const grading::Result& r) {
 void add_work(Document& d, const ReportSource& s) {
   const grading::Result& r = s.result;
   const grading::MotionMeasures& m = r.motion;
-  d.blocks.push_back(Heading{"Work"});
-  d.blocks.push_back(Paragraph{fmt::format("Time {} s, handpiece turning {} s, idle {} s. Way of the tip {} mm. Force {} N on average while cutting, "
+  d.blocks.push_back(Heading{tr("Work")});
+  d.blocks.push_back(Paragraph{tr("Time {} s, handpiece turning {} s, idle {} s. Way of the tip {} mm. Force {} N on average while cutting, "
                                            "{} N at most, over the limit for {} s. Steps {} of {} completed, {} violations; the exam ended: {}.",
                                            fixed(m.time_s, 1), fixed(m.handpiece_time_s, 1), fixed(m.idle_s, 1), fixed(m.path_mm, 0),
                                            fixed(m.force_mean_n, 2), fixed(m.force_peak_n, 2), fixed(m.force_over_limit_s, 1),
                                            r.progress.steps_completed, r.progress.steps, r.progress.violations, finish_words(r.progress.finish)),
                                ""});
-  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Accommodations, pauses, late work"};
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Accommodations, pauses, late work")};
   const std::string granted = scenarios::accommodations_text(r.accommodations);
-  t.rows.push_back({{{"accommodations"}, {granted.empty() ? "none" : granted}}});
-  t.rows.push_back({{{"time limit"}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
+  t.rows.push_back({{{tr("accommodations")}, {granted.empty() ? tr("none") : granted}}});
+  t.rows.push_back({{{tr("time limit")}, {fixed(static_cast<double>(r.limit_ticks) * k_tick_s, 1) + " s"}}});
   std::string pauses;
   for (const auto& p : r.pauses)
-    pauses += fmt::format("{}{} s to {} s", pauses.empty() ? "" : "; ", fixed(static_cast<double>(p.begin) * k_tick_s, 1),
+    pauses += tr("{}{} s to {} s", pauses.empty() ? "" : "; ", fixed(static_cast<double>(p.begin) * k_tick_s, 1),
                           fixed(static_cast<double>(p.end) * k_tick_s, 1));
   t.rows.push_back(
-      {{{"pauses"}, {(pauses.empty() ? "none" : pauses) + (r.pauses_refused > 0 ? fmt::format("; refused: {}", r.pauses_refused) : "")}}});
+      {{{tr("pauses")}, {(pauses.empty() ? tr("none") : pauses) + (r.pauses_refused > 0 ? tr("; refused: {}", r.pauses_refused) : "")}}});
   const std::int64_t late = m.late_ticks + r.late_work.ticks;
-  t.rows.push_back({{{"late work"},
-                     {late == 0 ? "none"
-                                : fmt::format("{} s after the end, {} mm³ removed in it; nothing of it counts",
+  t.rows.push_back({{{tr("late work")},
+                     {late == 0 ? tr("none")
+                                : tr("{} s after the end, {} mm³ removed in it; nothing of it counts",
                                               fixed(static_cast<double>(late) * k_tick_s, 1), fixed(m.late_removed_mm3, 2))}}});
   for (const LockSummary& l : lock_summary(s.input.events))
-    t.rows.push_back({{{"the exam's lock"},
-                       {fmt::format("{}{}; first at {} s", l.words, l.times > 1 ? fmt::format(", {} times", l.times) : "",
+    t.rows.push_back({{{tr("the exam's lock")},
+                       {tr("{}{}; first at {} s", l.words, l.times > 1 ? tr(", {} times", l.times) : "",
                                     fixed(static_cast<double>(l.first_tick) * k_tick_s, 1))}}});
   d.blocks.push_back(std::move(t));
 }
@@ -169,16 +170,16 @@ void add_servo(ReportTable& t, const SessionEvent& e) {
                                                                                        : k_dash;
   };
   const auto count = [&](const char* key) { return j.contains(key) && j[key].is_number() ? j[key].dump() : k_dash; };
-  t.rows.push_back({{{"lateness of the servo"},
-                     {fmt::format("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"),
+  t.rows.push_back({{{tr("lateness of the servo")},
+                     {tr("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"),
                                   us("p50_us"), us("p999_us"), us("worst_us"))}}});
 }
 
 void add_device(Document& d, const ReportSource& s) {
-  d.blocks.push_back(Heading{"Device and calibration"});
-  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "Device and calibration"};
-  t.rows.push_back({{{"device"}, {s.facts.device}}});
-  t.rows.push_back({{{"calibration"}, {s.facts.calibration.empty() ? "none recorded" : s.facts.calibration}}});
+  d.blocks.push_back(Heading{tr("Device and calibration")});
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Device and calibration")};
+  t.rows.push_back({{{tr("device")}, {s.facts.device}}});
+  t.rows.push_back({{{tr("calibration")}, {s.facts.calibration.empty() ? tr("none recorded") : s.facts.calibration}}});
   for (const auto& [key, value] : s.facts.notes)
     if (key != "ticket") t.rows.push_back({{{key}, {value}}});
   bool live = false;
@@ -187,29 +188,29 @@ void add_device(Document& d, const ReportSource& s) {
       add_servo(t, e);
       live = true;
     }
-  if (!live) t.rows.push_back({{{"lateness of the servo"}, {"not recorded: the exam did not run in real time"}}});
-  t.rows.push_back({{{"tooth"}, {fmt::format("{}, hash {}, leaf {} mm", s.result.tooth_name, s.facts.tooth_hash, fixed(s.result.leaf_mm, 3))}}});
+  if (!live) t.rows.push_back({{{tr("lateness of the servo")}, {tr("not recorded: the exam did not run in real time")}}});
+  t.rows.push_back({{{tr("tooth")}, {tr("{}, hash {}, leaf {} mm", s.result.tooth_name, s.facts.tooth_hash, fixed(s.result.leaf_mm, 3))}}});
   d.blocks.push_back(std::move(t));
 }
 
 /// How the scan lay upon the tooth, and how well it is known from it.
 void add_scan_facts(Document& d, const ReportScan& scan) {
   const grading::ScanFacts& f = scan.facts;
-  d.blocks.push_back(Heading{"The scan"});
-  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "The scan"};
-  const auto row = [&](const char* what, const std::string& text) { t.rows.push_back({{{what}, {text}}}); };
+  d.blocks.push_back(Heading{tr("The scan")});
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("The scan")};
+  const auto row = [&](const std::string& what, const std::string& text) { t.rows.push_back({{{what}, {text}}}); };
   const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
-  row("file", fmt::format("{}, SHA-256 {}", scan.file, scan.file_sha256));
-  row("surface", fmt::format("{} triangles; {}", f.triangles, f.end_mm > 0 ? "open below" : "closed"));
-  row("laid upon the unprepared tooth", fmt::format("{} mm RMS over {} of its surface; {} of what should fit does", fixed(f.fit.rms_mm, 3),
+  row(tr("file"), tr("{}, SHA-256 {}", scan.file, scan.file_sha256));
+  row(tr("surface"), tr("{} triangles; {}", f.triangles, f.end_mm > 0 ? tr("open below") : tr("closed")));
+  row(tr("laid upon the unprepared tooth"), tr("{} mm RMS over {} of its surface; {} of what should fit does", fixed(f.fit.rms_mm, 3),
                                                     percent(f.fit.fits), percent(agreement(f.fit))));
-  row("crown seen", percent(f.fit.crown_seen));
-  row("the best other pose", fmt::format("fits {} of the scan, this one {}", percent(f.second_share), percent(f.pose.share)));
-  row("noise", fmt::format("{} mm", fixed(f.fit.noise_mm, 3)));
-  row("a place of the cut surface is known to",
-      fmt::format("{} mm, the surface as a whole to {} mm", fixed(f.surface_bound_mm, 3), fixed(f.surface_mean_bound_mm, 3)));
-  row("cavities", std::to_string(f.cavities));
-  row("not seen", fmt::format("{} mm³ of the tooth below the end of the scan", fixed(f.unseen_mm3, 2)));
+  row(tr("crown seen"), percent(f.fit.crown_seen));
+  row(tr("the best other pose"), tr("fits {} of the scan, this one {}", percent(f.second_share), percent(f.pose.share)));
+  row(tr("noise"), tr("{} mm", fixed(f.fit.noise_mm, 3)));
+  row(tr("a place of the cut surface is known to"),
+      tr("{} mm, the surface as a whole to {} mm", fixed(f.surface_bound_mm, 3), fixed(f.surface_mean_bound_mm, 3)));
+  row(tr("cavities"), std::to_string(f.cavities));
+  row(tr("not seen"), tr("{} mm³ of the tooth below the end of the scan", fixed(f.unseen_mm3, 2)));
   d.blocks.push_back(std::move(t));
 }
 
@@ -219,9 +220,9 @@ void add_scan_parts(Document& d, const ReportSource& s) {
   add_volumes(d, s.result);
   add_walls(d, s.result);
   add_scan_facts(d, *s.scan);
-  d.footer.push_back(fmt::format("Scan {}, SHA-256 {}…: marked without its recording; time, way and force are not judged", s.scan->file,
+  d.footer.push_back(tr("Scan {}, SHA-256 {}…: marked without its recording; time, way and force are not judged", s.scan->file,
                                  s.scan->file_sha256.substr(0, 16)));
-  d.footer.push_back(fmt::format("Tooth {}, leaf {} mm. Definitions: docs/grading.md and docs/scans.md of Cavum {}.",
+  d.footer.push_back(tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md and docs/scans.md of Cavum {}.",
                                  s.facts.tooth_hash.substr(0, 16), fixed(s.result.leaf_mm, 3), version()));
 }
 

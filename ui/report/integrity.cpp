@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/base/version.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
@@ -35,7 +36,7 @@ ReportIntegrity read_integrity(const std::string& path, bool replay) {
                       session.chunks().size()));
   }
   if (!replay) {
-    i.remarks.emplace_back("the motion was not simulated again for this report; `cavum verify` does that");
+    i.remarks.emplace_back(said("the motion was not simulated again for this report; `cavum verify` does that"));
     return i;
   }
   ledger::SessionExplanation e = ledger::explain_session(path, "");
@@ -49,53 +50,53 @@ ReportIntegrity read_integrity(const std::string& path, bool replay) {
 void add_integrity(Document& d, const ReportSource& s) {
   using Replay = ReportIntegrity::Replay;
   const ReportIntegrity& i = s.integrity;
-  d.blocks.push_back(Heading{"What is proved"});
+  d.blocks.push_back(Heading{tr("What is proved")});
   std::string promise;
   if (!i.findings.empty() || i.replay == Replay::differs)
-    promise = "This session does not hold: see below.";
+    promise = tr("This session does not hold: see below.");
   else if (i.replay == Replay::agrees)
-    promise = fmt::format("This session is tamper-evident and replay-verified{}", i.at_filing ? " (when it was filed)." : ".");
+    promise = i.at_filing ? tr("This session is tamper-evident and replay-verified (when it was filed).") : tr("This session is tamper-evident and replay-verified.");
   else
-    promise = "This session is tamper-evident. It was not replayed for this report.";
+    promise = tr("This session is tamper-evident. It was not replayed for this report.");
   d.blocks.push_back(Paragraph{promise, ""});
-  ReportTable t{{{"What", false, 3}, {"Details", false, 7}}, {}, "What is proved"};
-  const auto row = [&](const char* what, const std::string& text) {
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("What is proved")};
+  const auto row = [&](const std::string& what, const std::string& text) {
     if (!text.empty()) t.rows.push_back({{{what}, {text}}});
   };
   // a file is named by people, and the name may be the candidate's: a student's report does without
   const bool named = s.reader == ReportReader::instructor && !i.file.empty();
-  row("session file", (named ? i.file + ", SHA-256 " : "SHA-256 ") + i.file_sha256);
-  row("chain of its seconds", i.chain_sha256);
-  row("tooth as it was left", i.final_tooth_sha256);
-  row("sealed result", i.result_sha256);
-  row("closed", i.closed_utc.empty() ? "" : fmt::format("{}, signed by station {}", i.closed_utc, i.station_key));
-  row("replay", i.replay == Replay::agrees    ? fmt::format("simulated again from the motion: the same forces and the same tooth, bit for bit{}",
-                                                         i.at_filing ? ", when the ledger took it in" : "")
-                : i.replay == Replay::differs ? "does not give what was recorded, or the file does not hold"
-                                              : "not done for this report");
+  row(tr("session file"), named ? tr("{}, SHA-256 {}", as_is(i.file), i.file_sha256) : "SHA-256 " + i.file_sha256);
+  row(tr("chain of its seconds"), i.chain_sha256);
+  row(tr("tooth as it was left"), i.final_tooth_sha256);
+  row(tr("sealed result"), i.result_sha256);
+  row(tr("closed"), i.closed_utc.empty() ? "" : tr("{}, signed by station {}", i.closed_utc, i.station_key));
+  row(tr("replay"), i.replay == Replay::agrees    ? tr("simulated again from the motion: the same forces and the same tooth, bit for bit{}",
+                                                         i.at_filing ? tr(", when the ledger took it in") : "")
+                : i.replay == Replay::differs ? tr("does not give what was recorded, or the file does not hold")
+                                              : tr("not done for this report"));
   if (const auto& f = s.filing) {
-    row("ledger", fmt::format("{} of {}, key {}", f->ledger, f->school, f->public_key));
-    row("receipt", fmt::format("entry {}, filed {}{}", f->entry, f->date, f->released ? ", released" : ", not released"));
-    row("root", fmt::format("{} of the first {} entries", f->root, f->entries));
-    for (const auto& finding : f->findings) row("in doubt", finding);
+    row(tr("ledger"), tr("{} of {}, key {}", f->ledger, f->school, f->public_key));
+    row(tr("receipt"), f->released ? tr("entry {}, filed {}, released", f->entry, f->date) : tr("entry {}, filed {}, not released", f->entry, f->date));
+    row(tr("root"), tr("{} of the first {} entries", f->root, f->entries));
+    for (const auto& finding : f->findings) row(tr("in doubt"), finding);
   }
   d.blocks.push_back(std::move(t));
-  const auto list = [&](const char* title, const std::vector<std::string>& items) {
+  const auto list = [&](const std::string& title, const std::vector<std::string>& items) {
     if (items.empty()) return;
     d.blocks.push_back(Heading{title, 3});
     d.blocks.push_back(Bullets{items, true});
   };
-  list("What does not hold", i.findings);
+  list(tr("What does not hold"), i.findings);
   if (s.reader == ReportReader::instructor) {
-    list("How that is known", i.proved);
-    list("What else is to be known", i.remarks);
+    list(tr("How that is known"), i.proved);
+    list(tr("What else is to be known"), i.remarks);
   }
-  d.footer.push_back(fmt::format("Session {}SHA-256 {}…: {}{}", named ? i.file + ", " : std::string(), i.file_sha256.substr(0, 16),
-                                 !i.findings.empty() || i.replay == Replay::differs ? "does not hold"
-                                 : i.replay == Replay::agrees                       ? "tamper-evident and replay-verified"
-                                                                                    : "tamper-evident, not replayed for this report",
-                                 s.filing ? fmt::format("; ledger entry {}", s.filing->entry) : ""));
-  d.footer.push_back(fmt::format("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16),
+  d.footer.push_back(tr("Session {}SHA-256 {}…: {}{}", named ? i.file + ", " : std::string(), i.file_sha256.substr(0, 16),
+                                 !i.findings.empty() || i.replay == Replay::differs ? tr("does not hold")
+                                 : i.replay == Replay::agrees                       ? tr("tamper-evident and replay-verified")
+                                                                                    : tr("tamper-evident, not replayed for this report"),
+                                 s.filing ? tr("; ledger entry {}", s.filing->entry) : ""));
+  d.footer.push_back(tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16),
                                  fixed(s.result.leaf_mm, 3), version()));
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "ui/parts/chart_svg.h"
 #include "ui/report/figures/motion_track.h"
 
@@ -34,7 +35,7 @@ Picture chart(const std::string& title, const std::string& unit, const std::stri
               const std::vector<ui::ChartMark>& marks) {
   ui::Chart c;
   c.title = title;
-  c.x_label = "time, s";
+  c.x_label = tr("time, s");
   c.y_label = unit;
   c.width_px = k_width_px;
   c.height_px = k_height_px;
@@ -67,19 +68,19 @@ std::vector<Picture> motion_charts(const ReportSource& s) {
   }
   const double duration_s = static_cast<double>(s.input.records.size()) * k_tick_s;
   const auto marks = event_marks(s.events, duration_s);
-  return {chart("Force on the hand", "force, N", "#d55e00", std::move(force), duration_s, marks),
-          chart("Depth of the tip below the opening", "depth, mm", "#0072b2", std::move(depth), duration_s, marks),
-          chart("Handpiece speed", "1000 rpm", "#4d4d4d", std::move(speed), duration_s, marks)};
+  return {chart(tr("Force on the hand"), tr("force, N"), "#d55e00", std::move(force), duration_s, marks),
+          chart(tr("Depth of the tip below the opening"), tr("depth, mm"), "#0072b2", std::move(depth), duration_s, marks),
+          chart(tr("Handpiece speed"), tr("1000 rpm"), "#4d4d4d", std::move(speed), duration_s, marks)};
 }
 
 Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_percent) {
   ui::Chart c;
-  c.x_label = "attempt";
-  c.y_label = "points, %";
+  c.x_label = tr("attempt");
+  c.y_label = tr("points, %");
   c.width_px = 420;
   c.height_px = 200;
   ui::ChartSeries line{"", "#0072b2", ui::ChartSeries::Style::line, {}, 1.4}, dots{"", "#0072b2", ui::ChartSeries::Style::dots, {}, 1.4};
-  ui::ChartSeries doubtful{"in doubt", "#4d4d4d", ui::ChartSeries::Style::rings, {}, 1.4};
+  ui::ChartSeries doubtful{tr("in doubt"), "#4d4d4d", ui::ChartSeries::Style::rings, {}, 1.4};
   for (std::size_t i = 0; i < attempts.size(); ++i) {
     const ui::ChartPoint p{static_cast<double>(i + 1), attempts[i].max > 0 ? 100 * attempts[i].points / attempts[i].max : 0};
     if (!attempts[i].doubt.empty()) {
@@ -93,7 +94,7 @@ Picture attempts_chart(const std::vector<ReportAttempt>& attempts, double pass_p
   if (!doubtful.points.empty()) c.series.push_back(doubtful);
   c.x_range = {0.5, static_cast<double>(attempts.size()) + 0.5};
   c.y_range = {0, 105};
-  c.marks = {{pass_percent, false, "pass mark"}};
+  c.marks = {{pass_percent, false, tr("pass mark")}};
   return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), ""};
 }
 

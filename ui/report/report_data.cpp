@@ -5,6 +5,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/instrument/diamond_point.h"
+#include "engine/language/language.h"
+#include "engine/language/shown.h"
+#include "engine/tooth/beside.h"
 #include "scenarios/review/picture.h"
 #include "ui/report/figures/motion_track.h"
 #include "ui/report/figures/packed_array.h"
@@ -89,6 +92,22 @@ json cells_json(const ToothGrid& g, const ChangedCells& c) {
           {"distance", packed_array(c.distance)}};
 }
 
+void add_words(json& data) {
+  if (language() == "en") return;
+  json words = json::object();
+  for (const auto& m : page_messages()) words[m] = shown(m);
+  for (const auto& t : data["tissues"]) {
+    std::string name = t["name"];
+    if (name.starts_with(k_neighbour_prefix)) name.erase(0, k_neighbour_prefix.size());
+    std::replace(name.begin(), name.end(), '_', ' ');
+    words[name] = shown(name);
+  }
+  if (data.contains("events"))
+    for (const auto& e : data["events"]) words[e["kind"].get<std::string>()] = shown(e["kind"].get<std::string>());
+  data["words"] = std::move(words);
+  data["decimal_sign"] = std::string(1, decimal_sign());
+}
+
 json report_data(const ReportSource& s) {
   json data = {{"schema", 1},
                {"kind", s.scan ? "scan" : "session"},
@@ -97,17 +116,20 @@ json report_data(const ReportSource& s) {
                {"tissues", tissues_json(s.input.seen_before(), s.input.scenario.accommodations.high_contrast)},
                {"grid", grid_json(s)},
                {"scale_mm", k_colours_end_mm}};
-  if (s.scan) return data;
+  if (s.scan) {
+    add_words(data);
+    return data;
+  }
   json events = json::array(), moments = json::array();
   for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", e.kind}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
   for (const auto& w : s.lost)
     for (const auto& m : w.items) {
       if (m.tick < 0) continue;
-      moments.push_back({{"criterion", w.criterion.title},
+      moments.push_back({{"criterion", shown(w.criterion.title)},
                          {"t_s", static_cast<double>(m.tick) * k_tick_s},
                          {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
                          {"site_mm", site(m.site_mm)},
-                         {"what", m.what},
+                         {"what", shown(m.what)},
                          {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
   data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;
@@ -115,6 +137,7 @@ json report_data(const ReportSource& s) {
   data["instruments"] = instruments_json(s);
   data["events"] = std::move(events);
   data["moments"] = std::move(moments);
+  add_words(data);
   return data;
 }
 

@@ -15,6 +15,9 @@ namespace cavum::report {
 /// time is absent.
 [[nodiscard]] nlohmann::json report_data(const ReportSource& source);
 
+/// Adds `words`, the page's messages in the reader's language, and `decimal_sign`; nothing in English.
+void add_words(nlohmann::json& data);
+
 /// Of the page's data: the tissues by id, and the cells before and after, without the times.
 [[nodiscard]] nlohmann::json tissues_json(const Tooth& tooth, bool high_contrast);
 [[nodiscard]] nlohmann::json cells_json(const ToothGrid& grid, const ChangedCells& box);

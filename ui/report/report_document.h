@@ -9,6 +9,9 @@ namespace cavum::report {
 /// The whole report. What belongs to an instructor alone is left out of a student's.
 [[nodiscard]] Document report_document(const ReportSource& source);
 
+/// The same document with all its words in the reader's language (language.h), also those that the rooms below said.
+[[nodiscard]] Document in_language(Document document);
+
 /// The parts that an instructor sees besides: every figure with its bound, perforation, work, device, proof. Appended to `document`.
 void add_instructor_parts(Document& document, const ReportSource& source);
 

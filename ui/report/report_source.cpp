@@ -7,6 +7,7 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/instrument/diamond_point.h"
 #include "scenarios/exam/runner.h"
 #include "ui/report/report_document.h"
@@ -36,29 +37,29 @@ ReportEvent event_of(const SessionEvent& e, const grading::GradeInput& input, co
   const json detail = parse_json_or_null(e.detail_json);
   const std::string step = text_of(detail, "step");
   const auto is = [&](scenarios::ExamEventKind kind) { return e.kind == scenarios::event_name(kind); };
-  ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, "device", spaced(e.kind), site_of(detail)};
+  ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, said("device"), shown(spaced(e.kind)), site_of(detail)};
   const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
-  if (is(scenarios::ExamEventKind::step_started)) say("step", fmt::format("step \"{}\" begins", step));
-  if (is(scenarios::ExamEventKind::step_completed)) say("step", fmt::format("step \"{}\" completed", step));
-  if (is(scenarios::ExamEventKind::step_failed)) say("step", fmt::format("step \"{}\" failed", step));
-  if (is(scenarios::ExamEventKind::step_time_limit)) say("limit", fmt::format("time limit of step \"{}\"", step));
-  if (is(scenarios::ExamEventKind::time_limit)) say("limit", "time limit of the exam");
-  if (is(scenarios::ExamEventKind::over_speed)) say("violation", fmt::format("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
+  if (is(scenarios::ExamEventKind::step_started)) say(said("step"), tr("step \"{}\" begins", step));
+  if (is(scenarios::ExamEventKind::step_completed)) say(said("step"), tr("step \"{}\" completed", step));
+  if (is(scenarios::ExamEventKind::step_failed)) say(said("step"), tr("step \"{}\" failed", step));
+  if (is(scenarios::ExamEventKind::step_time_limit)) say(said("limit"), tr("time limit of step \"{}\"", step));
+  if (is(scenarios::ExamEventKind::time_limit)) say(said("limit"), tr("time limit of the exam"));
+  if (is(scenarios::ExamEventKind::over_speed)) say(said("violation"), tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
   if (is(scenarios::ExamEventKind::point_not_allowed)) {
     std::string name;
     if (detail.is_object() && detail.contains("point") && detail["point"].is_number_unsigned() &&
         detail["point"].get<std::size_t>() < points_toml.size())
       name = parse_diamond_point(points_toml[detail["point"].get<std::size_t>()], "diamond point of the session").title;
-    say("violation", "diamond point not allowed here" + (name.empty() ? "" : ": " + name));
+    say(said("violation"), name.empty() ? tr("diamond point not allowed here") : tr("diamond point not allowed here: {}", name));
   }
-  if (is(scenarios::ExamEventKind::aim_reached)) say("aim", text_of(detail, "tissue") + " reached: the aim");
-  if (is(scenarios::ExamEventKind::perforation)) say("perforation", text_of(detail, "tissue") + " broken into (tissue)");
-  if (is(scenarios::ExamEventKind::finished)) say("finish", "the exam ended: " + finish_words(text_of(detail, "how")));
-  if (is(scenarios::ExamEventKind::pause_started)) say("pause", "pause begins");
-  if (is(scenarios::ExamEventKind::pause_ended)) say("pause", "pause ends");
-  if (is(scenarios::ExamEventKind::pause_refused)) say("pause", "pause refused");
-  if (e.kind == "moved") say("gap", "the disk refused: recorded at another place from here on");
-  if (e.kind == "gap") say("gap", "the recording was interrupted here and taken up again");
+  if (is(scenarios::ExamEventKind::aim_reached)) say(said("aim"), tr("{} reached: the aim", text_of(detail, "tissue")));
+  if (is(scenarios::ExamEventKind::perforation)) say(said("perforation"), tr("{} broken into (tissue)", text_of(detail, "tissue")));
+  if (is(scenarios::ExamEventKind::finished)) say(said("finish"), tr("the exam ended: {}", finish_words(text_of(detail, "how"))));
+  if (is(scenarios::ExamEventKind::pause_started)) say(said("pause"), tr("pause begins"));
+  if (is(scenarios::ExamEventKind::pause_ended)) say(said("pause"), tr("pause ends"));
+  if (is(scenarios::ExamEventKind::pause_refused)) say(said("pause"), tr("pause refused"));
+  if (e.kind == "moved") say(said("gap"), tr("the disk refused: recorded at another place from here on"));
+  if (e.kind == "gap") say(said("gap"), tr("the recording was interrupted here and taken up again"));
   return r;
 }
 
@@ -70,8 +71,8 @@ std::vector<ReportEvent> report_events(const grading::Result& result, const grad
     if (e.kind != "servo_lateness") list.push_back(event_of(e, input, points_toml));
   for (const auto& e : result.perforation.events)
     list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? "perforation" : "aim",
-                    fmt::format("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
-                                e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue"),
+                    tr("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
+                                e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue")),
                     e.site_mm});
   std::stable_sort(list.begin(), list.end(), [](const ReportEvent& a, const ReportEvent& b) { return a.t_s < b.t_s; });
   return list;

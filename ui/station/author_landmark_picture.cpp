@@ -167,7 +167,7 @@ void landmark_list(const AuthorContext& c) {
       found_sign(*ImGui::GetWindowDrawList(), {at.x + half, at.y + half}, 0.4F * side, k_found);
     ImGui::Dummy({side, side});
     ImGui::SameLine();
-    if (ImGui::Selectable(words_of(mark).c_str(), s.landmark == i)) s.landmark = i;
+    if (ImGui::Selectable(shown_label(words_of(mark).c_str()).c_str(), s.landmark == i)) s.landmark = i;
     if (s.landmark == i && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
   }
   ImGui::EndChild();

@@ -66,7 +66,7 @@ void zone_list(const AuthorContext& c) {
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));
     const std::string label = zone.title + (zone.line > 0 ? fmt::format("   line {}", zone.line) : "");
-    if (ImGui::Selectable(label.c_str(), s.zone == i)) {
+    if (ImGui::Selectable(shown_label(label.c_str()).c_str(), s.zone == i)) {
       s.zone = i;
       s.point = s.number = 0;
     }
@@ -83,7 +83,7 @@ void numbers(const AuthorContext& c) {
     const AuthorNumber& n = zone.numbers[i];
     const bool chosen = s.number == i;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
-    ImGui::TextUnformatted(((chosen ? "> " : "   ") + n.label).c_str());
+    text_line((chosen ? "> " : "   ") + n.label);
     if (chosen) ImGui::PopStyleColor();
     ImGui::PushID(n.place.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
@@ -125,10 +125,10 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   ImGui::Separator();
   for (std::size_t i = 0; i < k_author_layers; ++i) {
     const std::string label = fmt::format("{} (F{})", layer_name(static_cast<AuthorLayer>(i)), i + 1);
-    s.shown_differs = ImGui::Checkbox(label.c_str(), &s.shown[i]) || s.shown_differs;
+    s.shown_differs = ImGui::Checkbox(shown_label(label.c_str()).c_str(), &s.shown[i]) || s.shown_differs;
     if (i % 2 == 0) ImGui::SameLine(size.x / 2);
   }
-  if (ImGui::Checkbox("landmarks (F6)", &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
+  if (ImGui::Checkbox(shown_label("landmarks (F6)").c_str(), &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
   quiet_text(t, s.by_landmarks ? "Tab: landmark.  Arrows or mouse: move it on the surface, 0.1 mm, with Shift 0.01.  X: back where it was found."
                                : "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: "
                                  "size, PgUp and PgDn: larger, smaller.");
@@ -259,13 +259,13 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   const Theme& t = c.screen.theme;
   bool fresh = false;
   if (!begin_question(t, "Save?", "Save your changes?", s.ask_close, fresh)) return;
-  ImGui::TextUnformatted("Something was changed and is not in the file yet.");
+  text_line("Something was changed and is not in the file yet.");
   ImGui::Dummy({0, t.px(6)});
   if (main_button(t, "Save and close  (Enter)", true, !fresh)) wish = AuthorWish::save_and_close;
   ImGui::SameLine();
-  if (ImGui::Button("Close without saving  (N)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N))) wish = AuthorWish::discard;
+  if (ImGui::Button(shown_label("Close without saving  (N)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N))) wish = AuthorWish::discard;
   ImGui::SameLine();
-  if (ImGui::Button("Back  (Esc)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
+  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
   if (wish != AuthorWish::none) s.ask_close = false;
   end_question(s.ask_close);
 }
@@ -275,8 +275,8 @@ void ask_about_tooth(const AuthorContext& c, AuthorWish& wish) {
   const Theme& t = c.screen.theme;
   bool fresh = false;
   if (!begin_question(t, "Tooth?", "The landmarks need a tooth of their own", s.ask_tooth, fresh)) return;
-  ImGui::TextUnformatted("The scenario's tooth ships, or lies in another folder, and stays as it is.");
-  ImGui::TextUnformatted("A copy with your landmarks is written beside the scenario, which then names it. Its name:");
+  text_line("The scenario's tooth ships, or lies in another folder, and stays as it is.");
+  text_line("A copy with your landmarks is written beside the scenario, which then names it. Its name:");
   if (fresh) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##tooth", s.tooth_name.data(), s.tooth_name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
@@ -287,7 +287,7 @@ void ask_about_tooth(const AuthorContext& c, AuthorWish& wish) {
     wish = s.close_then ? AuthorWish::save_and_close : AuthorWish::save;
   }
   ImGui::SameLine();
-  if (ImGui::Button("Back  (Esc)", {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_tooth = false;
+  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_tooth = false;
   if (wish != AuthorWish::none) s.ask_tooth = false;
   end_question(s.ask_tooth);
 }

@@ -14,7 +14,7 @@ std::string pauses_text(const scenarios::PauseSpec& pauses) {
 
 void fact(const Theme& t, const char* name, const std::string& value) {
   ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
-  ImGui::TextUnformatted(name);
+  text_line(name);
   ImGui::PopStyleColor();
   ImGui::SameLine(t.px(150));
   wrapped_text(value);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/language/shown.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -21,7 +22,7 @@ void draw_colour_key(const Theme& t, const std::vector<ColourKeyEntry>& key, ImV
   push_font(Font::small);
   const float row = ImGui::GetFontSize() + t.px(6), side = ImGui::GetFontSize(), pad = t.px(10);
   float words = 0.0F;
-  for (const ColourKeyEntry& e : key) words = std::max(words, ImGui::CalcTextSize(e.word.c_str()).x);
+  for (const ColourKeyEntry& e : key) words = std::max(words, ImGui::CalcTextSize(shown(e.word).c_str()).x);
   const ImVec2 box{side + t.px(8) + words + 2 * pad, row * static_cast<float>(key.size()) + 2 * pad - t.px(6)};
   ImVec2 corner{at.x + size.x - box.x - t.px(14), at.y + t.px(40)};
   ImDrawList& draw = *ImGui::GetWindowDrawList();
@@ -30,9 +31,10 @@ void draw_colour_key(const Theme& t, const std::vector<ColourKeyEntry>& key, ImV
   draw.AddRectFilled(corner, {corner.x + box.x, corner.y + box.y}, ink(ground), t.px(6));
   corner = {corner.x + pad, corner.y + pad};
   for (const ColourKeyEntry& e : key) {
+    ImGui::LogText("%s\n", shown(e.word).c_str());
     draw.AddRectFilled(corner, {corner.x + side, corner.y + side}, ink(e.colour), t.px(3));
     draw.AddRect(corner, {corner.x + side, corner.y + side}, ink(t.text), t.px(3));
-    draw.AddText({corner.x + side + t.px(8), corner.y}, ink(t.text), e.word.c_str());
+    draw.AddText({corner.x + side + t.px(8), corner.y}, ink(t.text), shown(e.word).c_str());
     corner.y += row;
   }
   pop_font();

@@ -68,12 +68,12 @@ void device_check_screen(const ScreenContext& c) {
     sign(t, item.state);
     ImGui::SameLine(0, t.px(16));
     ImGui::BeginGroup();
-    ImGui::TextUnformatted(item.title.c_str());
+    text_line(item.title);
     quiet_text(t, item.detail);
     ImGui::EndGroup();
   }
   ImGui::Dummy({0, t.px(6)});
-  ImGui::TextUnformatted("Pedal");
+  text_line("Pedal");
   ImGui::SameLine(t.px(110));
   ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
   ImGui::Dummy({0, t.px(10)});

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/language/shown.h"
 #include "ui/station/coach.h"
 #include "ui/station/colour_key.h"
 #include "ui/station/gauges.h"
@@ -69,7 +70,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
   const scenarios::GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
-  ImGui::TextUnformatted("Speed dial  ( [ and ] )");
+  text_line("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::SliderFloat("##dial", &dial, 10.0F, 100.0F, "%.0f %%");
@@ -135,7 +136,7 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
                       size_mm = size_from == std::string::npos ? "" : c.shelf[i].name.substr(size_from + 1);
     const float room = size.x - t.px(4);
     float below = t.px(40);
-    for (const std::string& line : {shape, size_mm}) {
+    for (const std::string& line : {shown(shape), shown(size_mm)}) {
       const float wide = ImGui::CalcTextSize(line.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / std::max(1.0F, wide));
       draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - std::min(wide, room)) / 2, at.y + size.y - below}, ink(may ? t.text : t.quiet),
                    line.c_str());
@@ -190,14 +191,14 @@ void ask_whether_finished(const ScreenContext& c) {
   StationState& s = c.state;
   bool fresh = false;
   if (!begin_question(c.theme, "Finished?", "Have you finished?", s.confirm_end, fresh)) return;
-  ImGui::TextUnformatted("Your work will be graded as it is now. The clock runs on until then.");
+  text_line("Your work will be graded as it is now. The clock runs on until then.");
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, "Yes, hand it in  (Enter)", true, !fresh)) {
     s.wish = Wish::end;
     s.confirm_end = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button("Back to work  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_end = false;
+  if (ImGui::Button(shown_label("Back to work  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_end = false;
   end_question(s.confirm_end);
 }
 

@@ -3,15 +3,17 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/language/shown.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
 
-void bar_gauge(const Theme& t, const char* name, const std::string& value, double share, double mark) {
+void bar_gauge(const Theme& t, const char* name, const std::string& english, double share, double mark) {
+  const std::string value = shown(english);
   const float width = ImGui::GetContentRegionAvail().x, height = t.px(18);
-  ImGui::TextUnformatted(name);
+  text_line(name);
   ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
-  ImGui::TextUnformatted(value.c_str());
+  text_line(value);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float full = width * static_cast<float>(std::clamp(share, 0.0, 1.0));
@@ -36,9 +38,9 @@ std::string depth_text(double below_mm) {
 void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_mm, float height) {
   const float width = ImGui::GetContentRegionAvail().x;
   const std::string value = depth_text(tip_mm);
-  ImGui::TextUnformatted("Depth");
+  text_line("Depth");
   ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
-  ImGui::TextUnformatted(value.c_str());
+  text_line(value);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float left = at.x + t.px(42), right = left + t.px(26);
@@ -57,6 +59,7 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
   const std::string deepest = number_text("deepest %.1f", deepest_mm);
   draw.AddLine({right, y_of(deepest_mm)}, {right + t.px(10), y_of(deepest_mm)}, ink(t.text), t.px(2));
   draw.AddText({right + t.px(14), std::min(y_of(deepest_mm) - t.px(8), at.y + height - t.px(14))}, ink(t.quiet), deepest.c_str());
+  ImGui::LogText("%s\n", deepest.c_str());
   pop_font();
   ImGui::Dummy({width, height + t.px(12)});
 }
@@ -81,18 +84,18 @@ void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) 
   constexpr double k_soon_s = 60.0;
   const bool soon = limit_s > 0 && shown_s < k_soon_s;
   const std::string text = clock_text(shown_s);
-  std::string label = limit_s > 0 ? "time left" : "time";
-  if (soon) label = "LAST MINUTE";
-  if (standing) label = "CLOCK STANDS";
+  std::string label = shown(limit_s > 0 ? "time left" : "time");
+  if (soon) label = shown("LAST MINUTE");
+  if (standing) label = shown("CLOCK STANDS");
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, soon || standing ? t.warn : t.text);
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
   ImGui::SetCursorPosX(x + width - ImGui::CalcTextSize(text.c_str()).x);
-  ImGui::TextUnformatted(text.c_str());
+  text_line(text);
   pop_font();
   push_font(Font::small);
   ImGui::SetCursorPos({x + width - ImGui::CalcTextSize(label.c_str()).x, ImGui::GetCursorPosY() - t.px(10)});
-  ImGui::TextUnformatted(label.c_str());
+  text_line(label);
   pop_font();
   ImGui::PopStyleColor();
 }

@@ -5,6 +5,7 @@
 
 #include <utility>
 
+#include "engine/language/shown.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -13,7 +14,7 @@ namespace {
 
 void ask_for_code(const ScreenContext& c, bool fresh) {
   StationState& s = c.state;
-  ImGui::TextUnformatted("Only the supervisor closes this station. Supervisor, type your code:");
+  text_line("Only the supervisor closes this station. Supervisor, type your code:");
   ImGui::SetNextItemWidth(-1);
   if (fresh || std::exchange(s.focus_supervisor, false)) ImGui::SetKeyboardFocusHere();
   const bool entered = ImGui::InputText("##supervisor", s.supervisor_code.data(), s.supervisor_code.size(),
@@ -22,17 +23,17 @@ void ask_for_code(const ScreenContext& c, bool fresh) {
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, "Close the station  (Enter)", true, false) || entered) s.wish = Wish::leave;
   ImGui::SameLine();
-  if (ImGui::Button("Back  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_leave = false;
+  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_leave = false;
 }
 
 void ask_plainly(const ScreenContext& c, bool fresh) {
   StationState& s = c.state;
-  ImGui::TextUnformatted("The exam is not handed in: it stays open, and can be gone on with.");
-  ImGui::TextUnformatted("That it was left is recorded.");
+  text_line("The exam is not handed in: it stays open, and can be gone on with.");
+  text_line("That it was left is recorded.");
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, "Back to the exam  (Esc)", true, !fresh) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_leave = false;
   ImGui::SameLine();
-  if (ImGui::Button("Close the window  (F4)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_F4))) s.wish = Wish::leave;
+  if (ImGui::Button(shown_label("Close the window  (F4)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_F4))) s.wish = Wish::leave;
 }
 
 }  // namespace
@@ -51,14 +52,14 @@ void ask_whether_to_leave(const ScreenContext& c, bool locked) {
 void demonstration_in_picture(const Theme& t, ImVec2 at, ImVec2 size) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   push_font(Font::clock);
-  const char* word = "DEMONSTRATION";
-  const ImVec2 text = ImGui::CalcTextSize(word);
+  const std::string word = shown("DEMONSTRATION");
+  const ImVec2 text = ImGui::CalcTextSize(word.c_str());
   ImVec4 colour = t.warn;
   colour.w = 0.30F;
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
   int row = 0;
   for (float y = at.y + 0.5F * text.y; y < at.y + size.y; y += 2.2F * text.y, ++row)
-    for (float x = at.x - (row % 2 == 0 ? 0.2F : 0.75F) * text.x; x < at.x + size.x; x += 1.25F * text.x) draw.AddText({x, y}, ink(colour), word);
+    for (float x = at.x - (row % 2 == 0 ? 0.2F : 0.75F) * text.x; x < at.x + size.x; x += 1.25F * text.x) draw.AddText({x, y}, ink(colour), word.c_str());
   draw.PopClipRect();
   pop_font();
 }

@@ -6,6 +6,7 @@
 #include <chrono>
 
 #include "engine/base/error.h"
+#include "ui/parts/scenario_words.h"
 
 namespace cavum::station {
 namespace {
@@ -31,6 +32,7 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       ended_by_hand_(std::any_of(events_.begin(), events_.end(),
                                  [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); })),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {
+  ui::show_texts_of(setup_->scenario);
   Moment first;
   first.servo = simulation_.state;
   first.input.tip_nm = reader_.setup().first_tip_nm;

@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/language/shown.h"
 #include "ui/station/gauges.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
@@ -70,7 +71,7 @@ void time_line(const ScreenContext& c) {
     draw.AddTriangleFilled({x - t.px(6), at.y + height + t.px(14)}, {x + t.px(6), at.y + height + t.px(14)}, {x, at.y + height + t.px(3)},
                            ink(bad ? t.bad : t.good));
     if (ImGui::IsMouseHoveringRect({x - t.px(7), at.y}, {x + t.px(7), at.y + height + t.px(15)}))
-      ImGui::SetTooltip("%s, %s", word, clock_text(static_cast<double>(e.tick) * k_tick_s).c_str());
+      ImGui::SetTooltip("%s, %s", shown(word).c_str(), clock_text(static_cast<double>(e.tick) * k_tick_s).c_str());
   }
   ImGui::Dummy({width, t.px(14)});
 }

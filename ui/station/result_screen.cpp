@@ -16,16 +16,16 @@ namespace {
 
 void criteria(const Theme& t, const grading::Result& r) {
   if (!ImGui::BeginTable("criteria", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn("Criterion", ImGuiTableColumnFlags_WidthFixed, t.px(190));
-  ImGui::TableSetupColumn("Points", ImGuiTableColumnFlags_WidthFixed, t.px(110));
-  ImGui::TableSetupColumn("Why", ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(shown_label("Criterion").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(190));
+  ImGui::TableSetupColumn(shown_label("Points").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(110));
+  ImGui::TableSetupColumn(shown_label("Why").c_str(), ImGuiTableColumnFlags_WidthStretch);
   ImGui::TableHeadersRow();
   for (const grading::CriterionResult& c : r.criteria) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
     wrapped_text(c.title);
     ImGui::TableNextColumn();
-    ImGui::TextUnformatted((number_text("%.1f", c.points) + number_text(" of %.0f", c.max)).c_str());
+    text_line(number_text("%.1f", c.points) + number_text(" of %.0f", c.max));
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = t.px(96), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F;
     ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + t.px(5)}, ink(t.line));
@@ -82,7 +82,7 @@ void result_screen(const ScreenContext& c) {
   const ImVec4 colour = r.verdict == grading::Verdict::pass ? t.good : r.verdict == grading::Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  ImGui::TextUnformatted(r.verdict == grading::Verdict::pass ? "Passed" : r.verdict == grading::Verdict::fail ? "Not passed" : "To be reviewed");
+  text_line(r.verdict == grading::Verdict::pass ? "Passed" : r.verdict == grading::Verdict::fail ? "Not passed" : "To be reviewed");
   ImGui::PopStyleColor();
   pop_font();
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
@@ -98,7 +98,7 @@ void result_screen(const ScreenContext& c) {
   if (!s.message.empty()) quiet_text(t, s.message);
   if (main_button(t, "Done  (Enter)", true)) s.wish = Wish::next_candidate;
   ImGui::SameLine();
-  if (ImGui::Button("Write the report  (F2)", {0, t.px(44)}) || key_pressed(GLFW_KEY_F2)) s.wish = Wish::report;
+  if (ImGui::Button(shown_label("Write the report  (F2)").c_str(), {0, t.px(44)}) || key_pressed(GLFW_KEY_F2)) s.wish = Wish::report;
   end_area();
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});

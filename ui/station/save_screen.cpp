@@ -14,16 +14,16 @@ void ask_whether_to_close(const ScreenContext& c) {
   StationState& s = c.state;
   bool fresh = false;
   if (!begin_question(c.theme, "Close?", "This exam is not saved yet", s.confirm_close, fresh)) return;
-  ImGui::TextUnformatted("If the window closes now, its end and its result are lost.");
-  ImGui::TextUnformatted("It can be saved to this computer's folder for temporary files first; copy it from there.");
+  text_line("If the window closes now, its end and its result are lost.");
+  text_line("It can be saved to this computer's folder for temporary files first; copy it from there.");
   if (s.rescue_failed) bad_text(c.theme, "There it cannot be written either: make room, or type another place.");
   ImGui::Dummy({0, c.theme.px(6)});
   if (main_button(c.theme, "Save it there and close  (Enter)", true, !fresh)) s.wish = Wish::rescue;
   ImGui::SameLine();
-  if (ImGui::Button("Back  (Esc)", {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_close = false;
+  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_close = false;
   if (s.rescue_failed) {
     ImGui::SameLine();
-    if (ImGui::Button("Close and lose it", {0, c.theme.px(44)})) s.wish = Wish::abandon;
+    if (ImGui::Button(shown_label("Close and lose it").c_str(), {0, c.theme.px(44)})) s.wish = Wish::abandon;
   }
   end_question(s.confirm_close);
 }

@@ -23,8 +23,8 @@
 namespace cavum::station {
 namespace {
 
-constexpr std::array<const char*, 16> k_words{"mouse", "wait",  "go",   "until", "type",    "key",    "hold", "release",
-                                              "sleep", "stall", "hide", "show",  "picture", "memory", "fail", "close"};
+constexpr std::array<const char*, 17> k_words{"mouse", "wait", "go",   "until",   "type",  "key",    "hold", "release", "sleep",
+                                              "stall", "hide", "show", "picture", "words", "memory", "fail", "close"};
 
 std::string all_words() {
   std::string list;
@@ -154,6 +154,10 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
   if (c.word == "picture" && !pictures_.empty()) {
     std::filesystem::create_directories(pictures_);
     window.keep_picture((std::filesystem::path(pictures_) / (file_name_of(c.text) + ".png")).string());
+  }
+  if (c.word == "words" && !pictures_.empty()) {
+    std::filesystem::create_directories(pictures_);
+    window.keep_words((std::filesystem::path(pictures_) / (file_name_of(c.text) + ".txt")).string());
   }
   if (c.word == "memory") std::printf("%s: %.1f MB\n", c.text.c_str(), memory_mb());
   if (c.word == "fail") throw Error(where, "the script let the window fail", "leave 'fail' out");

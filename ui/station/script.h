@@ -15,6 +15,7 @@
 //   stall SECONDS    the window stands still, as with a graphics card that hangs
 //   hide, show       the window
 //   picture NAME     of the screen, NAME.png in the folder of pictures
+//   words NAME       that the screen says, NAME.txt beside the pictures; a screen that says nothing in widgets adds none
 //   memory NAME      prints NAME and what the program holds in memory, MB
 //   fail             throws in the window's thread
 //   close            the window, as its cross does

@@ -13,7 +13,7 @@ void sign_in_screen(const ScreenContext& c) {
   wrapped_text(c.scenario.title);
   if (!c.scenario.description.empty()) quiet_text(t, c.scenario.description);
   ImGui::Dummy({0, t.px(10)});
-  ImGui::TextUnformatted("Your candidate code");
+  text_line("Your candidate code");
   ImGui::SetNextItemWidth(-1);
   push_font(Font::heading);
   if (s.focus_code) ImGui::SetKeyboardFocusHere();
@@ -22,10 +22,10 @@ void sign_in_screen(const ScreenContext& c) {
   pop_font();
   quiet_text(t, "The code on your card, never your name. It is kept with the recording.");
   ImGui::Dummy({0, t.px(8)});
-  ImGui::Checkbox("Left-handed layout", &s.left_handed);
+  ImGui::Checkbox(shown_label("Left-handed layout").c_str(), &s.left_handed);
   ImGui::SameLine(0, t.px(24));
-  ImGui::Checkbox("High contrast", &s.high_contrast);
-  ImGui::TextUnformatted("Size of text");
+  ImGui::Checkbox(shown_label("High contrast").c_str(), &s.high_contrast);
+  text_line("Size of text");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(t.px(220));
   auto scale = static_cast<float>(s.text_scale);
@@ -38,7 +38,7 @@ void sign_in_screen(const ScreenContext& c) {
   if (c.practice) {
     ImGui::SameLine(0, t.px(24));
     bool tutorial = s.tutorial_wanted;
-    if (ImGui::Checkbox("Two-minute tutorial first", &tutorial)) s.tutorial_wanted = tutorial;
+    if (ImGui::Checkbox(shown_label("Two-minute tutorial first").c_str(), &tutorial)) s.tutorial_wanted = tutorial;
   }
   if (entered && !usable) {
     s.focus_code = true;  // Enter would take it away

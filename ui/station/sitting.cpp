@@ -12,6 +12,7 @@
 #include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
+#include "ui/parts/scenario_words.h"
 
 namespace cavum::station {
 namespace {
@@ -107,6 +108,7 @@ Sitting::~Sitting() {
 void Sitting::advance() {
   if (stage_ == Stage::preparing && is_ready(preparing_)) {
     setup_ = preparing_.get();
+    ui::show_texts_of(setup_->scenario);
     check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
     stage_ = Stage::checking;
   }

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <cstdio>
 
+#include "engine/language/shown.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -107,6 +108,11 @@ namespace {
 constexpr ImGuiWindowFlags k_plain =
     ImGuiWindowFlags_NoDecoration | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings | ImGuiWindowFlags_NoBringToFrontOnFocus;
 
+/// Into the window's file, where one is wanted (Window::keep_words); until the end of this area.
+void keep_words() {
+  if (ImGui::GetIO().LogFilename != nullptr) ImGui::LogToFile();
+}
+
 }  // namespace
 
 void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel) {
@@ -114,6 +120,7 @@ void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool
   ImGui::SetNextWindowSize(size);
   ImGui::PushStyleColor(ImGuiCol_WindowBg, panel ? theme.panel : theme.back);
   ImGui::Begin(id, nullptr, k_plain);
+  keep_words();
 }
 
 void end_area() {
@@ -130,6 +137,7 @@ void begin_card(const Theme& theme, const char* heading, float width) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(10));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme.panel);
   ImGui::Begin(heading, nullptr, k_plain | ImGuiWindowFlags_AlwaysAutoResize);
+  keep_words();
   ImGui::PopStyleVar(2);
   ImGui::Dummy({width - theme.px(72), 0});
   heading_text(heading);
@@ -163,6 +171,7 @@ bool begin_question(const Theme& theme, const char* name, const char* heading, b
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
   if (!ImGui::BeginPopupModal(name, nullptr, ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoTitleBar)) return false;
+  keep_words();
   heading_text(heading);
   ImGui::Dummy({0, theme.px(2)});
   return true;
@@ -173,24 +182,32 @@ void end_question(bool asked) {
   ImGui::EndPopup();
 }
 
-void wrapped_text(const std::string& text) {
+void text_line(const std::string& english) {
+  const std::string text = shown(english);
+  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+}
+
+void wrapped_text(const std::string& english) {
+  const std::string text = shown(english);
   ImGui::PushTextWrapPos(0.0F);
   ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
   ImGui::PopTextWrapPos();
 }
+
+std::string shown_label(const char* english) { return fmt::format("{}###{}", shown(english), english); }
 
 bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter) {
   ImGui::PushStyleColor(ImGuiCol_Button, enabled ? theme.accent : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, enabled ? mixed(theme.accent, theme.text, 0.25F) : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_Text, enabled ? theme.on_accent : theme.quiet);
   ImGui::BeginDisabled(!enabled);
-  const bool clicked = ImGui::Button(label, {0, theme.px(44)});
+  const bool clicked = ImGui::Button(shown_label(label).c_str(), {0, theme.px(44)});
   ImGui::EndDisabled();
   ImGui::PopStyleColor(3);
   return enabled && (clicked || (by_enter && (key_pressed(GLFW_KEY_ENTER) || key_pressed(GLFW_KEY_KP_ENTER))));
 }
 
-bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(label, {width, theme.px(36)}); }
+bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
 
 bool key_pressed(int key) {
   const ImGuiIO& io = ImGui::GetIO();
@@ -207,7 +224,7 @@ std::string clock_text(double seconds) {
 std::string number_text(const char* format, double value) {
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
+  return shown(text.data());
 }
 
 }  // namespace cavum::station

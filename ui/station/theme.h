@@ -29,8 +29,12 @@ void begin_card(const Theme& theme, const char* heading, float width);
 void quiet_text(const Theme& theme, const std::string& text);
 /// What went wrong, in the colour for that; nothing for an empty text.
 void bad_text(const Theme& theme, const std::string& text);
+// These texts, labels and headings are English, and are shown in the reader's language.
 void heading_text(const std::string& text);
 void wrapped_text(const std::string& text);
+void text_line(const std::string& text);
+/// A label of Dear ImGui's own widgets in the reader's language. What the widget is known by stays English.
+[[nodiscard]] std::string shown_label(const char* english);
 /// A question over everything else, with a heading, that shows while `asked`. When true, pair with end_question; `fresh` is true in its first frame,
 /// in which the key that raised it is still held and answers nothing.
 bool begin_question(const Theme& theme, const char* name, const char* heading, bool asked, bool& fresh);
@@ -45,7 +49,7 @@ bool side_button(const Theme& theme, const char* label, float width = 0.0F);
 [[nodiscard]] bool key_held(int key);
 /// Minutes and seconds, "12:05".
 [[nodiscard]] std::string clock_text(double seconds);
-/// printf for one number.
+/// printf for one number, in the reader's language.
 [[nodiscard]] std::string number_text(const char* format, double value);
 
 }  // namespace cavum::station

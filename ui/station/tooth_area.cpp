@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "engine/language/shown.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -54,15 +55,17 @@ bool tooth_area(const ScreenContext& c, ImVec2 size) {
   if ((over || c.mouse_captured) && io.MouseWheel != 0 && (!mouse_is_stylus || io.KeyCtrl)) s.view.camera.approach(std::pow(0.92F, io.MouseWheel));
   if (c.sitting != nullptr && c.sitting->device().simulated()) demonstration_in_picture(c.theme, at, size);
   if (s.view.camera.mirror) {
-    const char* word = "MIRROR";
-    ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word);
+    const std::string word = shown("MIRROR");
+    ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word.c_str());
   }
   return over;
 }
 
-void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour) {
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& english, const ImVec4& colour) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), upper);
+  const std::string lower = shown(english);
+  draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), shown(upper).c_str());
+  ImGui::LogText("%s\n%s\n", shown(upper).c_str(), lower.c_str());
   if (lower.empty()) return;
   const float width = std::min(size.x - theme.px(40), theme.px(680)), pad = theme.px(12);
   const ImVec2 text = ImGui::CalcTextSize(lower.c_str(), nullptr, false, width - 2 * pad);

@@ -224,8 +224,15 @@ void Window::begin_frame() {
   ImGui::NewFrame();
 }
 
+void Window::keep_words(const std::string& path) {
+  std::filesystem::remove(path);
+  words_ = path;
+  ImGui::GetIO().LogFilename = words_.c_str();
+}
+
 void Window::end_frame() {
   ImGui::Render();
+  ImGui::GetIO().LogFilename = nullptr;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
   int w = 0, h = 0;
   glfwGetFramebufferSize(window_, &w, &h);

@@ -69,6 +69,8 @@ class Window {
   [[nodiscard]] bool wants_text() const;
   /// The running frame is written as PNG by end_frame, which throws Error when it cannot.
   void keep_picture(const std::string& path) { picture_ = path; }
+  /// Writes the words of the next frame into a file, anew.
+  void keep_words(const std::string& path);
 
  private:
   void open(const WindowOptions& options);
@@ -86,6 +88,7 @@ class Window {
   bool mouse_known_ = false;  // where it is
   int pressed_ = 0;           // by `press`, to be released
   std::string picture_;       // of the running frame
+  std::string words_;         // file for those of the running frame
 };
 
 /// Fonts of the last set_text_scale.

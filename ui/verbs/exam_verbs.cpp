@@ -27,6 +27,7 @@
 #include "ui/parts/live_source.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/parts/seed_check.h"
 #include "ui/report/report.h"
 #include "ui/verbs/full_disk.h"
@@ -118,12 +119,17 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const L
     options.continuous_n = live->continuous_n();
   }
   options.grant = o.grant;
-  if (o.ticket.empty()) return scenarios::prepare_exam(o.scenario, options);
+  if (o.ticket.empty()) {
+    auto setup = scenarios::prepare_exam(o.scenario, options);
+    show_texts_of(setup->scenario);
+    return setup;
+  }
   const ledger::HeldTicket held = ledger::read_ticket(o.ticket);
   ledger::require_unused(held);
   ledger::use_ticket(held, options);
   auto setup = scenarios::prepare_exam(o.scenario, options);
   ledger::require_promised(held, setup->session);
+  show_texts_of(setup->scenario);
   return setup;
 }
 
@@ -307,6 +313,7 @@ int run_resumed(const ExamArguments& o) {
   reader.require_readable();
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = scenarios::prepare_exam(reader.setup());
+  show_texts_of(setup->scenario);
   SourceNotes notes;
   if (!reader.closed()) notes = ledger::require_not_closed(setup->session.notes, o.out);
   const auto say = [&notes](const SourceNotes& more) { notes.insert(notes.end(), more.begin(), more.end()); };

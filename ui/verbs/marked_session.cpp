@@ -6,6 +6,7 @@
 #include "engine/base/text.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/file/rubric_check.h"
+#include "ui/parts/scenario_words.h"
 
 namespace cavum::ui {
 
@@ -34,6 +35,7 @@ MarkedSession marked_session(const std::string& path, Marking by) {
   else if (!same_zones)
     grading::use_rubric(s, s.scenario.rubric);
   g.rubric = s.rubric;
+  show_texts_of(s.scenario);
   if (again && same_zones) {
     g.result = *again;
     grading::mark(g.result, g.rubric);

@@ -29,6 +29,7 @@ class StationWindow : public ::testing::Test {
   void SetUp() override {
     if (!screen_->there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
     ::setenv("CAVUM_HOME", folder_.file("home").c_str(), 1);
+    ::setenv("LANGUAGE", "en", 1);  // whatever the machine speaks
   }
 
   [[nodiscard]] std::string session() const { return folder_.file("s.cavum"); }

@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
+#include "engine/language/say.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Fontconfig keeps what it once read until the program ends: that is no leak of ours.
@@ -73,6 +74,7 @@ struct PdfSheet::State {
   PangoFontMap* fonts = nullptr;
   PangoContext* context = nullptr;
   bool finished = false;
+  std::vector<std::string> picture_words;
 
   [[nodiscard]] Layout layout(const PdfText& t, double width) const {
     Layout l(pango_layout_new(context));
@@ -88,11 +90,11 @@ struct PdfSheet::State {
       pango_layout_set_height(l.get(), static_cast<int>(t.most_pt * PANGO_SCALE));
       pango_layout_set_ellipsize(l.get(), PANGO_ELLIPSIZE_END);
     }
-    const std::string text = one_line(t.text);
+    const std::string text = with_isolates(t.text, one_line, k_isolate, k_isolate_end);
     if (t.lead.empty()) {
       pango_layout_set_text(l.get(), text.c_str(), -1);
     } else {
-      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), xml_text(text));
+      const std::string markup = fmt::format("<b>{}</b>: {}", xml_text(one_line(t.lead)), with_isolates(text, xml_text, k_isolate, k_isolate_end));
       pango_layout_set_markup(l.get(), markup.c_str(), -1);
     }
     return l;
@@ -103,9 +105,17 @@ struct PdfSheet::State {
     return static_cast<double>(height) / PANGO_SCALE;
   }
   void colour(PdfColour c) const { cairo_set_source_rgb(cairo, c.r, c.g, c.b); }
-  void put(const Layout& l, double x, double top) const {
+  void begin_tag(const char* tag) const {
+    if (tag != nullptr) cairo_tag_begin(cairo, tag, nullptr);
+  }
+  void end_tag(const char* tag) const {
+    if (tag != nullptr) cairo_tag_end(cairo, tag);
+  }
+  void put(const Layout& l, double x, double top, const char* tag) const {
+    begin_tag(tag);
     cairo_move_to(cairo, x, top);
     pango_cairo_show_layout(cairo, l.get());
+    end_tag(tag);
   }
   /// One line, cut short where it does not fit.
   void furniture(const std::string& text, double x, double top, double width, bool right) const {
@@ -113,7 +123,7 @@ struct PdfSheet::State {
     t.right = right;
     t.most_pt = 1;  // one line
     colour(t.colour);
-    put(layout(t, width), x, top);
+    put(layout(t, width), x, top, nullptr);
   }
   void begin_page() {
     ++page;
@@ -130,7 +140,7 @@ struct PdfSheet::State {
     cairo_line_to(cairo, k_page_width - k_side, foot - 4);
     cairo_stroke(cairo);
     if (!document.footer.empty()) furniture(document.footer.front(), k_side, foot, width - 70, false);
-    furniture(fmt::format("page {}{}", page, pages > 0 ? fmt::format(" of {}", pages) : ""), k_page_width - k_side - 66, foot, 66, true);
+    furniture(pages > 0 ? tr("page {} of {}", page, pages) : tr("page {}", page), k_page_width - k_side - 66, foot, 66, true);
   }
   void new_page() {
     cairo_show_page(cairo);
@@ -150,6 +160,7 @@ PdfSheet::PdfSheet(const Document& document, int pages, std::string& out) : s_(n
   s.fonts = pango_cairo_font_map_new();
   s.context = pango_font_map_create_context(s.fonts);
   pango_cairo_update_context(s.cairo, s.context);
+  s.begin_tag("Document");
   s.begin_page();
 }
 
@@ -184,11 +195,12 @@ void PdfSheet::lines(const PdfText& text, double width_pt) {
     need(all);
     if (text.fill) fill(0, width_pt, all, *text.fill);
     s.colour(text.colour);
-    s.put(l, k_side, s.y);
+    s.put(l, k_side, s.y, text.tag);
     s.y += all;
     return;
   }
   s.colour(text.colour);
+  s.begin_tag(text.tag);
   for (int i = 0; i < pango_layout_get_line_count(l.get()); ++i) {  // longer than a page: line by line
     PangoLayoutLine* line = pango_layout_get_line_readonly(l.get(), i);
     PangoRectangle box;
@@ -199,12 +211,13 @@ void PdfSheet::lines(const PdfText& text, double width_pt) {
     pango_cairo_show_layout_line(s.cairo, line);
     s.y += height;
   }
+  s.end_tag(text.tag);
 }
 
 double PdfSheet::at(const PdfText& text, double x_pt, double y_pt, double width_pt) {
   const Layout l = s_->layout(text, width_pt);
   s_->colour(text.colour);
-  s_->put(l, k_side + x_pt, s_->y + y_pt);
+  s_->put(l, k_side + x_pt, s_->y + y_pt, text.tag);
   return State::height_of(l);
 }
 
@@ -229,13 +242,16 @@ void PdfSheet::frame(double x_pt, double width_pt, double height_pt, PdfColour c
   cairo_stroke(s_->cairo);
 }
 
-void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster) {
+void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster, const std::string& words) {
   cairo_t* cairo = s_->cairo;
+  s_->picture_words.push_back(one_line(words));
+  s_->begin_tag("Figure");
   const double x = k_side + x_pt, y = s_->y + y_pt;
   if (!raster) {
     cairo_save(cairo);
     picture.draw(cairo, x, y, width_pt, height_pt);
     cairo_restore(cairo);
+    s_->end_tag("Figure");
     return;
   }
   const int columns = static_cast<int>(std::ceil(width_pt * k_raster_px_per_pt)), rows = static_cast<int>(std::ceil(height_pt * k_raster_px_per_pt));
@@ -259,10 +275,16 @@ void PdfSheet::draw(const PdfPicture& picture, double x_pt, double y_pt, double 
   cairo_fill(cairo);
   cairo_restore(cairo);
   cairo_surface_destroy(image);
+  s_->end_tag("Figure");
 }
+
+void PdfSheet::begin_tag(const char* tag) { s_->begin_tag(tag); }
+void PdfSheet::end_tag(const char* tag) { s_->end_tag(tag); }
+const std::vector<std::string>& PdfSheet::picture_words() const noexcept { return s_->picture_words; }
 
 int PdfSheet::finish() {
   if (!s_->finished) {
+    s_->end_tag("Document");
     cairo_show_page(s_->cairo);
     cairo_surface_finish(s_->surface);
     s_->finished = true;

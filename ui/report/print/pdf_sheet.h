@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "ui/report/print/document.h"
 
@@ -23,6 +24,7 @@ struct PdfText {
   std::string lead = {};               ///< bold, before the text
   std::optional<PdfColour> fill = {};  ///< behind it
   double most_pt = 0;                  ///< greatest height, beyond which it ends in "…"; 0 = any
+  const char* tag = "P";               ///< what it is to a program that reads it aloud, as PDF names it: H1, P, TH ...; nullptr: nothing
 };
 
 /// A picture read from SVG. Throws Error when it is none.
@@ -63,9 +65,15 @@ class PdfSheet {
   void rule(PdfColour colour);
   void fill(double x_pt, double width_pt, double height_pt, PdfColour colour);
   void frame(double x_pt, double width_pt, double height_pt, PdfColour colour, double line_pt);
-  void draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster);
+  /// `words`: for those who cannot see it.
+  void draw(const PdfPicture& picture, double x_pt, double y_pt, double width_pt, double height_pt, bool raster, const std::string& words);
+  /// Around what belongs together: Table, TR, L, LI. Each begin is paired with an end.
+  void begin_tag(const char* tag);
+  void end_tag(const char* tag);
   /// Ends the last page and the file; returns how many pages there are.
   int finish();
+  /// Words of the pictures, in their order.
+  [[nodiscard]] const std::vector<std::string>& picture_words() const noexcept;
 
  private:
   struct State;

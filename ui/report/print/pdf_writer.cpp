@@ -6,7 +6,9 @@
 #include <cmath>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "ui/report/print/pdf_sheet.h"
+#include "ui/report/print/pdf_tags.h"
 
 namespace cavum::report {
 namespace {
@@ -27,7 +29,9 @@ class Printer {
   explicit Printer(PdfSheet& sheet) : s_(sheet) {}
 
   void title(const Document& d) {
-    s_.lines({d.title, 17, true}, s_.width_pt());
+    PdfText title{d.title, 17, true};
+    title.tag = "H1";
+    s_.lines(title, s_.width_pt());
     s_.space(2);
     s_.lines({d.subtitle, k_small_pt, false, {0.3, 0.3, 0.3}}, s_.width_pt());
     s_.space(k_gap_pt);
@@ -47,9 +51,12 @@ class Printer {
     return 40;
   }
   void operator()(const Heading& b) {
+    heading_ = b.text;
     s_.space(b.level > 2 ? 5 : 9);
     s_.need((b.level > 2 ? 14 : 20) + with_next_pt_);
-    s_.lines({b.text, b.level > 2 ? 10.0 : 12.5, true}, s_.width_pt());
+    PdfText text{b.text, b.level > 2 ? 10.0 : 12.5, true};
+    text.tag = b.level > 2 ? "H3" : "H2";
+    s_.lines(text, s_.width_pt());
     if (b.level <= 2) s_.rule({0.75, 0.75, 0.75});
     s_.space(3);
   }
@@ -62,16 +69,23 @@ class Printer {
     s_.space(k_gap_pt / 2);
   }
   void operator()(const Bullets& b) {
+    s_.begin_tag("L");
     for (const auto& item : b.items) {
-      s_.lines({"• " + item, b.small ? k_small_pt : k_text_pt, false}, s_.width_pt());
+      PdfText text{"• " + item, b.small ? k_small_pt : k_text_pt, false};
+      text.tag = "LBody";
+      s_.begin_tag("LI");
+      s_.lines(text, s_.width_pt());
+      s_.end_tag("LI");
       s_.space(1);
     }
+    s_.end_tag("L");
     s_.space(k_gap_pt / 2);
   }
   void operator()(const LessonList& b) {
     int number = 0;
     for (const auto& i : b.items) {
-      PdfText text{fmt::format("{} ({}{})", i.instead, i.weight, i.jump ? ", at " + fixed(i.jump->t_s, 1) + " s" : ""), k_text_pt, false};
+      PdfText text{i.jump ? tr("{} ({}, at {} s)", i.instead, i.weight, fixed(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight),
+                   k_text_pt, false};
       text.lead = fmt::format("{}. {}", ++number, i.what.ends_with('.') ? i.what.substr(0, i.what.size() - 1) : i.what);
       s_.lines(text, s_.width_pt());
       s_.space(k_gap_pt / 2);
@@ -79,7 +93,7 @@ class Printer {
     s_.space(k_gap_pt / 2);
     Pictures pictures{{}, 3};
     for (std::size_t i = 0; i < b.items.size(); ++i)
-      if (b.items[i].picture) pictures.list.push_back({b.items[i].picture->svg, fmt::format("To {}", i + 1), true});
+      if (b.items[i].picture) pictures.list.push_back({b.items[i].picture->svg, tr("To {}", i + 1), true});
     if (!pictures.list.empty()) (*this)(pictures);
   }
   void operator()(const Fold& b) { (*this)(Heading{b.title}); }
@@ -87,7 +101,7 @@ class Printer {
   void operator()(const VerdictBox& b) {
     const double left = 0.36 * s_.width_pt(), inner = 8;
     const PdfColour colour = verdict_colour(b.verdict);
-    const PdfText verdict{b.verdict, 20, true, colour}, score{b.score, 11, true};
+    const PdfText verdict{shown(b.verdict), 20, true, colour}, score{b.score, 11, true};
     double height_left = s_.height(verdict, left) + s_.height(score, left), height_right = 0;
     for (const auto& line : b.lines) height_left += s_.height({line, k_small_pt, false}, left) + 1;
     const double right = s_.width_pt() - left - 3 * inner;
@@ -107,10 +121,11 @@ class Printer {
     const TableRow head = head_of(b);
     const double head_height = height_of(b, head, widths, true);
     const bool has_head = std::any_of(b.columns.begin(), b.columns.end(), [](const TableColumn& c) { return !c.title.empty(); });
-    const auto print_head = [&] {
+    s_.begin_tag("Table");
+    const auto print_head = [&](bool again) {
       if (!has_head) return;
       s_.fill(0, s_.width_pt(), head_height, {0.93, 0.93, 0.93});
-      row(b, head, widths, true);
+      row(b, head, widths, true, 0, !again);  // once more on another page it is not said again
       s_.space(head_height);
     };
     const double most = s_.page_height_pt() - head_height - 1;
@@ -119,9 +134,9 @@ class Printer {
       const double height = std::min(height_of(b, r, widths, false), most);
       if (!begun) {
         s_.need(height + head_height);
-        print_head();
+        print_head(false);
       } else if (s_.need(height)) {
-        print_head();
+        print_head(true);
       }
       begun = true;
       if (r.lost) s_.fill(0, s_.width_pt(), height, {1.0, 0.955, 0.92});
@@ -129,9 +144,12 @@ class Printer {
       s_.space(height);
       s_.rule({0.86, 0.86, 0.86});
     }
+    s_.end_tag("Table");
     s_.space(k_gap_pt);
   }
-  void operator()(const Pictures& b) {
+  void operator()(const Pictures& b) { pictures(b, heading_); }
+  /// `b_name`: of those without a title.
+  void pictures(const Pictures& b, const std::string& b_name) {
     for (std::size_t first = 0; first < b.list.size(); first += columns_of(b)) {
       PictureRow row = row_of(b, first);
       if (row.height() > s_.left_pt() && row.least_height() <= s_.left_pt()) row.shrink_to(s_.left_pt());
@@ -140,7 +158,7 @@ class Printer {
       for (std::size_t i = 0; i < row.placed.size(); ++i) {
         const PictureRow::Placed& p = row.placed[i];
         const Picture& picture = b.list[first + i];
-        s_.draw(p.picture, x, row.tallest - p.height, p.width, p.height, picture.raster);
+        s_.draw(p.picture, x, row.tallest - p.height, p.width, p.height, picture.raster, picture.title.empty() ? b_name : picture.title);
         if (!picture.title.empty()) s_.at({picture.title, k_small_pt, false}, x, row.tallest + 2, row.width);
         x += row.width + k_between_pt;
       }
@@ -148,7 +166,7 @@ class Printer {
     }
   }
   void operator()(const LiveFigure& b) {
-    if (!b.on_paper.empty()) (*this)(Pictures{b.on_paper, 1});
+    if (!b.on_paper.empty()) pictures(Pictures{b.on_paper, 1}, b.title);
   }
 
  private:
@@ -207,21 +225,25 @@ class Printer {
       height = std::max(height, s_.height(cell_text(r.cells[i].text, t.columns[i].number, head), widths[i] - 2 * k_padding_pt));
     return height + 2 * k_padding_pt;
   }
-  void row(const ReportTable& t, const TableRow& r, const std::vector<double>& widths, bool head, double most = 0) {
+  void row(const ReportTable& t, const TableRow& r, const std::vector<double>& widths, bool head, double most = 0, bool tagged = true) {
     double x = 0;
+    if (tagged) s_.begin_tag("TR");
     for (std::size_t i = 0; i < r.cells.size(); ++i) {
       PdfText text = cell_text(r.cells[i].text, t.columns[i].number, head);
       text.most_pt = most > 0 ? most - 2 * k_padding_pt : 0;
+      text.tag = !tagged ? nullptr : head ? "TH" : "TD";
       s_.at(text, x + k_padding_pt, k_padding_pt, widths[i] - 2 * k_padding_pt);
       x += widths[i];
     }
+    if (tagged) s_.end_tag("TR");
   }
   PdfSheet& s_;
   double with_next_pt_ = 0;
+  std::string heading_;  // the last
 };
 
 /// Prints everything; `pages`: how many there will be, 0 when not known yet. Returns how many there were.
-int print(const Document& d, int pages, std::string& out) {
+int print(const Document& d, int pages, std::string& out, std::vector<std::string>& pictures) {
   PdfSheet sheet(d, pages, out);
   Printer printer(sheet);
   printer.title(d);
@@ -235,6 +257,7 @@ int print(const Document& d, int pages, std::string& out) {
     std::visit(printer, d.blocks[i]);
   }
   for (const auto& line : d.footer) sheet.lines({line, 7, false, {0.35, 0.35, 0.35}}, sheet.width_pt());
+  pictures = sheet.picture_words();
   return sheet.finish();
 }
 
@@ -242,10 +265,11 @@ int print(const Document& d, int pages, std::string& out) {
 
 std::string pdf_of(const Document& document) {
   std::string bytes;
-  const int pages = print(document, 0, bytes);
+  std::vector<std::string> pictures;
+  const int pages = print(document, 0, bytes, pictures);
   bytes.clear();
-  print(document, pages, bytes);
-  return bytes;
+  print(document, pages, bytes, pictures);
+  return complete_tags(bytes, document, pictures);
 }
 
 }  // namespace cavum::report

@@ -6,6 +6,7 @@ import type { ExamEvent } from "./data.ts";
 import { button, make } from "./dom.ts";
 import type { Recording } from "./motion.ts";
 import { event_colour } from "./player.ts";
+import { tr, with_sign } from "./words.ts";
 
 interface Quantity {
   name: string;
@@ -28,13 +29,13 @@ export class Charts {
 
   constructor(private readonly section: HTMLElement, private readonly recording: Recording, private readonly events: ExamEvent[], private readonly clock: Clock) {
     this.quantities = [
-      { name: "Force", unit: "N", digits: 2, colour: "#0b5394", values: recording.force_n },
-      { name: "Depth", unit: "mm", digits: 2, colour: "#7a4b00", values: recording.depth_mm },
-      { name: "Handpiece", unit: "rpm", digits: 0, colour: "#5b2a86", values: recording.rpm },
-      { name: "Tip speed", unit: "mm/s", digits: 1, colour: "#00695c", values: recording.tip_mm_s },
+      { name: tr("Force"), unit: "N", digits: 2, colour: "#0b5394", values: recording.force_n },
+      { name: tr("Depth"), unit: "mm", digits: 2, colour: "#7a4b00", values: recording.depth_mm },
+      { name: tr("Handpiece"), unit: "rpm", digits: 0, colour: "#5b2a86", values: recording.rpm },
+      { name: tr("Tip speed"), unit: "mm/s", digits: 1, colour: "#00695c", values: recording.tip_mm_s },
     ];
     this.shown = [0, Math.max(clock.duration_s, recording.dt_s)];
-    section.append(make("div", { class: "buttons" }, button("Whole exam", {}, () => this.zoom_to(0, clock.duration_s)), button("Zoom in", { "aria-label": "Zoom in on the time" }, () => this.zoom(0.5)), button("Zoom out", { "aria-label": "Zoom out of the time" }, () => this.zoom(2))));
+    section.append(make("div", { class: "buttons" }, button(tr("Whole exam"), {}, () => this.zoom_to(0, clock.duration_s)), button(tr("Zoom in"), { "aria-label": tr("Zoom in on the time") }, () => this.zoom(0.5)), button(tr("Zoom out"), { "aria-label": tr("Zoom out of the time") }, () => this.zoom(2))));
     this.quantities.forEach((quantity, i) => this.add(quantity, i));
     clock.on_time(() => this.follow());
     new ResizeObserver(() => {
@@ -58,10 +59,10 @@ export class Charts {
       sum += v;
     }
     const say = (v: number): string => number_text(v, quantity.digits);
-    const range = quantity.values.length > 0 ? `${say(low)} to ${say(high)} ${quantity.unit}, mean ${say(sum / quantity.values.length)} ${quantity.unit}` : "nothing recorded";
+    const range = quantity.values.length > 0 ? tr("{0} to {1} {2}, mean {3} {2}", say(low), say(high), quantity.unit, say(sum / quantity.values.length)) : tr("nothing recorded");
     const now = make("span", { class: "now" });
     this.values.push(now);
-    const place = make("div", { class: "plot", tabindex: "0", role: "img", "aria-label": `${quantity.name} over time: ${range}. Arrow keys move the time, plus and minus zoom, 0 shows the whole exam.` });
+    const place = make("div", { class: "plot", tabindex: "0", role: "img", "aria-label": tr("{} over time: {}. Arrow keys move the time, plus and minus zoom, 0 shows the whole exam.", quantity.name, range) });
     const caption = make("figcaption", {}, make("b", {}, `${quantity.name}, ${quantity.unit}`), make("span", { class: "range" }, range), now);
     this.section.append(make("figure", { class: "chart" }, caption, place));
     const time_axis: uPlot.Axis = { size: k_axis_px, font: "12px system-ui, sans-serif", stroke: "#444", grid: { stroke: "#e6e6e6", width: 1 }, ticks: { stroke: "#bbb", size: 4 }, values: (_u, splits) => splits.map((s) => clock_text(s)), incrs: [0.1, 0.2, 0.5, 1, 2, 5, 10, 15, 30, 60, 120, 300, 600] };
@@ -120,10 +121,10 @@ export class Charts {
       ctx.lineTo(x, top + height);
       ctx.stroke();
       if (!with_names) continue;
-      const wide = ctx.measureText(event.kind).width;
+      const wide = ctx.measureText(tr(event.kind)).width;
       const from = Math.min(Math.max(x - wide / 2, left), left + width - wide);
       if (from < free_from) continue;
-      ctx.fillText(event.kind, from, top - 4 * ratio);
+      ctx.fillText(tr(event.kind), from, top - 4 * ratio);
       free_from = from + wide + 6 * ratio;
     }
     ctx.restore();
@@ -181,10 +182,10 @@ export class Charts {
 
 /** `200,000`, `−0.35` */
 export function number_text(v: number, digits: number): string {
-  return v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits }).replace("-", "−");
+  return with_sign(v.toLocaleString("en-GB", { minimumFractionDigits: digits, maximumFractionDigits: digits })).replace("-", "−");
 }
 
 /** `1:05` on the time axis, with tenths where they matter. */
 function clock_text(t_s: number): string {
-  return Number.isInteger(Math.round(t_s * 1000) / 1000) ? time_text(t_s).replace(/\.0$/, "") : time_text(t_s);
+  return Number.isInteger(Math.round(t_s * 1000) / 1000) ? time_text(t_s).replace(/[.,]0$/, "") : time_text(t_s);
 }

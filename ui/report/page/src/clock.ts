@@ -1,4 +1,5 @@
 // The time that the page shows: one value that scrubber, tooth, instrument and charts follow, and the playing of it.
+import { fixed } from "./words.ts";
 
 export type Listener = (t_s: number) => void;
 
@@ -68,5 +69,5 @@ export class Clock {
 export function time_text(t_s: number): string {
   const tenths = Math.round(t_s * 10);
   const minutes = Math.floor(tenths / 600);
-  return `${minutes}:${((tenths % 600) / 10).toFixed(1).padStart(4, "0")}`;
+  return `${minutes}:${fixed((tenths % 600) / 10, 1).padStart(4, "0")}`;
 }

@@ -1,10 +1,11 @@
 // Which way is mesial, buccal and occlusal in the present view.
 import * as THREE from "three";
+import { said, tr } from "./words.ts";
 
 const k_axes: [string, THREE.Vector3][] = [
-  ["mesial", new THREE.Vector3(1, 0, 0)],
-  ["buccal", new THREE.Vector3(0, 1, 0)],
-  ["occlusal", new THREE.Vector3(0, 0, 1)],
+  [said("mesial"), new THREE.Vector3(1, 0, 0)],
+  [said("buccal"), new THREE.Vector3(0, 1, 0)],
+  [said("occlusal"), new THREE.Vector3(0, 0, 1)],
 ];
 const k_centre = [70, 46];
 const k_length_px = 22;
@@ -22,7 +23,7 @@ export class Compass {
     this.arms = k_axes.map(([name, axis]) => {
       const line = document.createElementNS(k_svg, "line");
       const text = document.createElementNS(k_svg, "text");
-      text.textContent = name;
+      text.textContent = tr(name);
       this.element.append(line, text);
       return { line, text, axis };
     });

@@ -77,6 +77,9 @@ export interface ReportData {
   high_contrast?: boolean;
   tissues: Tissue[];
   grid: Grid;
+  /** The page's messages in the report's language; none in English. */
+  words?: { [english: string]: string };
+  decimal_sign?: string;
   scale_mm?: number;
   motion?: Motion;
   instruments?: Instrument[];

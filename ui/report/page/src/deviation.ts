@@ -1,5 +1,6 @@
 // The colour map of the signed distance to the target: discrete bands, orange with stripes where too much went (+), blue with dots where target was
 // left standing (−), told apart without colour too. The same numbers colour the tooth and its key.
+import { fixed, tr } from "./words.ts";
 
 export const k_bands = 5;
 export const k_over = ["#fdd9b5", "#fdb777", "#f58f3d", "#dd6410", "#9c3a02"];
@@ -18,9 +19,9 @@ export function rgb_of(colour: string): [number, number, number] {
 
 /** `+0.32 mm overcut`, `−0.15 mm left standing`, in words for the value under the pointer. */
 export function distance_text(mm: number, saturates_mm: number, edges: readonly number[] = k_distance_edges): string {
-  const value = `${mm < 0 ? "−" : "+"}${Math.abs(mm).toFixed(2)} mm`;
-  if (Math.abs(mm) < edges[0] * saturates_mm) return `${value}, on target`;
-  return `${value} ${mm > 0 ? "overcut" : "left standing"}`;
+  const value = `${mm < 0 ? "−" : "+"}${fixed(Math.abs(mm), 2)} mm`;
+  if (Math.abs(mm) < edges[0] * saturates_mm) return tr("{}, on target", value);
+  return mm > 0 ? tr("{} overcut", value) : tr("{} left standing", value);
 }
 
 function swatch(kind: "over" | "under" | "within", colour: string): HTMLElement {
@@ -38,7 +39,7 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
   caption.textContent = `${title}, ${unit}`;
   const row = document.createElement("div");
   row.className = "bands";
-  const text = (v: number): string => (v * whole).toFixed(digits);
+  const text = (v: number): string => fixed(v * whole, digits);
   const band = (kind: "over" | "under" | "within", colour: string, label: string): void => {
     const cell = document.createElement("div");
     const number = document.createElement("span");
@@ -61,8 +62,8 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
 
 /** Words for a tissue's name: "neighbour's enamel", "gum". */
 export function tissue_words(name: string): string {
-  if (name === "gingiva") return "gum";
-  return name.startsWith("neighbour_") ? `neighbour's ${name.slice("neighbour_".length)}` : name.replaceAll("_", " ");
+  if (name === "gingiva") return tr("gum");
+  return name.startsWith("neighbour_") ? tr("neighbour's {}", tr(name.slice("neighbour_".length))) : tr(name.replaceAll("_", " "));
 }
 export const is_beside = (name: string): boolean => name === "gingiva" || name.startsWith("neighbour_");
 
@@ -70,7 +71,7 @@ export const is_beside = (name: string): boolean => name === "gingiva" || name.s
 export function tissue_key(tissues: readonly { name: string; colour: string }[]): HTMLElement {
   const key = document.createElement("ul");
   key.className = "tissues";
-  key.setAttribute("aria-label", "Colours of tissues");
+  key.setAttribute("aria-label", tr("Colours of tissues"));
   for (const t of tissues) {
     const item = document.createElement("li");
     const colour = document.createElement("span");

@@ -10,6 +10,7 @@ import { Player } from "./player.ts";
 import { ToothControls } from "./tooth_controls.ts";
 import { ToothField } from "./tooth_field.ts";
 import { ToothView } from "./view.ts";
+import { fixed, set_words, tr } from "./words.ts";
 
 function say_why(section: HTMLElement, why: string): void {
   let place = section.querySelector(".fallback");
@@ -30,7 +31,7 @@ function webgl_works(): boolean {
 
 function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): ToothView | null {
   if (!webgl_works()) {
-    say_why(section, "The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works.");
+    say_why(section, tr("The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works."));
     return null;
   }
   const heat = data.kind === "class";
@@ -47,7 +48,7 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
     return view;
   } catch (error) {
     controls.element.remove();
-    say_why(section, `The tooth cannot be shown in 3D: ${error instanceof Error ? error.message : String(error)}. Everything else on this page works.`);
+    say_why(section, tr("The tooth cannot be shown in 3D: {}. Everything else on this page works.", error instanceof Error ? error.message : String(error)));
     return null;
   }
 }
@@ -59,7 +60,7 @@ function hold_wide_tables(): void {
     const holder = make("div", { class: "wide" });
     table.before(holder);
     holder.append(table);
-    const name = table.getAttribute("aria-label") ?? table.caption?.textContent ?? "Table";
+    const name = table.getAttribute("aria-label") ?? table.caption?.textContent ?? tr("Table");
     new ResizeObserver(() => {
       const wide = holder.scrollWidth > holder.clientWidth + 1;
       for (const [attribute, value] of [["tabindex", "0"], ["role", "region"], ["aria-label", name]]) {
@@ -71,8 +72,9 @@ function hold_wide_tables(): void {
 }
 
 function start(): void {
-  hold_wide_tables();
   const data = read_data(document);
+  set_words(data.words, data.decimal_sign);
+  hold_wide_tables();
   document.documentElement.classList.add("scripted");
   document.documentElement.classList.toggle("high-contrast", data.high_contrast === true);
   const session = data.kind === "session" && data.motion !== undefined;
@@ -89,7 +91,9 @@ function start(): void {
   });
   const measured = (t: number): string => {
     const at = recording.at(t);
-    return `${at.force_n.toFixed(2)} N · ${Math.abs(at.depth_mm).toFixed(2)} mm ${at.depth_mm < 0 ? "above the opening" : "deep"} · ${number_text(at.rpm, 0)} rpm`;
+    return at.depth_mm < 0
+      ? tr("{} N · {} mm above the opening · {} rpm", fixed(at.force_n, 2), fixed(-at.depth_mm, 2), number_text(at.rpm, 0))
+      : tr("{} N · {} mm deep · {} rpm", fixed(at.force_n, 2), fixed(at.depth_mm, 2), number_text(at.rpm, 0));
   };
   const player = new Player(clock, events, data.moments ?? [], (site_mm) => view?.mark(site_mm), measured);
   if (tooth) {

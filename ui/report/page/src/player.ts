@@ -3,6 +3,7 @@
 import { type Clock, time_text } from "./clock.ts";
 import type { ExamEvent, Moment, Vec3 } from "./data.ts";
 import { button, dropdown, make } from "./dom.ts";
+import { fixed, tr } from "./words.ts";
 
 const k_step_s = 0.1;
 
@@ -31,8 +32,9 @@ function of_event(event: ExamEvent): Stop {
 
 function of_moment(moment: Moment): Stop {
   const t_s = moment.t_s ?? 0;
-  const points = moment.points_lost ? ` (−${moment.points_lost.toFixed(1)} points)` : "";
-  return { t_s, to_s: moment.to_t_s ?? t_s, colour: k_lost_colour, text: `${moment.criterion}: ${moment.what}${points}`, site_mm: moment.site_mm };
+  const what = `${moment.criterion}: ${moment.what}`;
+  const text = moment.points_lost ? tr("{} (−{} points)", what, fixed(moment.points_lost, 1)) : what;
+  return { t_s, to_s: moment.to_t_s ?? t_s, colour: k_lost_colour, text, site_mm: moment.site_mm };
 }
 
 export class Player {
@@ -46,12 +48,12 @@ export class Player {
   constructor(private readonly clock: Clock, events: ExamEvent[], moments: Moment[], private readonly chosen: (site_mm: Vec3 | null) => void, private readonly values: (t_s: number) => string) {
     const stops = events.map(of_event);
     const losses = moments.filter((m) => m.t_s !== null).map(of_moment).sort((a, b) => a.t_s - b.t_s);
-    const play = button("Play", { class: "play" }, () => (clock.is_playing ? clock.pause() : clock.play()));
+    const play = button(tr("Play"), { class: "play" }, () => (clock.is_playing ? clock.pause() : clock.play()));
     clock.on_play((playing) => {
-      play.textContent = playing ? "Pause" : "Play";
+      play.textContent = playing ? tr("Pause") : tr("Play");
       play.classList.toggle("playing", playing);
     });
-    this.range = make("input", { type: "range", min: "0", max: String(clock.duration_s), step: String(k_step_s), value: "0", "aria-label": "Time in the exam" });
+    this.range = make("input", { type: "range", min: "0", max: String(clock.duration_s), step: String(k_step_s), value: "0", "aria-label": tr("Time in the exam") });
     this.range.addEventListener("input", () => {
       clock.pause();
       clock.set(Number(this.range.value));
@@ -59,20 +61,20 @@ export class Player {
     this.range.addEventListener("keydown", (e) => this.key(e));
     this.time = make("output", { class: "time" });
     this.note = make("output", { class: "event", "aria-live": "polite" });
-    const speeds = dropdown("Speed", [["1", "1×"], ["4", "4×"], ["16", "16×"]], "1", (v) => clock.set_speed(Number(v)));
+    const speeds = dropdown(tr("Speed"), [["1", "1×"], ["4", "4×"], ["16", "16×"]], "1", (v) => clock.set_speed(Number(v)));
     const buttons = make("div", { class: "buttons" }, play, speeds);
-    if (stops.length > 0) buttons.append(this.stepping("event", "Event", stops));
-    if (losses.length > 0) buttons.append(this.stepping("point lost", "Point lost", losses));
+    if (stops.length > 0) buttons.append(this.stepping(tr("Event"), tr("Previous event"), tr("Next event"), stops));
+    if (losses.length > 0) buttons.append(this.stepping(tr("Point lost"), tr("Previous point lost"), tr("Next point lost"), losses));
     this.measured = make("span", { class: "measured" });
     buttons.append(this.measured, this.note);
-    this.element = make("div", { class: "player", role: "group", "aria-label": "Replay of the drilling" }, make("div", { class: "track" }, this.range, this.lane("ticks", stops), this.lane("ticks losses", losses), this.time), buttons);
+    this.element = make("div", { class: "player", role: "group", "aria-label": tr("Replay of the drilling") }, make("div", { class: "track" }, this.range, this.lane("ticks", stops), this.lane("ticks losses", losses), this.time), buttons);
     clock.on_time(() => this.show());
     this.show();
   }
 
-  private stepping(name: string, title: string, stops: Stop[]): HTMLElement {
-    const back = button("◂", { "aria-label": `Previous ${name}`, title: `Previous ${name}` }, () => this.step(stops, -1));
-    const on = button("▸", { "aria-label": `Next ${name}`, title: `Next ${name}` }, () => this.step(stops, 1));
+  private stepping(title: string, previous: string, next: string, stops: Stop[]): HTMLElement {
+    const back = button("◂", { "aria-label": previous, title: previous }, () => this.step(stops, -1));
+    const on = button("▸", { "aria-label": next, title: next }, () => this.step(stops, 1));
     return make("span", { class: "stepping" }, back, title, on);
   }
 
@@ -116,7 +118,7 @@ export class Player {
   private show(): void {
     const t = this.clock.t_s;
     this.range.value = String(t);
-    const text = `${time_text(t)} of ${time_text(this.clock.duration_s)}`;
+    const text = tr("{} of {}", time_text(t), time_text(this.clock.duration_s));
     this.range.setAttribute("aria-valuetext", text);
     this.time.textContent = text;
     this.range.style.setProperty("--share", `${this.clock.duration_s > 0 ? (100 * t) / this.clock.duration_s : 0}%`);

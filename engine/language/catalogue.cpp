@@ -1,0 +1,212 @@
+#include "engine/language/catalogue.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <boost/locale/gnu_gettext.hpp>
+#include <boost/locale/message.hpp>
+#include <cstdlib>
+#include <filesystem>
+#include <iterator>
+#include <limits>
+#include <set>
+
+#include "engine/base/error.h"
+#include "engine/base/shipped.h"
+#include "engine/language/language.h"
+
+namespace cavum {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* k_messages[] = {
+#include "cavum_messages.inc"
+    "",
+};
+constexpr const char* k_page_messages[] = {
+#include "cavum_page_messages.inc"
+    "",
+};
+constexpr std::size_t k_least_letters = 3, k_least_part_letters = 2;  // of a sentence, of a part: less fits anything
+
+/// Folders of catalogues, L/LC_MESSAGES/cavum.mo in them: built ones stand beside the program that was built, installed ones in share/cavum.
+std::vector<fs::path> catalogue_folders() {
+  std::vector<fs::path> out;
+  for (const auto& data : shipped_folders()) out.push_back(data / "languages");
+  constexpr int k_deepest_build = 6;
+  fs::path folder = program_folder();
+  for (int up = 0; up < k_deepest_build && folder.has_relative_path(); ++up, folder = folder.parent_path()) out.push_back(folder / "languages");
+  return out;
+}
+
+bool is_catalogue_of(const fs::path& folder, const std::string& language) {
+  std::error_code none;
+  return fs::is_regular_file(folder / language / "LC_MESSAGES" / "cavum.mo", none);
+}
+
+/// "de" of "de_AT.UTF-8@euro"; "en" of "C" and "POSIX".
+std::string language_part(const std::string& locale) {
+  const std::string name = locale.substr(0, locale.find_first_of("_.@-"));
+  return name == "C" || name == "POSIX" ? "en" : name;
+}
+
+/// A line of a message as a sentence, or as a part of one. Nothing where it has no gaps and is none, or so few letters that anything would fit.
+std::optional<Said> said_of(const std::string& line, const std::string& message, std::size_t number) {
+  if (line.empty()) return std::nullopt;
+  const bool before = std::string_view(" ,;:.(").find(line.front()) != std::string_view::npos && !line.starts_with("  "),
+             after = line.back() == ' ' || line.back() == '(';
+  if (!before && !after && Pattern(line).gaps() == 0 && line == message) return std::nullopt;
+  Said s{Pattern(fmt::format("{}{}{}", before ? "{}" : "", line, after ? "{}" : "")), message, number, before, after};
+  const bool anchored = before || after || (line.front() != '{' && line.front() != '%' && line.back() == '}');
+  if (s.pattern.letters() < (anchored ? k_least_part_letters : k_least_letters)) return std::nullopt;
+  return s;
+}
+
+Catalogue& current() {
+  static Catalogue c;
+  return c;
+}
+
+}  // namespace
+
+Catalogue::Catalogue(const std::string& language) : language_(language) {
+  if (language == "en") return;
+  if (language == k_pseudo_language) {
+    kind_ = Kind::pseudo;
+    return;
+  }
+  const std::vector<fs::path> folders = catalogue_folders();
+  const auto folder = std::find_if(folders.begin(), folders.end(), [&](const fs::path& f) { return is_catalogue_of(f, language); });
+  if (language.empty() || language.find('/') != std::string::npos || folder == folders.end()) {
+    std::string all;
+    for (const auto& l : languages()) all += (all.empty() ? "" : ", ") + l;
+    throw Error("--language", fmt::format("there is no catalogue of '{}'", language), fmt::format("give one of {}", all));
+  }
+  boost::locale::gnu_gettext::messages_info info;
+  info.language = language;
+  info.encoding = "UTF-8";
+  info.domains.emplace_back("cavum");
+  info.paths.push_back(folder->string());
+  locale_ = std::locale(std::locale::classic(), boost::locale::gnu_gettext::create_messages_facet<char>(info));
+  kind_ = Kind::translated;
+  // the catalogue says it, as the translator of this message
+  if (const auto sign = find("."); sign && sign->size() == 1) decimal_sign_ = sign->front();
+}
+
+std::optional<std::string> Catalogue::find(const std::string& english) const {
+  if (kind_ == Kind::pseudo) return pseudo(english);
+  if (kind_ == Kind::english) return std::nullopt;
+  const char* text = std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, english.c_str());
+  return text != nullptr && *text != 0 ? std::optional<std::string>(text) : std::nullopt;
+}
+
+std::optional<std::string> Catalogue::find(const std::string& one, const std::string& many, long long count) const {
+  if (kind_ == Kind::pseudo) return pseudo(count == 1 ? one : many);
+  if (kind_ == Kind::english) return std::nullopt;
+  const int n = static_cast<int>(std::clamp<long long>(count, 0, std::numeric_limits<int>::max()));
+  const char* text = std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, one.c_str(), n);
+  return text != nullptr && *text != 0 ? std::optional<std::string>(text) : std::nullopt;
+}
+
+bool Catalogue::knows(const std::string& english) const {
+  static const std::set<std::string> all(messages().begin(), messages().end());
+  return all.contains(english);
+}
+
+const std::vector<std::string>& Catalogue::messages() {
+  static const std::vector<std::string> all = [] {
+    std::vector<std::string> list;
+    for (const char* m : k_messages)
+      if (*m != 0) list.emplace_back(m);
+    return list;
+  }();
+  return all;
+}
+
+const std::vector<Said>& Catalogue::said_sentences() {
+  static const std::vector<Said> all = [] {
+    std::vector<Said> list;
+    for (const std::string& m : messages()) {
+      const std::vector<std::string> lines = lines_of(m);
+      for (std::size_t i = 0; i < lines.size(); ++i)
+        if (auto s = said_of(lines[i], m, i)) list.push_back(std::move(*s));
+    }
+    std::stable_sort(list.begin(), list.end(), [](const Said& a, const Said& b) { return a.pattern.all_letters() > b.pattern.all_letters(); });
+    return list;
+  }();
+  return all;
+}
+
+std::vector<std::string> lines_of(const std::string& message) {
+  std::vector<std::string> lines;
+  for (std::size_t at = 0;;) {
+    const std::size_t end = message.find('\n', at);
+    lines.push_back(message.substr(at, end == std::string::npos ? end : end - at));
+    if (end == std::string::npos) return lines;
+    at = end + 1;
+  }
+}
+
+const Catalogue& catalogue() noexcept { return current(); }
+
+std::vector<std::string> languages() {
+  std::set<std::string> found;
+  for (const auto& folder : catalogue_folders()) {
+    std::error_code none;
+    for (const auto& entry : fs::directory_iterator(folder, none))
+      if (is_catalogue_of(folder, entry.path().filename().string())) found.insert(entry.path().filename().string());
+  }
+  std::vector<std::string> out{"en"};
+  out.insert(out.end(), found.begin(), found.end());
+  return out;
+}
+
+std::string language_of_environment() {
+  const std::vector<std::string> known = languages();
+  std::vector<std::string> asked;
+  for (const char* name : {"LANGUAGE", "LC_ALL", "LC_MESSAGES", "LANG"}) {
+    const char* value = std::getenv(name);
+    std::string list = value != nullptr ? value : "";
+    for (std::size_t at = 0; at < list.size();) {
+      const std::size_t end = std::min(list.find(':', at), list.size());
+      asked.push_back(language_part(list.substr(at, end - at)));
+      at = end + 1;
+    }
+  }
+  for (const auto& a : asked)
+    if (a == k_pseudo_language || std::find(known.begin(), known.end(), a) != known.end()) return a;
+  return "en";
+}
+
+void set_language(const std::string& language) { current() = Catalogue(language); }
+
+const std::string& language() noexcept { return current().language(); }
+
+char decimal_sign() noexcept { return current().decimal_sign(); }
+
+const std::vector<std::string>& page_messages() {
+  static const std::vector<std::string> all(std::begin(k_page_messages), std::end(k_page_messages) - 1);
+  return all;
+}
+
+std::string take_language_option(std::vector<std::string>& arguments) {
+  std::string language;
+  for (std::size_t i = 0; i < arguments.size() && arguments[i] != "--";) {
+    constexpr std::string_view k_option = "--language";
+    const std::string a = arguments[i];
+    if (a == k_option) {
+      if (i + 1 == arguments.size()) throw Error("command line", "--language needs a language", "give one, for example --language de");
+      language = arguments[i + 1];
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2);
+    } else if (a.starts_with(std::string(k_option) + "=")) {
+      language = a.substr(k_option.size() + 1);
+      arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i));
+    } else {
+      ++i;
+    }
+  }
+  return language;
+}
+
+}  // namespace cavum

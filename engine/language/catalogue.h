@@ -1,0 +1,57 @@
+// The messages of one language. Boost.Locale reads the catalogues that msgfmt compiled; no locale of the system is needed or set.
+#pragma once
+
+#include <locale>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "engine/language/pattern.h"
+
+namespace cavum {
+
+/// What a sentence may have been made of: a message, with something before and after it where it is only a part (", deepest ").
+struct Said {
+  Pattern pattern;  ///< of one line, with gaps for what stands before and after
+  std::string message;
+  std::size_t line = 0;  ///< of the message
+  bool before = false, after = false;
+};
+[[nodiscard]] std::vector<std::string> lines_of(const std::string& message);
+
+class Catalogue {
+ public:
+  enum class Kind { english, translated, pseudo };
+  /// English, which needs no file.
+  Catalogue() = default;
+  /// A language by its name. Throws Error when there is no catalogue of it.
+  explicit Catalogue(const std::string& language);
+
+  [[nodiscard]] Kind kind() const noexcept { return kind_; }
+  [[nodiscard]] const std::string& language() const noexcept { return language_; }
+  /// Between whole and decimal digits.
+  [[nodiscard]] char decimal_sign() const noexcept { return decimal_sign_; }
+  /// A message; nothing where the catalogue does not have it. In the pseudo-language every message is there.
+  [[nodiscard]] std::optional<std::string> find(const std::string& english) const;
+  [[nodiscard]] std::optional<std::string> find(const std::string& one, const std::string& many, long long count) const;
+  /// Whether the sources say this message.
+  [[nodiscard]] bool knows(const std::string& english) const;
+  /// All messages with gaps and letters beside them, and those with which sentences are put together (", at {}"), the ones with the most letters first.
+  [[nodiscard]] static const std::vector<Said>& said_sentences();
+  /// All messages.
+  [[nodiscard]] static const std::vector<std::string>& messages();
+
+ private:
+  Kind kind_ = Kind::english;
+  std::string language_ = "en";
+  char decimal_sign_ = '.';
+  std::locale locale_;
+};
+
+/// Of the language that is shown.
+[[nodiscard]] const Catalogue& catalogue() noexcept;
+/// "⟦Ĉáñ {} ...⟧": gaps stay as they are.
+[[nodiscard]] std::string pseudo(std::string_view english);
+
+}  // namespace cavum

@@ -1,0 +1,324 @@
+#include "engine/language/shown.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <unordered_map>
+#include <unordered_set>
+
+#include "engine/base/text.h"
+#include "engine/language/catalogue.h"
+#include "engine/language/say.h"
+
+namespace cavum {
+namespace {
+
+constexpr int k_deepest = 12;
+constexpr std::size_t k_most_remembered = 4000, k_telling_letters = 5;
+constexpr char k_open[] = "\u27e6";  // of the pseudo-language
+
+/// The screens of a station say the same sentences sixty times a second. Of one thread.
+std::unordered_map<std::string, std::string>& memory() {
+  thread_local std::unordered_map<std::string, std::string> m;
+  thread_local std::string language;
+  if (m.size() > k_most_remembered || language != catalogue().language()) m.clear();
+  language = catalogue().language();
+  return m;
+}
+
+/// What files brought. Read by all threads.
+std::map<std::string, std::string>& of_files() {
+  static std::map<std::string, std::string> texts;
+  return texts;
+}
+
+bool is_digit(char c) { return c >= '0' && c <= '9'; }
+
+/// Numbers with their units and signs and nothing else: "0.30 ± 0.02 mm".
+bool is_number(std::string_view text) {
+  static const std::unordered_set<std::string_view> k_beside{"mm",  "mm²", "mm³", "mm2", "mm3",  "s",      "ms",   "µs",  "N",
+                                                             "%",   "°",   "±",   "/",   "–",    "-",      "rpm",  "min", "Hz",
+                                                             "kHz", "x",   "×",   "µm",  "N/mm", "N·s/mm", "mm/s", "deg"};
+  bool any = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    std::string_view word = text.substr(at, end - at);
+    at = end + 1;
+    if (word.empty() || k_beside.contains(word)) continue;
+    if (word.front() == '(') word.remove_prefix(1);
+    if (word.starts_with("\u2212")) word.remove_prefix(3);
+    if (word.starts_with("±")) word.remove_prefix(2);
+    if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.remove_prefix(1);
+    while (!word.empty() && (word.back() == ',' || word.back() == ';' || word.back() == '%' || word.back() == ')')) word.remove_suffix(1);
+    if (word.ends_with("°")) word.remove_suffix(2);
+    const std::size_t dot = word.find('.');
+    if (word.empty() || !is_digit(word.front()) || !is_digit(word.back())) return false;
+    if (!std::all_of(word.begin(), word.end(), [](char c) { return is_digit(c) || c == '.'; }) ||
+        (dot != word.npos && word.find('.', dot + 1) != word.npos))
+      return false;
+    any = true;
+  }
+  return any;
+}
+
+std::string with_decimal_sign(std::string_view text) {
+  std::string out(text);
+  for (std::size_t i = 1; i + 1 < out.size(); ++i)
+    if (out[i] == '.' && is_digit(out[i - 1]) && is_digit(out[i + 1])) out[i] = catalogue().decimal_sign();
+  // a list of numbers keeps its parts apart
+  if (catalogue().decimal_sign() == ',')
+    for (std::size_t i = 1; i + 1 < out.size(); ++i)
+      if (out[i] == ',' && out[i + 1] == ' ') out[i] = ';';
+  return out;
+}
+
+bool has_letters(std::string_view text) {
+  return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
+}
+
+std::string sentence(std::string_view text, int depth, bool& changed);
+
+/// The message that the whole text is, with or without gaps.
+bool whole(std::string_view text, int depth, std::string& out) {
+  const Catalogue& c = catalogue();
+  const std::string exact(text);
+  if (c.kind() != Catalogue::Kind::pseudo || c.knows(exact))
+    if (auto t = c.find(exact)) {
+      out = Pattern(exact).gaps() == 0 ? Pattern::fill(*t, {}) : *t;  // the page's messages keep their gaps
+      return true;
+    }
+  for (const Said& s : Catalogue::said_sentences()) {
+    auto gaps = s.pattern.match(text);
+    if (!gaps) continue;
+    const auto t = c.find(s.message);
+    if (!t) continue;
+    bool all_known = true;
+    for (auto& g : *gaps) {
+      bool known = !has_letters(g) || g.find(' ') == std::string::npos;
+      g = sentence(g, depth + 1, known);
+      all_known = all_known && known;
+    }
+    if (!all_known && s.pattern.all_letters() < k_telling_letters) continue;  // " is " is in many sentences that nobody knows
+    const std::string before = s.before ? gaps->front() : "", after = s.after ? gaps->back() : "";
+    if (s.before) gaps->erase(gaps->begin());
+    if (s.after) gaps->pop_back();
+    try {
+      const std::vector<std::string> lines = lines_of(*t);
+      if (s.line >= lines.size()) continue;
+      out = before + Pattern::fill(lines[s.line], *gaps) + after;
+      return true;
+    } catch (const std::exception&) {  // a translation that does not fit: English
+    }
+  }
+  return false;
+}
+
+std::ptrdiff_t characters(std::string_view text) {
+  return std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; });
+}
+
+/// Columns, with two spaces or more between them: those behind stay where they were, as long as there is room.
+bool in_columns(std::string_view text, int depth, std::string& out) {
+  if (text.find("  ") == std::string_view::npos) return false;
+  bool any = false;
+  std::string all;
+  std::ptrdiff_t longer = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find("  ", at), text.size()), next = std::min(text.find_first_not_of(' ', end), text.size());
+    const std::string_view column = text.substr(at, end - at);
+    const std::string said_so = sentence(column, depth + 1, any);
+    longer += characters(said_so) - characters(column);
+    const std::ptrdiff_t spaces = static_cast<std::ptrdiff_t>(next - end),
+                         kept = end == text.size() ? 0 : std::max<std::ptrdiff_t>(1, spaces - longer);
+    all += said_so + std::string(static_cast<std::size_t>(kept), ' ');
+    longer += kept - spaces;
+    at = next;
+  }
+  if (any) out = std::move(all);
+  return any;
+}
+
+/// The parts that a text was put together from, each by itself.
+bool in_parts(std::string_view text, int depth, std::string& out) {
+  if (in_columns(text, depth, out)) return true;
+  constexpr std::array<std::string_view, 6> k_between{"; ", ". ", ": ", " (", ", ", " \u00b7 "};
+  for (const std::string_view between : k_between) {
+    if (text.find(between) == std::string_view::npos) continue;
+    bool any = false;
+    std::string all;
+    for (std::size_t at = 0;;) {
+      const std::size_t end = text.find(between, at);
+      all += sentence(text.substr(at, end == std::string_view::npos ? end : end - at), depth + 1, any);
+      if (end == std::string_view::npos) break;
+      all += between;
+      at = end + between.size();
+    }
+    if (any) {
+      out = std::move(all);
+      return true;
+    }
+  }
+  return false;
+}
+
+std::string sentence(std::string_view text, int depth, bool& changed) {
+  if (depth > k_deepest || text.empty() || text.starts_with(k_open)) return std::string(text);
+  if (text.front() == ' ' || text.back() == ' ') {
+    std::string part;  // ", at " and the like
+    if (has_letters(text) && whole(text, depth, part)) {
+      changed = true;
+      return part;
+    }
+    if (text.front() == ' ') return " " + sentence(text.substr(1), depth, changed);
+    return sentence(text.substr(0, text.size() - 1), depth, changed) + " ";
+  }
+  if (is_number(text)) {
+    const std::string number = with_decimal_sign(text);
+    changed = changed || number != text;
+    return number;
+  }
+  for (const std::string_view begin : {"- ", "\u2022 ", "* ", ": ", "; ", ", "})  // of a list, or of what follows another part
+    if (text.starts_with(begin) && text.size() > begin.size()) {
+      bool rest_changed = false;
+      const std::string rest = sentence(text.substr(begin.size()), depth + 1, rest_changed);
+      if (!rest_changed) break;
+      changed = true;
+      return std::string(begin) + rest;
+    }
+  if (!has_letters(text)) return std::string(text);
+  if (const auto known = memory().find(std::string(text)); known != memory().end()) {
+    changed = changed || known->second != text;
+    return known->second;
+  }
+  std::string out;
+  if (const auto own = of_files().find(std::string(text)); own != of_files().end()) {
+    changed = true;
+    return own->second;
+  }
+  bool found = whole(text, depth, out);
+  if (const char last = text.back(); !found && (last == '.' || last == ')' || last == ',' || last == ';' || last == ':') && text.size() > 1) {
+    out = sentence(text.substr(0, text.size() - 1), depth + 1, found);
+    out += last;
+  }
+  if (!found) found = in_parts(text, depth, out);
+  if (!found) return std::string(text);
+  memory()[std::string(text)] = out;
+  memory()[out] = out;
+  changed = true;
+  return out;
+}
+
+}  // namespace
+
+void add_translations(const std::map<std::string, std::string>& texts) {
+  for (const auto& [english, translated] : texts) of_files().insert_or_assign(english, translated);
+  memory().clear();
+}
+
+std::string shown(std::string_view english) {
+  if (catalogue().kind() == Catalogue::Kind::english) return std::string(english);
+  std::string out;
+  for (std::size_t at = 0;;) {
+    const std::size_t end = english.find('\n', at);
+    bool changed = false;
+    out += sentence(english.substr(at, end == std::string_view::npos ? end : end - at), 0, changed);
+    if (end == std::string_view::npos) return out;
+    out += '\n';
+    at = end + 1;
+  }
+}
+
+std::string remembered(std::string translated) {
+  if (catalogue().kind() == Catalogue::Kind::translated) memory()[translated] = translated;
+  return translated;
+}
+
+std::string shown_svg(std::string_view svg) {
+  if (catalogue().kind() == Catalogue::Kind::english) return std::string(svg);
+  constexpr std::array<std::pair<std::string_view, std::string_view>, 6> k_references{
+      {{"&lt;", "<"}, {"&gt;", ">"}, {"&quot;", "\""}, {"&#39;", "'"}, {"&apos;", "'"}, {"&amp;", "&"}}};
+  const auto words = [&](std::string text) {
+    // an arrow beside the words, as a reference, stays
+    std::string before, after;
+    if (text.starts_with("&#85") && text.find("; ") != text.npos) before = text.substr(0, text.find("; ") + 2);
+    text.erase(0, before.size());
+    if (const auto arrow = text.rfind(" &#85"); arrow != text.npos && text.ends_with(";")) after = text.substr(arrow);
+    text.erase(text.size() - after.size());
+    for (const auto& [reference, sign] : k_references)
+      for (std::size_t at = text.find(reference); at != text.npos; at = text.find(reference, at + 1)) text.replace(at, reference.size(), sign);
+    return before + xml_text(shown(text)) + after;
+  };
+  std::string out;
+  for (std::size_t at = 0; at < svg.size();) {
+    const std::size_t open = std::min(svg.find('<', at), svg.size());
+    const std::string_view text = svg.substr(at, open - at);
+    const bool blank = std::all_of(text.begin(), text.end(), [](unsigned char c) { return std::isspace(c) != 0; });
+    out += blank ? std::string(text) : words(std::string(text));
+    if (open == svg.size()) break;
+    const std::size_t close = std::min(svg.find('>', open), svg.size() - 1);
+    std::string tag(svg.substr(open, close + 1 - open));
+    for (const std::string_view label : {"aria-label='", "title='"})
+      if (const std::size_t from = tag.find(label); from != tag.npos) {
+        const std::size_t begin = from + label.size(), end = tag.find('\'', begin);
+        if (end != tag.npos) tag.replace(begin, end - begin, words(tag.substr(begin, end - begin)));
+      }
+    out += tag;
+    at = close + 1;
+  }
+  return out;
+}
+
+AsIs as_is(std::string_view text) {
+  std::string line = one_line(text);
+  // Hebrew, Arabic and their neighbours (U+0590 to U+08FF, presentation forms)
+  const auto turns = [&line] {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const auto a = static_cast<unsigned char>(line[i]), b = static_cast<unsigned char>(line[i + 1]);
+      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) || (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac)) return true;
+    }
+    return false;
+  };
+  if (turns()) line = k_isolate + line + k_isolate_end;
+  if (catalogue().kind() == Catalogue::Kind::pseudo) line = "\u27e8" + line + "\u27e9";
+  return {std::move(line)};
+}
+
+std::string with_isolates(std::string_view text, std::string (*safe)(std::string_view), std::string_view open, std::string_view close) {
+  constexpr std::size_t k_sign = std::char_traits<char>::length(k_isolate);
+  std::string out;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t from = text.find(k_isolate, at), to = from == text.npos ? from : text.find(k_isolate_end, from);
+    if (to == text.npos) return out + safe(text.substr(at));
+    out += safe(text.substr(at, from - at));
+    out.append(open).append(safe(text.substr(from + k_sign, to - from - k_sign))).append(close);
+    at = to + k_sign;
+  }
+  return out;
+}
+
+namespace language_detail {
+
+std::string translated(std::string_view english) {
+  const std::string text(english);
+  if (catalogue().kind() == Catalogue::Kind::english) return text;
+  return catalogue().find(text).value_or(text);
+}
+
+std::string translated(std::string_view one, std::string_view many, long long count) {
+  const std::string a(one), b(many), text = count == 1 ? a : b;
+  if (catalogue().kind() == Catalogue::Kind::english) return text;
+  return catalogue().find(a, b, count).value_or(text);
+}
+
+std::string filled(const std::string& translation, std::string_view english, fmt::format_args arguments) {
+  try {
+    return fmt::vformat(translation, arguments);
+  } catch (const fmt::format_error&) {
+    return fmt::vformat(fmt::string_view(english.data(), english.size()), arguments);
+  }
+}
+
+}  // namespace language_detail
+}  // namespace cavum
