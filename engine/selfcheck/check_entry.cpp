@@ -73,6 +73,7 @@ Json figures_json(const ArmFigures& f) {
   for (std::size_t i = 0; i < f.axes.size(); ++i)
     each_axis_number(f.axes[i], [&](const char* key, double value) { j["axes"][k_axis_keys[i]][key] = value; });
   j["friction_n"] = f.friction_n();
+  j["dragged"] = f.dragged;
   j["doubt"] = f.doubt;
   return j;
 }
@@ -85,6 +86,7 @@ ArmFigures read_figures(const Json& j, const std::string& where) {
   const Json& axes = member_of(j, "axes");
   for (std::size_t i = 0; i < f.axes.size(); ++i)
     each_axis_number(f.axes[i], [&](const char* key, double& value) { value = number_at(member_of(axes, k_axis_keys[i]), key, where); });
+  f.dragged = truth_at(j, "dragged", where);
   f.doubt = text_at(j, "doubt", k_longest_doubt, where);
   return f;
 }

@@ -178,18 +178,25 @@ CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earl
   CheckVerdict v;
   const auto compared = earlier.first(std::min(earlier.size(), k_checks_compared));
   v.compared = compared.size();
-  if (!now.doubt.empty()) {
-    v.outcome = CheckOutcome::doubtful;
-    v.doubt = now.doubt;
+  const bool learnt = compared.size() >= k_checks_to_learn;
+  std::vector<Found> found;
+  const auto conclude = [&](CheckOutcome otherwise) {
+    std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.sigmas > b.sigmas; });
+    for (Found& f : found) v.changes.push_back(std::move(f.change));
+    v.outcome = v.changes.empty() ? otherwise : CheckOutcome::changed;
     return v;
+  };
+  if (!now.doubt.empty()) {
+    v.doubt = now.doubt;
+    if (now.dragged && learnt) add_friction(found, now, compared, 1.0);  // so stiff that it does not swing
+    return conclude(CheckOutcome::doubtful);
   }
-  if (compared.size() < k_checks_to_learn) return v;
+  if (!learnt) return v;
   const Comparison friction = compare(
       now, compared, [](const ArmFigures& f) { return f.friction_n(); }, mean_friction_error);
   const Comparison mass = compare(now, compared, mean_log_mass, mean_mass_error);
   v.finds_friction_n = std::max(k_least_friction_n, friction.found_from(k_mean_alarms));
   v.finds_gain = -std::expm1(-std::max(k_least_gain, mass.found_from(k_mean_alarms)));
-  std::vector<Found> found;
   add_gain(found, now, compared, friction.change);
   const bool gain_fell = !found.empty() && found[0].change.quantity != "mass" && found[0].change.axis.empty();
   add_friction(found, now, compared, gain_fell ? 1.0 + found[0].change.change : 1.0);
@@ -197,10 +204,7 @@ CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earl
       found, now, compared, [](const ArmFigures& f) { return f.quantum_mm; }, "step", k_step_alarms, k_least_step);
   add_share(
       found, now, compared, [](const ArmFigures& f) { return f.rate_hz; }, "rate", k_rate_alarms, k_least_rate);
-  std::stable_sort(found.begin(), found.end(), [](const Found& a, const Found& b) { return a.sigmas > b.sigmas; });
-  for (Found& f : found) v.changes.push_back(std::move(f.change));
-  v.outcome = v.changes.empty() ? CheckOutcome::unchanged : CheckOutcome::changed;
-  return v;
+  return conclude(CheckOutcome::unchanged);
 }
 
 std::string in_words(const CheckVerdict& v) {
@@ -217,7 +221,7 @@ std::string in_words(const CheckVerdict& v) {
   }
   std::string words;
   for (const CheckChange& c : v.changes) words += (words.empty() ? "" : "; ") + words_of(c);
-  return words;
+  return v.doubt.empty() ? words : words + "; of the rest it says nothing: " + v.doubt;
 }
 
 }  // namespace cavum

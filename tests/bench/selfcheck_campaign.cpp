@@ -31,7 +31,7 @@ void print_share(const char* what, int hits, int of) {
 
 struct Sum {
   int stations = 0, too_few = 0, unchanged = 0, alarms = 0, doubtful = 0, friction = 0, friction_doubt = 0, gain_too = 0, gain = 0, gain_doubt = 0,
-      friction_too = 0;
+      friction_too = 0, hands_unseen = 0;
   double longest_s = 0.0;
   std::map<std::string, int> causes, alarm_of;
 
@@ -52,6 +52,7 @@ struct Sum {
     gain += t.gain_found ? 1 : 0;
     gain_doubt += t.gain_doubtful ? 1 : 0;
     friction_too += t.friction_named_too ? 1 : 0;
+    hands_unseen += t.hand_unseen ? 1 : 0;
     if (!t.gain_cause.empty()) ++causes[t.gain_cause];
   }
   void print(const char* name) const {
@@ -65,6 +66,8 @@ struct Sum {
     print_share("gain -10 % found", gain, stations - too_few);
     std::printf("; doubtful %d; friction named, too, %d;", gain_doubt, friction_too);
     for (const auto& [what, n] : causes) std::printf(" called %s %d", what.c_str(), n);
+    std::printf("\n");
+    print_share("a hand on it, called unchanged", hands_unseen, stations - too_few);
     std::printf("\n");
     std::fflush(stdout);
   }

@@ -208,15 +208,25 @@ std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swing
   return fits;
 }
 
-std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
-  const double weight = figures.axes[axis].weight_n, home = on_axis(servo.home_mm(), axis);
+namespace {
+
+double swing_force_n(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
   const double side = length(servo.lean_n() - along_axis(axis, on_axis(servo.lean_n(), axis)));
-  const double swing_n = std::min(k_swing_n + k_swing_of_friction * figures.axes[axis].friction_n,
-                                  std::sqrt(std::max(0.0, servo.most_n() * servo.most_n() - side * side)) - std::abs(weight));
+  const double room = std::sqrt(std::max(0.0, servo.most_n() * servo.most_n() - side * side)) - std::abs(figures.axes[axis].weight_n);
+  return std::min(k_swing_n + k_swing_of_friction * figures.axes[axis].friction_n, room);
+}
+
+}  // namespace
+
+std::string too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
   constexpr double k_least_over_friction = 1.15;
-  if (swing_n < k_least_over_friction * figures.axes[axis].friction_n)
-    throw ArmStopped(fmt::format("weight and friction along {} leave too little of {} N to swing it: balance it, or have its joints seen to",
-                                 k_swing_names[axis], servo.most_n()));
+  if (swing_force_n(servo, axis, figures) >= k_least_over_friction * figures.axes[axis].friction_n) return {};
+  return fmt::format("weight and friction along {} leave too little of {} N to swing it; balance it, or have its joints seen to", k_swing_names[axis],
+                     servo.most_n());
+}
+
+std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
+  const double weight = figures.axes[axis].weight_n, home = on_axis(servo.home_mm(), axis), swing_n = swing_force_n(servo, axis, figures);
   // The force turns `ahead_mm` past home, on either side. From a turning point at X an arm that is driven by A − c and braked by A + c comes to
   // ahead + kept (X + ahead) on the other side, kept = (A − c)/(A + c): any arm swings by k_swing_mm.
   constexpr double k_most_ahead_mm = 5.5, k_risen_mm = 0.5, k_lost_s = 0.7;

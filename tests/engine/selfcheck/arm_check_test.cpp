@@ -132,7 +132,7 @@ TEST(ArmSwing, FitsParabolasExactly) {
         break;
       }
     if (k % 1000 == 0) {
-      if (x * way > 2.5 && v * way > 0) {
+      if (x * way > 4.0 && v * way > 0) {
         way = -way;
         told = way * force;
         commands.emplace_back(t, told);
@@ -152,11 +152,11 @@ TEST(ArmSwing, FitsParabolasExactly) {
   EXPECT_NEAR(fit.delay_s, delay, 0.0003);
 }
 
-/// The small form of the campaign: fixed seeds, two arms of each family. The figures of docs/selfcheck.md come from `selfcheck_campaign`.
+/// The small form of the campaign: fixed seeds, an arm of each family. The figures of docs/selfcheck.md come from `selfcheck_campaign`.
 TEST(SelfCheckCampaign, FindsHiddenChangesAndCallsNoOtherCheckChanged) {
   for (const std::string& family : arm_families())
-    for (const std::uint64_t seed : {4001U, 4002U}) {
-      const StationTrial t = try_station(family, seed, 10, 1);
+    for (const std::uint64_t seed : {4001U}) {
+      const StationTrial t = try_station(family, seed, 8, 1);
       EXPECT_EQ(t.false_alarms, 0) << family << seed;
       EXPECT_TRUE(t.friction_found) << family << seed;
       EXPECT_TRUE(t.gain_found) << family << seed;

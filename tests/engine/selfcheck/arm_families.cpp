@@ -80,6 +80,11 @@ ArmDays draw_days(std::uint64_t seed) {
   return {d.between(0.002, 0.01), d.between(0.01, 0.08), d.between(0.0, 0.01)};
 }
 
+ArmHand draw_hand(std::uint64_t seed) {
+  Draw d(seed * 29 + 3);
+  return {d.between(0.03, 0.2), d.between(0.03, 1.5), d.between(0.0005, 0.05), d.between(0.05, 0.6), d.between(7.0, 12.0)};
+}
+
 ArmModel on_a_day(const ArmModel& arm, const ArmDays& days, std::uint64_t seed) {
   Draw d(seed * 101 + 77);
   ArmModel m = arm;
@@ -150,6 +155,10 @@ StationTrial try_station(const std::string& family, std::uint64_t seed, int chec
     t.gain_cause = c.quantity;
     t.gain_found = t.gain_found || (c.quantity != "mass" && c.change < 0.0);
   }
+  ++day;
+  FreeArm held(on_a_day(arm, days, day), {3, -2, 1}, day * 3 + 1);
+  held.set_hand(draw_hand(seed));
+  t.hand_unseen = judge_check(check_free_arm(held, day * 7 + 2), learnt).outcome == CheckOutcome::unchanged;
   return t;
 }
 

@@ -21,6 +21,9 @@ struct ArmDays {
 [[nodiscard]] ArmDays draw_days(std::uint64_t seed);
 [[nodiscard]] ArmModel on_a_day(const ArmModel& arm, const ArmDays& days, std::uint64_t seed);
 
+/// A hand that holds the stylus, from lightly to firmly, and trembles.
+[[nodiscard]] ArmHand draw_hand(std::uint64_t seed);
+
 /// A check of it by a computer whose ticks are uneven by `uneven` of a period (uniform), and 4 ms late once in 2000.
 [[nodiscard]] ArmFigures check_free_arm(FreeArm& arm, std::uint64_t seed, double uneven = 0.2);
 
@@ -34,6 +37,7 @@ struct StationTrial {
   bool friction_found = false, friction_doubtful = false, gain_named_too = false;  ///< at +0.1 N in each joint
   bool gain_found = false, gain_doubtful = false, friction_named_too = false;      ///< at -10 %
   std::string gain_cause;                                                          ///< gain, mass, "gain or mass"
+  bool hand_unseen = false;                                                        ///< as it was, with a hand on it: called unchanged
   double longest_s = 0.0;                                                          ///< of all checks
 };
 /// Learns `checks` times, each on another day; then `unchanged` checks as it was, one with 0.1 N more in each joint, one with nine tenths of the

@@ -26,7 +26,7 @@ FreeArm::FreeArm(const ArmModel& model, Vec3 at_mm, std::uint64_t seed) : model_
   joints_[0] = normalized(Vec3{std::cos(a), std::sin(a), std::sin(b)});
   joints_[1] = normalized(cross({0, 0, 1}, joints_[0]));
   joints_[2] = cross(joints_[0], joints_[1]);
-  at_ = to_joints(at_mm);
+  at_ = play_ = to_joints(at_mm);
   told_mm_ = at_mm;
 }
 
@@ -36,10 +36,12 @@ Vec3 FreeArm::to_axes(Vec3 v) const { return joints_[0] * v.x + joints_[1] * v.y
 void FreeArm::exchange() {
   for (std::size_t i = 0; i + 1 < queue_.size(); ++i) queue_[i] = queue_[i + 1];
   queue_[static_cast<std::size_t>(model_.delay)] = commanded_n_;
+  const double half = 0.5 * model_.backlash_mm;
+  for (std::size_t i = 0; i < 3; ++i) set_part(play_, i, std::clamp(part(play_, i), part(at_, i) - half, part(at_, i) + half));
   if (model_.joint_encoders) {
-    told_mm_ = to_axes({rounded(at_.x, model_.quantum_mm), rounded(at_.y, model_.quantum_mm), rounded(at_.z, model_.quantum_mm)});
+    told_mm_ = to_axes({rounded(play_.x, model_.quantum_mm), rounded(play_.y, model_.quantum_mm), rounded(play_.z, model_.quantum_mm)});
   } else {
-    const Vec3 p = to_axes(at_);
+    const Vec3 p = to_axes(play_);
     told_mm_ = {rounded(p.x, model_.quantum_mm), rounded(p.y, model_.quantum_mm), rounded(p.z, model_.quantum_mm)};
   }
   ++readings_;
@@ -60,7 +62,8 @@ void FreeArm::move(double dt) {
     const double ripple = model_.ripple_n * std::sin(2.0 * M_PI * part(at_, i) / model_.ripple_mm + static_cast<double>(i));
     const double damping = model_.viscous_n_s_per_mm + hand_.damping_n_s_per_mm;
     const double fast = model_.one_friction ? speed : std::abs(v);
-    double friction = model_.coulomb_n[i] * (1.0 + model_.stribeck * std::exp(-fast / model_.stribeck_mm_s));
+    const double slowness = fast / model_.stribeck_mm_s;
+    double friction = model_.coulomb_n[i] * (slowness < 12.0 ? 1.0 + model_.stribeck * std::exp(-slowness) : 1.0);
     if (model_.one_friction)
       friction *= speed > 1e-9 ? std::max(1e-3, std::abs(v) / speed) : std::abs(part(along, i)) / std::max(1e-12, length(along));
     const double per_mass = 1000.0 / m * dt;
@@ -78,7 +81,7 @@ void FreeArm::move(double dt) {
 }
 
 DeviceReading FreeArm::read(double elapsed_s) {
-  constexpr double k_step_s = 1.25e-4;
+  constexpr double k_step_s = 2.5e-4;
   const double until = time_s_ + elapsed_s;
   largest_n_ = std::max(largest_n_, length(commanded_n_));
   while (time_s_ < until) {

@@ -20,7 +20,7 @@ struct ArmModel {
   double ripple_n = 0.01, ripple_mm = 4.0;  ///< of cables and poles: amplitude, period
   Vec3 weight_n;                            ///< that nothing balances
   double spring_n_per_mm = 0.0;             ///< of a balance, towards home
-  double backlash_mm = 0.0;                 ///< between motor and tip; places are the motor's
+  double backlash_mm = 0.0;                 ///< between each joint and its encoder
   double gain = 1.0;                        ///< force given, of what is commanded
   double quantum_mm = 0.02;
   bool joint_encoders = false;  ///< steps along the joints, or else along the axes
@@ -65,7 +65,7 @@ class FreeArm final : public Stylus {
   std::mt19937_64 random_;
   std::array<Vec3, 3> joints_;  // unit vectors
   Vec3 at_, speed_, home_;      // of the motor, along the joints; home along the axes
-  Vec3 play_;                   // of the tip within the backlash
+  Vec3 play_;                   // where the encoders stand within the backlash, along the joints
   Vec3 told_mm_, commanded_n_;
   std::array<Vec3, 8> queue_{};
   double time_s_ = 0.0, next_exchange_s_ = 0.0, wall_mm_ = 1e9, largest_n_ = 0.0;
