@@ -6,6 +6,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/selfcheck/check_note.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/lock_event.h"
@@ -132,6 +133,11 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
     for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
   });
   say_closing(e, session, mark.replay);
+  or_damage(e, [&] {
+    const SessionCheckFindings check = check_of_session(session);
+    e.findings.insert(e.findings.end(), check.findings.begin(), check.findings.end());
+    e.remarks.insert(e.remarks.end(), check.remarks.begin(), check.remarks.end());
+  });
 
   std::string ticket_text;
   SessionSetup setup;

@@ -12,6 +12,8 @@
 #include "engine/device/hardware/station_pedal.h"
 #include "engine/device/with_desk.h"
 #include "engine/device/with_pedal.h"
+#include "engine/selfcheck/check_history.h"
+#include "engine/selfcheck/check_note.h"
 #include "scenarios/candidates/candidate_device.h"
 #include "ui/parts/interrupt.h"
 
@@ -56,8 +58,11 @@ class StylusSource final : public LiveSource {
   [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
   [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }
   [[nodiscard]] SourceNotes notes() const override {
-    return {
+    SourceNotes notes{
         {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};
+    const std::string checked = CheckHistory(check_history_path()).session_note({stylus_->facts().id, stylus_->facts().serial});
+    if (!checked.empty()) notes.emplace_back(k_self_check_note, checked);
+    return notes;
   }
   void begin(const scenarios::ExamSetup& setup) override {
     if (!options_.point.empty()) {

@@ -8,6 +8,7 @@
 #include "engine/base/text.h"
 #include "engine/language/say.h"
 #include "engine/base/version.h"
+#include "engine/selfcheck/check_note.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/explain_session.h"
@@ -34,6 +35,11 @@ ReportIntegrity read_integrity(const std::string& path, bool replay) {
           fmt::format("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and "
                       "clocks, and closed by the station's signature",
                       session.chunks().size()));
+    if (!replay) {
+      SessionCheckFindings check = check_of_session(session);
+      for (auto& finding : check.findings) i.findings.push_back(std::move(finding));
+      i.remarks = std::move(check.remarks);
+    }
   }
   if (!replay) {
     i.remarks.emplace_back(said("the motion was not simulated again for this report; `cavum verify` does that"));

@@ -7,6 +7,7 @@
 #include "ui/station/replay_player.h"
 #include "ui/station/sitting.h"
 #include "ui/station/state.h"
+#include "ui/station/station_check.h"
 #include "ui/station/theme.h"
 
 namespace cavum::station {
@@ -21,11 +22,14 @@ struct ScreenContext {
   ReplayPlayer* replay = nullptr;          ///< only on the replay's screen
   double frame_s = 0.0;                    ///< since the frame before
   bool practice = false;
-  const InputQueue& input;      ///< what this picture plays
-  bool mouse_captured = false;  ///< the mouse is the stylus
+  const InputQueue& input;              ///< what this picture plays
+  bool mouse_captured = false;          ///< the mouse is the stylus
+  const StationCheck* check = nullptr;  ///< of the station's stylus; null at a replay
+  bool locked = false;                  ///< only the supervisor's code decides
 };
 
 void sign_in_screen(const ScreenContext& c);
+void self_check_screen(const ScreenContext& c);
 void preparing_screen(const ScreenContext& c);
 void device_check_screen(const ScreenContext& c);
 void briefing_screen(const ScreenContext& c);

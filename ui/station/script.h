@@ -1,7 +1,7 @@
 // Keys pressed by a file instead of a hand, for demonstrations and tests of the station: they come in by the door of the keyboard. What takes
 // longer than 10 s says on standard error what it waits for; no screen, field or exam is awaited for more than 300 s. One command a line, # begins a
 // comment:
-//   wait SCREEN      until that screen shows: sign-in, preparing, device-check, briefing, exam, grading, result, trouble,
+//   wait SCREEN      until that screen shows: sign-in, self-check, preparing, device-check, briefing, exam, grading, result, trouble,
 //                    save, author, author-busy
 //   go SCREEN        presses enter now and then until that screen shows
 //   until SECONDS    until the exam's clock has come so far

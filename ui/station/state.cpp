@@ -6,6 +6,8 @@ const char* screen_name(Screen screen) noexcept {
   switch (screen) {
     case Screen::sign_in:
       return "sign-in";
+    case Screen::self_check:
+      return "self-check";
     case Screen::preparing:
       return "preparing";
     case Screen::device_check:

@@ -10,11 +10,11 @@
 
 namespace cavum::station {
 
-enum class Screen { sign_in, preparing, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
+enum class Screen { sign_in, self_check, preparing, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
 
 /// What a button or a key asked for; the station does it after the frame.
-enum class Wish { none, sign_in, to_briefing, to_check, begin, end, save, rescue, abandon, report, next_candidate, leave, quit };
+enum class Wish { none, sign_in, check, check_go_on, to_briefing, to_check, begin, end, save, rescue, abandon, report, next_candidate, leave, quit };
 
 struct StationState {
   Screen screen = Screen::sign_in;

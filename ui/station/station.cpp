@@ -22,6 +22,7 @@
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
 #include "ui/station/station_lock.h"
+#include "ui/station/supervisor_code.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -65,6 +66,7 @@ class Station {
         scenario_(replay_ ? replay_->setup().scenario : scenario_of(options.sitting)),
         shelf_(read_shelf(options.sitting.scenario)),
         lock_(options.supervisor_hash),
+        check_(options.sitting.device.name, options.self_check_hours.value_or(0.0)),
         window_({"Cavum", options.width, options.height, options.monitor, lock_.locked()}) {
     if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
     usual_look();
@@ -205,7 +207,9 @@ class Station {
                                 frame_s,
                                 options_.sitting.practice,
                                 window_.input(),
-                                window_.mouse_captured()};
+                                window_.mouse_captured(),
+                                &check_,
+                                lock_.locked()};
     show_screen(context);
     ask_whether_to_leave(context, lock_.locked());
   }
@@ -213,6 +217,8 @@ class Station {
     switch (context.state.screen) {
       case Screen::sign_in:
         return sign_in_screen(context);
+      case Screen::self_check:
+        return self_check_screen(context);
       case Screen::preparing:
         return preparing_screen(context);
       case Screen::device_check:
@@ -265,6 +271,13 @@ class Station {
         case Wish::sign_in:
           sign_in();
           break;
+        case Wish::check:
+          state_.message.clear();
+          check_.begin();
+          break;
+        case Wish::check_go_on:
+          go_on_with_check();
+          break;
         case Wish::to_briefing:
           go_to(Screen::briefing);
           break;
@@ -316,7 +329,27 @@ class Station {
     }
   }
 
+  /// What a check found was read: on with it, when it is good or somebody who may decides so.
+  void go_on_with_check() {
+    if (check_.running() || !check_.found()) return;
+    if (!check_.good() && lock_.locked()) {
+      const bool right = is_supervisor_code(options_.supervisor_hash, state_.supervisor_code.data());
+      state_.supervisor_code = {};
+      state_.focus_supervisor = true;
+      if (!right) {
+        state_.message = "That is not the supervisor's code.";
+        return;
+      }
+    }
+    check_.go_on(lock_.locked());
+    sign_in();
+  }
+
   void sign_in() {
+    if (options_.self_check_hours && !(state_.screen == Screen::self_check && check_.found()) && check_.due(options_.sitting)) {
+      check_.forget();
+      return go_to(Screen::self_check);
+    }
     SittingOptions o = options_.sitting;
     o.locked = lock_.locked();
     lock_.begin_sitting();
@@ -358,6 +391,7 @@ class Station {
 
   /// What happens by itself.
   void go_on() {
+    check_.advance();
     if (!sitting_) return;
     const Stage before = sitting_->stage();
     try {
@@ -424,6 +458,7 @@ class Station {
   ui::Interrupt interrupt_;
   ui::SoundOutput sound_;
   StationLock lock_;
+  StationCheck check_;
   Window window_;
   Script script_;
   StationState state_;

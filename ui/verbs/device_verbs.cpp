@@ -16,11 +16,13 @@
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/station_pedal.h"
 #include "engine/device/hardware/stylus_kind.h"
+#include "engine/selfcheck/check_history.h"
 #include "engine/statistics/order.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/number_check.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/terminal.h"
+#include "ui/verbs/self_check_verb.h"
 #include "ui/verbs/stylus_devices.h"
 #include "ui/verbs/verbs.h"
 
@@ -28,8 +30,8 @@ namespace cavum::ui {
 namespace {
 
 struct DeviceArguments {
-  bool json = false, test = false, calibrate = false, live = false, place = false, no_push = false;
-  std::string id, stylus;
+  bool json = false, test = false, calibrate = false, live = false, place = false, no_push = false, self_check = false, history = false;
+  std::string id, stylus, new_history, go_on, station_name;
   double seconds = 3.0;
 };
 
@@ -188,8 +190,8 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<DeviceArguments>();
   auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
   devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
-  auto* stylus =
-      devices->add_option("--stylus", o->stylus, stylus_kinds().ids({StylusHand::person, StylusHand::candidate}) + ": for --test and --place");
+  auto* stylus = devices->add_option("--stylus", o->stylus,
+                                     stylus_kinds().ids({StylusHand::person, StylusHand::candidate}) + ": for --test, --self-check and --place");
   auto* test_flag =
       devices->add_flag("--test", o->test,
                         "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "
@@ -200,18 +202,30 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   devices->add_flag("--place", o->place, "touch four marks, so that the stylus stands where the tooth is; kept for this station")
       ->needs(stylus)
       ->excludes(test_flag);
+  auto* self_flag = devices
+                        ->add_flag("--self-check", o->self_check,
+                                   "let go of the stylus: friction, strength, step and rate in a minute, held against this station's earlier checks; "
+                                   "ends with 1 when something changed")
+                        ->excludes(test_flag);
+  devices->add_flag("--history", o->history, "with --self-check: only what was kept")->needs(self_flag);
+  devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")->needs(self_flag);
+  devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")->needs(self_flag);
+  devices->add_option("--station-name", o->station_name, "name this station, as checks and sessions shall say it");
   devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
   devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
   devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(between(0.2, 600.0))->capture_default_str();
   devices->add_flag("--json", o->json, "one JSON object on standard output");
   devices->callback([o, &exit_code] {
     exit_code = 0;
-    if (o->place)
+    if (!o->station_name.empty()) set_station_name(o->station_name);
+    if (o->self_check)
+      exit_code = self_check({o->stylus, o->new_history, o->go_on, o->history, o->json});
+    else if (o->place)
       place_stylus(o->stylus);
     else if (o->test && !o->stylus.empty())
       exit_code = test_stylus(o->stylus, o->seconds, !o->no_push, o->json);
     else if (!o->stylus.empty())
-      throw Error("--stylus " + o->stylus, "says of which, but not what", "add --test or --place");
+      throw Error("--stylus " + o->stylus, "says of which, but not what", "add --test, --self-check or --place");
     else if (o->live)
       watch(*o);
     else if (o->calibrate)

@@ -31,7 +31,8 @@ struct StationArguments {
   std::string author;
   EnrolOptions enrol;
   int frame_times = 0;
-  bool kiosk = false, set_code = false;
+  bool kiosk = false, set_code = false, no_self_check = false;
+  double self_check_hours = 12.0;
   std::string code_file;  ///< of the supervisor's code; empty: the station's own
 };
 
@@ -142,6 +143,7 @@ int run(const StationArguments& o) {
       throw Error("--kiosk", "was asked for with something that is no exam", "leave one of them out");
     s.supervisor_hash = station::read_supervisor_code(o.code_file.empty() ? station::supervisor_code_path() : o.code_file);
   }
+  if (!o.no_self_check && s.replay.empty()) s.self_check_hours = o.self_check_hours;
   require_sound(s, o.author);
   if (!o.author.empty()) return station::run_author(s, o.author);
   if (o.frame_times == 0) return station::run_station(s);
@@ -222,6 +224,10 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   add_places(station, s);
   station->add_option("--author", o->author, "change the zones of this scenario by hand, with everything `scenario check` says beside them");
   add_device(station, s);
+  station->add_option("--self-check-hours", o->self_check_hours, "before an exam a real stylus is checked when its last check is older, 0 to 1000")
+      ->check(between(0.0, 1000.0))
+      ->capture_default_str();
+  station->add_flag("--no-self-check", o->no_self_check, "check no stylus; the session then has the last check, however old");
   add_candidate(station, s);
   add_window(station, s);
   add_lock(station, *o);

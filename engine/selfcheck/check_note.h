@@ -1,0 +1,33 @@
+// What a session says of its station's last self-check (note `self_check`), read and held against the session.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/selfcheck/check_entry.h"
+
+namespace cavum {
+
+class SessionReader;
+
+inline constexpr char k_self_check_note[] = "self_check";
+
+struct SessionCheck {
+  CheckEntry check;
+  std::optional<CheckEntry> decision;
+};
+
+/// Both entries signed by the station that they name. Throws Error when it is no such note.
+[[nodiscard]] SessionCheck read_session_check(const std::string& note, const std::string& where);
+
+struct SessionCheckFindings {
+  std::vector<std::string> findings;  ///< what does not hold
+  std::vector<std::string> remarks;   ///< what the check said
+};
+/// Of a session without that note: nothing.
+[[nodiscard]] SessionCheckFindings check_of_session(const SessionReader& session);
+/// "Seat 3: unchanged, friction 0.27 N, ... (2026-11-21T08:50:00Z); decided: ...".
+[[nodiscard]] std::string in_words(const SessionCheck& check);
+
+}  // namespace cavum

@@ -1,0 +1,48 @@
+// A free arm inside an emulated device, by the clock: what the device was told to push moves it, and where it stands is what the device tells.
+#pragma once
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <functional>
+#include <mutex>
+#include <thread>
+
+#include "tests/engine/selfcheck/free_arm.h"
+
+namespace cavum::testing_device {
+
+class MovingArm {
+ public:
+  using Model = testing_selfcheck::ArmModel;
+  /// `told_n`: the force that the device gives now; `move_to_mm`: where it stands from now on.
+  MovingArm(const Model& model, Vec3 at_mm, std::function<Vec3()> told_n, std::function<void(Vec3)> move_to_mm)
+      : told_n_(std::move(told_n)), move_to_mm_(std::move(move_to_mm)), arm_(model, at_mm, 1), thread_([this] { run(); }) {}
+  ~MovingArm() {
+    stop_ = true;
+    thread_.join();
+  }
+  MovingArm(const MovingArm&) = delete;
+  MovingArm& operator=(const MovingArm&) = delete;
+
+ private:
+  void run() {
+    using Clock = std::chrono::steady_clock;
+    constexpr double k_longest_s = 0.05;
+    for (auto before = Clock::now(); !stop_; std::this_thread::sleep_for(std::chrono::microseconds(300))) {
+      const auto now = Clock::now();
+      arm_.send_force(told_n_());
+      move_to_mm_(arm_.read(std::min(k_longest_s, std::chrono::duration<double>(now - before).count())).pose.tip_mm);
+      before = now;
+    }
+    arm_.cut_force();
+  }
+
+  std::function<Vec3()> told_n_;
+  std::function<void(Vec3)> move_to_mm_;
+  testing_selfcheck::FreeArm arm_;
+  std::atomic<bool> stop_{false};
+  std::thread thread_;
+};
+
+}  // namespace cavum::testing_device
