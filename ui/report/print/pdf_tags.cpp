@@ -53,7 +53,7 @@ class Structure {
 
   void complete(QPDFObjectHandle element) {
     if (!element.isDictionary()) return;
-    const QPDFObjectHandle kind = element.getKey("/S");
+    QPDFObjectHandle kind = element.getKey("/S");
     if (kind.isName() && kind.getName() == "/Figure") {
       const std::string words = next_ < pictures_.size() ? pictures_[next_] : "";
       element.replaceKey("/Alt", QPDFObjectHandle::newUnicodeString(words));
