@@ -132,7 +132,7 @@ TEST_F(CommandLine, TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays) {
       {"molar", "slot"},    {"molar", "access"}, {"premolar", "access"}, {"incisor", "access"}, {"carious_molar", "lesion"}};
   for (const auto& [tooth, task] : testing_basics::some_of(templates, 2, "CommandLine.TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays")) {
     const std::string file = path(tooth + task + ".toml");
-    ASSERT_EQ(run("scenario new --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
+    ASSERT_EQ(run("scenario new --untried --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);
     const Ran check = run("scenario check " + file + " --json");
     EXPECT_EQ(check.exit_code, 0) << check.out;
     const Ran solve = run("scenario solve " + file + " --json");
@@ -145,6 +145,21 @@ TEST_F(CommandLine, TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays) {
     EXPECT_GT(ratio, 0.7) << file;
     EXPECT_LT(ratio, 1.7) << file;
   }
+}
+
+TEST_F(CommandLine, ANewTaskIsTriedBeforeItIsWritten) {
+  const Ran made = run("scenario new --tooth premolar --task slot_distal --json --out " + path("slot.toml"));
+  ASSERT_EQ(made.exit_code, 0) << made.err;
+  const json said = json::parse(made.out);
+  EXPECT_GE(said["tried"]["expert_percent"].get<double>(), 90.0);
+  EXPECT_GT(said["tried"]["wrong_work"].get<int>(), 20);
+  EXPECT_NE(read_text_file(path("slot.toml")).find("tooth = \"upper_premolar.cvt\""), std::string::npos);
+  // too small for any point: refused, and nothing is written
+  expect_refused("scenario new --tooth premolar --task class_5 --out " + path("small.toml"), {"class_5", "reaches more than"});
+  EXPECT_FALSE(fs::exists(path("small.toml")));
+  const Ran draft = run("scenario new --tooth premolar --task slot_distal --untried --json --out " + path("draft.toml"));
+  ASSERT_EQ(draft.exit_code, 0) << draft.err;
+  EXPECT_TRUE(json::parse(draft.out)["tried"].is_null());
 }
 
 TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {

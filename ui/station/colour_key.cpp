@@ -3,17 +3,19 @@
 #include <algorithm>
 
 #include "engine/language/shown.h"
+#include "ui/station/tissue_colours.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
 
 std::vector<ColourKeyEntry> colour_key(const std::vector<Tissue>& tissues, bool high_contrast) {
-  std::vector<ColourKeyEntry> key{{{60 / 255.0F, 190 / 255.0F, 235 / 255.0F, 1}, "to be removed"}};
+  const auto part = [](int i) { return static_cast<float>(k_target_colour[static_cast<std::size_t>(i)]) / 255.0F; };
+  std::vector<ColourKeyEntry> key{{{part(0), part(1), part(2), 1}, "to be removed"}};
   for (const Tissue& t : tissues) {
-    if (t.id == k_enamel) key.push_back({high_contrast ? ImVec4{1, 1, 1, 1} : ImVec4{0.93F, 0.925F, 0.895F, 1}, t.name});
-    if (t.id == k_dentin) key.push_back({high_contrast ? ImVec4{0.95F, 0.70F, 0.16F, 1} : ImVec4{0.86F, 0.70F, 0.43F, 1}, t.name});
-    if (t.id == k_pulp) key.push_back({high_contrast ? ImVec4{0.62F, 0.02F, 0.14F, 1} : ImVec4{0.70F, 0.20F, 0.20F, 1}, t.name});
-    if (t.name == "lesion") key.push_back({high_contrast ? ImVec4{0.45F, 0.25F, 0.05F, 1} : ImVec4{0.58F, 0.40F, 0.22F, 1}, "caries"});
+    const bool lesion = t.name == "lesion";
+    if (t.id != k_enamel && t.id != k_dentin && t.id != k_pulp && !lesion) continue;
+    const glm::vec3 colour = tissue_colour(t, high_contrast);
+    key.push_back({{colour.x, colour.y, colour.z, 1}, lesion ? "caries" : t.name});
   }
   return key;
 }

@@ -8,11 +8,11 @@
 #include <glm/gtc/matrix_transform.hpp>
 #include <tuple>
 
-#include "engine/tooth/beside.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
 #include "ui/station/instrument_mesh.h"
 #include "ui/station/shaders.h"
+#include "ui/station/tissue_colours.h"
 
 namespace cavum::station {
 namespace {
@@ -101,7 +101,6 @@ void turn_point(SceneView& view, double rpm, double frame_s) {
 }
 
 MeshData target_mesh(const scenarios::ZoneMap& zones) {
-  constexpr std::array<std::uint8_t, 4> k_colour{60, 190, 235, 255};
   const IVec3 size = zones.size();
   std::vector<std::uint8_t> inside;
   std::vector<double> distance;
@@ -117,7 +116,7 @@ MeshData target_mesh(const scenarios::ZoneMap& zones) {
     const double from = distance[index(a)], to = distance[index(b)];
     return from < 0 && to > 0 ? std::clamp(from / (from - to), 0.05, 0.95) : 0.5;
   });
-  return smooth_shaded(mesh, k_colour);
+  return smooth_shaded(mesh, k_target_colour);
 }
 
 Scene::Programs::Programs(const Effects& effects) {
@@ -155,21 +154,12 @@ void Scene::show_bodies(std::vector<GpuMesh> bodies) {
 }
 
 std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
-  // told apart by lightness as well as by hue, for eyes that see no red or green
-  std::vector<glm::vec3> table(k_colours, glm::vec3(0.62F, 0.52F, 0.70F));
-  table[k_air] = glm::vec3(0.5F);
-  table[k_enamel] = high_contrast ? glm::vec3(1.0F) : glm::vec3(0.93F, 0.925F, 0.895F);
-  table[k_dentin] = high_contrast ? glm::vec3(0.95F, 0.70F, 0.16F) : glm::vec3(0.86F, 0.70F, 0.43F);
-  table[k_pulp] = high_contrast ? glm::vec3(0.62F, 0.02F, 0.14F) : glm::vec3(0.70F, 0.20F, 0.20F);
-  table[k_periodontium] = glm::vec3(0.80F, 0.55F, 0.55F);
-  for (const Tissue& t : tissues_) {
-    if (t.id >= k_colours) continue;
-    // what stands beside the tooth is cooler and greyer than it, the gum pink
-    if (t.name == k_gum) table[t.id] = high_contrast ? glm::vec3(0.80F, 0.30F, 0.45F) : glm::vec3(0.84F, 0.48F, 0.50F);
-    if (is_of_neighbour(t.name)) table[t.id] = high_contrast ? glm::vec3(0.35F, 0.55F, 0.80F) : glm::vec3(0.62F, 0.70F, 0.78F);
-  }
+  std::vector<glm::vec3> table(k_colours, tissue_colour({k_colours, "", true}, high_contrast));
+  for (const Tissue& t : {Tissue{k_air, "", false}, Tissue{k_enamel, "", true}, Tissue{k_dentin, "", true}, Tissue{k_pulp, "", false},
+                          Tissue{k_periodontium, "", false}})
+    table[t.id] = tissue_colour(t, high_contrast);
   for (const Tissue& t : tissues_)
-    if (t.name == "lesion" && t.id < k_colours) table[t.id] = high_contrast ? glm::vec3(0.45F, 0.25F, 0.05F) : glm::vec3(0.58F, 0.40F, 0.22F);
+    if (t.id < k_colours) table[t.id] = tissue_colour(t, high_contrast);
   for (glm::vec3& c : table) c *= c;  // light adds up in linear colours
   return table;
 }

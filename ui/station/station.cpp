@@ -260,6 +260,8 @@ class Station {
       heard.cutting = view.output.cutting;
       heard.enamel_share = view.enamel_share;
       heard.dentin_share = view.dentin_share;
+      heard.spray = heard.rpm > 0.0 ? 1.0 : 0.0;
+      heard.suction = 1.0;
     }
     sound_.set(heard);
     sound_.set_muted(state_.muted);

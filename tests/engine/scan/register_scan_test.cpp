@@ -30,6 +30,22 @@ const OuterSurface& outside() {
   return k_outside;
 }
 
+/// 4 mm long, 1.6 mm wide, down to 0.5 mm.
+Tooth molar_with_a_slot() {
+  Tooth tooth = molar();
+  std::vector<RemovedLeaf> removed;
+  removed.reserve(400000);
+  tooth.octree.reserve_edits(40000);
+  const bool carved = tooth.octree.carve(
+      {-3, -2, -1}, {3, 2, 5},
+      [](Vec3 p) {
+        return std::max({std::fabs(p.x) - 2.0, std::fabs(p.y) - 0.8, 0.5 - p.z});
+      },
+      removed);
+  EXPECT_TRUE(carved);
+  return tooth;
+}
+
 /// What tells two poses apart: the largest way between them of the corners of a box as large as the tooth.
 double apart_mm(const Rigid& a, const Rigid& b) {
   double most = 0;
@@ -57,16 +73,7 @@ TEST(Registration, ASmallMotionIsWorkedOutFromPlanesAlone) {
 
 TEST(Registration, FindsAnyPoseOfANoisyCrownWithACavity) {
   Random random(drawn_seed("Registration.FindsAnyPose"));
-  Tooth drilled = molar();
-  std::vector<RemovedLeaf> removed;
-  removed.reserve(400000);
-  drilled.octree.reserve_edits(40000);
-  ASSERT_TRUE(drilled.octree.carve(
-      {-3, -2, -1}, {3, 2, 5},
-      [](Vec3 p) {
-        return std::max({std::fabs(p.x) - 2.0, std::fabs(p.y) - 0.8, 0.5 - p.z});
-      },
-      removed));
+  const Tooth drilled = molar_with_a_slot();
   TriangleMesh mesh = outer_surface(drilled, outside().outside());
   TriangleMesh crown{mesh.vertices_mm, {}};
   for (const auto& t : mesh.triangles)
@@ -140,16 +147,7 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
 // A crown with a cavity and 10 um of noise, measured too large or too small by a scanner.
 TEST(ScaleFit, TellsByHowMuchAScanIsTooLarge) {
   Random random(drawn_seed("ScaleFit.TellsByHowMuch"));
-  Tooth drilled = molar();
-  std::vector<RemovedLeaf> removed;
-  removed.reserve(400000);
-  drilled.octree.reserve_edits(40000);
-  ASSERT_TRUE(drilled.octree.carve(
-      {-3, -2, -1}, {3, 2, 5},
-      [](Vec3 p) {
-        return std::max({std::fabs(p.x) - 2.0, std::fabs(p.y) - 0.8, 0.5 - p.z});
-      },
-      removed));
+  const Tooth drilled = molar_with_a_slot();
   const TriangleMesh whole = outer_surface(drilled, outside().outside());
   for (const double size : {1.01, 0.985, 1.03, 0.95}) {
     TriangleMesh scan{whole.vertices_mm, {}};

@@ -24,8 +24,13 @@ using namespace std::chrono_literals;
 constexpr double k_rate_hz = 48000.0, k_pi = 3.141592653589793;
 using Samples = std::vector<float>;
 
-SoundParameters idle(double rpm) { return {rpm, 0.0, false, 0.0, 0.0, 1.0}; }
-SoundParameters cutting(double rpm, double load_n, double enamel, double dentin) { return {rpm, load_n, true, enamel, dentin, 1.0}; }
+SoundParameters idle(double rpm) { return {rpm, 0.0, false, 0.0, 0.0, 1.0, 0.0, 0.0}; }
+SoundParameters cutting(double rpm, double load_n, double enamel, double dentin) { return {rpm, load_n, true, enamel, dentin, 1.0, 0.0, 0.0}; }
+/// The same with water, and what takes it away.
+SoundParameters wet(SoundParameters p) {
+  p.spray = p.suction = 1.0;
+  return p;
+}
 
 Samples render(HandpieceSound& sound, const SoundParameters& parameters, double seconds) {
   Samples samples(static_cast<std::size_t>(seconds * k_rate_hz));
@@ -74,6 +79,14 @@ class Spectrum {
     return 10.0 * std::log10(sum / std::max(1, n) + 1e-30);
   }
   [[nodiscard]] double power_at(double hz) const { return power_[bin(hz)]; }
+  [[nodiscard]] double bin_hz() const { return bin_hz_; }
+  /// How much a line stands out from what lies 150 to 250 Hz beside it, dB.
+  [[nodiscard]] double line_db(double hz) const {
+    double most = 0.0, beside = 0.0;
+    for (double d = -30; d <= 30; d += bin_hz_) most = std::max(most, power_at(hz + d));
+    for (double d = 150; d <= 250; d += bin_hz_) beside = std::max({beside, power_at(hz - d), power_at(hz + d)});
+    return 10.0 * std::log10(most / beside);
+  }
 
  private:
   [[nodiscard]] std::size_t bin(double hz) const { return static_cast<std::size_t>(hz / bin_hz_ + 0.5); }
@@ -194,8 +207,8 @@ TEST(HandpieceSound, IdleEnamelAndDentinAreTellableApartInAnyTenthOfASecond) {
     const double rpm = random.uniform(120000, 200000), load = random.uniform(0.4, 2.5), pitch = pitch_hz(rpm, load);
     const auto seed = random.next();
     const double short_s = 0.13;
-    const Spectrum still(steady(idle(rpm), short_s, seed), k_rate_hz), enamel(steady(cutting(rpm, load, 1, 0), short_s, seed), k_rate_hz),
-        dentin(steady(cutting(rpm, load, 0, 1), short_s, seed), k_rate_hz);
+    const auto heard = [&](const SoundParameters& p) { return Spectrum(steady(i % 2 == 0 ? p : wet(p), short_s, seed), k_rate_hz); };
+    const Spectrum still = heard(idle(rpm)), enamel = heard(cutting(rpm, load, 1, 0)), dentin = heard(cutting(rpm, load, 0, 1));
     loudest_idle = std::max(loudest_idle, still.between_lines_db(700, 9500, rpm / 60.0));
     softest_cut = std::min({softest_cut, enamel.between_lines_db(700, 9500, pitch), dentin.between_lines_db(700, 9500, pitch)});
     sharpest_dentin = std::max(sharpest_dentin, sharpness_db(dentin, pitch));
@@ -225,9 +238,71 @@ TEST(HandpieceSound, IsSilentMutedOrStandingStill) {
   muted.volume = 0.0;
   (void)render(sound, muted, 0.5);
   for (const float s : render(sound, muted, 0.2)) ASSERT_EQ(s, 0.0f);
-  (void)render(sound, idle(200000), 0.5);
-  (void)render(sound, idle(0), 0.5);
+  (void)render(sound, wet(idle(200000)), 0.5);
+  (void)render(sound, idle(0), 6.0);  // it runs down
   for (const float s : render(sound, idle(0), 0.2)) ASSERT_EQ(s, 0.0f);
+}
+
+double rms(const Samples& samples) {
+  double sum = 0.0;
+  for (const float s : samples) sum += double{s} * s;
+  return std::sqrt(sum / static_cast<double>(samples.size()));
+}
+
+TEST(HandpieceSound, LetGoItRunsDownAndALoadStopsItSooner) {
+  for (const double load : {0.0, 1.0}) {
+    HandpieceSound sound(k_rate_hz);
+    (void)render(sound, idle(200000), 0.5);
+    SoundParameters off = idle(0);
+    off.load_n = load;
+    (void)render(sound, off, 0.2);
+    const Samples later = render(sound, off, 0.1);
+    if (load > 0.0) {
+      EXPECT_LT(rms(later), 1e-3);
+      continue;
+    }
+    // exp(-0.25 s / 0.5 s) of the pitch, within what it falls in the tenth of a second
+    EXPECT_NEAR(Spectrum(later, k_rate_hz).peak_hz(), 200000 / 60.0 * std::exp(-0.25 / k_run_down_s), 200.0);
+    EXPECT_GT(rms(later), 0.01);
+  }
+}
+
+// A line of even turns is as narrow as the window; one whose speed wanders is not, and keeps its middle.
+TEST(HandpieceSound, TheSpeedIsNeverQuiteEven) {
+  const double hz = 200000 / 60.0;
+  Samples even(static_cast<std::size_t>(k_rate_hz));
+  for (std::size_t i = 0; i < even.size(); ++i) even[i] = static_cast<float>(0.1 * std::sin(2 * k_pi * hz * static_cast<double>(i) / k_rate_hz));
+  const auto skirt_db = [&](const Samples& samples) {
+    const Spectrum s(samples, k_rate_hz);
+    return 10.0 * std::log10(s.power_at(hz + 5 * s.bin_hz()) / s.power_at(hz));
+  };
+  const double turbine = skirt_db(steady(idle(200000), 1.0));
+  std::printf("60 Hz beside its line: turbine %.1f dB, an even line %.1f dB\n", turbine, skirt_db(even));
+  EXPECT_GT(turbine, skirt_db(even) + 6.0);
+  EXPECT_LT(turbine, -15.0);
+}
+
+// The balls pass the outer ring 2.8 times a turn, the inner one 4.2 times: equations of bearing diagnosis for 7 balls of a fifth.
+TEST(HandpieceSound, BearingsAreHeardWhereTheirBallsPassAndLouderUnderLoad) {
+  for (const double load : {0.0, 2.0}) {
+    SoundParameters p = idle(180000);
+    p.load_n = load;
+    const double turn = pitch_hz(180000, load);
+    const Spectrum s(steady(p, 1.0), k_rate_hz);
+    EXPECT_GT(s.line_db(2.8 * turn), load > 0.0 ? 10.0 : 3.0) << load;
+    EXPECT_GT(s.line_db(4.2 * turn), load > 0.0 ? 8.0 : 1.5) << load;
+    EXPECT_LT(s.line_db(3.3 * turn), 6.0) << load << ": no line where none belongs";
+  }
+}
+
+TEST(HandpieceSound, SprayHissesAndSuctionRushesBelowIt) {
+  const double hz = 200000 / 60.0;
+  SoundParameters water = idle(200000), taken = idle(200000);
+  water.spray = taken.suction = 1.0;
+  const Spectrum dry(steady(idle(200000), 1.0), k_rate_hz), spray(steady(water, 1.0), k_rate_hz), suction(steady(taken, 1.0), k_rate_hz);
+  EXPECT_GT(spray.between_lines_db(10500, 13500, hz), dry.between_lines_db(10500, 13500, hz) + 2.0);
+  EXPECT_GT(suction.between_lines_db(300, 1800, hz), dry.between_lines_db(300, 1800, hz) + 6.0);
+  EXPECT_LT(suction.between_lines_db(10500, 13500, hz), dry.between_lines_db(10500, 13500, hz) + 1.0);
 }
 
 // Speed and volume jump, again and again. What a click is: a step of 0.15, planted in one sample, is found.
@@ -287,7 +362,7 @@ TEST(HandpieceSound, StaysSoundWhateverItIsGiven) {
   HandpieceSound sound(k_rate_hz);
   const double nan = std::nan(""), huge = 1e300;
   for (const double bad : {nan, huge, -huge, -1.0})
-    for (const float s : render(sound, {bad, bad, true, bad, bad, bad}, 0.05)) ASSERT_TRUE(std::isfinite(s) && std::fabs(s) <= 1.0f);
+    for (const float s : render(sound, {bad, bad, true, bad, bad, bad, bad, bad}, 0.05)) ASSERT_TRUE(std::isfinite(s) && std::fabs(s) <= 1.0f);
   EXPECT_NEAR(Spectrum((render(sound, idle(200000), 1.0), render(sound, idle(200000), 0.5)), k_rate_hz).peak_hz(), 200000 / 60.0, 3.0);
 }
 
@@ -299,21 +374,6 @@ TEST(HandpieceSound, BladesAreHeardOnlyWhereTheyAreAudible) {
   };
   EXPECT_GT(over_neighbours(slow, 8 * 1000.0), 15.0);
   EXPECT_LT(over_neighbours(fast, k_rate_hz - 8 * 200000 / 60.0), 6.0);
-}
-
-TEST(HandpieceSound, TakesWhatItNeedsFromATick) {
-  TickOutput tick;
-  tick.rpm = 150000;
-  tick.contact = tick.cutting = true;
-  tick.model_force_n = 0.7;
-  const std::vector<RemovedLeaf> removed{{0, 0, 0, k_enamel, 0}, {0, 0, 0, k_dentin, 0}, {0, 0, 0, k_dentin, 0}, {0, 0, 0, k_pulp, 0}};
-  SoundParameters heard;
-  heard.volume = 0.3;
-  heard = sound_of_tick(tick, removed, heard);
-  EXPECT_EQ(heard, (SoundParameters{150000, 0.7, true, 0.25, 0.5, 0.3}));
-  EXPECT_EQ(sound_of_tick(tick, {}, heard), heard);
-  tick.contact = tick.cutting = false;
-  EXPECT_EQ(sound_of_tick(tick, {}, heard), (SoundParameters{150000, 0.0, false, 0.25, 0.5, 0.3}));
 }
 
 /// Runs `action` in a process of its own, for OpenAL reads its environment once. Returns its exit code.

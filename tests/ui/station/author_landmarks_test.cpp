@@ -48,7 +48,7 @@ class LandmarkWindow : public AuthorWindow {
     write_text_file(file(), text);
   }
   void write_task(const std::string& on) const {
-    const std::string command = CAVUM_BINARY " scenario new --tooth " + on + " --task class_1 --out " + file() + " >" + folder_.file("out");
+    const std::string command = CAVUM_BINARY " scenario new --tooth " + on + " --task class_1 --untried --out " + file() + " >" + folder_.file("out");
     fs::remove(file());
     ASSERT_EQ(std::system(command.c_str()), 0);
   }
