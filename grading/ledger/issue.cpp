@@ -59,27 +59,89 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
   });
 }
 
-std::vector<Person> parse_people(const std::string& text, const std::string& where) {
+namespace {
+
+std::string small_letters(std::string text) {
+  for (char& c : text)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return text;
+}
+
+using Put = void (*)(Person&, const std::string& field, const std::string& at);
+struct Column {
+  const char* name;
+  Put put;
+};
+
+double number_of(const std::string& field, const std::string& at) {
+  const auto number = number_in_field(field);
+  if (!number) throw Error(at, fmt::format("'{}' is no number", field), "write it with a decimal point, or leave it empty");
+  return *number;
+}
+bool yes_of(const std::string& field, const std::string& at) {
+  const std::string word = small_letters(field);
+  if (word == "yes" || word == "true" || word == "1") return true;
+  if (word == "no" || word == "false" || word == "0") return false;
+  throw Error(at, fmt::format("'{}' is neither yes nor no", field), "write yes, no, or nothing");
+}
+
+constexpr Column k_columns[] = {
+    {"id", [](Person& p, const std::string& f, const std::string&) { p.id = f; }},
+    {"name", [](Person& p, const std::string& f, const std::string&) { p.name = f; }},
+    {"extra_time_percent", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_percent = number_of(f, at); }},
+    {"extra_time_s", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_s = number_of(f, at); }},
+    {"left_handed", [](Person& p, const std::string& f, const std::string& at) { p.grant.left_handed = yes_of(f, at); }},
+    {"high_contrast", [](Person& p, const std::string& f, const std::string& at) { p.grant.high_contrast = yes_of(f, at); }}};
+
+/// What each field of a row is put into; null: passed over.
+std::vector<const Column*> columns_of(const std::vector<std::string>& heading, const std::string& at, const std::vector<std::string>& passed_over) {
+  std::vector<const Column*> columns;
+  std::string known;
+  for (const Column& c : k_columns) known += (known.empty() ? "" : ", ") + std::string(c.name);
+  for (const std::string& field : heading) {
+    const auto* const found =
+        std::find_if(std::begin(k_columns), std::end(k_columns), [&](const Column& c) { return small_letters(field) == c.name; });
+    const bool is_known = found != std::end(k_columns);
+    if (!is_known && std::find(passed_over.begin(), passed_over.end(), field) == passed_over.end())
+      throw Error(at, fmt::format("a ticket knows no column '{}'", one_line(field)),
+                  fmt::format("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
+    if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
+      throw Error(at, fmt::format("has the column '{}' twice", found->name), "leave one of them");
+    columns.push_back(is_known ? found : nullptr);
+  }
+  if (std::find(columns.begin(), columns.end(), &k_columns[0]) == columns.end())
+    throw Error(at, "is no heading of candidates", "begin with a line of column names, of which one is id: " + known);
+  return columns;
+}
+
+}  // namespace
+
+std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over) {
   const auto rows = parse_csv(text, where);
-  const auto column = [&](const char* name) {
-    if (rows.empty()) return std::size_t{0};
-    return static_cast<std::size_t>(std::find(rows[0].fields.begin(), rows[0].fields.end(), name) - rows[0].fields.begin());
-  };
-  const std::size_t id = column("id"), name = column("name");
-  if (rows.empty() || id == rows[0].fields.size()) throw Error(where + ":1", "is no heading of candidates", "begin with id,name");
+  if (rows.empty()) throw Error(where + ":1", "is no heading of candidates", "begin with id,name");
+  const auto columns = columns_of(rows[0].fields, fmt::format("{}:{}", where, rows[0].line), passed_over);
   std::vector<Person> people;
   std::set<std::string> seen;
   for (std::size_t i = 1; i < rows.size(); ++i) {
-    const auto& f = rows[i].fields;
     const std::string at = fmt::format("{}:{}", where, rows[i].line);
-    if (f[id].empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
-    require_candidate_id(at + ": id", f[id]);
-    if (name < f.size()) require_candidate_id(at + ": name", f[name]);
-    if (!seen.insert(f[id]).second) throw Error(at, fmt::format("'{}' stands there a second time", f[id]), "leave one of them");
-    people.push_back({f[id], name < f.size() ? f[name] : ""});
+    Person p;
+    for (std::size_t c = 0; c < columns.size(); ++c)
+      if (columns[c] != nullptr && !rows[i].fields[c].empty()) columns[c]->put(p, rows[i].fields[c], fmt::format("{}: {}", at, columns[c]->name));
+    if (p.id.empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
+    require_candidate_id(at + ": id", p.id);
+    require_candidate_id(at + ": name", p.name);
+    scenarios::require_sound(p.grant, at);
+    if (!seen.insert(p.id).second) throw Error(at, fmt::format("'{}' stands there a second time", p.id), "leave one of them");
+    people.push_back(std::move(p));
   }
   if (people.empty()) throw Error(where, "names no candidate", "write one on each line below the heading");
   return people;
+}
+
+scenarios::Grant together(const scenarios::Grant& all, const scenarios::Grant& person) {
+  const auto first = [](const auto& own, const auto& common) { return own ? own : common; };
+  return {first(person.extra_time_percent, all.extra_time_percent), first(person.extra_time_s, all.extra_time_s),
+          first(person.left_handed, all.left_handed), first(person.high_contrast, all.high_contrast)};
 }
 
 }  // namespace cavum::ledger

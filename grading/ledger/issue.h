@@ -7,6 +7,7 @@
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam/exam.h"
+#include "scenarios/file/accommodations.h"
 
 namespace cavum::ledger {
 
@@ -28,11 +29,16 @@ enum class Another { refuse, allow };
 const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason);
 
 struct Person {
-  std::string id;    ///< how the school's other systems name the candidate
-  std::string name;  ///< for people; may be empty
+  std::string id;               ///< how the school's other systems name the candidate
+  std::string name = {};        ///< for people; may be empty
+  scenarios::Grant grant = {};  ///< accommodations of this candidate: what is set goes before what the class is granted
 };
-/// A table (CSV) with a column `id` and, if wanted, `name`; others are passed over. Throws Error(where:line, ...) for one without ids or with one
-/// twice.
-[[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where);
+/// A table (CSV) with a column `id` and, if wanted, `name`, `extra_time_percent`, `extra_time_s`, `left_handed`, `high_contrast` (yes or no; empty:
+/// nothing said). Nobody's accommodation is lost in silence: any other column is refused, but for those that `passed_over` names. Throws
+/// Error(where:line, ...) for that, for one without ids, with one twice, or with a value that no scenario could grant.
+[[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over = {});
+
+/// What `person` says, and what `all` says where he does not.
+[[nodiscard]] scenarios::Grant together(const scenarios::Grant& all, const scenarios::Grant& person);
 
 }  // namespace cavum::ledger

@@ -81,7 +81,9 @@ void add_ticket(LedgerCommand& ledger) {
   v->add_option("scenario", o->scenario, "scenario file (.toml)")->required();
   v->add_option("--candidate", o->candidate, "matriculation number or mail address; kept with the identities only");
   v->add_option("--name", o->name, "for people; kept with the identities only");
-  v->add_option("--candidates", o->candidates, "CSV of `id,name`, for a whole class; --out is then a folder");
+  v->add_option("--candidates", o->candidates,
+                "CSV for a whole class, with columns id, name, extra_time_percent, extra_time_s, left_handed, high_contrast; --out is then a folder");
+  v->add_option("--pass-over", o->passed_over, "a column of that file that is not needed; any other unknown one is refused");
   v->add_option("--from", o->from, "first moment at which the exam may begin, UTC: 2026-11-21T09:00Z")->required();
   v->add_option("--until", o->until, "last moment at which it may begin")->required();
   v->add_option("--tooth", o->tooth, "another tooth than the scenario's");

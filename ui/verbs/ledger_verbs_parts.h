@@ -15,7 +15,7 @@ namespace cavum::ui {
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
                            results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss, again, before;
-  std::vector<std::string> sessions, chosen, receipts, cosigned;
+  std::vector<std::string> sessions, chosen, receipts, cosigned, passed_over;
   scenarios::Grant grant;
   std::vector<std::uint64_t> chosen_sessions;
   std::int64_t session_seq = -1, since = -1, from_size = 0;

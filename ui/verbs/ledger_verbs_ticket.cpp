@@ -1,6 +1,7 @@
 // `cavum ledger ticket | tickets | cancel | begin`: exams that the school promised.
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <iostream>
 
@@ -12,6 +13,7 @@
 #include "grading/ledger/issue.h"
 #include "grading/ledger/registry.h"
 #include "scenarios/exam/exam.h"
+#include "scenarios/file/accommodations.h"
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
@@ -24,8 +26,8 @@ int ledger_ticket(const LedgerOptions& o) {
     throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
   ledger::require_candidate_id("--candidate", o.candidate);
   ledger::require_candidate_id("--name", o.name);
-  const std::vector<ledger::Person> people =
-      o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}} : ledger::parse_people(read_text_file(o.candidates), o.candidates);
+  const std::vector<ledger::Person> people = o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}}
+                                                                  : ledger::parse_people(read_text_file(o.candidates), o.candidates, o.passed_over);
   const std::int64_t from = ledger::parse_utc(o.from, "--from"), until = ledger::parse_utc(o.until, "--until");
   if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
   scenarios::ExamOptions exam;
@@ -47,6 +49,10 @@ int ledger_ticket(const LedgerOptions& o) {
     const std::string candidate = identities.enrol(p.id, p.name, ticket.exam, ledger.key()),
                       file = folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
     require_new(o, file);
+    const scenarios::Grant grant = ledger::together(o.grant, p.grant);
+    ticket.grant = scenarios::notes_of(grant);
+    std::sort(ticket.grant.begin(), ticket.grant.end());
+    const std::string granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, ticket.grant, "the ticket"));
     try {
       write_school_file(o, file, ledger::issue(ledger, ticket, candidate, o.another ? ledger::Another::allow : ledger::Another::refuse) + "\n");
     } catch (const ledger::TicketIsLive& live) {  // of a class the others get theirs
@@ -55,8 +61,11 @@ int ledger_ticket(const LedgerOptions& o) {
       ++refused;
       continue;
     }
-    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"file", file}});
-    if (!o.as_json) std::cout << one_line(fmt::format("{}  {}  {}{}", candidate, file, p.id, p.name.empty() ? "" : ", " + p.name)) << "\n";
+    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}});
+    if (!o.as_json)
+      std::cout << one_line(fmt::format("{}  {}  {}{}{}", candidate, file, p.id, p.name.empty() ? "" : ", " + p.name,
+                                        granted.empty() ? "" : "; " + granted))
+                << "\n";
   }
   if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
   return refused == 0 ? 0 : 1;

@@ -484,6 +484,42 @@ TEST(CandidateId, IsALineOfBoundedLength) {
   EXPECT_LT(refusal.size(), 200u) << "it does not repeat what is too long";
 }
 
+// As spreadsheets write them: semicolons, a byte order mark, capitals, columns in any order.
+TEST(People, BringTheirAccommodations) {
+  const auto people = parse_people(
+      "\xEF\xBB\xBFName;ID;Extra_Time_Percent;left_handed;seat\r\n\"Weber; Anna\";4711;25;yes;3\r\nK\xC3\xBChn, J.;4712;;no;4\r\n;4713;;;\r\n",
+      "class.csv", {"seat"});
+  ASSERT_EQ(people.size(), 3u);
+  EXPECT_EQ(people[0].name, "Weber; Anna");
+  EXPECT_EQ(people[0].grant.extra_time_percent, 25.0);
+  EXPECT_EQ(people[0].grant.left_handed, true);
+  EXPECT_FALSE(people[1].grant.extra_time_percent);
+  EXPECT_EQ(people[1].grant.left_handed, false);
+  EXPECT_FALSE(people[2].grant.left_handed);
+  EXPECT_FALSE(people[0].grant.high_contrast);
+  // what the class is granted holds for who says nothing
+  const scenarios::Grant all{10.0, 60.0, std::nullopt, true};
+  EXPECT_EQ(together(all, people[0].grant).extra_time_percent, 25.0);
+  EXPECT_EQ(together(all, people[1].grant).extra_time_percent, 10.0);
+  EXPECT_EQ(together(all, people[0].grant).extra_time_s, 60.0);
+  EXPECT_EQ(together(all, people[1].grant).high_contrast, true);
+}
+
+TEST(People, WithAColumnThatNobodyReadsAreRefusedNotShortened) {
+  const auto refusal = [](const std::string& text, const std::vector<std::string>& passed_over = {}) {
+    return testing_basics::error_of([&] { static_cast<void>(parse_people(text, "class.csv", passed_over)); });
+  };
+  for (const auto& [text, told] : {std::pair<const char*, const char*>{"id,extra_time\n1,25\n", "class.csv:1: a ticket knows no column 'extra_time'"},
+                                   {"id,station\n1,3\n", "no column 'station'"},
+                                   {"id,name,ID\n1,a,2\n", "the column 'id' twice"},
+                                   {"name\na\n", "is no heading of candidates"},
+                                   {"id,extra_time_percent\n1,a quarter\n", "class.csv:2: extra_time_percent: 'a quarter' is no number"},
+                                   {"id,extra_time_percent\n1,-5\n", "class.csv:2"},
+                                   {"id,left_handed\n1,perhaps\n", "neither yes nor no"}})
+    EXPECT_NE(refusal(text).find(told), std::string::npos) << refusal(text);
+  EXPECT_EQ(refusal("id,station\n1,3\n", {"station"}), "");
+}
+
 TEST(Identities, ThatAreLostAreNotBegunAnew) {
   const School school;
   std::filesystem::remove(school.places().identities());
