@@ -129,7 +129,8 @@ grading::Result taken(const scenarios::ExamSetup& setup, scenarios::SimulatedCan
   const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
   scenarios::run_exam(*exam, candidate);
   exam->recorder().flush();
-  const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now());
+  grading::ExamGrounds grounds(setup);
+  const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now(), grounds);
   grading::Result r = grading::grade(graded->input(), graded->rubric);
   exam->close(grading::to_json(r).dump());
   return r;
