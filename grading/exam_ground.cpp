@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
+#include "scenarios/exam/exam.h"
 #include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
@@ -25,16 +26,21 @@ std::string content_of(const SessionSetup& session) {
 
 }  // namespace
 
+ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it)
+    : tooth(std::move(tooth_before)), zones(std::move(zones_of_it)), apart(take_apart(tooth)), known(tooth, apart ? apart->own : tooth) {}
+
+ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
+  by_content_[content_of(exam.session)] = {std::make_shared<const ExamGround>(exam.tooth, exam.zones), ++asked_};
+}
+
 std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where) {
   const std::string content = content_of(session);
   Kept& kept = by_content_[content];
   if (!kept.ground) {
     try {
-      auto made = std::make_shared<ExamGround>();
-      made->tooth = load_tooth(session.tooth, where + ": tooth");
-      made->zones = scenarios::build_zones_of_exam(scenario, made->tooth, session.landmarks_json, where);
-      made->apart = take_apart(made->tooth);
-      kept.ground = std::move(made);
+      Tooth tooth = load_tooth(session.tooth, where + ": tooth");
+      scenarios::ZoneMap zones = scenarios::build_zones_of_exam(scenario, tooth, session.landmarks_json, where);
+      kept.ground = std::make_shared<const ExamGround>(std::move(tooth), std::move(zones));
     } catch (...) {
       by_content_.erase(content);
       throw;

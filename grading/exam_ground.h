@@ -7,21 +7,33 @@
 #include <string>
 
 #include "engine/session/session.h"
+#include "grading/breakthrough/known_tooth.h"
 #include "grading/measures/apart.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
+namespace cavum::scenarios {
+struct ExamSetup;
+}
+
 namespace cavum::grading {
 
 struct ExamGround {
-  Tooth tooth;  ///< before the first tick
-  scenarios::ZoneMap zones;
-  std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
+  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it);
+  ExamGround(const ExamGround&) = delete;  // `known` refers to it
+  ExamGround& operator=(const ExamGround&) = delete;
+  const Tooth tooth;  ///< before the first tick
+  const scenarios::ZoneMap zones;
+  const std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
+  mutable KnownTooth known;
 };
 
 /// Keeps the last few grounds that were asked for.
 class ExamGrounds {
  public:
+  ExamGrounds() = default;
+  /// Begins with that of an exam that was made ready here.
+  explicit ExamGrounds(const scenarios::ExamSetup& exam);
   /// `scenario` is what the session's text and attachments say. Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
   [[nodiscard]] std::shared_ptr<const ExamGround> of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where);
 

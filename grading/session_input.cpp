@@ -14,6 +14,11 @@
 namespace cavum::grading {
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
+  ExamGrounds grounds;
+  return load_for_grading(path, grounds);
+}
+
+std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds) {
   const SessionReader reader(path);
   reader.require_readable();
   if (!reader.closed())
@@ -22,7 +27,7 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
     throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
-  return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"));
+  return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"), grounds);
 }
 
 scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
@@ -44,7 +49,8 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->scenario = scenario_in(setup, path);
   s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
-  const auto ground = grounds.of(s->scenario, setup, path);
+  s->ground = grounds.of(s->scenario, setup, path);
+  const auto& ground = s->ground;
   s->before = {ground, &ground->tooth};
   s->after = std::move(after);
   s->zones = {ground, &ground->zones};

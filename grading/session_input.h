@@ -23,8 +23,9 @@ struct ReportFacts {
 
 struct GradedSession {
   scenarios::Scenario scenario;
-  scenarios::RubricSpec rubric;         ///< of the session: its own, else the scenario's
-  std::shared_ptr<const Tooth> before;  ///< may be shared by all who sat the exam
+  scenarios::RubricSpec rubric;              ///< of the session: its own, else the scenario's
+  std::shared_ptr<const ExamGround> ground;  ///< may be shared by all who sat the exam
+  std::shared_ptr<const Tooth> before;       ///< of `ground`
   Tooth after;
   std::shared_ptr<const scenarios::ZoneMap> zones;
   std::vector<TickInput> inputs;
@@ -46,15 +47,17 @@ struct GradedSession {
     in.sat_under_ticks = sat_under_ticks;
     in.again = again ? &*again : nullptr;
     in.beside = beside ? &*beside : nullptr;
+    in.known = ground ? &ground->known : nullptr;
     return in;
   }
 };
 
 /// Throws Error when the file is damaged, or was never closed (resume it first).
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
+/// The same with tooth and zones out of `grounds`.
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds);
 /// The same for an exam that is just ending, with the tooth as it is now.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
-/// The same with tooth and zones out of `grounds`.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
 /// The session's scenario with its surfaces and with what was granted to the candidate. Throws Error.
 [[nodiscard]] scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where);

@@ -54,7 +54,7 @@ class LowerEnvelope {
   std::size_t count_ = 0;
 };
 
-/// Along x: the nearer of the last seed on the left and the next on the right.
+/// Along x: the nearer of the last seed on the left and the next on the right, by its place in the row.
 std::vector<std::int32_t> nearest_in_rows(std::size_t nx, std::span<const std::uint8_t> seed, std::int32_t limit) {
   std::vector<std::int32_t> nearest(seed.size());
   for (std::size_t row = 0; row < seed.size(); row += nx) {
@@ -69,7 +69,7 @@ std::vector<std::int32_t> nearest_in_rows(std::size_t nx, std::span<const std::u
       if (seed[row + static_cast<std::size_t>(x)]) right = x;
       auto& best = nearest[row + static_cast<std::size_t>(x)];
       if (right != k_none && (best == k_none || right - x < x - best)) best = right;
-      if (best != k_none) best = (best - x) * (best - x) <= limit ? static_cast<std::int32_t>(row) + best : k_none;
+      if (best != k_none && (best - x) * (best - x) > limit) best = k_none;
     }
   }
   return nearest;
@@ -81,9 +81,11 @@ struct Lines {
   std::size_t length, step;  ///< cells of a line, and how far apart they are
 };
 
-/// `square(f, line, s, x)`: squared distance of seed f from cell s of a line, which holds it.
-template <class Square>
-void pass_along(const Lines& lines, std::size_t nx, std::int32_t limit, std::vector<std::int32_t>& nearest, const Square& square) {
+/// `square(f, line, x)`: squared distance of a seed from the cell of a line that holds it as `f`; `named(f, s)`: how it is held from then on, when
+/// that was cell s.
+template <class Square, class Named>
+void pass_along(const Lines& lines, std::size_t nx, std::int32_t limit, std::vector<std::int32_t>& nearest, const Square& square,
+                const Named& named) {
   LowerEnvelope envelope(lines.length);
   std::vector<std::int32_t> held(k_lines_side_by_side * lines.length), found(held.size());
   for (std::size_t first = 0; first < nx; first += k_lines_side_by_side) {
@@ -95,12 +97,12 @@ void pass_along(const Lines& lines, std::size_t nx, std::int32_t limit, std::vec
       for (std::size_t c = 0; c < beside; ++c) {
         const std::int32_t* seed = held.data() + c * lines.length;
         std::int32_t* out = found.data() + c * lines.length;
-        for (std::size_t s = 0; s < lines.length; ++s) envelope.cost[s] = seed[s] == k_none ? k_none : square(seed[s], line, s, first + c);
+        for (std::size_t s = 0; s < lines.length; ++s) envelope.cost[s] = seed[s] == k_none ? k_none : square(seed[s], line, first + c);
         const bool any = envelope.find_lowest();
         for (std::size_t s = 0; s < lines.length; ++s) {
           const auto from = static_cast<std::size_t>(any ? envelope.lowest[s] : 0);
           const auto away = static_cast<std::int32_t>(from) - static_cast<std::int32_t>(s);
-          out[s] = any && envelope.cost[from] + away * away <= limit ? seed[from] : k_none;
+          out[s] = any && envelope.cost[from] + away * away <= limit ? named(seed[from], from) : k_none;
         }
       }
       for (std::size_t s = 0; s < lines.length; ++s)
@@ -109,10 +111,13 @@ void pass_along(const Lines& lines, std::size_t nx, std::int32_t limit, std::vec
   }
 }
 
-std::int32_t squared(std::size_t a, std::size_t b) {
-  const auto d = static_cast<std::int32_t>(a) - static_cast<std::int32_t>(b);
+std::int32_t squared(std::int32_t a, std::size_t b) {
+  const std::int32_t d = a - static_cast<std::int32_t>(b);
   return d * d;
 }
+
+constexpr int k_row_bits = 16;  // of a seed in its layer: its row above its place there, so that nothing need be divided
+constexpr std::int32_t k_place = (1 << k_row_bits) - 1;
 
 }  // namespace
 
@@ -123,12 +128,15 @@ std::vector<std::int32_t> nearest_seed(IVec3 size, std::span<const std::uint8_t>
   // A cell holds a seed of its own row before the pass along y, and one of its own layer before that along z.
   pass_along(
       {.count = nz, .apart = layer, .length = ny, .step = nx}, nx, limit, nearest,
-      [&](std::int32_t f, std::size_t z, std::size_t y, std::size_t x) { return squared(static_cast<std::size_t>(f) - z * layer - y * nx, x); });
-  pass_along({.count = ny, .apart = nx, .length = nz, .step = layer}, nx, limit, nearest,
-             [&](std::int32_t f, std::size_t y, std::size_t z, std::size_t x) {
-               const auto in_layer = static_cast<std::uint32_t>(static_cast<std::size_t>(f) - z * layer), row = static_cast<std::uint32_t>(nx);
-               return squared(in_layer / row, y) + squared(in_layer % row, x);
-             });
+      [](std::int32_t place, std::size_t, std::size_t x) { return squared(place, x); },
+      [](std::int32_t place, std::size_t y) { return static_cast<std::int32_t>(y << k_row_bits) | place; });
+  pass_along(
+      {.count = ny, .apart = nx, .length = nz, .step = layer}, nx, limit, nearest,
+      [](std::int32_t in_layer, std::size_t y, std::size_t x) { return squared(in_layer >> k_row_bits, y) + squared(in_layer & k_place, x); },
+      [&](std::int32_t in_layer, std::size_t z) {
+        return static_cast<std::int32_t>(z * layer + static_cast<std::size_t>(in_layer >> k_row_bits) * nx +
+                                         static_cast<std::size_t>(in_layer & k_place));
+      });
   return nearest;
 }
 

@@ -101,6 +101,15 @@ class Octree {
   /// Trilinear distance and gradient at `mm`.
   [[nodiscard]] SurfaceSample sample(Vec3 mm, Cursor& cursor) const noexcept;
   [[nodiscard]] std::uint8_t tissue_at(Vec3 mm, Cursor& cursor) const noexcept;
+  /// The same as without a cursor, sooner for whoever asks for many leaves near one another.
+  [[nodiscard]] std::uint8_t tissue(IVec3 leaf, Cursor& cursor) const noexcept {
+    const auto row = labels_of(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor));
+    return row.first[leaf_in_brick(leaf) & row.mask];
+  }
+  [[nodiscard]] int distance_code(IVec3 leaf, Cursor& cursor) const noexcept {
+    const auto row = codes_of(find({leaf.x >> 2, leaf.y >> 2, leaf.z >> 2}, cursor));
+    return row.first[leaf_in_brick(leaf) & row.mask];
+  }
   [[nodiscard]] TissueMix mix(Vec3 mm, Cursor& cursor) const noexcept;
   /// True when no solid leaf and no distance below the band lies in the box `low`..`high` (mm). May say
   /// false for an empty box, never true for one that is not.

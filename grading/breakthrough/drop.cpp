@@ -4,7 +4,6 @@
 #include <deque>
 
 #include "engine/session/simulation.h"
-#include "engine/tooth/fill.h"
 #include "grading/breakthrough/drill_frames.h"
 
 namespace cavum::grading {
@@ -13,8 +12,16 @@ namespace {
 constexpr std::int64_t k_before_opening_ticks = 500, k_after_opening_ticks = 1500;  // of an opening
 constexpr double k_least_filled_n = 0.05;                                           // of the filled tooth's force: less has no share worth naming
 
+std::vector<double> simulated_n(const ServoModel& model, ServoState state, std::span<const TickInput> inputs) {
+  std::vector<TickRecord> again(inputs.size());
+  for (std::size_t i = 0; i < inputs.size(); ++i) again[i] = make_tick_record(step(model, state, inputs[i]));
+  return felt_force_n(again);
+}
+
+}  // namespace
+
 /// Size of the force, mean over each 10 ms and the 20 before.
-std::vector<double> as_felt(std::span<const TickRecord> records) {
+std::vector<double> felt_force_n(std::span<const TickRecord> records) {
   std::vector<Vec3> frames(records.size() / k_frame_ticks);
   for (std::size_t f = 0; f < frames.size(); ++f)
     for (std::size_t i = f * k_frame_ticks; i < (f + 1) * k_frame_ticks; ++i) {
@@ -31,21 +38,17 @@ std::vector<double> as_felt(std::span<const TickRecord> records) {
   return out;
 }
 
-}  // namespace
-
 MissingForce missing_force(const ServoModel& filled_model, ServoState filled, std::span<const TickInput> inputs,
                            std::span<const TickRecord> records) {
-  std::vector<TickRecord> again(inputs.size());
-  for (std::size_t i = 0; i < inputs.size(); ++i) again[i] = make_tick_record(step(filled_model, filled, inputs[i]));
-  return {as_felt(records), as_felt(again)};
+  return {felt_force_n(records), simulated_n(filled_model, std::move(filled), inputs)};
 }
 
-MissingForce missing_force(const SessionSetup& setup, const Tooth& before, const std::array<bool, 256>& tissues, std::span<const TickInput> inputs,
-                           std::span<const TickRecord> records) {
-  const Tooth filled = filled_tooth(before, tissues);
+std::vector<double> filled_force_n(const SessionSetup& setup, const Tooth& filled, std::span<const TickInput> inputs) {
   Simulation simulation = make_simulation(setup, "the session", &filled);
-  return missing_force(simulation.model, std::move(simulation.state), inputs, records);
+  return simulated_n(simulation.model, std::move(simulation.state), inputs);
 }
+
+std::int64_t last_asked_tick(std::span<const std::int64_t> opened) { return opened.empty() ? -1 : opened.back() + k_after_opening_ticks; }
 
 ForceDrop find_drop(const MissingForce& missing, std::span<const std::int64_t> opened) {
   ForceDrop best;

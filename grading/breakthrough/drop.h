@@ -28,11 +28,13 @@ struct MissingForce {
 /// Simulates `inputs` from `state` on, and pairs each force with the recorded one. `inputs` and `records` have equal length.
 [[nodiscard]] MissingForce missing_force(const ServoModel& filled_model, ServoState filled, std::span<const TickInput> inputs,
                                          std::span<const TickRecord> records);
-/// The same from a session's setup; `tissues` by id are filled. Throws Error when the setup cannot be simulated.
-[[nodiscard]] MissingForce missing_force(const SessionSetup& setup, const Tooth& before, const std::array<bool, 256>& tissues,
-                                         std::span<const TickInput> inputs, std::span<const TickRecord> records);
+/// Its two halves, the second from a session's setup. Throws Error when the setup cannot be simulated.
+[[nodiscard]] std::vector<double> felt_force_n(std::span<const TickRecord> records);
+[[nodiscard]] std::vector<double> filled_force_n(const SessionSetup& setup, const Tooth& filled, std::span<const TickInput> inputs);
 
-/// `opened`: ticks in which the cavity was opened further, ascending; a drop counts from 0.5 s before one to 1.5 s after it.
+/// `opened`: ticks in which the cavity was opened further, ascending; a drop counts from 0.5 s before one to 1.5 s after it. What `missing` holds
+/// beyond `last_asked_tick` changes nothing.
 [[nodiscard]] ForceDrop find_drop(const MissingForce& missing, std::span<const std::int64_t> opened);
+[[nodiscard]] std::int64_t last_asked_tick(std::span<const std::int64_t> opened);
 
 }  // namespace cavum::grading

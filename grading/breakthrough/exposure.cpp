@@ -23,11 +23,12 @@ class Cavity {
     const int margin = static_cast<int>(std::ceil(k_deep_mm / before.leaf_mm())) + 1;
     const LeafBox box = box_around(hard, margin);
     Lattice<std::uint8_t> outside(box, 0);
+    Octree::Cursor cursor;
     for (int z = 0; z < box.size.z; ++z)
       for (int y = 0; y < box.size.y; ++y)
         for (int x = 0; x < box.size.x; ++x) {
           const IVec3 leaf = box.low + IVec3{x, y, z};
-          const std::uint8_t t = before.tissue(leaf);
+          const std::uint8_t t = before.tissue(leaf, cursor);
           outside[leaf] = t == k_air || around[t] ? 1 : 0;
         }
     const Lattice<std::int32_t> nearest(box, nearest_seed(box.size, outside.all(), k_deep_mm / before.leaf_mm()));
@@ -70,15 +71,15 @@ struct Face {
 };
 
 /// Part of a face's leaf² that is the wall's area: |n| along the face's axis, n the mean direction of all faces of that wall around it.
-double slant(const Octree& before, const Face& f, std::uint8_t tissue) {
+double slant(const Octree& before, const Face& f, std::uint8_t tissue, Octree::Cursor& cursor) {
   IVec3 sum{0, 0, 0};
   for (int z = -k_normal_leaves; z <= k_normal_leaves; ++z)
     for (int y = -k_normal_leaves; y <= k_normal_leaves; ++y)
       for (int x = -k_normal_leaves; x <= k_normal_leaves; ++x) {
         const IVec3 leaf = f.to + IVec3{x, y, z};
-        if (before.tissue(leaf) != tissue) continue;
+        if (before.tissue(leaf, cursor) != tissue) continue;
         for (const IVec3 step : scenarios::k_six_neighbours)
-          if (before.tissue(leaf + step) != tissue) sum = sum + step;
+          if (before.tissue(leaf + step, cursor) != tissue) sum = sum + step;
       }
   const IVec3 axis = f.from - f.to;
   const double along = std::abs(sum.x * axis.x + sum.y * axis.y + sum.z * axis.z);
@@ -127,6 +128,7 @@ std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<co
   });
   const std::array<bool, 256> around = known_around != nullptr ? *known_around : tissues_around(tooth, of_interest);
   std::array<std::vector<Face>, 256> faces;
+  Octree::Cursor cursor;
   if (!hard.empty()) {
     Cavity cavity(before, hard, around);
     for (std::size_t begin = 0; begin < hard.size();) {
@@ -135,7 +137,7 @@ std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<co
       for (; begin < end; ++begin)
         for (const IVec3 step : scenarios::k_six_neighbours) {
           const Face f{hard[begin].leaf.leaf(), hard[begin].leaf.leaf() + step, hard[begin].tick};
-          const std::uint8_t tissue = before.tissue(f.to);
+          const std::uint8_t tissue = before.tissue(f.to, cursor);
           if (!of_interest[tissue]) continue;
           const std::int64_t gone = removed.tick(f.to);
           if (around[tissue] && ((gone >= 0 && gone < f.tick) || !cavity.reaches_deep(f.from))) continue;
@@ -151,7 +153,7 @@ std::array<ExposedTissue, 256> measure_exposure(const Tooth& tooth, std::span<co
       e.ticks.push_back(tick);
     };
     for (const Face& f : faces[t.id]) {
-      e.area_mm2 += leaf * leaf * slant(before, f, t.id);
+      e.area_mm2 += leaf * leaf * slant(before, f, t.id, cursor);
       opened(f.tick, (before.centre_mm(f.from) + before.centre_mm(f.to)) * 0.5);
     }
     e.area_bound_mm2 = 0.5 * leaf * leaf * k_stairs * static_cast<double>(rim_edges(faces[t.id]));

@@ -2,10 +2,13 @@
 
 #include <algorithm>
 #include <array>
+#include <optional>
 
 #include "grading/breakthrough/breakthrough.h"
+#include "grading/breakthrough/drill_frames.h"
 #include "grading/breakthrough/drop.h"
 #include "grading/breakthrough/exposure.h"
+#include "grading/breakthrough/known_tooth.h"
 
 namespace cavum::grading {
 namespace {
@@ -30,7 +33,10 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
   const std::array<bool, 256> aims = ids_of(spec.aims), faults = ids_of(spec.faults);
   std::array<bool, 256> either = aims;
   for (std::size_t i = 0; i < either.size(); ++i) either[i] = either[i] || faults[i];
-  const std::array<ExposedTissue, 256> exposed = measure_exposure(input.before, input.removed, removed, last_tick, either, input.around);
+  std::optional<KnownTooth> of_this;
+  KnownTooth& tooth = input.known != nullptr ? *input.known : of_this.emplace(input.seen_before(), input.before);
+  const std::array<bool, 256>& around = input.around != nullptr ? *input.around : tooth.around(either);
+  const std::array<ExposedTissue, 256> exposed = measure_exposure(input.before, input.removed, removed, last_tick, either, &around);
   std::array<std::vector<std::int64_t>, 2> opened;  // ticks, of aims and of faults
   for (const auto& t : input.before.tissues) {
     if (!either[t.id]) continue;
@@ -53,7 +59,8 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
   const auto records = input.records.first(counted);
   if (input.again != nullptr) {
     const auto drop = [&](const std::array<bool, 256>& tissues, const std::vector<std::int64_t>& ticks) {
-      ForceDrop d = find_drop(missing_force(*input.again, input.seen_before(), tissues, inputs, records), ticks);
+      const auto asked = inputs.first(std::min<std::size_t>(inputs.size(), static_cast<std::size_t>(last_asked_tick(ticks) + k_frame_ticks)));
+      ForceDrop d = find_drop({felt_force_n(records), tooth.filled_force_n(*input.again, tissues, asked)}, ticks);
       if (d.from_tick >= 0) d.site_mm = place_of(records[static_cast<std::size_t>(d.from_tick)]);
       return d;
     };

@@ -120,10 +120,14 @@ void say_limits(SessionExplanation& e, bool closed, const std::string& station_k
 }  // namespace
 
 SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
+  grading::ExamGrounds grounds;
+  return explain_session(path, school_key, ticket_needed, grounds);
+}
+
+SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed, grading::ExamGrounds& grounds) {
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);
-  grading::ExamGrounds grounds;
   const grading::SchoolMark mark =
       session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
   e.findings = session.closed() ? mark.findings : mark.replay.findings;

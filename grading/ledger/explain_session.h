@@ -5,6 +5,10 @@
 #include <string>
 #include <vector>
 
+namespace cavum::grading {
+class ExamGrounds;
+}
+
 namespace cavum::ledger {
 
 struct SessionExplanation {
@@ -19,6 +23,9 @@ struct SessionExplanation {
 /// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. With one, a session without a ticket does not
 /// hold when `ticket_needed`. Throws Error when the file is no session at all.
 [[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed = true);
+/// The same with tooth and zones out of `grounds`.
+[[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed,
+                                                 grading::ExamGrounds& grounds);
 [[nodiscard]] std::string to_text(const SessionExplanation& explanation);
 
 }  // namespace cavum::ledger

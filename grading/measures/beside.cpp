@@ -76,7 +76,7 @@ void measure_nick(const GradeInput& input, std::span<const RemovedAt> nick, Besi
   std::vector<NickFace> faces;
   for (const auto& r : nick) {
     const IVec3 at = r.leaf.leaf();
-    const Vec3 floor = beside_solid(input.beside->after, at) ? surface_by(input.beside->after, at, is).at_mm : neighbours.centre_mm(at);
+    const Vec3 floor = beside_solid(input.beside->after, at, is) ? surface_by(input.beside->after, at, is).at_mm : neighbours.centre_mm(at);
     Vec3 nearest;
     if (const double deep = to.mm(floor, nearest); deep > m.nick_depth_mm) {
       m.nick_depth_mm = deep;

@@ -86,7 +86,7 @@ WallSurface sample_walls(const GradeInput& input, const RemovedMap& removed, std
   Octree::Cursor cursor;
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) {
     const IVec3 leaf = r.leaf.leaf();
-    if (!beside_solid(input.after, leaf)) return;
+    if (!beside_solid(input.after, leaf, cursor)) return;
     const auto [place, normal] = surface_by(input.after, leaf, cursor);
     const double deviation = zones.distance_mm(place);
     if (!before.is_solid(r.leaf.tissue) && deviation > 0) return;

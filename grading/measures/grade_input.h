@@ -13,6 +13,8 @@
 
 namespace cavum::grading {
 
+class KnownTooth;  // grading/breakthrough/known_tooth.h
+
 /// What stands beside the tooth, and all of what was seen, cut and removed.
 struct GradeBeside {
   const ToothApart& apart;
@@ -40,6 +42,7 @@ struct GradeInput {
   [[nodiscard]] const Tooth& seen_before() const noexcept { return beside != nullptr ? beside->before : before; }
   [[nodiscard]] const Octree& seen_after() const noexcept { return beside != nullptr ? beside->after : after; }
   [[nodiscard]] std::span<const RemovedAt> all_removed() const noexcept { return beside != nullptr ? beside->removed : removed; }
+  KnownTooth* known = nullptr;          ///< of `before` and `seen_before`; nullptr: nobody keeps what is found out of them
   const NotShown* not_shown = nullptr;  ///< a preparation without its recording; nullptr: a recorded exam
   double surface_bound_mm = 0.0;        ///< how far a place of the cut surface of `after` may lie from the true one beside what leaves round
   double surface_mean_bound_mm = 0.0;   ///< and how far the surface as a whole, over which noise averages out

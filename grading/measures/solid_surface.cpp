@@ -6,9 +6,9 @@
 
 namespace cavum::grading {
 
-bool beside_solid(const Octree& tree, IVec3 leaf) {
+bool beside_solid(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {
   return std::any_of(std::begin(scenarios::k_six_neighbours), std::end(scenarios::k_six_neighbours),
-                     [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step)); });
+                     [&](IVec3 step) { return tree.is_solid(tree.tissue(leaf + step, cursor)); });
 }
 
 SurfacePlace surface_by(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor) {

@@ -6,7 +6,7 @@
 namespace cavum::grading {
 
 /// One of the six neighbours is solid.
-[[nodiscard]] bool beside_solid(const Octree& tree, IVec3 leaf);
+[[nodiscard]] bool beside_solid(const Octree& tree, IVec3 leaf, Octree::Cursor& cursor);
 
 /// A place on the surface; `normal` is unit, out of the solid, 0 where the distance does not say.
 struct SurfacePlace {

@@ -53,12 +53,13 @@ class Shares {
   [[nodiscard]] Share removed(IVec3 leaf, std::uint8_t tissue) const {
     const bool gone = removed_.has(leaf);
     if (late_ || !input_.before.octree.is_solid(tissue)) return Share(gone);
-    const double centre = decode_distance(input_.after.distance_code(leaf));
+    const double centre = decode_distance(input_.after.distance_code(leaf, after_));
     if (gone ? centre > scenarios::k_parts_reach_leaves : centre < -scenarios::k_parts_reach_leaves) return Share(gone);
-    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l)); });
+    scenarios::LeafParts parts = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.after.distance_code(l, after_)); });
     for (double& p : parts) p = scenarios::share_beyond(p);
     if (gone) return Share(parts);
-    const scenarios::LeafParts before = scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l)); });
+    const scenarios::LeafParts before =
+        scenarios::leaf_parts(leaf, [&](IVec3 l) { return decode_distance(input_.before.octree.distance_code(l, before_)); });
     for (std::size_t i = 0; i < scenarios::k_parts; ++i) parts[i] = std::min(parts[i], scenarios::share_beyond(-before[i]));
     return Share(parts);
   }
@@ -76,6 +77,7 @@ class Shares {
   const RemovedMap& removed_;
   double leaf_mm_;
   bool late_;
+  mutable Octree::Cursor before_, after_;
 };
 
 double sum(const Share& share) {
@@ -147,8 +149,9 @@ void for_each_touched(const GradeInput& input, const RemovedMap& removed, std::i
     }
   });
   const Octree& before = input.before.octree;
+  Octree::Cursor cursor;
   for (const IVec3 leaf : beside)
-    if (const std::uint8_t held = before.tissue(leaf); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
+    if (const std::uint8_t held = before.tissue(leaf, cursor); before.is_solid(held)) visit(leaf, held, std::int64_t{-1});
 }
 
 bool removed_late(const GradeInput& input, std::int64_t last_tick) {
@@ -227,16 +230,17 @@ void for_each_in_target(const GradeInput& input, const RemovedMap& removed, cons
   const scenarios::ZoneMap& zones = input.zones;
   const Octree& before = input.before.octree;
   const double reach_mm = scenarios::k_parts_reach_leaves * zones.leaf_mm();
+  Octree::Cursor cursor;
   zones.for_each_leaf([&](IVec3 leaf, scenarios::Zone z) {
     const double d = zones.distance_mm(leaf);
     if (z != scenarios::Zone::target && (shares.late() || d > reach_mm)) return;
-    if (z != scenarios::Zone::target && before.tissue(leaf) == k_air) return;
+    if (z != scenarios::Zone::target && before.tissue(leaf, cursor) == k_air) return;
     const Share in = shares.late() || d < -reach_mm ? Share(true) : shares.within(leaf, 0);
     const double share = sum(in);
     if (share < k_code) return;
     const bool untouched = !removed.has(leaf) && !seen.seen(leaf);
     LeftShare left;
-    left.leaves = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf)));
+    left.leaves = untouched ? share : share - sum_of_both(in, shares.removed(leaf, before.tissue(leaf, cursor)));
     if (left.leaves < k_code) return visit(leaf, share, LeftShare{});
     bool edge = left.leaves < 1;
     for (const IVec3 step : scenarios::k_six_neighbours)

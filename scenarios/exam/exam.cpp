@@ -197,7 +197,7 @@ std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& pat
   SessionSetup session = setup.session;
   const TickInput first = make_tick_input({first_tip_mm, {}}, 0, k_stylus_fresh, 0, {});
   session.first_tip_nm = first.tip_nm;
-  std::unique_ptr<Exam> exam(new Exam(setup, make_simulation(session, path)));
+  std::unique_ptr<Exam> exam(new Exam(setup, make_simulation(session, path, &setup.tooth)));
   exam->last_input_ = first;
   exam->last_.proxy_mm = first_tip_mm;
   exam->recorder_.emplace(Recorder::create(path, session, clocks));

@@ -94,6 +94,7 @@ class Exam {
   /// Seals the session with the tooth as it is and the result.
   void close(const std::string& result_json);
 
+  [[nodiscard]] const ExamSetup& setup() const noexcept { return setup_; }
   [[nodiscard]] const TickOutput& last() const noexcept { return last_; }
   [[nodiscard]] const TickInput& last_input() const noexcept { return last_input_; }
   [[nodiscard]] const RunnerState& runner_state() const noexcept { return *runner_state_; }

@@ -240,6 +240,7 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
   IVec3 first{1 << 20, 1 << 20, 1 << 20}, last{-1, -1, -1};
   double opening_sum = 0;
   std::uint64_t openings = 0;
+  Octree::Cursor cursor;
   for_each_cell(size, [&](std::size_t i, IVec3 cell) {
     if (static_cast<Zone>(map_.zone_[i]) != Zone::target) return;
     const IVec3 at = map_.low_ + cell;
@@ -249,7 +250,7 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
       return (place > 0 && shape.inside[i - stride] == 0) || (place + 1 < count && shape.inside[i + stride] == 0);
     };
     if (ends_along(cell.x, size.x, 1) || ends_along(cell.y, size.y, row) || ends_along(cell.z, size.z, layer)) ++map_.target_border_;
-    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || own_.tissue(at + step) == k_air;
+    for (const IVec3 step : k_six_neighbours) map_.target_is_open_ = map_.target_is_open_ || own_.tissue(at + step, cursor) == k_air;
     const auto surface = map_.facing_.lateral() ? surface_beside(at) : surface_above(at, i);
     if (!surface) return;
     opening_sum += *surface;

@@ -23,12 +23,13 @@ DepthField::DepthField(const Tooth& tooth, IVec3 low, IVec3 high, ZoneWork& work
   for (const auto& t : tooth.tissues) enclosed[t.id] = t.name == "pulp";
   ShapeField outside{size_, std::vector<float>(cells), std::vector<std::uint8_t>(cells)};
   soft_.assign(cells, false);
+  Octree::Cursor cursor;
   for_each_cell(size_, [&](std::size_t i, IVec3 cell) {
     const IVec3 leaf = low + cell;
-    const std::uint8_t t = tree.tissue(leaf);
+    const std::uint8_t t = tree.tissue(leaf, cursor);
     outside.inside[i] = enclosed[t] || tree.is_solid(t) ? 1 : 0;
     soft_[i] = outside.inside[i] == 0 && t != k_air;
-    outside.level_mm[i] = static_cast<float>((enclosed[t] ? -k_enclosed_leaves : decode_distance(tree.distance_code(leaf))) * leaf_mm_);
+    outside.level_mm[i] = static_cast<float>((enclosed[t] ? -k_enclosed_leaves : decode_distance(tree.distance_code(leaf, cursor))) * leaf_mm_);
   });
   const std::vector<NearestPlace> nearest = nearest_places(outside);
   depth_mm_.resize(cells);

@@ -25,10 +25,6 @@ Wall wall_of(Vec3 d) noexcept {
   return d.y >= 0 ? Wall::buccal : Wall::lingual;
 }
 
-double ZoneMap::distance_mm(IVec3 leaf) const noexcept {
-  return in_box(leaf) ? static_cast<double>(distance_mm_[index(leaf)]) : distance_mm(centre_mm(leaf));
-}
-
 double ZoneMap::distance_mm(Vec3 p) const noexcept {
   const Vec3 q = (p - origin_mm_) / leaf_mm_ - Vec3{low_.x + 0.5, low_.y + 0.5, low_.z + 0.5};
   const Vec3 c{std::clamp(q.x, 0.0, size_.x - 1.0), std::clamp(q.y, 0.0, size_.y - 1.0), std::clamp(q.z, 0.0, size_.z - 1.0)};

@@ -53,7 +53,9 @@ class ZoneMap {
     return guarded_beyond(leaf) ? Zone::protected_ : Zone::none;
   }
   /// Signed distance of a leaf's centre to the target's surface, mm, negative inside.
-  [[nodiscard]] double distance_mm(IVec3 leaf) const noexcept;
+  [[nodiscard]] double distance_mm(IVec3 leaf) const noexcept {
+    return in_box(leaf) ? static_cast<double>(distance_mm_[index(leaf)]) : distance_mm(centre_mm(leaf));
+  }
   /// The same between leaves (trilinear); beyond the box, the border's value and the way there.
   [[nodiscard]] double distance_mm(Vec3 p) const noexcept;
   [[nodiscard]] Wall wall(IVec3 leaf) const noexcept;

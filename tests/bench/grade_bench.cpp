@@ -57,7 +57,9 @@ int main(int argc, char** argv) {
     cavum::grading::Result result;
     for (int i = 0; i < runs; ++i) {
       const double from = seconds(), cpu = cpu_seconds();
-      result = cavum::grading::grade(session->input(), session->rubric);
+      cavum::grading::GradeInput input = session->input();
+      input.known = nullptr;  // what the run before found out of the tooth is found out again
+      result = cavum::grading::grade(input, session->rubric);
       best = std::min(best, seconds() - from);
       best_cpu = std::min(best_cpu, cpu_seconds() - cpu);
     }

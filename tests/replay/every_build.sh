@@ -1,15 +1,20 @@
 #!/usr/bin/env bash
 # every_build.sh CAVUM SOURCE_DIR BUILD_DIR REPLAYER...
-# Records three simulated candidates with CAVUM, one of them under the set that cuts by pressure, takes the recorded exams in tests/replay/sessions too, and
-# lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All must verify and
-# print the same lines. With CAVUM_DEEP one for arm64 is built, too.
+# Records a simulated candidate with CAVUM, drawn out of three by CAVUM_TEST_SEED (one of the three sits under the set that cuts by pressure), takes the
+# recorded exams in tests/replay/sessions too, and lets every REPLAYER (one for each compiler and optimisation level) replay and regrade them all. All
+# must verify and print the same lines. With CAVUM_DEEP all three sit, and a replayer for arm64 is built, too.
 set -euo pipefail
 cavum=$1 source=$2 build=$3
 shift 3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
-for sitting in perforator:class_1:consistent novice:slot:consistent expert:slot:clinical; do
+sittings=(perforator:class_1:consistent novice:slot:consistent expert:slot:clinical)
+if [ -z "${CAVUM_DEEP:-}" ]; then
+  sittings=("${sittings[${CAVUM_TEST_SEED:-0} % 3]}")
+  echo "drawn: ${sittings[0]}"
+fi
+for sitting in "${sittings[@]}"; do
   IFS=: read -r operator task model <<<"$sitting"
   "$cavum" exam "$source/data/scenarios/$task.toml" --candidate replay --operator "$operator" --model "$model" --out "$work/$operator.cavum" --quiet >/dev/null
 done

@@ -46,7 +46,8 @@ class HostileFiles : public testing_ui::Program {
     scenarios::run_exam(*exam, candidate);
     exam->recorder().add_event(1, text, "{}");
     exam->recorder().flush();
-    const auto graded = grading::load_for_grading(SessionReader(file), exam->tooth_now());
+    grading::ExamGrounds grounds(*setup);
+    const auto graded = grading::load_for_grading(SessionReader(file), exam->tooth_now(), grounds);
     json result = grading::to_json(grading::grade(graded->input(), graded->rubric));
     result["verdict"] = text;
     result["criteria"][0]["id"] = text;

@@ -16,36 +16,43 @@
 
 namespace cavum::report {
 
-ReportIntegrity read_integrity(const std::string& path, bool replay) {
+namespace {
+
+ReportIntegrity read_seal(const std::string& path, const SessionReader& session) {
   ReportIntegrity i;
   i.file = one_line(std::filesystem::path(path).filename().string());
   i.file_sha256 = to_hex(sha256(read_file(path)));
-  {
-    const SessionReader session(path);
-    i.findings = check_chain(session);
-    if (const auto& seal = session.seal()) {
-      i.chain_sha256 = to_hex(seal->chain_sha256);
-      i.final_tooth_sha256 = to_hex(seal->final_tooth_sha256);
-      i.result_sha256 = to_hex(seal->result_sha256);
-      i.station_key = to_hex(seal->public_key);
-      i.closed_utc = utc_text(seal->clocks.utc_ns);
-    }
-    if (!replay && i.findings.empty())
-      i.proved.push_back(
-          fmt::format("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and "
-                      "clocks, and closed by the station's signature",
-                      session.chunks().size()));
-    if (!replay) {
-      SessionCheckFindings check = check_of_session(session);
-      for (auto& finding : check.findings) i.findings.push_back(std::move(finding));
-      i.remarks = std::move(check.remarks);
-    }
+  if (const auto& seal = session.seal()) {
+    i.chain_sha256 = to_hex(seal->chain_sha256);
+    i.final_tooth_sha256 = to_hex(seal->final_tooth_sha256);
+    i.result_sha256 = to_hex(seal->result_sha256);
+    i.station_key = to_hex(seal->public_key);
+    i.closed_utc = utc_text(seal->clocks.utc_ns);
   }
-  if (!replay) {
-    i.remarks.emplace_back(said("the motion was not simulated again for this report; `cavum verify` does that"));
-    return i;
-  }
-  ledger::SessionExplanation e = ledger::explain_session(path, "");
+  return i;
+}
+
+}  // namespace
+
+ReportIntegrity read_integrity(const std::string& path) {
+  const SessionReader session(path);
+  ReportIntegrity i = read_seal(path, session);
+  i.findings = check_chain(session);
+  if (i.findings.empty())
+    i.proved.push_back(
+        fmt::format("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and "
+                    "clocks, and closed by the station's signature",
+                    session.chunks().size()));
+  SessionCheckFindings check = check_of_session(session);
+  for (auto& finding : check.findings) i.findings.push_back(std::move(finding));
+  i.remarks = std::move(check.remarks);
+  i.remarks.emplace_back(said("the motion was not simulated again for this report; `cavum verify` does that"));
+  return i;
+}
+
+ReportIntegrity replayed_integrity(const std::string& path, grading::ExamGrounds& grounds) {
+  ReportIntegrity i = read_seal(path, SessionReader(path));
+  ledger::SessionExplanation e = ledger::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
   i.proved = std::move(e.proved);
   i.findings = std::move(e.findings);

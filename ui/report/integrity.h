@@ -4,11 +4,15 @@
 
 #include <string>
 
+#include "grading/exam_ground.h"
 #include "ui/report/report_source.h"
 
 namespace cavum::report {
 
-/// With `replay` the whole exam is simulated again, which takes a fraction of its time. Throws Error when the file is no session.
-[[nodiscard]] ReportIntegrity read_integrity(const std::string& session_path, bool replay);
+/// Without a replay.
+[[nodiscard]] ReportIntegrity read_integrity(const std::string& session_path);
+/// With the whole exam simulated again, which takes a fraction of its time; its tooth and zones come out of `grounds`. Both throw Error when the file
+/// is no session.
+[[nodiscard]] ReportIntegrity replayed_integrity(const std::string& session_path, grading::ExamGrounds& grounds);
 
 }  // namespace cavum::report

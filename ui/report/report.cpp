@@ -32,7 +32,7 @@ void write_closing_report(const std::string& path, const std::string& session_pa
   const grading::GradeInput input = graded.input();
   ReportSource source = report_source(result, input, graded.facts, graded.rubric);
   source.reader = reader;
-  source.integrity = read_integrity(session_path, false);
+  source.integrity = read_integrity(session_path);
   write_text_file(path, path.ends_with(".pdf") ? report_pdf(source) : report_html(source));
 }
 

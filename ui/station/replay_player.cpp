@@ -25,7 +25,7 @@ const SessionReader& sound(const SessionReader& reader) {
 ReplayPlayer::ReplayPlayer(const std::string& path)
     : reader_(path),
       setup_(scenarios::prepare_exam(sound(reader_).setup())),
-      simulation_(make_simulation(reader_.setup(), path)),
+      simulation_(make_simulation(reader_.setup(), path, &setup_->tooth)),
       runner_(make_runner()),
       inputs_(reader_.inputs()),
       events_(reader_.events()),

@@ -46,7 +46,8 @@ void write_new(const std::string& path, const Json& json) {
 }
 
 void run_grade_one(const std::string& path, const GradeArguments& o) {
-  const MarkedSession g = marked_session(path, o.marking);
+  grading::ExamGrounds grounds;
+  const MarkedSession g = marked_session(path, o.marking, grounds);
   if (!o.marking.rubric.empty())
     for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
       std::cerr << "cavum: " << one_line(p.text()) << "\n";
@@ -79,9 +80,10 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
     s.resize(std::max<std::size_t>(18, s.size() + 1), ' ');
     return s;
   };
+  grading::ExamGrounds grounds;  // of the class
   for (const auto& file : files) {
     try {
-      const MarkedSession g = marked_session(file, o.marking);
+      const MarkedSession g = marked_session(file, o.marking, grounds);
       const std::string now = grading::verdict_name(g.result.verdict);
       Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
       if (g.comparison) {

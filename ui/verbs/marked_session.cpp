@@ -10,19 +10,19 @@
 
 namespace cavum::ui {
 
-MarkedSession marked_session(const std::string& path, const MarkingOptions& o) {
+MarkedSession marked_session(const std::string& path, const MarkingOptions& o, grading::ExamGrounds& grounds) {
   Marking m;
   m.another_task = o.another_task;
   if (!o.scenario.empty()) m.scenario = scenarios::load_scenario(o.scenario);
   if (!o.rubric.empty()) m.rubric = scenarios::parse_rubric(read_text_file(o.rubric), o.rubric);
   m.by = o.rubric.empty() ? "" : "the rubric " + o.rubric;
   if (!o.scenario.empty()) m.by += (o.rubric.empty() ? "" : " and ") + ("the scenario " + o.scenario);
-  return marked_session(path, std::move(m));
+  return marked_session(path, std::move(m), grounds);
 }
 
-MarkedSession marked_session(const std::string& path, Marking by) {
+MarkedSession marked_session(const std::string& path, Marking by, grading::ExamGrounds& grounds) {
   MarkedSession g;
-  g.session = grading::load_for_grading(path);
+  g.session = grading::load_for_grading(path, grounds);
   grading::GradedSession& s = *g.session;
   const auto old = grading::read_old_result(s.sealed_result_json);
   const scenarios::RubricSpec old_rubric = s.rubric;

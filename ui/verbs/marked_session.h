@@ -34,8 +34,9 @@ struct MarkedSession {
   std::optional<grading::Comparison> comparison;
   bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
 };
-[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options);
-[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by);
+/// Tooth and zones come out of `grounds`.
+[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options, grading::ExamGrounds& grounds);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by, grading::ExamGrounds& grounds);
 
 /// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on standard error.
 void require_sound_marking(const MarkingOptions& options);

@@ -32,9 +32,10 @@ struct ReportArguments {
 };
 
 /// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
-report::ReportIntegrity integrity_of(const std::string& path, const ReportArguments& o, const ledger::FiledSession* filed) {
+report::ReportIntegrity integrity_of(const std::string& path, const ReportArguments& o, const ledger::FiledSession* filed,
+                                     grading::ExamGrounds& grounds) {
   const bool replayed_then = filed != nullptr && filed->findings.empty();
-  report::ReportIntegrity i = report::read_integrity(path, !o.no_replay && !replayed_then);
+  report::ReportIntegrity i = o.no_replay || replayed_then ? report::read_integrity(path) : report::replayed_integrity(path, grounds);
   if (replayed_then && i.findings.empty()) {
     i.replay = report::ReportIntegrity::Replay::agrees;
     i.at_filing = true;
@@ -59,11 +60,12 @@ Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSessio
   return m;
 }
 
-/// Writes the report of one session; `filed` and `ledger` are null without a ledger.
+/// Writes the report of one session; `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
 void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
-                  const ledger::FiledSession* filed) {
+                  const ledger::FiledSession* filed, grading::ExamGrounds& grounds) {
   const ledger::Regrade* regrade = filed != nullptr && !o.marking.anew() ? report::regrade_for(*filed, o.for_whom()) : nullptr;
-  const MarkedSession m = regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade)) : marked_session(session, o.marking);
+  const MarkedSession m =
+      regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade), grounds) : marked_session(session, o.marking, grounds);
   const grading::GradeInput input = m.session->input();
   if (out.ends_with(".svg")) return write_text_file(out, report::sections_svg(m.result, input));
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
@@ -75,7 +77,7 @@ void write_report(const std::string& session, const std::string& out, const Repo
     source.filing->not_filed = report::not_the_filed_result(*filed, m.result, source.reader);
     if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
   }
-  source.integrity = integrity_of(session, o, filed);
+  source.integrity = integrity_of(session, o, filed, grounds);
   write_text_file(out, out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source));
   const bool holds = source.integrity.findings.empty();
   if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
@@ -90,11 +92,12 @@ void run_report(const ReportArguments& o) {
   if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
   report::require_report_place(o.out, o.overwrite);
   require_sound_marking(o.marking);
-  if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr);
+  grading::ExamGrounds grounds;
+  if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr, grounds);
   const report::ReportLedger ledger(o.ledger);
   const ledger::FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
   if (!picture) static_cast<void>(report::filing_of(ledger, filed, o.for_whom(), o.with_name));  // refused before the work begins
-  write_report(o.session, o.out, o, &ledger, &filed);
+  write_report(o.session, o.out, o, &ledger, &filed, grounds);
 }
 
 /// A student's report for each released session.
@@ -106,13 +109,14 @@ int run_all(const ReportArguments& o) {
     throw Error("--out " + o.out, fmt::format("cannot be made ({})", failed_to_make.message()), "name a folder that you may write to");
   ReportArguments each = o;
   each.reader = "student";
+  grading::ExamGrounds grounds;  // of the class
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
     if (s.shown.is_null()) continue;
     each.out = fmt::format("{}/{}-{}{}", o.out, file_name_of(s.candidate), s.seq, o.pdf ? ".pdf" : ".html");
     try {
       report::require_report_place(each.out, each.overwrite);
-      write_report(ledger::recording_of(ledger.places, s), each.out, each, &ledger, &s);
+      write_report(ledger::recording_of(ledger.places, s), each.out, each, &ledger, &s, grounds);
       ++written;
     } catch (const Error& e) {
       ++failed;
