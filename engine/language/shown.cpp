@@ -40,7 +40,7 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 bool is_number(std::string_view text) {
   static const std::unordered_set<std::string_view> k_beside{"mm",  "mm²", "mm³", "mm2", "mm3",  "s",      "ms",   "µs",  "N",
                                                              "%",   "°",   "±",   "/",   "–",    "-",      "rpm",  "min", "Hz",
-                                                             "kHz", "x",   "×",   "µm",  "N/mm", "N·s/mm", "mm/s", "deg"};
+                                                             "kHz", "x",   "×",   "µm",  "N/mm", "N·s/mm", "mm/s"};
   bool any = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());

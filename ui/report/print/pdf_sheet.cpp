@@ -74,7 +74,7 @@ struct PdfSheet::State {
   PangoFontMap* fonts = nullptr;
   PangoContext* context = nullptr;
   bool finished = false;
-  std::vector<std::string> picture_words;
+  std::vector<std::string> picture_words = {};
 
   [[nodiscard]] Layout layout(const PdfText& t, double width) const {
     Layout l(pango_layout_new(context));

@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#define POINTERHOLDER_TRANSITION 4  // qpdf 11 asks which of its pointers are meant: those of the standard library
+
 #include <memory>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFObjectHandle.hh>
@@ -53,7 +55,7 @@ class Structure {
 
   void complete(QPDFObjectHandle element) {
     if (!element.isDictionary()) return;
-    const QPDFObjectHandle kind = element.getKey("/S");
+    QPDFObjectHandle kind = element.getKey("/S");
     if (kind.isName() && kind.getName() == "/Figure") {
       const std::string words = next_ < pictures_.size() ? pictures_[next_] : "";
       element.replaceKey("/Alt", QPDFObjectHandle::newUnicodeString(words));
