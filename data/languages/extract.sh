@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Brings the template cavum.pot, and the catalogues beside it, up to what the sources say. --check: changes nothing, and exits with 1 when something would change,
 # or when a message of a catalogue is missing or only guessed (fuzzy). Sources are those that sources.txt lists; what is not there stays English.
-#   ui/report        what stands in tr, trn, said and Error
+#   ui/report        what stands in tr, trn, said and Error; of its figures, all sentences
 #   other rooms      all their sentences: they are English, and are translated where they are shown; words.txt has the single words that are shown
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -25,8 +25,8 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
   (cd "$root" && xgettext --language="$language" --from-code=UTF-8 --no-wrap --no-location --sort-output "$@" \
     --force-po --add-comments=translators: --files-from=- --output="$out" 2>>"$new/warnings") || { cat "$new/warnings" >&2; exit 2; }
 }
-{ sources engine; sources scenarios; sources grading; sources ui/station; sources ui/verbs; } >"$new/below"
-sources ui/report >"$new/above"
+{ sources engine; sources scenarios; sources grading; sources ui/station; sources ui/verbs; sources ui/report/figures; } >"$new/below"
+sources ui/report | grep -v "^ui/report/figures/" >"$new/above"
 (cd "$root" && ls ui/report/page/src/*.ts) >"$new/page"
 sed -n 's/^\([^#].*\)$/said("\1")/p' words.txt >"$new/words.cpp"
 extract "$new/all-below.pot" C++ --extract-all <"$new/below"
@@ -34,7 +34,7 @@ extract "$new/words.pot" C++ --keyword --keyword=said:1 <<<"$new/words.cpp"
 extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=Error:2 --keyword=Error:3 <"$new/above"
 extract "$new/page.pot" JavaScript --keyword '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
 # what makes pictures, files and names of its texts is no sentence: tags, assignments, one word without a capital, no word at all
-no_sentence='[<>]|[a-z_]=|^[a-z_.]+ = |^--[a-z-]+ ?$|'$'\r''|^##|^[#$]|^%[A-Z]|^0123|^(cavum|cavum [a-z]+( [a-z]+)?)$|^zones/|^\{\{|^#[0-9a-f]{6}$|^[a-z0-9_./:*-]+$|^[^a-z]+$|^([^a-zA-Z]+[a-zA-Z]?[^a-zA-Z]*|[a-zA-Z])$|^\[\"|uniform |^in vec3 |void main|^%[-.0-9]*[a-z]$|^student-|\.(h|toml|cvt|json)$|^(measure_marking|moments_of_measure|measures): |^/|^\{\}/|^\{\}o\{\}ly$|^(SELECT|INSERT|UPDATE|DELETE|CREATE|PRAGMA) '
+no_sentence='[<>]|[a-z_]=|^[a-z_.]+ = |^--[a-z-]+ ?$|'$'\r''|^##|^[#$]|^%[A-Z]|^0123|^(cavum|cavum [a-z]+( [a-z]+)?)$|^zones/|^\{\{|^#[0-9a-f]{6}$|^[a-z0-9_./:*{}-]+$|^[^a-z]+$|^([^a-zA-Z]+[a-zA-Z]?[^a-zA-Z]*|[a-zA-Z])$|^\[\"|uniform |^in vec3 |void main|^%[-.0-9]*[a-z]$|^student-|\.(h|toml|cvt|json)$|^(measure_marking|moments_of_measure|measures): |^/|^\{\}/|^\{\}o\{\}ly$|^(SELECT|INSERT|UPDATE|DELETE|CREATE|PRAGMA) '
 msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp="$no_sentence" "$new/all-below.pot" >"$new/below.pot"
 msgcat --use-first --no-wrap --sort-output "$new/below.pot" "$new/words.pot" "$new/above.pot" "$new/page.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/cavum.pot"

@@ -21,11 +21,11 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* k_messages[] = {
-#include "cavum_messages.inc"
+#include <cavum_messages.inc>
     "",
 };
 constexpr const char* k_page_messages[] = {
-#include "cavum_page_messages.inc"
+#include <cavum_page_messages.inc>
     "",
 };
 constexpr std::size_t k_least_letters = 3, k_least_part_letters = 2;  // of a sentence, of a part: less fits anything

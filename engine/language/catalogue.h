@@ -37,7 +37,8 @@ class Catalogue {
   [[nodiscard]] std::optional<std::string> find(const std::string& one, const std::string& many, long long count) const;
   /// Whether the sources say this message.
   [[nodiscard]] bool knows(const std::string& english) const;
-  /// All messages with gaps and letters beside them, and those with which sentences are put together (", at {}"), the ones with the most letters first.
+  /// All messages with gaps and letters beside them, and those with which sentences are put together (", at {}"), the ones with the most letters
+  /// first.
   [[nodiscard]] static const std::vector<Said>& said_sentences();
   /// All messages.
   [[nodiscard]] static const std::vector<std::string>& messages();

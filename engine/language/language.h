@@ -1,5 +1,6 @@
-// The language of what people read: English, or one of which there is a catalogue (data/languages). What programs read (JSON, CSV, TOML, recordings, ledgers) is
-// English always, and so are the strings of the rooms below: they are translated where they are shown (say.h, shown.h). One language a process.
+// The language of what people read: English, or one of which there is a catalogue (data/languages). What programs read (JSON, CSV, TOML, recordings,
+// ledgers) is English always, and so are the strings of the rooms below: they are translated where they are shown (say.h, shown.h). One language a
+// process.
 #pragma once
 
 #include <string>
@@ -12,9 +13,11 @@ inline constexpr char k_pseudo_language[] = "qps";
 
 /// Of all languages that can be shown: "en", then those with a catalogue, by name.
 [[nodiscard]] std::vector<std::string> languages();
-/// The first language that there is of what $LANGUAGE (a list with colons), $LC_ALL, $LC_MESSAGES and $LANG name, as POSIX writes them ("de_AT.UTF-8"); else "en".
+/// The first language that there is of what $LANGUAGE (a list with colons), $LC_ALL, $LC_MESSAGES and $LANG name, as POSIX writes them
+/// ("de_AT.UTF-8"); else "en".
 [[nodiscard]] std::string language_of_environment();
-/// Shows that language from now on ("en", "de", "qps"). Call it before anything is shown, while there is one thread. Throws Error when there is no such catalogue.
+/// Shows that language from now on ("en", "de", "qps"). Call it before anything is shown, while there is one thread. Throws Error when there is no
+/// such catalogue.
 void set_language(const std::string& language);
 /// "en" until set_language was called.
 [[nodiscard]] const std::string& language() noexcept;

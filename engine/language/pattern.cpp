@@ -69,7 +69,8 @@ Parts parts_of(std::string_view message) {
       const std::string number(in.substr(0, colon));
       if (!std::all_of(number.begin(), number.end(), [](unsigned char d) { return std::isdigit(d) != 0; }) || number.size() > 2)
         throw std::invalid_argument("a gap with a name");
-      p.gaps.push_back({number.empty() ? p.gaps.size() : static_cast<std::size_t>(std::stoi(number)), std::string(in.substr(std::min(colon + 1, in.size())))});
+      p.gaps.push_back(
+          {number.empty() ? p.gaps.size() : static_cast<std::size_t>(std::stoi(number)), std::string(in.substr(std::min(colon + 1, in.size())))});
       p.literals.emplace_back();
       i = end;
     } else if (c == '}') {

@@ -28,8 +28,8 @@ class Pattern {
  private:
   [[nodiscard]] bool match_from(std::size_t literal, std::string_view rest, std::vector<std::string_view>& found) const;
   std::string message_;
-  std::vector<std::string> literals_;    // before, between and after the gaps: one more than gaps
-  std::vector<std::size_t> arguments_;   // of each gap
+  std::vector<std::string> literals_;   // before, between and after the gaps: one more than gaps
+  std::vector<std::size_t> arguments_;  // of each gap
   std::size_t longest_ = 0, letters_ = 0, all_letters_ = 0;
 };
 

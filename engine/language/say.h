@@ -12,8 +12,8 @@
 
 namespace cavum {
 
-/// Text of people and files (a name, a path, an identifier): shown as it stands, on one line. One that is written from right to left is isolated (U+2068 …
-/// U+2069), so that the line around it keeps its order.
+/// Text of people and files (a name, a path, an identifier): shown as it stands, on one line. One that is written from right to left is isolated
+/// (U+2068 … U+2069), so that the line around it keeps its order.
 struct AsIs {
   std::string text;
 };
@@ -49,8 +49,8 @@ std::string fill(const std::string& translation, std::string_view english, A&&..
 
 }  // namespace language_detail
 
-/// fmt::format in the reader's language: the compiler holds the arguments against the English sentence. Words among the arguments are translated as shown()
-/// does, numbers written with fixed() get the language's decimal sign; what is nobody's word to translate is passed as_is().
+/// fmt::format in the reader's language: the compiler holds the arguments against the English sentence. Words among the arguments are translated as
+/// shown() does, numbers written with fixed() get the language's decimal sign; what is nobody's word to translate is passed as_is().
 template <class... A>
 [[nodiscard]] std::string tr(fmt::format_string<A...> english, A&&... arguments) {
   const std::string_view text(fmt::string_view(english).data(), fmt::string_view(english).size());

@@ -38,9 +38,8 @@ bool is_digit(char c) { return c >= '0' && c <= '9'; }
 
 /// Numbers with their units and signs and nothing else: "0.30 ± 0.02 mm".
 bool is_number(std::string_view text) {
-  static const std::unordered_set<std::string_view> k_beside{"mm",  "mm²", "mm³", "mm2", "mm3",  "s",      "ms",   "µs",  "N",
-                                                             "%",   "°",   "±",   "/",   "–",    "-",      "rpm",  "min", "Hz",
-                                                             "kHz", "x",   "×",   "µm",  "N/mm", "N·s/mm", "mm/s", "deg"};
+  static const std::unordered_set<std::string_view> k_beside{"mm", "mm²", "mm³", "mm2", "mm3", "s",   "ms", "µs", "N",  "%",    "°",      "±",   "/",
+                                                             "–",  "-",   "rpm", "min", "Hz",  "kHz", "x",  "×",  "µm", "N/mm", "N·s/mm", "mm/s"};
   bool any = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
@@ -81,7 +80,7 @@ bool has_letters(std::string_view text) {
 std::string sentence(std::string_view text, int depth, bool& changed);
 
 /// The message that the whole text is, with or without gaps.
-bool whole(std::string_view text, int depth, std::string& out) {
+bool whole(std::string_view text, int depth, std::string& out, bool loose = false) {
   const Catalogue& c = catalogue();
   const std::string exact(text);
   if (c.kind() != Catalogue::Kind::pseudo || c.knows(exact))
@@ -100,7 +99,8 @@ bool whole(std::string_view text, int depth, std::string& out) {
       g = sentence(g, depth + 1, known);
       all_known = all_known && known;
     }
-    if (!all_known && s.pattern.all_letters() < k_telling_letters) continue;  // " is " is in many sentences that nobody knows
+    if (!all_known && (s.pattern.all_letters() < k_telling_letters || (!loose && (s.before || s.after))))
+      continue;  // " is " is in many sentences that nobody knows
     const std::string before = s.before ? gaps->front() : "", after = s.after ? gaps->back() : "";
     if (s.before) gaps->erase(gaps->begin());
     if (s.after) gaps->pop_back();
@@ -203,6 +203,7 @@ std::string sentence(std::string_view text, int depth, bool& changed) {
     out += last;
   }
   if (!found) found = in_parts(text, depth, out);
+  if (!found) found = whole(text, depth, out, true);
   if (!found) return std::string(text);
   memory()[std::string(text)] = out;
   memory()[out] = out;

@@ -59,14 +59,14 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
   nlohmann::json cells = cells_json(grid, box);
   cells["heat"] = packed_array(heat);
   nlohmann::json data = {{"schema", 1},
-          {"kind", "class"},
-          {"title", t.scenario.title},
-          {"n", figures.n},
-          {"duration_s", 0.0},
-          {"high_contrast", false},
-          {"tissues", tissues_json(t.tooth, false)},
-          {"grid", std::move(cells)},
-          {"scale_mm", k_colours_end_mm}};
+                         {"kind", "class"},
+                         {"title", t.scenario.title},
+                         {"n", figures.n},
+                         {"duration_s", 0.0},
+                         {"high_contrast", false},
+                         {"tissues", tissues_json(t.tooth, false)},
+                         {"grid", std::move(cells)},
+                         {"scale_mm", k_colours_end_mm}};
   add_words(data);
   return data;
 }

@@ -12,11 +12,10 @@ void add_filing_notes(Document& d, const ReportSource& s) {
   };
   if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty()))
     note(tr("Does not hold"), tr("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
-                                      s.integrity.findings.size() > 1 ? tr("; and more, under \"What is proved\"") : ""));
+                                 s.integrity.findings.size() > 1 ? tr("; and more, under \"What is proved\"") : ""));
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade)
-    note(tr("Why it was regraded"),
-         tr("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
+    note(tr("Why it was regraded"), tr("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
   if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), s.filing->not_filed);
   if (s.filing->findings.empty()) return;
   std::string all;

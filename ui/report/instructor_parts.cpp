@@ -5,8 +5,8 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/base/version.h"
+#include "engine/language/say.h"
 #include "engine/session/lock_event.h"
 #include "scenarios/file/accommodations.h"
 #include "ui/report/report_document.h"
@@ -23,7 +23,8 @@ std::string bounded(double v, double bound, int digits, const std::string& unit)
 
 void add_volumes(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{tr("Volumes")});
-  ReportTable t{{{tr("What"), false, 4}, {tr("Volume"), true, 3}, {tr("First at"), true, 1.4}, {tr("Place x, y, z, mm"), true, 2.2}}, {}, tr("Volumes")};
+  ReportTable t{
+      {{tr("What"), false, 4}, {tr("Volume"), true, 3}, {tr("First at"), true, 1.4}, {tr("Place x, y, z, mm"), true, 2.2}}, {}, tr("Volumes")};
   const auto volume = [&](const std::string& name, const grading::BoundedVolume& v, const grading::Trace& first = {}) {
     t.rows.push_back({{{name},
                        {bounded(v.mm3, v.bound_mm3, 2, "mm³")},
@@ -31,7 +32,8 @@ void add_volumes(Document& d, const grading::Result& r) {
                        {first.tick < 0 ? "" : place_text(first.site_mm)}}});
   };
   volume(tr("target"), r.volumes.target);
-  t.rows.push_back({{{tr("target removed")}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
+  t.rows.push_back(
+      {{{tr("target removed")}, {bounded(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent, 1, "%")}, {""}, {""}}});
   volume(tr("target left standing"), r.volumes.missed);
   volume(tr("removed in all"), r.volumes.removed);
   const auto zone = [&](const std::string& name, scenarios::Zone z) {
@@ -52,10 +54,15 @@ void add_volumes(Document& d, const grading::Result& r) {
 
 void add_walls(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{tr("Walls")});
-  ReportTable t{
-      {{tr("mm, + = overcut"), false, 1.6}, {tr("mean"), true}, {"p95", true}, {tr("over"), true}, {tr("at"), true, 0.9}, {tr("under"), true}, {tr("at"), true, 0.9}},
-      {},
-      tr("Walls")};
+  ReportTable t{{{tr("mm, + = overcut"), false, 1.6},
+                 {tr("mean"), true},
+                 {"p95", true},
+                 {tr("over"), true},
+                 {tr("at"), true, 0.9},
+                 {tr("under"), true},
+                 {tr("at"), true, 0.9}},
+                {},
+                tr("Walls")};
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const grading::WallMeasures& m = r.shape.wall[w];
     const auto cell = [&](double v, double bound) {
@@ -100,7 +107,9 @@ void add_perforation(Document& d, const grading::Result& r) {
                                               : tr("the tissue shows a faulty breakthrough, the force does not: the tissue decides"),
                                  tr("Force and tissue disagree"), Paragraph::Kind::note});
   ReportTable t{
-      {{tr("Source"), false, 1}, {tr("Kind"), false, 0.9}, {tr("Time"), true, 1.3}, {tr("Place x, y, z, mm"), true, 2}, {tr("What"), false, 5}}, {}, tr("Perforation")};
+      {{tr("Source"), false, 1}, {tr("Kind"), false, 0.9}, {tr("Time"), true, 1.3}, {tr("Place x, y, z, mm"), true, 2}, {tr("What"), false, 5}},
+      {},
+      tr("Perforation")};
   for (const auto& e : p.events)
     t.rows.push_back(
         {{{tr("force")},
@@ -108,19 +117,19 @@ void add_perforation(Document& d, const grading::Result& r) {
           time_cell(e.tick, e.site_mm),
           {place_text(e.site_mm)},
           {tr("{} N to {} N while the tip went on by {} mm; sureness {}; {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
-                       fixed(e.advance_mm, 2), fixed(e.sureness, 2), e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue"))}},
+              fixed(e.advance_mm, 2), fixed(e.sureness, 2), e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue"))}},
          e.fault});
   for (const auto& [kind, truth] : {std::pair{"fault", &p.fault}, std::pair{"aim", &p.aim}}) {
     if (truth == &p.aim && !p.has_aims) continue;
-    t.rows.push_back({{{tr("tissue")},
-                       {kind},
-                       time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
-                       {truth->perforated ? place_text(truth->first.site_mm) : ""},
-                       {truth->perforated ? tr("{} opened, {} of its wall lie open, {} removed", truth->tissue,
-                                                        bounded(truth->area_mm2, truth->area_bound_mm2, 3, "mm²"),
-                                                        bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³"))
-                                          : tr("not opened")}},
-                      truth == &p.fault && truth->perforated});
+    t.rows.push_back(
+        {{{tr("tissue")},
+          {kind},
+          time_cell(truth->perforated ? truth->first.tick : -1, truth->first.site_mm),
+          {truth->perforated ? place_text(truth->first.site_mm) : ""},
+          {truth->perforated ? tr("{} opened, {} of its wall lie open, {} removed", truth->tissue,
+                                  bounded(truth->area_mm2, truth->area_bound_mm2, 3, "mm²"), bounded(truth->volume_mm3, truth->bound_mm3, 3, "mm³"))
+                             : tr("not opened")}},
+         truth == &p.fault && truth->perforated});
     if (truth->drop)
       t.rows.push_back(
           {{{tr("drop")}, {kind}, time_cell(truth->drop->from_tick, truth->drop->site_mm), {""}, {drop_text(*truth->drop)}}, truth == &p.fault});
@@ -133,10 +142,10 @@ void add_work(Document& d, const ReportSource& s) {
   const grading::MotionMeasures& m = r.motion;
   d.blocks.push_back(Heading{tr("Work")});
   d.blocks.push_back(Paragraph{tr("Time {} s, handpiece turning {} s, idle {} s. Way of the tip {} mm. Force {} N on average while cutting, "
-                                           "{} N at most, over the limit for {} s. Steps {} of {} completed, {} violations; the exam ended: {}.",
-                                           fixed(m.time_s, 1), fixed(m.handpiece_time_s, 1), fixed(m.idle_s, 1), fixed(m.path_mm, 0),
-                                           fixed(m.force_mean_n, 2), fixed(m.force_peak_n, 2), fixed(m.force_over_limit_s, 1),
-                                           r.progress.steps_completed, r.progress.steps, r.progress.violations, finish_words(r.progress.finish)),
+                                  "{} N at most, over the limit for {} s. Steps {} of {} completed, {} violations; the exam ended: {}.",
+                                  fixed(m.time_s, 1), fixed(m.handpiece_time_s, 1), fixed(m.idle_s, 1), fixed(m.path_mm, 0), fixed(m.force_mean_n, 2),
+                                  fixed(m.force_peak_n, 2), fixed(m.force_over_limit_s, 1), r.progress.steps_completed, r.progress.steps,
+                                  r.progress.violations, finish_words(r.progress.finish)),
                                ""});
   ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Accommodations, pauses, late work")};
   const std::string granted = scenarios::accommodations_text(r.accommodations);
@@ -145,18 +154,18 @@ void add_work(Document& d, const ReportSource& s) {
   std::string pauses;
   for (const auto& p : r.pauses)
     pauses += tr("{}{} s to {} s", pauses.empty() ? "" : "; ", fixed(static_cast<double>(p.begin) * k_tick_s, 1),
-                          fixed(static_cast<double>(p.end) * k_tick_s, 1));
+                 fixed(static_cast<double>(p.end) * k_tick_s, 1));
   t.rows.push_back(
       {{{tr("pauses")}, {(pauses.empty() ? tr("none") : pauses) + (r.pauses_refused > 0 ? tr("; refused: {}", r.pauses_refused) : "")}}});
   const std::int64_t late = m.late_ticks + r.late_work.ticks;
   t.rows.push_back({{{tr("late work")},
                      {late == 0 ? tr("none")
-                                : tr("{} s after the end, {} mm³ removed in it; nothing of it counts",
-                                              fixed(static_cast<double>(late) * k_tick_s, 1), fixed(m.late_removed_mm3, 2))}}});
+                                : tr("{} s after the end, {} mm³ removed in it; nothing of it counts", fixed(static_cast<double>(late) * k_tick_s, 1),
+                                     fixed(m.late_removed_mm3, 2))}}});
   for (const LockSummary& l : lock_summary(s.input.events))
     t.rows.push_back({{{tr("the exam's lock")},
                        {tr("{}{}; first at {} s", l.words, l.times > 1 ? tr(", {} times", l.times) : "",
-                                    fixed(static_cast<double>(l.first_tick) * k_tick_s, 1))}}});
+                           fixed(static_cast<double>(l.first_tick) * k_tick_s, 1))}}});
   d.blocks.push_back(std::move(t));
 }
 
@@ -171,8 +180,8 @@ void add_servo(ReportTable& t, const SessionEvent& e) {
   };
   const auto count = [&](const char* key) { return j.contains(key) && j[key].is_number() ? j[key].dump() : k_dash; };
   t.rows.push_back({{{tr("lateness of the servo")},
-                     {tr("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"),
-                                  us("p50_us"), us("p999_us"), us("worst_us"))}}});
+                     {tr("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"), us("p50_us"),
+                         us("p999_us"), us("worst_us"))}}});
 }
 
 void add_device(Document& d, const ReportSource& s) {
@@ -202,8 +211,8 @@ void add_scan_facts(Document& d, const ReportScan& scan) {
   const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
   row(tr("file"), tr("{}, SHA-256 {}", scan.file, scan.file_sha256));
   row(tr("surface"), tr("{} triangles; {}", f.triangles, f.end_mm > 0 ? tr("open below") : tr("closed")));
-  row(tr("laid upon the unprepared tooth"), tr("{} mm RMS over {} of its surface; {} of what should fit does", fixed(f.fit.rms_mm, 3),
-                                                    percent(f.fit.fits), percent(agreement(f.fit))));
+  row(tr("laid upon the unprepared tooth"),
+      tr("{} mm RMS over {} of its surface; {} of what should fit does", fixed(f.fit.rms_mm, 3), percent(f.fit.fits), percent(agreement(f.fit))));
   row(tr("crown seen"), percent(f.fit.crown_seen));
   row(tr("the best other pose"), tr("fits {} of the scan, this one {}", percent(f.second_share), percent(f.pose.share)));
   row(tr("noise"), tr("{} mm", fixed(f.fit.noise_mm, 3)));
@@ -220,10 +229,10 @@ void add_scan_parts(Document& d, const ReportSource& s) {
   add_volumes(d, s.result);
   add_walls(d, s.result);
   add_scan_facts(d, *s.scan);
-  d.footer.push_back(tr("Scan {}, SHA-256 {}…: marked without its recording; time, way and force are not judged", s.scan->file,
-                                 s.scan->file_sha256.substr(0, 16)));
-  d.footer.push_back(tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md and docs/scans.md of Cavum {}.",
-                                 s.facts.tooth_hash.substr(0, 16), fixed(s.result.leaf_mm, 3), version()));
+  d.footer.push_back(
+      tr("Scan {}, SHA-256 {}…: marked without its recording; time, way and force are not judged", s.scan->file, s.scan->file_sha256.substr(0, 16)));
+  d.footer.push_back(tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md and docs/scans.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16),
+                        fixed(s.result.leaf_mm, 3), version()));
 }
 
 void add_instructor_parts(Document& d, const ReportSource& s) {

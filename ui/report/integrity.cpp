@@ -6,8 +6,8 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/base/version.h"
+#include "engine/language/say.h"
 #include "engine/selfcheck/check_note.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
@@ -68,7 +68,8 @@ void add_integrity(Document& d, const ReportSource& s) {
   if (!i.findings.empty() || i.replay == Replay::differs)
     promise = tr("This session does not hold: see below.");
   else if (i.replay == Replay::agrees)
-    promise = i.at_filing ? tr("This session is tamper-evident and replay-verified (when it was filed).") : tr("This session is tamper-evident and replay-verified.");
+    promise = i.at_filing ? tr("This session is tamper-evident and replay-verified (when it was filed).")
+                          : tr("This session is tamper-evident and replay-verified.");
   else
     promise = tr("This session is tamper-evident. It was not replayed for this report.");
   d.blocks.push_back(Paragraph{promise, ""});
@@ -84,12 +85,13 @@ void add_integrity(Document& d, const ReportSource& s) {
   row(tr("sealed result"), i.result_sha256);
   row(tr("closed"), i.closed_utc.empty() ? "" : tr("{}, signed by station {}", i.closed_utc, i.station_key));
   row(tr("replay"), i.replay == Replay::agrees    ? tr("simulated again from the motion: the same forces and the same tooth, bit for bit{}",
-                                                         i.at_filing ? tr(", when the ledger took it in") : "")
-                : i.replay == Replay::differs ? tr("does not give what was recorded, or the file does not hold")
-                                              : tr("not done for this report"));
+                                                    i.at_filing ? tr(", when the ledger took it in") : "")
+                    : i.replay == Replay::differs ? tr("does not give what was recorded, or the file does not hold")
+                                                  : tr("not done for this report"));
   if (const auto& f = s.filing) {
     row(tr("ledger"), tr("{} of {}, key {}", f->ledger, f->school, f->public_key));
-    row(tr("receipt"), f->released ? tr("entry {}, filed {}, released", f->entry, f->date) : tr("entry {}, filed {}, not released", f->entry, f->date));
+    row(tr("receipt"),
+        f->released ? tr("entry {}, filed {}, released", f->entry, f->date) : tr("entry {}, filed {}, not released", f->entry, f->date));
     row(tr("root"), tr("{} of the first {} entries", f->root, f->entries));
     for (const auto& finding : f->findings) row(tr("in doubt"), finding);
   }
@@ -105,12 +107,12 @@ void add_integrity(Document& d, const ReportSource& s) {
     list(tr("What else is to be known"), i.remarks);
   }
   d.footer.push_back(tr("Session {}SHA-256 {}…: {}{}", named ? i.file + ", " : std::string(), i.file_sha256.substr(0, 16),
-                                 !i.findings.empty() || i.replay == Replay::differs ? tr("does not hold")
-                                 : i.replay == Replay::agrees                       ? tr("tamper-evident and replay-verified")
-                                                                                    : tr("tamper-evident, not replayed for this report"),
-                                 s.filing ? tr("; ledger entry {}", s.filing->entry) : ""));
-  d.footer.push_back(tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16),
-                                 fixed(s.result.leaf_mm, 3), version()));
+                        !i.findings.empty() || i.replay == Replay::differs ? tr("does not hold")
+                        : i.replay == Replay::agrees                       ? tr("tamper-evident and replay-verified")
+                                                                           : tr("tamper-evident, not replayed for this report"),
+                        s.filing ? tr("; ledger entry {}", s.filing->entry) : ""));
+  d.footer.push_back(
+      tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16), fixed(s.result.leaf_mm, 3), version()));
 }
 
 }  // namespace cavum::report

@@ -165,7 +165,7 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
 /// A row of a moment: time, place, what, how much, points.
 TableRow moment_row(const grading::WhyItem& m) {
   const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
-  std::string what = m.what;
+  std::string what = shown(m.what);
   if (m.end_tick > m.tick && m.tick >= 0) what += tr(" (until {} s)", fixed(static_cast<double>(m.end_tick) * k_tick_s, 2));
   return {{time_cell(m.tick, m.site_mm), {place_text(m.site_mm)}, {what}, {amount}, {m.points_lost ? fixed(*m.points_lost, 2) : ""}},
           m.points_lost && *m.points_lost > 0};
@@ -387,6 +387,7 @@ void show_words(Document& d) {
     void operator()(FoldEnd&) const {}
   };
   d.language = language();
+  show(d.title);
   for (auto& block : d.blocks) std::visit(Visit{show}, block);
 }
 

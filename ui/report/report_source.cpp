@@ -7,8 +7,8 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/instrument/diamond_point.h"
+#include "engine/language/say.h"
 #include "scenarios/exam/runner.h"
 #include "ui/report/report_document.h"
 
@@ -72,7 +72,7 @@ std::vector<ReportEvent> report_events(const grading::Result& result, const grad
   for (const auto& e : result.perforation.events)
     list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? "perforation" : "aim",
                     tr("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
-                                e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue")),
+                       e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue")),
                     e.site_mm});
   std::stable_sort(list.begin(), list.end(), [](const ReportEvent& a, const ReportEvent& b) { return a.t_s < b.t_s; });
   return list;

@@ -263,7 +263,8 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   ImGui::Dummy({0, t.px(6)});
   if (main_button(t, "Save and close  (Enter)", true, !fresh)) wish = AuthorWish::save_and_close;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Close without saving  (N)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N))) wish = AuthorWish::discard;
+  if (ImGui::Button(shown_label("Close without saving  (N)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N)))
+    wish = AuthorWish::discard;
   ImGui::SameLine();
   if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
   if (wish != AuthorWish::none) s.ask_close = false;

@@ -198,7 +198,8 @@ void ask_whether_finished(const ScreenContext& c) {
     s.confirm_end = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Back to work  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_end = false;
+  if (ImGui::Button(shown_label("Back to work  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
+    s.confirm_end = false;
   end_question(s.confirm_end);
 }
 

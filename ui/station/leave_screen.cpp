@@ -59,7 +59,8 @@ void demonstration_in_picture(const Theme& t, ImVec2 at, ImVec2 size) {
   draw.PushClipRect(at, {at.x + size.x, at.y + size.y}, true);
   int row = 0;
   for (float y = at.y + 0.5F * text.y; y < at.y + size.y; y += 2.2F * text.y, ++row)
-    for (float x = at.x - (row % 2 == 0 ? 0.2F : 0.75F) * text.x; x < at.x + size.x; x += 1.25F * text.x) draw.AddText({x, y}, ink(colour), word.c_str());
+    for (float x = at.x - (row % 2 == 0 ? 0.2F : 0.75F) * text.x; x < at.x + size.x; x += 1.25F * text.x)
+      draw.AddText({x, y}, ink(colour), word.c_str());
   draw.PopClipRect();
   pop_font();
 }

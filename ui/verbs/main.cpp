@@ -70,7 +70,8 @@ int main(int argc, char** argv) {
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
       std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == arguments[0]; })) {
-    std::fprintf(stderr, "cavum: %s\n", fmt::format("command line: there is no verb '{}'; see `cavum --help`", cavum::one_line(arguments[0])).c_str());
+    std::fprintf(stderr, "cavum: %s\n",
+                 fmt::format("command line: there is no verb '{}'; see `cavum --help`", cavum::one_line(arguments[0])).c_str());
     return 2;
   }
   cavum::keep_memory_reserve();

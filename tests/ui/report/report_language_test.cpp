@@ -23,6 +23,17 @@ std::string joined(std::vector<std::string> words) {
 
 class ReportLanguage : public testing_ui::Program {
  protected:
+  /// Without what the scenario says itself, and the names of operators, which are no words of the program.
+  static std::string without_own_texts(std::string text, const std::string& scenario) {
+    const std::string toml = read_text_file(k_data + "/scenarios/" + scenario + ".toml");
+    const std::regex quoted("\\b(?:title|instruction|description) = \"([^\"]+)\"");
+    std::vector<std::string> own{"novice", "perforator", "expert"};
+    for (auto at = std::sregex_iterator(toml.begin(), toml.end(), quoted); at != std::sregex_iterator(); ++at) own.push_back((*at)[1]);
+    std::sort(own.begin(), own.end(), [](const std::string& a, const std::string& b) { return a.size() > b.size(); });
+    for (const auto& words : own)
+      for (auto at = text.find(words); at != std::string::npos; at = text.find(words, at)) text.erase(at, words.size());
+    return text;
+  }
   /// A session of the shipped slot, sat by a simulated operator who loses points.
   std::string sit(const std::string& by, const std::string& scenario, const std::string& more = "") const {
     const std::string file = path(by + ".cavum");
@@ -44,7 +55,7 @@ TEST_F(ReportLanguage, NoWordOfAReportIsLeftOutOfTheCatalogue) {
     for (const std::string reader : {"student", "instructor"}) {
       const std::string html = report(session, reader, "qps");
       EXPECT_NE(html.find("<html lang='qps'>"), std::string::npos);
-      const std::vector<std::string> left = untranslated(readable(html));
+      const std::vector<std::string> left = untranslated(without_own_texts(readable(html), "slot"));
       EXPECT_TRUE(left.empty()) << by << ", " << reader << ": " << joined(left);
     }
   }

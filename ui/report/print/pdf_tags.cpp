@@ -2,6 +2,8 @@
 
 #include <fmt/core.h>
 
+#define POINTERHOLDER_TRANSITION 4  // qpdf 11 asks which of its pointers are meant: those of the standard library
+
 #include <memory>
 #include <qpdf/QPDF.hh>
 #include <qpdf/QPDFObjectHandle.hh>
