@@ -39,7 +39,7 @@ TEST(FalconSelfCheck, FindsAWeakerMotor) {
   MovingArm::Model model;
   model.mass_kg = {0.15, 0.15, 0.15};
   model.coulomb_n = {0.12, 0.12, 0.12};
-  model.weight_n = {0, 0.2, 0};
+  model.weight_n = {0, 0.08, 0};  // stands where it is left
   model.quantum_mm = 0.0;  // its encoders round
   model.rate_hz = 4000;
   const auto arm = [&] {
