@@ -207,9 +207,15 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
                                    "let go of the stylus: friction, strength, step and rate in a minute, held against this station's earlier checks; "
                                    "ends with 1 when something changed")
                         ->excludes(test_flag);
+  const CLI::Validator reason(
+      [](const std::string& text) { return text.empty() ? std::string("gives no reason: say what was done, or why") : std::string(); }, "REASON");
   devices->add_flag("--history", o->history, "with --self-check: only what was kept")->needs(self_flag);
-  devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")->needs(self_flag);
-  devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")->needs(self_flag);
+  devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")
+      ->needs(self_flag)
+      ->check(reason);
+  devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")
+      ->needs(self_flag)
+      ->check(reason);
   devices->add_option("--station-name", o->station_name, "name this station, as checks and sessions shall say it");
   devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
   devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
