@@ -106,7 +106,9 @@ TEST_F(Inverse3SelfCheck, FindsAStifferJointAndTheSessionSaysWhatWasDecided) {
   const std::string note = SessionReader(folder_.file("decided.cavum")).fact(std::string("note.") + k_self_check_note);
   EXPECT_EQ(read_session_check(note, "note").check.verdict.compared, 12U);
 
-  EXPECT_EQ(run("report " + folder_.file("decided.cavum") + " --out " + folder_.file("r.html") + " --reader instructor").code, 0);
+  const std::string report = folder_.file("r.html");
+  EXPECT_EQ(run("report " + folder_.file("decided.cavum") + " --out " + report + " --for instructor --no-replay").code, 0);
+  EXPECT_NE(read_text_file(report, k_largest_file).find("self-check of Seat 3"), std::string::npos);
 }
 
 }  // namespace

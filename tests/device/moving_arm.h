@@ -8,6 +8,7 @@
 #include <mutex>
 #include <thread>
 
+#include "engine/servo/scheduling.h"
 #include "tests/engine/selfcheck/free_arm.h"
 
 namespace cavum::testing_device {
@@ -29,6 +30,8 @@ class MovingArm {
   void run() {
     using Clock = std::chrono::steady_clock;
     constexpr double k_longest_s = 0.05;
+    static_cast<void>(ask_for_fifo(70));  // where the system allows it: an arm of metal waits for nobody
+    ask_for_sharp_timers();
     for (auto before = Clock::now(); !stop_; std::this_thread::sleep_for(std::chrono::microseconds(300))) {
       const auto now = Clock::now();
       arm_.send_force(told_n_());

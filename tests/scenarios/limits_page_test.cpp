@@ -9,6 +9,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/toml_limits.h"
 #include "engine/scan/surface_points.h"
+#include "engine/selfcheck/check_history.h"
 #include "engine/session/session_reader.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/mesh/read_mesh.h"
@@ -65,6 +66,7 @@ TEST(LimitsPage, SaysTheNumbersOfTheCode) {
                                                    {"k_most_near_triangles", k_most_near_triangles},
                                                    {"k_most_scan_triangles", k_most_scan_triangles},
                                                    {"k_most_scan_points", k_most_scan_points},
+                                                   {"k_largest_history", CheckHistory::k_largest_history},
                                                    {"most_voxels", most_voxels(0)},
                                                    {"most_gray_voxels", most_gray_voxels(0)}};
   for (const auto& [name, number] : meant) {

@@ -275,6 +275,7 @@ class Station {
           break;
         case Wish::check:
           state_.message.clear();
+          state_.focus_supervisor = true;  // once there is its field
           check_.begin();
           break;
         case Wish::check_go_on:

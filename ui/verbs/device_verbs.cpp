@@ -208,15 +208,19 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
                                    "ends with 1 when something changed")
                         ->excludes(test_flag);
   devices->add_flag("--history", o->history, "with --self-check: only what was kept")->needs(self_flag);
-  devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")->needs(self_flag);
-  devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")->needs(self_flag);
+  const auto* anew = devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")
+                         ->needs(self_flag);
+  const auto* go_on =
+      devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")->needs(self_flag);
   devices->add_option("--station-name", o->station_name, "name this station, as checks and sessions shall say it");
   devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
   devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
   devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(between(0.2, 600.0))->capture_default_str();
   devices->add_flag("--json", o->json, "one JSON object on standard output");
-  devices->callback([o, &exit_code] {
+  devices->callback([o, anew, go_on, &exit_code] {
     exit_code = 0;
+    for (const CLI::Option* option : {anew, go_on})
+      if (option->count() > 0 && option->as<std::string>().empty()) throw Error(option->get_name(), "gives no reason", "say what was done, or why");
     if (!o->station_name.empty()) set_station_name(o->station_name);
     if (o->self_check)
       exit_code = self_check({o->stylus, o->new_history, o->go_on, o->history, o->json});

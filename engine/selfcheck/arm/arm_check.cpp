@@ -16,16 +16,22 @@ namespace cavum {
 namespace {
 
 constexpr std::array<const char*, 3> k_axes_of_check{"x", "y", "z"};
-constexpr double k_near_mm = 40.0, k_leash_mm = 30.0;
+constexpr double k_leash_mm = 30.0;
+
+/// From where it is drawn home by itself.
+double near_mm(const Stylus& stylus) {
+  constexpr double k_share_of_reach = 0.9;
+  return k_share_of_reach * stylus.facts().reach_mm;
+}
 
 /// Waits, without force, until the person has brought the arm near home.
-void wait_until_near(ArmServo& servo, const ArmCheckOptions& o) {
+void wait_until_near(ArmServo& servo, const ArmCheckOptions& o, double near) {
   servo.look();
   servo.push({});
   const auto off_mm = [&] { return length(servo.at_mm() - o.home_mm); };
-  if (off_mm() <= k_near_mm) return;
+  if (off_mm() <= near) return;
   if (o.tell) o.tell({"Bring the stylus to the middle of its reach.", 0.0});
-  for (const double until = servo.now_s() + o.patience_s; off_mm() > 0.75 * k_near_mm;) {
+  for (const double until = servo.now_s() + o.patience_s; off_mm() > 0.75 * near;) {
     servo.look();
     servo.push({});
     if (servo.now_s() > until)
@@ -35,11 +41,11 @@ void wait_until_near(ArmServo& servo, const ArmCheckOptions& o) {
 }
 
 /// Draws it home along a straight line, and lets it stand there on its own.
-void take_home(ArmServo& servo, const ArmCheckOptions& o) {
+void take_home(ArmServo& servo, const ArmCheckOptions& o, double near) {
   constexpr double k_speed_mm_s = 30.0, k_settle_s = 3.0, k_arrived_mm = 2.0;
   const Vec3 from = servo.at_mm(), way = o.home_mm - from;
   const double takes_s = length(way) / k_speed_mm_s, begin = servo.now_s();
-  servo.set_leash(k_near_mm + k_leash_mm);
+  servo.set_leash(near + k_leash_mm);
   for (double share = 0.0; share < 1.0;) {
     servo.look();
     share = takes_s > 0.0 ? std::min(1.0, (servo.now_s() - begin) / takes_s) : 1.0;
@@ -136,10 +142,10 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   double began_s = 0.0;
   std::array<std::vector<SwingSample>, 3> swings;
   try {
-    wait_until_near(servo, o);
+    wait_until_near(servo, o, near_mm(stylus));
     began_s = servo.now_s();
     tell("Let go of the stylus. It is pushed gently, by 1 N at most.", 0.02);
-    take_home(servo, o);
+    take_home(servo, o, near_mm(stylus));
     require_still(servo, stylus.facts().position_quantum_mm);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       tell("Friction: it goes slowly forth and back. Do not touch it.", 0.1 + 0.15 * static_cast<double>(axis));
