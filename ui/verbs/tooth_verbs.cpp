@@ -152,8 +152,9 @@ void make_tooth(const MakeArgs& c, const Maker& maker) {
 /// `--seed`: another individual of the kind. What the plain tooth lets choose is drawn then, so the two do not go together.
 std::shared_ptr<std::optional<std::uint64_t>> add_seed(CLI::App* app, const std::vector<CLI::Option*>& drawn) {
   auto seed = std::make_shared<std::optional<std::uint64_t>>();
-  auto* option = app->add_option("--seed", *seed, "Draw an individual with measures of its own (docs/teeth.md); without it, the plain tooth of round measures")
-                     ->check([](const std::string& text) { return std::string(text.starts_with('-') ? "--seed is a whole number, 0 or more" : ""); });
+  auto* option =
+      app->add_option("--seed", *seed, "Draw an individual with measures of its own (docs/teeth.md); without it, the plain tooth of round measures")
+          ->check([](const std::string& text) { return std::string(text.starts_with('-') ? "--seed is a whole number, 0 or more" : ""); });
   for (auto* other : drawn) option->excludes(other);
   return seed;
 }

@@ -65,7 +65,7 @@ struct Explanation {
   Interval k, c;
   Noise noise;
   double position_error_n = 0;  ///< rms of the force that the errors of position and speed may make by k and c, N
-  SessionSpread spread{};  ///< what sessions differ by, beside the causes
+  SessionSpread spread{};       ///< what sessions differ by, beside the causes
   std::string next_experiment;
   std::vector<Structure> structures;           ///< of the residual that is left
   std::vector<Candidate> candidates;           ///< of the first look, for the report
@@ -88,8 +88,8 @@ struct ExplainOptions {
 [[nodiscard]] std::string to_text(const Explanation& explanation);
 /// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
 [[nodiscard]] std::vector<std::string> fold_names(const Explanation& explanation);
-/// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the position
-/// may make as much. Else empty.
+/// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the
+/// position may make as much. Else empty.
 [[nodiscard]] std::string left_over_words(const Explanation& explanation);
 
 }  // namespace cavum::explain

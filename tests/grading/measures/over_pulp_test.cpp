@@ -34,7 +34,7 @@ Tooth with_pulp(const Shape& pulp) {
 }
 
 /// A ball of radius 1, its top 2.5 mm below the surface.
-double ball(Vec3 p) { return length(p - Vec3{0, 0, -3.5}) - 1.0; }
+double pulp_ball(Vec3 p) { return length(p - Vec3{0, 0, -3.5}) - 1.0; }
 double box(Vec3 p) { return std::max({std::fabs(p.x) - 0.8, std::fabs(p.y) - 0.8, std::fabs(p.z + 3.0) - 0.8}); }
 
 std::string asking(const std::string& target = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n") {
@@ -43,7 +43,7 @@ std::string asking(const std::string& target = "[[zones.target]]\nshape = \"box\
 }
 
 TEST(OverPulp, AFloorOverABallLeavesWhatLiesBetweenThem) {
-  Carved c(asking(), with_pulp(ball));
+  Carved c(asking(), with_pulp(pulp_ball));
   c.carve(round_hole(0, 0, 0.5, -1.0), 3);
   c.carve(round_hole(0, 0, 0.4, -1.7), 7);
   const OverPulpMeasures m = c.graded().over_pulp;
@@ -56,7 +56,7 @@ TEST(OverPulp, AFloorOverABallLeavesWhatLiesBetweenThem) {
 }
 
 TEST(OverPulp, BesideTheBallTheNearestEdgeOfTheFloorCounts) {
-  Carved c(asking(), with_pulp(ball));
+  Carved c(asking(), with_pulp(pulp_ball));
   c.carve(round_hole(1.5, 0, 0.5, -1.5), 0);
   const OverPulpMeasures m = c.graded().over_pulp;
   EXPECT_NEAR(*m.dentin_mm, std::sqrt(1.0 * 1.0 + 2.0 * 2.0) - 1.0, m.bound_mm);  // from the rim at x = 1, z = -1.5 to the middle
@@ -74,7 +74,7 @@ TEST(OverPulp, AWallBesideABoxCountsAsAFloorDoes) {
 }
 
 TEST(OverPulp, NeverMoreWhenMoreIsCutAndNothingFromTheTickInWhichThePulpIsOpened) {
-  Carved c(asking(), with_pulp(ball));
+  Carved c(asking(), with_pulp(pulp_ball));
   double before = 1e9;
   for (int i = 1; i <= 8; ++i) {
     c.carve(round_hole(0.1, -0.2, 0.4, -0.3 * i), i);
@@ -92,7 +92,7 @@ TEST(OverPulp, NeverMoreWhenMoreIsCutAndNothingFromTheTickInWhichThePulpIsOpened
 }
 
 TEST(OverPulp, CutsAfterTheEndDoNotCount) {
-  Carved c(asking(), with_pulp(ball));
+  Carved c(asking(), with_pulp(pulp_ball));
   c.carve(round_hole(0, 0, 0.4, -1.0), 2);
   c.carve(round_hole(0, 0, 0.4, -2.0), 6);
   c.events.push_back({4, "finished", "{\"how\":\"ended\"}"});
@@ -100,7 +100,7 @@ TEST(OverPulp, CutsAfterTheEndDoNotCount) {
 }
 
 TEST(OverPulp, WithoutACutOrWithoutPulpThereIsNothingToMeasure) {
-  const Carved uncut(asking(), with_pulp(ball));
+  const Carved uncut(asking(), with_pulp(pulp_ball));
   const Result r = uncut.graded();
   EXPECT_FALSE(r.over_pulp.dentin_mm);
   EXPECT_EQ(r.criteria.back().points, 0.0);
@@ -110,7 +110,7 @@ TEST(OverPulp, WithoutACutOrWithoutPulpThereIsNothingToMeasure) {
 }
 
 TEST(OverPulp, ARubricThatAsksForItIsRefusedWhereTheToothHasNoPulp) {
-  const Carved c(asking(), with_pulp(ball));
+  const Carved c(asking(), with_pulp(pulp_ball));
   EXPECT_TRUE(scenarios::not_in_this_exam(c.scenario.rubric, c.scenario, c.before).empty());
   Tooth bare = dentin_block(3, 6, 0.1);
   std::erase_if(bare.tissues, [](const Tissue& t) { return t.name == "pulp"; });
@@ -120,7 +120,7 @@ TEST(OverPulp, ARubricThatAsksForItIsRefusedWhereTheToothHasNoPulp) {
 }
 
 TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
-  Carved c(asking(), with_pulp(ball));
+  Carved c(asking(), with_pulp(pulp_ball));
   c.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -1.0), 3);  // the whole target
   c.carve(round_hole(0, 0, 0.4, -1.8), 7);           // 0.7 mm left
   const Result r = c.graded();
@@ -139,7 +139,7 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
 }
 
 TEST(OverPulp, AResultThatWasNotAskedForItReadsAsItDidBefore) {
-  Carved c(scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n"), with_pulp(ball));
+  Carved c(scenario_text("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [1, 1, 1]\n"), with_pulp(pulp_ball));
   c.carve(round_hole(0, 0, 0.5, -1.0), 3);
   EXPECT_TRUE(c.graded().over_pulp.dentin_mm);
   EXPECT_FALSE(to_json(c.graded()).contains("pulp"));
