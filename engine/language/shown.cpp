@@ -16,7 +16,7 @@ namespace cavum {
 namespace {
 
 constexpr int k_deepest = 12;
-constexpr std::size_t k_most_remembered = 4000, k_telling_letters = 5;
+constexpr std::size_t k_most_remembered = 4000, k_telling_letters = 16;
 constexpr char k_open[] = "\u27e6";  // of the pseudo-language
 
 /// The screens of a station say the same sentences sixty times a second. Of one thread.
@@ -77,10 +77,24 @@ bool has_letters(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
 }
 
-std::string sentence(std::string_view text, int depth, bool& changed);
+/// One word that no dictionary need hold: a name, an identifier, a path, a number with its unit. Several: names of people, each with a capital.
+bool may_stand_as_it_is(std::string_view text) {
+  bool capitals = true, several = false;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find(' ', at), text.size());
+    const std::string_view word = text.substr(at, end - at);
+    several = several || at > 0;
+    capitals = capitals && (word.empty() || !has_letters(word) || !(word.front() >= 'a' && word.front() <= 'z'));
+    at = end + 1;
+  }
+  return !has_letters(text) || !several || capitals || is_number(text);
+}
 
-/// The message that the whole text is, with or without gaps.
-bool whole(std::string_view text, int depth, std::string& out, bool loose = false) {
+std::string sentence(std::string_view text, int depth, bool& known);
+
+/// The message that the whole text is, with or without gaps. One with a gap that holds words of which nothing is known is none: a sentence is in one
+/// language. Sentences of fewer letters than `least_letters` are left out.
+bool whole(std::string_view text, int depth, std::string& out, std::size_t least_letters = 0) {
   const Catalogue& c = catalogue();
   const std::string exact(text);
   if (c.kind() != Catalogue::Kind::pseudo || c.knows(exact))
@@ -89,18 +103,18 @@ bool whole(std::string_view text, int depth, std::string& out, bool loose = fals
       return true;
     }
   for (const Said& s : Catalogue::said_sentences()) {
+    if (s.pattern.all_letters() < least_letters) break;  // the longest stand first
     auto gaps = s.pattern.match(text);
     if (!gaps) continue;
     const auto t = c.find(s.message);
     if (!t) continue;
     bool all_known = true;
     for (auto& g : *gaps) {
-      bool known = !has_letters(g) || g.find(' ') == std::string::npos;
+      bool known = may_stand_as_it_is(g);
       g = sentence(g, depth + 1, known);
       all_known = all_known && known;
     }
-    if (!all_known && (s.pattern.all_letters() < k_telling_letters || (!loose && (s.before || s.after))))
-      continue;  // " is " is in many sentences that nobody knows
+    if (!all_known) continue;
     const std::string before = s.before ? gaps->front() : "", after = s.after ? gaps->back() : "";
     if (s.before) gaps->erase(gaps->begin());
     if (s.after) gaps->pop_back();
@@ -140,22 +154,34 @@ bool in_columns(std::string_view text, int depth, std::string& out) {
   return any;
 }
 
-/// The parts that a text was put together from, each by itself.
+/// The parts that a text was put together from: sentences and items of a list each by itself, parts of a sentence only when all of them are known.
 bool in_parts(std::string_view text, int depth, std::string& out) {
   if (in_columns(text, depth, out)) return true;
   constexpr std::array<std::string_view, 6> k_between{"; ", ". ", ": ", " (", ", ", " \u00b7 "};
   for (const std::string_view between : k_between) {
     if (text.find(between) == std::string_view::npos) continue;
-    bool any = false;
+    const bool by_itself = between == "; " || between == ". " || between == " \u00b7 ";
+    bool any = false, every = true;
     std::string all;
     for (std::size_t at = 0;;) {
       const std::size_t end = text.find(between, at);
-      all += sentence(text.substr(at, end == std::string_view::npos ? end : end - at), depth + 1, any);
+      const std::string_view part = text.substr(at, end == std::string_view::npos ? end : end - at);
+      bool known = false;
+      std::string own;
+      if (at > 0 && between == ", " && whole(std::string(between).append(part), depth + 1, own)) {  // ", of it {} mm3 beyond"
+        known = true;
+        all.erase(all.size() - between.size());
+      } else {
+        own = sentence(part, depth + 1, known);
+      }
+      all += own;
+      any = any || known;
+      every = every && (known || may_stand_as_it_is(part));
       if (end == std::string_view::npos) break;
       all += between;
       at = end + between.size();
     }
-    if (any) {
+    if (any && (every || by_itself)) {
       out = std::move(all);
       return true;
     }
@@ -163,51 +189,64 @@ bool in_parts(std::string_view text, int depth, std::string& out) {
   return false;
 }
 
-std::string sentence(std::string_view text, int depth, bool& changed) {
+std::string sentence(std::string_view text, int depth, bool& known) {
   if (depth > k_deepest || text.empty() || text.starts_with(k_open)) return std::string(text);
   if (text.front() == ' ' || text.back() == ' ') {
     std::string part;  // ", at " and the like
     if (has_letters(text) && whole(text, depth, part)) {
-      changed = true;
+      known = true;
       return part;
     }
-    if (text.front() == ' ') return " " + sentence(text.substr(1), depth, changed);
-    return sentence(text.substr(0, text.size() - 1), depth, changed) + " ";
+    if (text.front() == ' ') return " " + sentence(text.substr(1), depth, known);
+    return sentence(text.substr(0, text.size() - 1), depth, known) + " ";
   }
   if (is_number(text)) {
     const std::string number = with_decimal_sign(text);
-    changed = changed || number != text;
+    known = known || number != text;
     return number;
+  }
+  if (const std::size_t blank = text.find(' '); blank != std::string_view::npos && is_number(text.substr(0, blank))) {  // "0.80 mm2 of its wall"
+    bool rest_known = false;
+    std::string all;
+    if (whole(text, depth, all)) {
+      known = true;
+      return all;
+    }
+    const std::string rest = sentence(text.substr(blank + 1), depth + 1, rest_known);
+    if (rest_known) {
+      known = true;
+      return with_decimal_sign(text.substr(0, blank)) + " " + rest;
+    }
   }
   for (const std::string_view begin : {"- ", "\u2022 ", "* ", ": ", "; ", ", "})  // of a list, or of what follows another part
     if (text.starts_with(begin) && text.size() > begin.size()) {
-      bool rest_changed = false;
-      const std::string rest = sentence(text.substr(begin.size()), depth + 1, rest_changed);
-      if (!rest_changed) break;
-      changed = true;
+      bool rest_is_known = false;
+      const std::string rest = sentence(text.substr(begin.size()), depth + 1, rest_is_known);
+      if (!rest_is_known) break;
+      known = true;
       return std::string(begin) + rest;
     }
   if (!has_letters(text)) return std::string(text);
-  if (const auto known = memory().find(std::string(text)); known != memory().end()) {
-    changed = changed || known->second != text;
-    return known->second;
+  if (const auto remembered = memory().find(std::string(text)); remembered != memory().end()) {
+    known = known || remembered->second != text;
+    return remembered->second;
   }
   std::string out;
   if (const auto own = of_files().find(std::string(text)); own != of_files().end()) {
-    changed = true;
+    known = true;
     return own->second;
   }
-  bool found = whole(text, depth, out);
+  bool found = whole(text, depth, out, k_telling_letters);
   if (const char last = text.back(); !found && (last == '.' || last == ')' || last == ',' || last == ';' || last == ':') && text.size() > 1) {
     out = sentence(text.substr(0, text.size() - 1), depth + 1, found);
     out += last;
   }
   if (!found) found = in_parts(text, depth, out);
-  if (!found) found = whole(text, depth, out, true);
+  if (!found) found = whole(text, depth, out);  // "{} at the {}" fits much that is put together of parts
   if (!found) return std::string(text);
   memory()[std::string(text)] = out;
   memory()[out] = out;
-  changed = true;
+  known = true;
   return out;
 }
 

@@ -7,6 +7,7 @@ Result and ticket: what the program writes is valid, and has no name that the sc
 import copy
 import json
 import os
+import re
 import pathlib
 import subprocess
 import sys
@@ -100,7 +101,8 @@ def places(schema, value, path=()):
             yield "required", path + (key,), None
         yield "object", path, None
         for key, item in value.items():
-            yield from places(found[key], item, path + (key,))
+            named = [s for pattern, s in schema.get("patternProperties", {}).items() if re.search(pattern, key)]
+            yield from places(found[key] if key in found else named[0] if named else schema["additionalProperties"], item, path + (key,))
     elif isinstance(value, list) and "items" in schema:
         yield "list", path, schema
         for i, item in enumerate(value[:2]):

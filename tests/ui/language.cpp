@@ -24,8 +24,8 @@ std::string without(std::string text, const std::string& open, const std::string
 }  // namespace
 
 std::vector<std::string> untranslated(const std::string& text) {
-  static const std::set<std::string> k_units{"mm",    "ms",  "rpm", "min", "kHz",  "Hz",   "MB",  "SHA",
-                                             "Cavum", "UTC", "px",  "PDF", "JSON", "TOML", "CSV", "Nm"};
+  static const std::set<std::string> k_units{"mm",  "mm²",   "mm³", "ms", "rpm", "min",  "kHz",  "Hz",  "MB",
+                                             "SHA", "Cavum", "UTC", "px", "PDF", "JSON", "TOML", "CSV", "Nm"};
   std::string rest = without(without(text, "\u27e6", "\u27e7"), "\u27e8", "\u27e9");
   std::vector<std::string> words;
   std::string word;

@@ -77,7 +77,7 @@ void add_walls(Document& d, const grading::Result& r) {
                        time_cell(m.worst_under.tick, m.worst_under.site_mm)}});
   }
   d.blocks.push_back(std::move(t));
-  d.blocks.push_back(Paragraph{shown(k_floor_words), "", Paragraph::Kind::small});
+  d.blocks.push_back(Paragraph{floor_words(), "", Paragraph::Kind::small});
   d.blocks.push_back(Heading{tr("Cavity")});
   ReportTable c{{{tr("What"), false, 3}, {tr("Measured"), true, 2}, {tr("Target"), true, 2}}, {}, tr("Cavity")};
   const auto shape = [&](const std::string& name, const std::optional<double>& v, double target) {

@@ -84,7 +84,7 @@ std::vector<std::string> how_to_read(const grading::Result& r) {
         tr("Care counts for as much as was done: where less than {} % of the target at the place in question was removed, points are given "
            "in proportion, and their ± holds that share at either end of its own ±, too.",
            plain_number(grading::k_care_counts_percent)));
-  if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.push_back(shown(k_floor_words));
+  if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.push_back(floor_words());
   return words;
 }
 
@@ -335,6 +335,13 @@ TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
 
 std::string place_text(const std::optional<Vec3>& p) {
   return p ? shown(fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2))) : "";
+}
+
+std::string floor_words() {
+  return tr(
+      "Overcut of the floor is what was cut of hard tissue below it: where the pulp lies under it the overcut ends at the pulp's own wall, however "
+      "far "
+      "the instrument went on. An opened pulp is told as a perforation, not as overcut.");
 }
 
 std::string finish_words(const std::string& finish) {

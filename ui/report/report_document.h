@@ -33,10 +33,8 @@ void add_integrity(Document& document, const ReportSource& source);
 [[nodiscard]] TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm);
 /// "1.20, 0.30, -2.10".
 [[nodiscard]] std::string place_text(const std::optional<Vec3>& site_mm);
-/// Of every figure of a floor's overcut.
-inline constexpr char k_floor_words[] =
-    "Overcut of the floor is what was cut of hard tissue below it: where the pulp lies under it the overcut ends at the pulp's own wall, however "
-    "far the instrument went on. An opened pulp is told as a perforation, not as overcut.";
+/// Of every figure of a floor's overcut, in the reader's language.
+[[nodiscard]] std::string floor_words();
 /// How an exam came to its end, for finish_name(): "time was up".
 [[nodiscard]] std::string finish_words(const std::string& finish);
 /// "mm³" for "mm3".

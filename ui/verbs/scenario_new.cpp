@@ -141,8 +141,10 @@ int make_for_tooth(const NewArguments& o) {
   if (o.untried)
     std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << " --battery\n";
   else
-    std::cout << "tried: the built-in expert passes with " << fixed(trial.expert_percent, 0) << " % of the points; none of " << trial.wrong_work
-              << " wrong pieces of work passes\nnext: cavum scenario show " << o.out << " --out F.svg\n";
+    std::cout << fmt::format(
+        "tried: the built-in expert passes with {} % of the points; none of {} wrong pieces of work passes\nnext: cavum scenario show {} --out "
+        "F.svg\n",
+        fixed(trial.expert_percent, 0), trial.wrong_work, o.out);
   return 0;
 }
 

@@ -1,6 +1,7 @@
 // What a scenario says in other languages: texts by id, mistakes with their place, nothing lost on the way through a recording.
 #include <gtest/gtest.h>
 
+#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "scenarios/file/parse.h"
 
@@ -22,6 +23,8 @@ std::string problems_of(const std::string& text) {
     std::string all;
     for (const auto& p : e.problems()) all += p.text() + "\n";
     return all;
+  } catch (const Error& e) {
+    return e.what();
   }
   return "";
 }

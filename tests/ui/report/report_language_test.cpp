@@ -43,7 +43,7 @@ class ReportLanguage : public testing_ui::Program {
     return file;
   }
   std::string report(const std::string& session, const std::string& reader, const std::string& language, const std::string& ending = ".html") const {
-    const auto r = run("--language " + language + " report " + session + " --for " + reader + " --out " + path("r" + ending));
+    const auto r = run("--language " + language + " report " + session + " --for " + reader + " --overwrite --out " + path("r" + ending));
     EXPECT_EQ(r.exit_code, 0) << r.err;
     return read_text_file(path("r" + ending));
   }

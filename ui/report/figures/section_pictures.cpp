@@ -87,9 +87,10 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
   const auto over = worst(r, &grading::WallMeasures::max_over_mm, &grading::WallMeasures::worst_over);
   const auto under = worst(r, &grading::WallMeasures::max_under_mm, &grading::WallMeasures::worst_under);
   const auto named = [&](const char* what, const Worst& w) {
-    return fmt::format("worst {}, {} mm at the {}{}", what, fixed(w.mm, 2),
-                       w.wall == static_cast<std::size_t>(scenarios::Wall::floor) ? "" : "wall towards ",
-                       scenarios::wall_name(static_cast<scenarios::Wall>(w.wall), r.shape.facing));
+    const auto wall = static_cast<scenarios::Wall>(w.wall);
+    const std::string name = scenarios::wall_name(wall, r.shape.facing);
+    return wall == scenarios::Wall::floor ? fmt::format("worst {}, {} mm at the {}", what, fixed(w.mm, 2), name)
+                                          : fmt::format("worst {}, {} mm at the wall towards {}", what, fixed(w.mm, 2), name);
   };
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
