@@ -155,12 +155,12 @@ bool in_columns(std::string_view text, int depth, std::string& out) {
 }
 
 /// The parts that a text was put together from: sentences and items of a list each by itself, parts of a sentence only when all of them are known.
-bool in_parts(std::string_view text, int depth, std::string& out) {
-  if (in_columns(text, depth, out)) return true;
+bool in_parts(std::string_view text, int depth, std::string& out, bool some_suffice) {
+  if (some_suffice && in_columns(text, depth, out)) return true;
   constexpr std::array<std::string_view, 6> k_between{"; ", ". ", ": ", " (", ", ", " \u00b7 "};
   for (const std::string_view between : k_between) {
     if (text.find(between) == std::string_view::npos) continue;
-    const bool by_itself = between == "; " || between == ". " || between == " \u00b7 ";
+    const bool by_itself = some_suffice && (between == "; " || between == ". " || between == " \u00b7 ");
     bool any = false, every = true;
     std::string all;
     for (std::size_t at = 0;;) {
@@ -168,7 +168,8 @@ bool in_parts(std::string_view text, int depth, std::string& out) {
       const std::string_view part = text.substr(at, end == std::string_view::npos ? end : end - at);
       bool known = false;
       std::string own;
-      if (at > 0 && between == ", " && whole(std::string(between).append(part), depth + 1, own)) {  // ", of it {} mm3 beyond"
+      const std::string joined = std::string(between).append(part);
+      if (at > 0 && (catalogue().knows(joined) || between == ", ") && whole(joined, depth + 1, own)) {  // ", of it {} mm3 beyond"
         known = true;
         all.erase(all.size() - between.size());
       } else {
@@ -241,8 +242,9 @@ std::string sentence(std::string_view text, int depth, bool& known) {
     out = sentence(text.substr(0, text.size() - 1), depth + 1, found);
     out += last;
   }
-  if (!found) found = in_parts(text, depth, out);
+  if (!found) found = in_parts(text, depth, out, false);
   if (!found) found = whole(text, depth, out);  // "{} at the {}" fits much that is put together of parts
+  if (!found) found = in_parts(text, depth, out, true);
   if (!found) return std::string(text);
   memory()[std::string(text)] = out;
   memory()[out] = out;
