@@ -140,7 +140,7 @@ TEST_F(LandmarkWindow, AToothThatShipsStaysAsItIsAndTheScenarioNamesANewOne) {
             0)
       << said();
   EXPECT_EQ(read_file(k_premolar), shipped);
-  EXPECT_EQ(read_text_file(file()), replaced(before, k_premolar, "upper_premolar_class_1.cvt"));
+  EXPECT_EQ(read_text_file(file()), replaced(before, "\"upper_premolar.cvt\"", "\"upper_premolar_class_1.cvt\""));
   const Tooth made = load_tooth_file(folder_.file("upper_premolar_class_1.cvt"));
   ASSERT_EQ(made.placed_landmarks.size(), 1u);
   EXPECT_NEAR(made.placed_landmarks[0].at_mm.y, place_of(load_tooth_file(k_premolar), "distal_pit").y - 0.1, 1e-3);

@@ -186,7 +186,7 @@ TEST(AuthorZones, EveryPlaceIsThatOfItsValueInEveryShippedScenario) {
     }
   }
   EXPECT_GT(numbers, 30u);
-  EXPECT_GT(points, 10u);
+  EXPECT_GE(points, 4u);  // any outlines at all: most follow landmarks
 }
 
 TEST(AuthorZones, APointLiesOnTheBorderOfTheShapeItMakes) {
@@ -194,8 +194,14 @@ TEST(AuthorZones, APointLiesOnTheBorderOfTheShapeItMakes) {
   std::mt19937_64 random(testing_basics::drawn_seed("AuthorZones"));
   const auto draw = [&](double low, double high) { return std::uniform_real_distribution<>(low, high)(random); };
   const Tooth tooth = cavum::testing::dentin_block(2, 2, 0.2);
+  std::string text = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml");
+  const std::size_t box = text.find("shape = \"proximal_box\""), end = text.find("\n\n", box);
+  ASSERT_NE(box, std::string::npos);
+  text.replace(box, end - box,
+               "shape = \"prism\"\nat_mm = [0, 0, -1.5]\nheight_mm = 6\noutline = { kind = \"polygon\", points_mm = [[3.9, -1.6], [6.5, -1.6], "
+               "[6.5, 1.6], [3.9, 1.6]] }");
   for (int i = 0; i < 50; ++i) {
-    scenarios::Scenario s = scenarios::read_scenario(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_2.toml"), "f").scenario;
+    scenarios::Scenario s = scenarios::read_scenario(text, "f").scenario;
     scenarios::ShapeSpec& prism = s.zones.target[1];
     ASSERT_EQ(prism.kind, scenarios::ShapeSpec::Kind::prism);
     prism.at_mm = {draw(-2, 2), draw(-2, 2), draw(-3, 0)};
