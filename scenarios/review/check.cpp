@@ -87,9 +87,11 @@ std::optional<Tooth> own_tooth_of(const Scenario& s, std::vector<Problem>& probl
   return std::nullopt;
 }
 
-/// `tooth_of(scenario, problems)` gives the tooth, if there is one.
-template <class ToothOf>
-CheckedScenario check_with(const std::string& text, const std::string& path, const ToothOf& tooth_of) {
+ZoneMap lay(const Scenario& s, const Tooth& tooth) { return build_zones(s, tooth); }
+
+/// `tooth_of(scenario, problems)` gives the tooth, if there is one; `zones_of(scenario, tooth)` lays the zones into it.
+template <class ToothOf, class ZonesOf>
+CheckedScenario check_with(const std::string& text, const std::string& path, const ToothOf& tooth_of, const ZonesOf& zones_of) {
   ReadScenario read = read_scenario(text, path);
   CheckedScenario checked{.problems = std::move(read.problems), .expert = {}};
   std::vector<Problem>& problems = checked.problems;
@@ -103,7 +105,7 @@ CheckedScenario check_with(const std::string& text, const std::string& path, con
     for (auto& p : missing_tissues(s, *tooth)) problems.push_back(std::move(p));
     if (checked.sound()) {
       try {
-        ZoneMap zones = build_zones(s, *tooth);
+        ZoneMap zones = zones_of(s, *tooth);
         for (auto& p : advise(s, *tooth, zones, points, checked.expert)) problems.push_back(std::move(p));
         if (checked.sound()) checked.laid = std::make_shared<const LaidScenario>(LaidScenario{s, std::move(*tooth), std::move(zones)});
       } catch (const Error& e) {
@@ -129,13 +131,21 @@ void sort_problems(std::vector<Problem>& problems) {
 }
 
 CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {
-  return check_with(text, path, [&](const Scenario& s, std::vector<Problem>& problems) -> std::optional<Tooth> {
+  const auto tooth_of = [&](const Scenario& s, std::vector<Problem>& problems) -> std::optional<Tooth> {
     return tooth_file.empty() ? own_tooth_of(s, problems) : other_tooth(s, tooth_file, problems);
-  });
+  };
+  return check_with(text, path, tooth_of, lay);
 }
 
 CheckedScenario check_whole_on(const Tooth& tooth, const std::string& text, const std::string& path) {
-  return check_with(text, path, [&](const Scenario&, std::vector<Problem>&) { return std::optional<Tooth>(tooth); });
+  return check_with(
+      text, path, [&](const Scenario&, std::vector<Problem>&) { return std::optional<Tooth>(tooth); }, lay);
+}
+
+CheckedScenario check_whole_in(const LaidScenario& laid, const std::string& text, const std::string& path) {
+  return check_with(
+      text, path, [&](const Scenario&, std::vector<Problem>&) { return std::optional<Tooth>(laid.tooth); },
+      [&](const Scenario&, const Tooth&) { return laid.zones; });
 }
 
 }  // namespace cavum::scenarios

@@ -34,6 +34,9 @@ struct CheckedScenario {
 /// The same on the scenario's own tooth as it is in memory: with landmarks that its file does not have yet.
 [[nodiscard]] CheckedScenario check_whole_on(const Tooth& tooth, const std::string& text, const std::string& path);
 
+/// The same in zones that are laid already: of a text that says the same of tooth and zones as that of `laid`, and differs in steps, time or rubric.
+[[nodiscard]] CheckedScenario check_whole_in(const LaidScenario& laid, const std::string& text, const std::string& path);
+
 /// Into the order of the file; what stands at one place keeps its order.
 void sort_problems(std::vector<Problem>& problems);
 

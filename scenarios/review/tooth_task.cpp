@@ -275,8 +275,7 @@ std::string about(const Tooth& tooth) {
 double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::max(5.0, std::ceil(2.5 * expert_s.value_or(0) / 60.0)); }
 
 /// A share of the target's volume.
-double wall_limit_mm3(const std::string& text, const std::string& path, const Tooth& tooth, double share) {
-  const ZoneMap zones = build_zones(parse_scenario(text, path), tooth);
+double wall_limit_mm3(const ZoneMap& zones, double share) {
   const double target_mm3 = static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * zones.leaf_volume_mm3();
   return std::max(k_least_walls_mm3, share * target_mm3);
 }
@@ -339,9 +338,9 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
       reaches = std::max(reaches, checked.expert.reach);
     } else if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert.time_s);
-      text.walls_limit_mm3 = wall_limit_mm3(scenario_text(text), path, tooth, asked->walls_share);
+      text.walls_limit_mm3 = wall_limit_mm3(checked.laid->zones, asked->walls_share);
       const std::string written = scenario_text(text);
-      checked = check_whole(written, path);
+      checked = check_whole_in(*checked.laid, written, path);
       if (checked.sound()) {
         WrittenTask found{written, checked.problems, choice.chosen};
         if (!found.problems.empty())

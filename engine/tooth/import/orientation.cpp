@@ -107,10 +107,11 @@ void count_sign(double mesial_minus_distal, double least, const char* words, Ori
 }
 
 /// Of back teeth: the mesial side has the higher height of contour and cervical line and is the broader one, and roots bend to distal (Nelson,
-/// Wheeler's); of three canals of a lower molar two are mesial.
-void count_mesial_signs(const Landmarks& l, bool lower_molar, Orientation& o) {
+/// Wheeler's); of three canals of a lower molar two are mesial. A lower first premolar is higher at its distal contact (Woelfel and Scheid, Dental
+/// Anatomy; recalled): there heights of contour tell nothing, nor of a premolar without a number, which may be one.
+void count_mesial_signs(const Landmarks& l, bool contours_tell, bool lower_molar, Orientation& o) {
   if (const auto fall = fall_of(l.height_of_contour_mm, l.long_axis)) {
-    count_sign(-2 * fall->x, k_rise_mm, "higher contour towards", o);
+    if (contours_tell) count_sign(-2 * fall->x, k_rise_mm, "higher contour towards", o);
     const auto [low, high] =
         std::minmax_element(l.height_of_contour_mm.begin(), l.height_of_contour_mm.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
     const double middle = 0.5 * (low->x + high->x), off = 0.3 * (high->x - low->x);
@@ -150,7 +151,8 @@ Orientation seen_orientation(const Landmarks& l, const std::optional<ToothNumber
   if (!o.turn && kind == ToothClass::premolar) o.turn = by_premolar_cusps(l);
   if (!o.turn && lower_molar) o.turn = by_canals(l);
   o.buccal_told = o.turn && !o.turn->line;
-  count_mesial_signs(l, lower_molar, o);
+  const bool maybe_lower_first_premolar = kind == ToothClass::premolar && (!number || (!number->upper() && number->place() == 4));
+  count_mesial_signs(l, !maybe_lower_first_premolar, lower_molar, o);
   return o;
 }
 
