@@ -19,6 +19,7 @@
 #include "ui/parts/print_json.h"
 #include "ui/report/class_report.h"
 #include "ui/report/report.h"
+#include "ui/verbs/cohort_circuit.h"
 #include "ui/verbs/cohort_difficulty.h"
 #include "ui/verbs/verbs.h"
 
@@ -126,6 +127,7 @@ void add_cohort_verbs(CLI::App& app, int& exit_code) {
     report(*o);
     exit_code = 0;
   });
+  add_cohort_circuit(*cohort, exit_code);
   add_cohort_difficulty(*cohort, exit_code);
 }
 

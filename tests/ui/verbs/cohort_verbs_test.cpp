@@ -62,6 +62,65 @@ TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
   EXPECT_NE(beyond.err.find("--borderline 5: does not lie within the ratings"), std::string::npos) << beyond.err;
 }
 
+TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
+  ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
+  const std::string task = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
+  std::string other = read_text_file(task);
+  for (const auto& [from, to] : {std::pair{"block_cavity\"", "harder\""}, std::pair{"full = 90\nzero = 60", "full = 100\nzero = 80"}})
+    other.replace(other.find(from), std::string(from).size(), to);
+  write_text_file(path("harder.toml"), other);
+  for (const std::string& sat : {task, path("harder.toml")}) {
+    const auto r = run("cohort simulate " + sat + " --ledger " + path("L") + " --sessions " + path("S_" + std::to_string(sat.size())) + " --n 4");
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+  }
+  const auto told = run("cohort circuit " + path("L") + " --exams block_cavity,harder --json");
+  ASSERT_EQ(told.exit_code, 0) << told.err;
+  const auto j = json::parse(told.out);
+  ASSERT_EQ(j["roster"].size(), 4u);
+  // by hand: candidates by exams, one mark each
+  double all = 0, rows = 0, columns = 0, squares = 0, sums[2] = {0, 0};
+  for (const auto& row : j["roster"]) {
+    const double a = row["exams"]["block_cavity"]["percent"], b = row["exams"]["harder"]["percent"];
+    EXPECT_NEAR(row["raw_percent"].get<double>(), (a + b) / 2, 1e-9);
+    all += a + b, squares += a * a + b * b, rows += (a + b) * (a + b) / 2, sums[0] += a, sums[1] += b;
+  }
+  const double middle = all * all / 8;
+  for (const double sum : sums) columns += sum * sum / 4;
+  const double ms_row = (rows - middle) / 3, ms_column = columns - middle, ms_rest = (squares - rows - columns + middle) / 3;
+  const double by_hand[] = {(ms_row - ms_rest) / 2, (ms_column - ms_rest) / 4, ms_rest};
+  for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(j["program"]["components"][k]["variance"].get<double>(), by_hand[k], 1e-6) << k;
+  EXPECT_GT(j["stations"]["conditions"].size(), 0u);
+  EXPECT_EQ(j["people"]["why_not"], "no marks of people");
+
+  // Two judges of both exams, of whom one takes ten points off.
+  const auto marks = [&](const std::string& exam) {
+    std::string text = "candidate,judge,points\n";
+    for (const auto& row : j["roster"]) {
+      const double percent = row["exams"][exam]["percent"].get<double>();
+      for (const double off : {0.0, 10.0})
+        text += fmt::format("{},{},{:.4f}\n", row["candidate"].get<std::string>(), off > 0 ? "severe" : "mild", 10 + 0.8 * percent - off);
+    }
+    write_text_file(path(exam + ".csv"), text);
+    return " --marks " + exam + "=" + path(exam + ".csv");
+  };
+  const auto with = run("cohort circuit " + path("L") + " --exams block_cavity,harder" + marks("block_cavity") + marks("harder") + " --json");
+  ASSERT_EQ(with.exit_code, 0) << with.err;
+  const auto people = json::parse(with.out);
+  ASSERT_EQ(people["judges"]["conditions"].size(), 2u);
+  for (const auto& judge : people["judges"]["conditions"])
+    EXPECT_NEAR(judge["severity_percent"].get<double>(), judge["name"] == "severe" ? 5 : -5, 1e-6);
+  EXPECT_EQ(people["people"]["components"].size(), 7u) << "candidates, exams, judges and what they do together";
+
+  for (const auto& [line, error] :
+       {std::pair{"--exams harder", "a circuit: has two exams at least"}, std::pair{"--exams harder,harder", "a circuit: names an exam twice"},
+        std::pair{"--exams harder,unknown", "was sat by nobody"},
+        std::pair{"--exams harder,block_cavity --marks other=x.csv", "is of no exam of the circuit"}}) {
+    const auto wrong = run("cohort circuit " + path("L") + " " + line);
+    EXPECT_EQ(wrong.exit_code, 2) << line;
+    EXPECT_NE(wrong.err.find(error), std::string::npos) << wrong.err;
+  }
+}
+
 TEST_F(CohortVerbs, AFormThatGivesFewerPointsForTheSameWorkIsTooHard) {
   const std::string task = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml";
   const auto changed = [&](const std::string& name, const std::string& what, const std::string& by) {

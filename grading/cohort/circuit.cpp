@@ -1,0 +1,217 @@
+#include "grading/cohort/circuit.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+
+#include "engine/base/error.h"
+#include "grading/ledger/exam_scale.h"
+
+namespace cavum::cohort {
+namespace {
+
+constexpr int k_range_draws = 1000;
+constexpr std::uint64_t k_range_seed = 1;  // the same marks give the same ranges
+
+/// Numbers for names, in the order in which they come.
+class Numbered {
+ public:
+  std::uint32_t of(const std::string& name) {
+    const auto [at, is_new] = number_.try_emplace(name, static_cast<std::uint32_t>(names_.size()));
+    if (is_new) names_.push_back(name);
+    return at->second;
+  }
+  [[nodiscard]] const std::vector<std::string>& names() const noexcept { return names_; }
+
+ private:
+  std::map<std::string, std::uint32_t> number_;
+  std::vector<std::string> names_;
+};
+
+/// A mark, with everything that a study may ask of it.
+struct CircuitMark {
+  std::uint32_t candidate = 0, exam = 0, station = 0, judge = 0;
+  double percent = 0.0;
+};
+
+std::vector<double> values_of(const std::vector<StudyMark>& marks) {
+  std::vector<double> values;
+  for (const auto& m : marks) values.push_back(m.value);
+  return values;
+}
+
+CircuitStudy studied(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut) {
+  const VarianceStudy study(std::move(design), marks);
+  CircuitStudy s;
+  s.design = study.design();
+  s.components = study.estimate(values_of(marks));
+  s.plan = std::move(plan);
+  s.range = dependability_range(study, s.components, s.plan, candidates, k_range_draws, k_range_seed);
+  s.as_sat = dependability(s.design, s.components, s.plan, candidates);
+  s.at_cut = cut_decision(s.as_sat, s.components.mean, cut);
+  CircuitPlan wanted = s.plan;
+  for (int n = 1; n <= k_most_tasks; ++n) {
+    wanted.conditions[0] = n;
+    s.by_tasks.push_back(dependability(s.design, s.components, wanted, candidates));
+    if (!s.tasks_for_enough && s.by_tasks.back().phi >= k_enough_phi) s.tasks_for_enough = n;
+  }
+  return s;
+}
+
+/// Runs what may be refused, and keeps why.
+template <class Result, class Make>
+void when_possible(Result& out, std::string& why_not, const Make& make) {
+  try {
+    out = make();
+  } catch (const Error& e) {
+    why_not = e.what();
+  }
+}
+
+/// How many different second things stand with a first one, on average.
+double mean_partners(const std::set<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
+  std::set<std::uint32_t> first;
+  for (const auto& p : pairs) first.insert(p.first);
+  return static_cast<double>(pairs.size()) / static_cast<double>(std::max<std::size_t>(1, first.size()));
+}
+
+/// Judges who marked one exam each are nested in exams; else they are crossed with them.
+CircuitStudy study_of_people(const std::vector<CircuitMark>& marks, std::size_t exams, double candidates, double cut) {
+  std::set<std::pair<std::uint32_t, std::uint32_t>> exams_of_judge, judges_of_exam;
+  for (const auto& m : marks) {
+    exams_of_judge.insert({m.judge, m.exam});
+    judges_of_exam.insert({m.exam, m.judge});
+  }
+  const double judges = mean_partners(judges_of_exam);
+  if (judges <= 1)
+    throw Error("people's marks", "are one judge's in each exam: judge and exam cannot be told apart",
+                "have each exam marked by two judges at least");
+  const bool nested = mean_partners(exams_of_judge) <= 1;
+  std::vector<StudyMark> list;
+  for (const auto& m : marks) list.push_back({{m.candidate, m.exam, m.judge}, m.percent});
+  return studied(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), list,
+                 {{static_cast<double>(exams), judges}}, candidates, cut);
+}
+
+/// Severities of facet 2 (of three: candidate, exam, station or judge), with their names.
+std::vector<NamedSeverity> named(const SeverityStudy& study, const std::vector<std::string>& names) {
+  std::vector<NamedSeverity> out;
+  for (std::size_t i = 0; i < study.facets[1].size(); ++i) out.push_back({names[i], study.facets[1][i]});
+  return out;
+}
+
+/// What the exams of the ledger say of one class.
+class Collected {
+ public:
+  Collected(const ledger::Registry& registry, ledger::Identities& identities, CircuitFigures& figures)
+      : registry_(registry), identities_(identities), figures_(figures) {}
+
+  void add(const std::string& exam, const std::vector<HumanMark>& by_people) {
+    const auto number = static_cast<std::uint32_t>(figures_.exams.size());
+    figures_.exams.push_back(exam);
+    const auto sat = counting_sessions(registry_, exam);
+    const double points = points_of_exam(registry_, exam);
+    const auto scales = ledger::own_scales(registry_);
+    if (const auto at = scales.find(exam); at != scales.end()) pass_percent_.push_back(at->second.pass_percent);
+    std::map<std::string, std::uint32_t> person_of;
+    for (const auto& [pseudonym, session] : sat) {
+      const auto known = identities_.of_pseudonym(pseudonym);
+      if (!known) {
+        ++figures_.unknown;
+        continue;
+      }
+      if (!session->simulated.empty()) ++figures_.simulated;
+      const auto& score = session->result.at("score");
+      const CircuitMark m{candidates.of(known->id), number, stations.of(station_name(session->station_key)), 0,
+                          100 * score.at("points").get<double>() / score.at("max").get<double>()};
+      person_of[pseudonym] = m.candidate;
+      program.push_back(m);
+      verdict[{m.candidate, number}] = session->result.value("verdict", "");
+    }
+    for (const HumanMark& h : by_people)
+      if (const auto at = person_of.find(h.candidate); at != person_of.end())
+        people.push_back({at->second, marked.of(exam), 0, judges.of(h.judge), 100 * h.points / points});
+  }
+  [[nodiscard]] double cut_percent() const { return mean(pass_percent_); }
+
+  Numbered candidates, stations, judges;
+  Numbered marked;  // exams that people marked
+  std::vector<CircuitMark> program, people;
+  std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> verdict;
+
+ private:
+  [[nodiscard]] std::string station_name(const std::string& key) const {
+    const ledger::Station* s = registry_.stations.of(key);
+    return s != nullptr && !s->name.empty() ? s->name : key.substr(0, 12);
+  }
+
+  const ledger::Registry& registry_;
+  ledger::Identities& identities_;
+  CircuitFigures& figures_;
+  std::vector<double> pass_percent_;
+};
+
+void put_roster(CircuitFigures& f, const Collected& all, const std::optional<SeverityStudy>& severity) {
+  const std::size_t exams = f.exams.size();
+  for (const auto& name : all.candidates.names())
+    f.roster.push_back({name, std::vector<double>(exams, -1.0), std::vector<std::string>(exams), 0.0, {}});
+  for (const CircuitMark& m : all.program) {
+    RosterRow& row = f.roster[m.candidate];
+    row.percent[m.exam] = m.percent;
+    row.verdict[m.exam] = all.verdict.at({m.candidate, m.exam});
+  }
+  for (std::size_t p = 0; p < f.roster.size(); ++p) {
+    RosterRow& row = f.roster[p];
+    std::vector<double> sat;
+    for (const double v : row.percent)
+      if (v >= 0) sat.push_back(v);
+    row.raw = mean(sat);
+    f.complete += sat.size() == exams ? 1 : 0;
+    if (severity) row.adjusted = severity->persons[p].adjusted;
+  }
+  f.candidates = f.roster.size();
+  std::sort(f.roster.begin(), f.roster.end(), [](const RosterRow& a, const RosterRow& b) { return a.candidate < b.candidate; });
+}
+
+}  // namespace
+
+CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
+                               const std::map<std::string, std::vector<HumanMark>>& marks) {
+  if (exams.size() < 2) throw Error("a circuit", "has two exams at least", "name them with --exams A,B");
+  if (std::set<std::string>(exams.begin(), exams.end()).size() != exams.size()) throw Error("a circuit", "names an exam twice", "name each once");
+  CircuitFigures f;
+  Collected all(registry, identities, f);
+  for (const auto& exam : exams) {
+    const auto by_people = marks.find(exam);
+    all.add(exam, by_people == marks.end() ? std::vector<HumanMark>() : by_people->second);
+  }
+  f.cut_percent = all.cut_percent();
+
+  const double candidates = static_cast<double>(all.candidates.names().size()), n_exams = static_cast<double>(exams.size());
+  std::vector<StudyMark> by_exam, by_station, by_judge;
+  for (const auto& m : all.program) {
+    by_exam.push_back({{m.candidate, m.exam}, m.percent});
+    by_station.push_back({{m.candidate, m.exam, m.station}, m.percent});
+  }
+  for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
+  when_possible(f.program, f.why_no_program, [&] {
+    return studied(crossed_design({"candidate", "exam"}), by_exam, {{n_exams}}, candidates, f.cut_percent);
+  });
+  if (all.people.empty())
+    f.why_no_people = "no marks of people";
+  else
+    when_possible(f.people, f.why_no_people, [&] { return study_of_people(all.people, all.marked.names().size(), candidates, f.cut_percent); });
+
+  std::optional<SeverityStudy> severity, of_judges;
+  when_possible(severity, f.why_no_stations, [&] { return study_severity(by_station); });
+  if (severity) f.stations = named(*severity, all.stations.names());
+  if (!by_judge.empty()) {
+    when_possible(of_judges, f.why_no_judges, [&] { return study_severity(by_judge); });
+    if (of_judges) f.judges = named(*of_judges, all.judges.names());
+  }
+  put_roster(f, all, severity);
+  return f;
+}
+
+}  // namespace cavum::cohort

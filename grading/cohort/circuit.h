@@ -1,0 +1,65 @@
+// A circuit: several exams that one class sits. Its marks come from the ledger, and people's beside them; what they say of the circuit comes from
+// variance_components.h and severity.h. Marks are percent of each exam's points. No mark is changed.
+#pragma once
+
+#include <map>
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/cohort/class_figures.h"
+#include "grading/cohort/severity.h"
+#include "grading/cohort/variance_components.h"
+
+namespace cavum::cohort {
+
+/// One generalisability study: of the program's marks, or of people's.
+struct CircuitStudy {
+  StudyDesign design;
+  VarianceComponents components;
+  DependabilityRange range;
+  CircuitPlan plan;  ///< as it was sat
+  Dependability as_sat;
+  CutDecision at_cut;
+  std::vector<Dependability> by_tasks;  ///< with 1, 2, ... k_most_tasks exams, raters as they were
+  std::optional<int> tasks_for_enough;  ///< the fewest exams with a phi of k_enough_phi; none within k_most_tasks
+};
+inline constexpr double k_enough_phi = 0.80;
+inline constexpr int k_most_tasks = 40;
+
+struct NamedSeverity {
+  std::string name;  ///< station, judge or exam
+  Severity severity;
+};
+/// A candidate, over all exams.
+struct RosterRow {
+  std::string candidate;        ///< the school's own number
+  std::vector<double> percent;  ///< by exam; below 0: not sat
+  std::vector<std::string> verdict;
+  double raw = 0.0;                ///< mean of those that were sat
+  std::optional<double> adjusted;  ///< the same under stations and exams of middle severity
+};
+
+struct CircuitFigures {
+  std::vector<std::string> exams;
+  std::size_t candidates = 0, complete = 0;  ///< who sat any, all
+  std::size_t unknown = 0;                   ///< sessions whose candidate nobody knows any more: left out
+  std::size_t simulated = 0;                 ///< sessions of simulated operators, counted among people
+  double cut_percent = 0.0;                  ///< mean over the exams of what passes
+  std::optional<CircuitStudy> program, people;
+  std::string why_no_program, why_no_people;  ///< where there is none
+  std::vector<NamedSeverity> stations, judges;
+  std::string why_no_stations, why_no_judges;
+  std::vector<RosterRow> roster;
+};
+
+/// `marks`: people's, by exam. Throws Error with fewer than two exams, with one twice, or when nobody sat one.
+[[nodiscard]] CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
+                                             const std::map<std::string, std::vector<HumanMark>>& marks);
+[[nodiscard]] nlohmann::ordered_json to_json(const CircuitFigures& figures);
+[[nodiscard]] std::string to_text(const CircuitFigures& figures);
+/// candidate, each exam's percent and verdict, raw and adjusted mean; a row each.
+[[nodiscard]] std::string roster_csv(const CircuitFigures& figures);
+
+}  // namespace cavum::cohort

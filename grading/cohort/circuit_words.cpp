@@ -1,0 +1,124 @@
+// The figures of a circuit in JSON, in words, and as a table of its candidates.
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/text.h"
+#include "grading/cohort/circuit.h"
+
+namespace cavum::cohort {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr int k_tasks_in_words = 12;
+
+Json coefficients(const Dependability& d) {
+  return {{"g", d.g}, {"phi", d.phi}, {"relative_sem_percent", d.relative_sem}, {"absolute_sem_percent", d.absolute_sem}};
+}
+
+Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not) {
+  if (!s) return {{"why_not", why_not}};
+  Json j{{"mean_percent", s->components.mean}, {"components", Json::array()}};
+  for (std::size_t k = 0; k < s->design.effects.size(); ++k)
+    j["components"].push_back({{"effect", s->design.effect_name(k)}, {"variance", s->components.variance[k]}, {"standard_error", s->range.error[k]}});
+  j["as_sat"] = coefficients(s->as_sat);
+  j["as_sat"]["conditions"] = s->plan.conditions;
+  j["as_sat"]["g_range"] = {s->range.g_low, s->range.g_high};
+  j["as_sat"]["phi_range"] = {s->range.phi_low, s->range.phi_high};
+  j["at_cut"] = {{"phi", s->at_cut.phi_at_cut}, {"consistency", s->at_cut.consistency}, {"accuracy", s->at_cut.accuracy}};
+  j["by_exams"] = Json::array();
+  for (const auto& d : s->by_tasks) j["by_exams"].push_back(coefficients(d));
+  j["exams_for_phi_080"] = s->tasks_for_enough ? Json(*s->tasks_for_enough) : Json();
+  return j;
+}
+
+Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not) {
+  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"conditions", Json::array()}};
+  for (const auto& s : list)
+    j["conditions"].push_back({{"name", s.name},
+                               {"marks", s.severity.marks},
+                               {"severity_percent", s.severity.severity},
+                               {"standard_error", s.severity.error},
+                               {"beyond_chance", s.severity.beyond_chance}});
+  return j;
+}
+
+std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, double cut) {
+  if (!s) return fmt::format("{}: no study: {}\n", whose, why_not);
+  double total = 0;
+  for (const double v : s->components.variance) total += std::max(0.0, v);
+  std::string text = fmt::format("{}: where the differences come from\n", whose);
+  for (std::size_t k = 0; k < s->design.effects.size(); ++k)
+    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.effect_name(k), fixed(s->components.variance[k], 1),
+                        fixed(s->range.error[k], 1), fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
+  text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
+                      fixed(s->range.phi_low, 2), fixed(s->range.phi_high, 2), fixed(s->as_sat.g, 2), fixed(s->range.g_low, 2),
+                      fixed(s->range.g_high, 2), fixed(s->as_sat.absolute_sem, 1));
+  text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(cut, 1),
+                      fixed(100 * s->at_cut.consistency, 0), fixed(s->at_cut.phi_at_cut, 2));
+  text += "  phi by the number of exams:";
+  for (int n = 1; n <= k_tasks_in_words; ++n) text += fmt::format(" {}: {}", n, fixed(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2));
+  return text + (s->tasks_for_enough ? fmt::format("\n  for phi 0.80: {} exams\n", *s->tasks_for_enough)
+                                     : fmt::format("\n  for phi 0.80: more than {} exams\n", k_most_tasks));
+}
+
+std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not) {
+  if (!why_not.empty()) return fmt::format("{}: not compared: {}\n", what, why_not);
+  std::string text;
+  for (const auto& s : list)
+    text += fmt::format("  {:<24} takes {:>5} ± {} % of {} marks{}\n", one_line(s.name), fixed(s.severity.severity, 1), fixed(s.severity.error, 1),
+                        s.severity.marks, s.severity.beyond_chance ? ": more than chance gives" : "");
+  return text.empty() ? "" : fmt::format("{}, beside their mean\n", what) + text;
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const CircuitFigures& f) {
+  Json roster = Json::array();
+  for (const RosterRow& r : f.roster) {
+    Json by_exam = Json::object();
+    for (std::size_t e = 0; e < f.exams.size(); ++e)
+      by_exam[f.exams[e]] = r.percent[e] < 0 ? Json() : Json{{"percent", r.percent[e]}, {"verdict", r.verdict[e]}};
+    roster.push_back(
+        {{"candidate", r.candidate}, {"exams", by_exam}, {"raw_percent", r.raw}, {"adjusted_percent", r.adjusted ? Json(*r.adjusted) : Json()}});
+  }
+  return {{"exams", f.exams},
+          {"candidates", f.candidates},
+          {"complete", f.complete},
+          {"unknown", f.unknown},
+          {"simulated", f.simulated},
+          {"cut_percent", f.cut_percent},
+          {"program", study_json(f.program, f.why_no_program)},
+          {"people", study_json(f.people, f.why_no_people)},
+          {"stations", severities_json(f.stations, f.why_no_stations)},
+          {"judges", severities_json(f.judges, f.why_no_judges)},
+          {"roster", roster}};
+}
+
+std::string to_text(const CircuitFigures& f) {
+  std::string text = fmt::format("a circuit of {} exams: {} candidates, {} of them sat all; percent of an exam's points\n", f.exams.size(),
+                                 f.candidates, f.complete);
+  if (f.simulated > 0) text += fmt::format("{} sessions are of simulated operators, and count among people\n", f.simulated);
+  if (f.unknown > 0) text += fmt::format("{} sessions left out: nobody knows any more whose they are\n", f.unknown);
+  if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
+  text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);
+  text += study_text("people's marks", f.people, f.why_no_people, f.cut_percent);
+  text += severity_text("stations", f.stations, f.why_no_stations);
+  text += severity_text("judges", f.judges, f.why_no_judges);
+  return text + "No mark was changed. Adjusted ones, beside the raw: --out roster.csv\n";
+}
+
+std::string roster_csv(const CircuitFigures& f) {
+  std::string text = "candidate";
+  for (const auto& e : f.exams) text += "," + csv_field(e + " percent") + "," + csv_field(e + " verdict");
+  text += ",raw percent,adjusted percent\n";
+  for (const RosterRow& r : f.roster) {
+    text += csv_field(r.candidate);
+    for (std::size_t e = 0; e < f.exams.size(); ++e) text += "," + (r.percent[e] < 0 ? "" : fixed(r.percent[e], 2)) + "," + csv_field(r.verdict[e]);
+    text += "," + fixed(r.raw, 2) + "," + (r.adjusted ? fixed(*r.adjusted, 2) : "") + "\n";
+  }
+  return text;
+}
+
+}  // namespace cavum::cohort

@@ -1,0 +1,97 @@
+// Where the differences between marks come from: generalisability theory. How much is of the candidates, how much of tasks and raters and of what
+// they do together; how dependable a circuit of so many tasks and raters would be, and how surely it tells pass from fail. Cronbach, Gleser, Nanda
+// and Rajaratnam, The Dependability of Behavioral Measurements, 1972; Brennan, Generalizability Theory, Springer 2001. It explains; it changes no
+// mark.
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace cavum::cohort {
+
+/// Facets of a study, persons first, and the effects that it tells apart: sets of facets, bit i for facet i. The last one holds all facets: the
+/// residual.
+struct StudyDesign {
+  std::vector<std::string> facets;
+  std::vector<std::uint32_t> effects;
+  /// "candidate x task", "rater:task".
+  [[nodiscard]] std::string effect_name(std::size_t effect) const;
+};
+/// Everybody under every condition: each set of facets is an effect. One to four facets beside the persons, else Error.
+[[nodiscard]] StudyDesign crossed_design(std::vector<std::string> facets);
+/// persons x (inner : outer): each inner condition (a rater) belongs to one outer one (a task).
+[[nodiscard]] StudyDesign nested_design(const std::string& persons, const std::string& outer, const std::string& inner);
+
+/// One mark: a level of each facet, counted from 0, and its value.
+struct StudyMark {
+  std::vector<std::uint32_t> level;
+  double value = 0.0;
+};
+
+/// Estimated variances, in the square of the marks' unit, by effect; below 0 where chance has it so (0 is meant).
+struct VarianceComponents {
+  std::vector<double> variance;
+  double mean = 0.0;
+};
+
+/// The part of a study that does not depend on the marks' values: computed once.
+class VarianceStudy {
+ public:
+  /// Throws Error when two marks share all levels, a mark has another number of levels than the design has facets, or the marks cannot tell two
+  /// effects apart (a single task, each rater with a candidate of his own).
+  VarianceStudy(StudyDesign design, std::span<const StudyMark> marks);
+  [[nodiscard]] const StudyDesign& design() const noexcept { return design_; }
+  [[nodiscard]] std::size_t marks() const noexcept { return marks_; }
+  /// Henderson's first method (Biometrics 9 (1953) 226; Brennan's analogous ANOVA): sums of squares are set equal to what they are expected to be.
+  /// Balanced: the components of the analysis of variance. `values`: one for each mark, in their order.
+  [[nodiscard]] VarianceComponents estimate(std::span<const double> values) const;
+  /// Values drawn from normal distributions of these variances, on this study's conditions.
+  [[nodiscard]] std::vector<double> draw(const VarianceComponents& from, std::uint64_t seed) const;
+
+ private:
+  StudyDesign design_;
+  std::size_t marks_;
+  std::vector<std::vector<std::uint32_t>> group_;  // by effect, of each mark
+  std::vector<std::vector<double>> size_;          // by effect, of each group: how many marks
+  std::vector<std::vector<double>> inverse_;       // from sums of squares to variances, the square of the mean last
+};
+
+/// How many conditions of each facet beside the persons a circuit would have; a fixed facet is the same in every circuit, no sample of many.
+struct CircuitPlan {
+  std::vector<double> conditions;  ///< of facet 1, 2, ...; an inner facet's: in each outer condition. At least 1
+  std::vector<bool> fixed = {};    ///< empty: none
+};
+
+/// Of a candidate's mean over such a circuit.
+struct Dependability {
+  double universe = 0.0;                          ///< variance of what candidates would have over all circuits
+  double relative = 0.0;                          ///< error variance of their order
+  double absolute = 0.0;                          ///< error variance of their mark
+  double of_the_mean = 0.0;                       ///< error variance of the class's mean, for as many persons as were studied
+  double g = 0.0;                                 ///< generalisability coefficient: universe / (universe + relative)
+  double phi = 0.0;                               ///< dependability: universe / (universe + absolute)
+  double relative_sem = 0.0, absolute_sem = 0.0;  ///< standard errors of measurement, in the marks' unit
+};
+/// Components below 0 count as 0. Throws Error when the plan has another number of facets, or fewer than one condition.
+[[nodiscard]] Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons);
+
+/// How surely one circuit tells who is above `cut` (unit of the marks), for normal marks.
+struct CutDecision {
+  double phi_at_cut = 0.0;   ///< Brennan and Kane, J. Educational Measurement 14 (1977) 277: dependability of a distance from the cut
+  double consistency = 0.0;  ///< share of candidates whom two such circuits would pass or fail alike: Peng and Subkoviak, same journal 17 (1980) 359
+  double accuracy = 0.0;     ///< share whom it passes or fails as endless circuits would
+};
+[[nodiscard]] CutDecision cut_decision(const Dependability& d, double mean, double cut);
+
+/// Bounds that hold the truth in 95 of 100 studies of normal marks: 1 − g (1 − phi) by how it scatters over studies drawn from the estimate, as a
+/// multiple of what they were drawn from. Of candidates by tasks that ratio is an F, and the bound Feldt's (Psychometrika 30 (1965) 357).
+struct DependabilityRange {
+  double g_low = 0.0, g_high = 0.0, phi_low = 0.0, phi_high = 0.0;
+  std::vector<double> error;  ///< standard error of each variance component
+};
+[[nodiscard]] DependabilityRange dependability_range(const VarianceStudy& study, const VarianceComponents& estimate, const CircuitPlan& plan,
+                                                     double persons, int draws, std::uint64_t seed);
+
+}  // namespace cavum::cohort

@@ -1,0 +1,97 @@
+// Severity of stations and raters: balanced, it is the difference of means; in part shared, known severities are found within their errors.
+#include "grading/cohort/severity.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdio>
+
+#include "engine/base/error.h"
+#include "engine/base/random.h"
+
+namespace cavum::cohort {
+namespace {
+
+TEST(SeverityOfConditions, BalancedItIsTheDifferenceOfMeans) {
+  // Two candidates at both of two stations: station 1 takes 4 off, the rest is by hand.
+  const std::vector<StudyMark> marks{{{0, 0}, 80}, {{0, 1}, 77}, {{1, 0}, 60}, {{1, 1}, 55}};
+  const SeverityStudy s = study_severity(marks);
+  EXPECT_NEAR(s.facets[0][0].severity, -2, 1e-12);
+  EXPECT_NEAR(s.facets[0][1].severity, 2, 1e-12);
+  EXPECT_NEAR(s.persons[0].raw, 78.5, 1e-12);
+  EXPECT_NEAR(s.persons[0].adjusted, 78.5, 1e-12) << "both sat at both";
+  EXPECT_NEAR(s.residual_sd, 1 / std::sqrt(2.0) * std::sqrt(2.0), 1e-12) << "four residuals of 0.5 on one degree of freedom: 1";
+  // A station's effect is half the difference of two means of two marks: its variance is s²/4·(1/2 + 1/2) = s²/4.
+  EXPECT_NEAR(s.facets[0][0].error, 0.5, 1e-12);
+}
+
+TEST(SeverityOfConditions, WhoSatAtTheSevereStationAloneIsHelped) {
+  // Candidate 2 was only at station 1, which took 10 off the others.
+  const std::vector<StudyMark> marks{{{0, 0}, 80}, {{0, 1}, 70}, {{1, 0}, 61}, {{1, 1}, 49}, {{2, 1}, 65}, {{3, 0}, 75}};
+  const SeverityStudy s = study_severity(marks);
+  EXPECT_NEAR(s.facets[0][1].severity, 5.5, 1e-12);
+  EXPECT_NEAR(s.persons[2].adjusted, 70.5, 1e-12);
+  EXPECT_NEAR(s.persons[3].adjusted, 69.5, 1e-12);
+}
+
+TEST(SeverityOfConditions, StationsThatShareNobodyAreNotCompared) {
+  EXPECT_THROW((void)study_severity(std::vector<StudyMark>{{{0, 0}, 80}, {{1, 0}, 70}, {{2, 1}, 60}, {{3, 1}, 65}}), Error);
+  EXPECT_THROW((void)study_severity(std::vector<StudyMark>{{{0, 0}, 80}, {{0, 1}, 70}}), Error) << "nothing is left for chance";
+  EXPECT_THROW((void)study_severity({}), Error);
+}
+
+/// 80 candidates; each is seen at 3 of 6 stations by one of 5 raters.
+struct ClassOfKnownSeverity {
+  std::vector<double> station, rater;
+  double residual = 6;
+  std::vector<double> truth;
+  std::vector<StudyMark> draw(Random& random) {
+    std::vector<StudyMark> marks;
+    truth.clear();
+    for (std::uint32_t p = 0; p < 80; ++p) {
+      truth.push_back(70 + 9 * random.normal());
+      const auto first = static_cast<std::uint32_t>(random.below(station.size()));
+      for (std::uint32_t i = 0; i < 3; ++i) {
+        const std::uint32_t s = (first + i) % static_cast<std::uint32_t>(station.size());
+        const auto r = static_cast<std::uint32_t>(random.below(rater.size()));
+        marks.push_back({{p, s, r}, truth.back() - station[s] - rater[r] + residual * random.normal()});
+      }
+    }
+    return marks;
+  }
+};
+
+TEST(SeverityOfConditions, KnownSeveritiesAreFoundWithinTheirErrors) {
+  ClassOfKnownSeverity known{{0, 0, 0, 0, 0, 0}, {-6, -1, 0, 1, 6}, 6, {}};
+  Random random(3);
+  int held = 0, asked = 0, alarms = 0, found = 0;
+  double raw = 0, adjusted = 0;
+  constexpr int k_draws_of_severity = 200;
+  for (int i = 0; i < k_draws_of_severity; ++i) {
+    const SeverityStudy s = study_severity(known.draw(random));
+    for (std::size_t r = 0; r < known.rater.size(); ++r) {
+      held += std::fabs(s.facets[1][r].severity - known.rater[r]) <= 1.96 * s.facets[1][r].error;
+      ++asked;
+    }
+    bool any = false;
+    for (const auto& station : s.facets[0]) any = any || station.beyond_chance;
+    alarms += any;
+    found += s.facets[1][0].beyond_chance && s.facets[1][4].beyond_chance;
+    for (std::size_t p = 0; p < known.truth.size(); ++p) {
+      raw += std::pow(s.persons[p].raw - known.truth[p], 2);
+      adjusted += std::pow(s.persons[p].adjusted - known.truth[p], 2);
+    }
+  }
+  std::printf(
+      "held by 1.96 errors %.1f %%; an equal station called severe in %.1f %% of classes; both severe raters found in %.1f %%; error of a mark %.2f "
+      "raw, %.2f adjusted\n",
+      100.0 * held / asked, 100.0 * alarms / k_draws_of_severity, 100.0 * found / k_draws_of_severity, std::sqrt(raw / (80 * k_draws_of_severity)),
+      std::sqrt(adjusted / (80 * k_draws_of_severity)));
+  EXPECT_NEAR(double(held) / asked, 0.95, 0.025);
+  EXPECT_LE(alarms, 0.09 * k_draws_of_severity);
+  EXPECT_GE(found, 0.95 * k_draws_of_severity);
+  EXPECT_LT(adjusted, raw);
+}
+
+}  // namespace
+}  // namespace cavum::cohort

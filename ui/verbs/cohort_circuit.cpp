@@ -1,0 +1,84 @@
+#include "ui/verbs/cohort_circuit.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <iostream>
+#include <map>
+#include <memory>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/text.h"
+#include "grading/cohort/circuit.h"
+#include "grading/ledger/erasure.h"
+#include "ui/parts/own_places.h"
+#include "ui/parts/print_json.h"
+
+namespace cavum::ui {
+namespace {
+
+struct CircuitArguments {
+  std::string folder, out;
+  std::vector<std::string> exams, marks;
+  bool as_json = false;
+};
+
+/// `EXAM=FILE`, for an exam of the circuit.
+std::pair<std::string, std::string> marks_file(const CircuitArguments& o, const std::string& given) {
+  const auto at = given.find('=');
+  const std::string exam = given.substr(0, at);
+  if (at == std::string::npos || at + 1 == given.size())
+    throw Error("--marks " + given, "does not say which exam's marks these are", "write --marks EXAM=FILE");
+  if (std::find(o.exams.begin(), o.exams.end(), exam) == o.exams.end())
+    throw Error("--marks " + given, "is of no exam of the circuit", "name it with --exams, too");
+  return {exam, given.substr(at + 1)};
+}
+
+void measure_circuit(const CircuitArguments& o) {
+  const ledger::LedgerPlaces places{o.folder};
+  const ledger::LedgerContent content = ledger::read_ledger(places);
+  if (!content.findings.empty())
+    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+  const ledger::Registry registry = ledger::read_registry(content);
+  ledger::Identities identities(places.identities());
+  ledger::remove_forgotten(content, identities);
+  std::map<std::string, std::vector<cohort::HumanMark>> marks;
+  std::vector<NamedFile> kept{{"", places.database()}, {"", places.identities()}};
+  for (const auto& given : o.marks) {
+    const auto [exam, file] = marks_file(o, given);
+    if (!marks.try_emplace(exam).second) throw Error("--marks " + given, "gives marks of an exam twice", "put them into one file");
+    marks[exam] = cohort::parse_marks(read_text_file(file), identities, exam, file, cohort::points_of_exam(registry, exam));
+    kept.push_back({"", file});
+  }
+  if (!o.out.empty()) {
+    if (!o.out.ends_with(".csv")) throw Error("--out " + o.out, "is no table", "use a name ending in .csv");
+    require_own_places({{"--out " + o.out, o.out}}, kept);
+  }
+  const cohort::CircuitFigures figures = cohort::circuit_figures(registry, identities, o.exams, marks);
+  if (!o.out.empty()) write_text_file(o.out, roster_csv(figures));
+  if (o.as_json) {
+    print_json(to_json(figures));
+  } else {
+    std::cout << to_text(figures);
+    if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
+  }
+}
+
+}  // namespace
+
+void add_cohort_circuit(CLI::App& cohort, int& exit_code) {
+  const auto o = std::make_shared<CircuitArguments>();
+  auto* v = cohort.add_subcommand("circuit", "Several exams of one class: how dependable they are together, and which station or judge is severe");
+  v->add_option("ledger", o->folder, "the ledger's folder")->required();
+  v->add_option("--exams", o->exams, "ids of the scenarios, two at least: a,b,c")->required()->delimiter(',');
+  v->add_option("--marks", o->marks, "people's marks of one exam: EXAM=FILE, CSV `candidate,judge,points`");
+  v->add_option("--out", o->out, "also a table of the candidates, raw and adjusted marks (.csv)");
+  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  v->callback([o, &exit_code] {
+    measure_circuit(*o);
+    exit_code = 0;
+  });
+}
+
+}  // namespace cavum::ui
