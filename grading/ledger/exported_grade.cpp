@@ -37,6 +37,7 @@ std::string doubts_of(const FiledSession& s) {
     out += s.chosen ? fmt::format("Several endings of this exam were filed (also entry {}), and this one was chosen by a person. ", others)
                     : fmt::format("Contested since its release by another ending of this exam (entry {}). ", others);
   }
+  if (const Regrade* r = s.regrade(s.shown_seq); r != nullptr && !r->person.empty()) out += fmt::format("Decided by a person: {}. ", r->reason);
   if (!s.findings.empty())
     out += fmt::format("Filed with {}{}, and released by a person. ", s.findings.size(), s.findings.size() == 1 ? " finding" : " findings");
   return out;
@@ -67,12 +68,13 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   if (verdict == "fail" && (!critical.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
     g.grade = 0;
     g.feedback += fmt::format(" Failed by {}: the {} points do not count.",
-                              !critical.empty()          ? "what is critical"
-                              : reaches(by.pass_percent) ? "a criterion below the pass mark"
-                                                         : "another pass mark " + marks,
+                              !critical.empty()             ? "what is critical"
+                              : result.contains("decision") ? "a person's decision"
+                              : reaches(by.pass_percent)    ? "a criterion below the pass mark"
+                                                            : "another pass mark " + marks,
                               points_of(points, max));
   } else if (verdict == "pass" && !reaches(own_percent)) {
-    g.feedback += fmt::format(" Passed by another pass mark {}.", marks);
+    g.feedback += result.contains("decision") ? " Passed by a person's decision." : fmt::format(" Passed by another pass mark {}.", marks);
   }
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())

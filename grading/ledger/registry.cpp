@@ -199,7 +199,7 @@ class RegistryReader {
     s.result = result_in(e);
     s.result_seq = e.seq;
     s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
-    s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), documents_of(e), s.result});
+    s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), text_in(e.body, "person"), documents_of(e), s.result});
     s.released = false;  // a new result waits for its own release, and the old one stands until then
   }
 

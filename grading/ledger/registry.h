@@ -18,6 +18,7 @@ struct Regrade {
   std::uint64_t seq = 0;  ///< of its entry
   std::int64_t utc_ns = 0;
   std::string reason;
+  std::string person;                            ///< who decided a result that the program left to a person (decision.h); empty: it was marked anew
   std::map<std::string, std::string> documents;  ///< what it was marked by (documents_of); empty when that was not kept
   nlohmann::json result;
 };
@@ -49,6 +50,8 @@ struct FiledSession {
     return nullptr;
   }
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
+  /// The program leaves it to a person, and none has decided.
+  [[nodiscard]] bool undecided() const { return result.is_object() && result.value("verdict", "") == "review"; }
   /// Filed with findings, or contested: it is released by name only.
   [[nodiscard]] bool questioned() const { return !findings.empty() || !contested_by.empty(); }
   /// The same, and no person has looked at it yet: it counts for nobody.

@@ -63,6 +63,8 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     const bool by_name = (by_entry || by_candidate) && wish.with_findings;
     if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr)
       ++out.kept_back;
+    else if (s.undecided() && !wish.undecided)
+      ++out.to_decide;
     else
       out.results.push_back(s.result_seq);
   }

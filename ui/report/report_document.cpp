@@ -421,8 +421,9 @@ Document report_document(const ReportSource& s) {
   d.created = s.facts.created;
   if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", tr("Regrade"), Paragraph::Kind::note});
   add_filing_notes(d, s);
-  d.blocks.push_back(VerdictBox{grading::verdict_name(r.verdict), tr("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)),
-                                margin(r, s.reader), reasons_for(s)});
+  const bool decided = s.filing && s.filing->regrade && !s.filing->regrade->person.empty();
+  d.blocks.push_back(VerdictBox{decided ? s.filing->regrade->verdict : grading::verdict_name(r.verdict),
+                                tr("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)), margin(r, s.reader), reasons_for(s)});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)

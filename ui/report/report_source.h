@@ -44,6 +44,7 @@ struct ReportAttempt {
 struct ReportRegrade {
   std::uint64_t entry = 0;
   std::string date, reason;
+  std::string person, verdict;  ///< who decided what the program left to a person, and how; empty: it was marked anew
 };
 
 /// What the ledger says of a session.

@@ -140,6 +140,7 @@ void add_release(LedgerCommand& ledger) {
   v->add_option("--session", o->chosen_sessions, "its entry: chooses one of several endings of an exam, which then alone counts; may be repeated");
   v->add_flag("--with-findings", o->with_findings,
               "with --candidate or --session: also one that was filed with findings, with --session also one that is contested, after an appeal");
+  v->add_flag("--undecided", o->undecided, "also results that a person has yet to decide: they go out as `review`");
   ledger.json_flag(v);
 }
 
@@ -151,6 +152,16 @@ void add_regrade(LedgerCommand& ledger) {
   v->add_option("--scenario", o->scenario, "corrected scenario (TOML)");
   v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal")->required();
   v->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the session's");
+  ledger.json_flag(v);
+}
+
+void add_decide(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("decide", "Results that the program leaves to a person: the queue, and with --session one's decision", done(ledger_decide));
+  v->add_option("--session", o->session_seq, "its entry");
+  v->add_option("--verdict", o->verdict, "pass or fail")->check(CLI::IsMember({"pass", "fail"}));
+  v->add_option("--person", o->person, "who decides, in one line; it is kept for ever");
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal");
   ledger.json_flag(v);
 }
 
@@ -280,9 +291,9 @@ void add_show(LedgerCommand& ledger) {
 
 void add_ledger_verbs(CLI::App& app, int& exit_code) {
   LedgerCommand ledger(app, exit_code);
-  for (auto* add : {add_init,       add_station, add_ticket,          add_tickets, add_cancel,     add_begin,  add_add,   add_release,
-                    add_regrade,    add_verify,  add_export,          add_receipt, add_candidates, add_forget, add_erase, add_key,
-                    add_checkpoint, add_cosign,  add_add_cosignature, add_backup,  add_restore,    add_show})
+  for (auto* add : {add_init,    add_station,    add_ticket, add_tickets,         add_cancel,  add_begin,      add_add,    add_release,
+                    add_regrade, add_decide,     add_verify, add_export,          add_receipt, add_candidates, add_forget, add_erase,
+                    add_key,     add_checkpoint, add_cosign, add_add_cosignature, add_backup,  add_restore,    add_show})
     add(ledger);
 }
 

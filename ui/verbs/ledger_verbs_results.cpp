@@ -1,4 +1,4 @@
-// `cavum ledger release | regrade | export | candidates`: what becomes of the results.
+// `cavum ledger release | regrade | decide | export | candidates`: what becomes of the results.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -8,6 +8,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/decision.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
@@ -28,7 +29,7 @@ void ledger_release(const LedgerOptions& o) {
     throw Error("--all", "is given with names", "give either --all, or --candidate and --session");
   ledger::Ledger ledger(o.folder, key_of(o));
   ledger::Identities identities = sound_identities(ledger);
-  ledger::ReleaseWish wish{o.all, o.with_findings, o.chosen, o.chosen_sessions};
+  ledger::ReleaseWish wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
   wish.candidates.clear();
   const ledger::Registry filed = ledger::read_registry(ledger.content());
   for (const auto& who : o.chosen) {  // of a person all exams that are filed
@@ -41,13 +42,16 @@ void ledger_release(const LedgerOptions& o) {
   }
   const ledger::Release released = ledger::release_results(ledger, wish);
   if (o.as_json)
-    print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}});
+    print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}, {"to_decide", released.to_decide}});
   else
     std::cout << released.results.size() << (released.results.size() == 1 ? " result released" : " results released")
               << (released.kept_back > 0 ? fmt::format(", {} kept back: filed with findings, or contested by another ending of the same exam "
                                                        "(--candidate or --session with --with-findings releases one after an appeal)",
                                                        released.kept_back)
                                          : "")
+              << (released.to_decide > 0
+                      ? fmt::format(", {} kept back: a person has to decide (cavum ledger decide {})", released.to_decide, one_line(o.folder))
+                      : "")
               << "\n";
 }
 
@@ -86,6 +90,43 @@ void ledger_regrade(const LedgerOptions& o) {
   else
     std::cout << "entry " << entry.seq << ": " << in_words(found->result) << " before; " << in_words(result) << " now"
               << (found->shown.is_null() ? "" : "; the old result stands until the new one is released") << "\n";
+}
+
+void ledger_decide(const LedgerOptions& o) {
+  if (o.session_seq < 0) {
+    const ledger::LedgerContent content = ledger::read_ledger({o.folder});
+    if (!content.findings.empty())
+      throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+    const auto queue = ledger::review_queue(ledger::read_registry(content));
+    json list = json::array();
+    for (const auto& d : queue) {
+      list.push_back({{"session", d.session},
+                      {"candidate", d.candidate},
+                      {"scenario", d.scenario_id},
+                      {"points", d.points},
+                      {"max", d.max},
+                      {"reasons", d.reasons}});
+      if (o.as_json) continue;
+      std::cout << fmt::format("{:>6}  {:<16} {:<28} {} of {}\n", d.session, one_line(d.candidate), one_line(d.scenario_id), fixed(d.points, 1),
+                               plain_number(d.max));
+      for (const auto& reason : d.reasons) std::cout << "          " << one_line(reason) << "\n";
+    }
+    if (o.as_json)
+      print_json(json{{"to_decide", list}});
+    else
+      std::cout << (queue.size() == 1 ? "1 result waits for a person's decision"
+                                      : fmt::format("{} results wait for a person's decision", queue.size()))
+                << "\n";
+    return;
+  }
+  if (o.verdict.empty() || o.person.empty() || o.reason.empty())
+    throw Error("cavum ledger decide --session", "needs verdict, person and reason", "give --verdict pass or fail, --person and --reason");
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const auto& entry = ledger::enter_decision(ledger, static_cast<std::uint64_t>(o.session_seq), {o.verdict, o.person, o.reason});
+  if (o.as_json)
+    print_json(json{{"seq", entry.seq}, {"session", o.session_seq}, {"verdict", o.verdict}, {"person", o.person}});
+  else
+    std::cout << fmt::format("entry {}: {}, decided by {}; it waits for its release", entry.seq, o.verdict, one_line(o.person)) << "\n";
 }
 
 void ledger_export(const LedgerOptions& o) {

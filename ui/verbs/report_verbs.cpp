@@ -48,6 +48,7 @@ report::ReportIntegrity integrity_of(const std::string& path, const ReportArgume
 Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSession& session, const ledger::Regrade& regrade) {
   const std::string entry = fmt::format("entry {}", regrade.seq);
   const auto basis = ledger::kept_basis(ledger.content, regrade);
+  if (!basis && !regrade.person.empty()) return {};  // a decision on the first mark: the exam's own rubric
   if (!basis)
     throw Error(entry, fmt::format("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
                 "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");

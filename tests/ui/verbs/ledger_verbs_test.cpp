@@ -242,11 +242,11 @@ TEST_F(LedgerVerbs, AnExamThatWasClosedIsNotTakenUpAgainFromItsBeginning) {
   ASSERT_EQ(run("ledger add " + path("L") + " " + cut + " --simulated --with-findings").exit_code, 1);
   const auto shown = run_json("ledger show " + path("L"));
   EXPECT_EQ(shown["sessions"][0]["contested_by"], json::array({shown["sessions"][1]["seq"]}));
-  EXPECT_EQ(run_json("ledger release " + path("L") + " --all"), (json{{"released", 0}, {"kept_back", 2}}));
+  EXPECT_EQ(run_json("ledger release " + path("L") + " --all"), (json{{"released", 0}, {"kept_back", 2}, {"to_decide", 0}}));
   const std::string release = "ledger release " + path("L") + " --with-findings ", first = shown["sessions"][0]["seq"].dump(),
                     second = shown["sessions"][1]["seq"].dump();
   expect_refused(release + "--candidate 4711", {"entries " + first + " and " + second, "--session"});
-  EXPECT_EQ(run_json(release + "--session " + first), (json{{"released", 1}, {"kept_back", 0}}));
+  EXPECT_EQ(run_json(release + "--session " + first), (json{{"released", 1}, {"kept_back", 0}, {"to_decide", 0}}));
   expect_refused(release + "--session " + second, {"was chosen before and alone counts"});
   EXPECT_EQ(run_json("ledger show " + path("L"))["sessions"][0]["chosen"], true);
 }

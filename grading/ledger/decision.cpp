@@ -1,0 +1,69 @@
+#include "grading/ledger/decision.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "grading/ledger/regrade.h"
+
+namespace cavum::ledger {
+namespace {
+
+using nlohmann::json;
+
+void require_line(const std::string& option, const std::string& text, std::size_t longest, const char* what) {
+  if (text.empty() || text.size() > longest || !is_plain_text(text))
+    throw Error(option, text.size() > longest ? fmt::format("is longer than {} bytes", longest) : "is no line of text",
+                fmt::format("say in one line of UTF-8 {}: it is kept for ever", what));
+}
+
+/// The result of a session that a person has to decide. Throws Error.
+const FiledSession& undecided_session(const Registry& registry, std::uint64_t session) {
+  const std::string where = fmt::format("--session {}", session);
+  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
+  if (found == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
+  if (found->undecided()) return *found;
+  if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
+    throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result.value("verdict", "")),
+                "an appeal is a regrade, with its reason: `cavum ledger regrade`");
+  throw Error(where,
+              found->result.is_object() ? fmt::format("its verdict is {}: the program leaves nothing to a person", found->result.value("verdict", ""))
+                                        : "has no result",
+              "an appeal is a regrade, with its reason: `cavum ledger regrade`");
+}
+
+}  // namespace
+
+std::vector<ToDecide> review_queue(const Registry& registry) {
+  std::vector<ToDecide> queue;
+  for (const FiledSession& s : registry.sessions) {
+    if (!s.undecided() || registry.chosen_instead_of(s) != nullptr) continue;
+    const json& score = s.result.at("score");
+    ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
+    for (const json& reason : member_of(s.result, "verdict_reasons"))
+      if (reason.is_string()) d.reasons.push_back(reason.get<std::string>());
+    queue.push_back(std::move(d));
+  }
+  return queue;
+}
+
+const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision) {
+  if (decision.verdict != "pass" && decision.verdict != "fail") throw Error("--verdict " + decision.verdict, "is none", "say pass or fail");
+  require_line("--person", decision.person, k_longest_person, "who decides");
+  require_line("--reason", decision.reason, k_longest_reason, "why, without names");
+  return ledger.append("regrade", [&](const LedgerContent& now) {
+    const Registry registry = read_registry(now);
+    const FiledSession& s = undecided_session(registry, session);
+    json result = s.result;
+    result["decision"] = {{"verdict_before", result.at("verdict")}, {"person", decision.person}};
+    result["verdict"] = decision.verdict;
+    const Regrade* before = s.regrade(s.result_seq);  // what the decided result was marked by, this one is, too
+    json by = json::object();
+    if (before != nullptr) by = before->documents;
+    return json{{"session", session}, {"result", result}, {"by", by}, {"person", decision.person}, {"reason", decision.reason}};
+  });
+}
+
+}  // namespace cavum::ledger

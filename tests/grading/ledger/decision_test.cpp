@@ -1,0 +1,114 @@
+// A result that the program leaves to a person waits until one has decided; what he decided is an entry, a result of its own, and what goes out.
+#include "grading/ledger/decision.h"
+
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/regrade.h"
+#include "grading/ledger/release.h"
+#include "tests/grading/ledger/school.h"
+
+namespace cavum::ledger {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+/// A school with one filed exam whose verdict is `review`; each test works on a copy.
+class LeftToAPerson : public testing::Test {
+ protected:
+  static void SetUpTestSuite() {
+    shared_ = new School();
+    Ledger ledger = shared_->ledger();
+    ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket("4711"))).seq);
+  }
+  static void TearDownTestSuite() { delete shared_; }
+  void SetUp() override {
+    Ledger ledger = school_.ledger();
+    json review = session().result;
+    entry_ = session().seq;
+    review["verdict"] = "review";
+    review["verdict_reasons"] = {"the force fell as at an opening, and the tissue says that none was made"};
+    enter_regrade(ledger, entry_, review, {}, "as if the program had left it to a person");
+  }
+  FiledSession session() const { return read_registry(read_ledger(school_.places())).sessions.at(0); }
+  std::string moodle() const {
+    Identities identities(school_.places().identities());
+    int left_out = 0;
+    return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out);
+  }
+  School school_{*shared_};
+  std::uint64_t entry_ = 0;
+
+ private:
+  static inline School* shared_ = nullptr;
+};
+
+TEST_F(LeftToAPerson, WaitsAndGoesOutAsHeDecides) {
+  Ledger ledger = school_.ledger();
+  const auto queue = review_queue(read_registry(ledger.content()));
+  ASSERT_EQ(queue.size(), 1u);
+  EXPECT_EQ(queue[0].session, entry_);
+  EXPECT_EQ(queue[0].reasons.at(0), "the force fell as at an opening, and the tissue says that none was made");
+  const Release waits = release_results(ledger, {.all = true});
+  EXPECT_EQ(waits.results.size(), 0u);
+  EXPECT_EQ(waits.to_decide, 1u);
+
+  enter_decision(ledger, entry_, {"fail", "Dr. Examiner", "the floor is cut through at the distal canal"});
+  const FiledSession s = session();
+  EXPECT_EQ(s.result["verdict"], "fail");
+  EXPECT_EQ(s.result["decision"], (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
+  EXPECT_EQ(s.result["score"], s.filed["score"]) << "a decision changes no points";
+  EXPECT_EQ(s.regrade(s.result_seq)->person, "Dr. Examiner");
+  EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
+  EXPECT_FALSE(s.released);
+  EXPECT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
+  const std::string csv = moodle();
+  EXPECT_NE(csv.find("Decided by a person: the floor is cut through at the distal canal"), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n4711,0,fail"), std::string::npos) << "points that would pass do not count: " << csv;
+  EXPECT_TRUE(read_ledger(school_.places()).findings.empty());
+}
+
+TEST_F(LeftToAPerson, IsDecidedOnceAndOnlyWhereThereIsSomethingToDecide) {
+  Ledger ledger = school_.ledger();
+  const auto refused = [&](const Decision& d, const std::string& why) {
+    try {
+      enter_decision(ledger, entry_, d);
+      ADD_FAILURE() << "taken: " << why;
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
+    }
+  };
+  refused({"review", "Dr. Examiner", "x"}, "say pass or fail");
+  refused({"pass", "", "x"}, "--person");
+  refused({"pass", "Dr. Examiner", "two\nlines"}, "--reason");
+  refused({"pass", std::string(k_longest_person + 1, 'x'), "x"}, "is longer than");
+  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
+  refused({"fail", "Dr. Other", "x"}, "was decided by Dr. Examiner");
+  json again = session().filed;
+  again["verdict"] = "pass";
+  enter_regrade(ledger, entry_, again, {}, "marked anew");
+  refused({"fail", "Dr. Other", "x"}, "leaves nothing to a person");
+  EXPECT_THROW(enter_decision(ledger, 999, {"pass", "x", "x"}), Error);
+}
+
+TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
+  Ledger ledger = school_.ledger();
+  EXPECT_EQ(release_results(ledger, {.sessions = {entry_}}).to_decide, 1u);
+  EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results.size(), 1u);
+  EXPECT_NE(moodle().find(",review,"), std::string::npos);
+  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
+  EXPECT_NE(moodle().find(",review,"), std::string::npos) << "the old one stands until the new one is released";
+  release_results(ledger, {.all = true});
+  EXPECT_NE(moodle().find(",pass,"), std::string::npos);
+}
+
+TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
+  Ledger ledger = school_.ledger();
+  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
+  EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u) << "mark, regrade, decision";
+  EXPECT_TRUE(session().result.is_null());
+  EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
+}
+
+}  // namespace
+}  // namespace cavum::ledger
