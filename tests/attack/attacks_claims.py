@@ -148,7 +148,7 @@ def operator_is_not_filed(s):
 def control_operator_filed_as_simulated(s):
     """... and with it; the release and the gradebook then know no student of that number."""
     done = s.add("op_anna.cavum", "--simulated")
-    s.ledger("release", "--all")
+    s.ledger("release", "--all", "--undecided")
     s.ledger("export", "--format", "moodle", "--with-simulated", "--out", s.p("g.csv"))
     s.must("4711" not in open(s.p("g.csv")).read(), "a simulated exam stands under a student's number")
     return done

@@ -69,7 +69,7 @@ def findings_stay(s):
     """A forged result filed with --with-findings: --all leaves it, the gradebook has no 4711, verify holds."""
     forged(s)
     s.must(s.add("m.cavum", "--with-findings").rc == 1 or lf.Ledger(s.L).entry(18)["kind"] == "session", "it is not filed at all")
-    s.ledger("release", "--all")
+    s.ledger("release", "--all", "--undecided")
     s.must(s.ledger("release", "--session", "18").rc != 0, "released by its entry without --with-findings")
     s.ledger("release", "--candidate", "4711")
     s.ledger("export", "--format", "moodle", "--out", s.p("g.csv"))
@@ -97,7 +97,7 @@ def contested(s):
     s.write(second.rebuild(s.station(), s.station()), "m.cavum")
     s.must(s.add("m.cavum").rc != 0, "the second is filed as clean")
     s.add("m.cavum", "--with-findings")
-    s.ledger("release", "--all")
+    s.ledger("release", "--all", "--undecided")
     s.must(s.ledger("release", "--candidate", "4711").rc != 0, "--candidate releases a contested one")
     s.ledger("export", "--format", "moodle", "--out", s.p("g.csv"))
     s.must("4711" not in open(s.p("g.csv")).read(), "a contested result stands in the gradebook")

@@ -103,7 +103,7 @@ def numbers_exchanged(s):
     sql(s, f"""CREATE TEMP TABLE t AS SELECT * FROM identity; UPDATE identity SET id='zz' WHERE pseudonym='{a}';
         UPDATE identity SET (id, name) = (SELECT id, name FROM t WHERE pseudonym='{a}') WHERE pseudonym='{b}';
         UPDATE identity SET (id, name) = (SELECT id, name FROM t WHERE pseudonym='{b}') WHERE pseudonym='{a}';""", file="identities.db")
-    for verb in (("release", "--all"), ("export", "--format", "moodle", "--out", s.p("g.csv"))):
+    for verb in (("release", "--all", "--undecided"), ("export", "--format", "moodle", "--out", s.p("g.csv"))):
         s.must(s.ledger(*verb).rc != 0, f"`ledger {verb[0]}` goes on")
     return checked(s, and_add=False)
 

@@ -68,7 +68,7 @@ def scenario_texts(s):
         no_markup(s, s.p("r.html"))
     if r.rc == 0:
         s.add("m.cavum", "--simulated", "--without-ticket")
-        s.ledger("release", "--all")
+        s.ledger("release", "--all", "--undecided")
         r = s.ledger("export", "--format", "csv", "--out", s.p("out.csv"))
         no_formulas(s, s.p("out.csv"))
         s.ledger("show")
@@ -113,7 +113,7 @@ def candidate_is_a_path(s):
         r.set_clocks(int(r.facts["created_utc_ns"]) - i * 10**10, int(r.facts["created_boot_ns"]) - i * 10**10)
         s.write(r.rebuild(s.station(), s.station()), "m.cavum")
         s.add("m.cavum", "--without-ticket", "--receipts", s.p("rc"))
-    s.ledger("release", "--all")
+    s.ledger("release", "--all", "--undecided")
     r = s.ledger("report", "--out", s.p("rep"), "--overwrite")
     s.must(set(os.listdir(s.folder)) - before <= {"m.cavum", "rc", "rep"}, "a file was written outside: " + str(set(os.listdir(s.folder)) - before))
     s.must(all(not os.path.isdir(s.p("rep/" + f)) for f in os.listdir(s.p("rep"))) if os.path.isdir(s.p("rep")) else True, "a folder was made in the reports")

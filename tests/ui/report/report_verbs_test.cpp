@@ -124,12 +124,26 @@ TEST_F(ReportVerbs, ARegradedResultIsTheOneThatCountsWithReasonAndTheSealedOneBe
   const std::string instructors = report(session, ledger);
   shows_it(instructors);
   EXPECT_NE(instructors.substr(instructors.find("Attempts over time")).find(", regraded, simulated operator</td>"), std::string::npos);
-  ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
+  ASSERT_EQ(run("ledger release " + path("L") + " --all --undecided").exit_code, 0);
   shows_it(report(session, student));
   const auto all = run("ledger report " + path("L") + " --out " + path("reports"));
   ASSERT_EQ(all.exit_code, 0) << all.err;
   shows_it(read_text_file(path("reports/" + pseudonym_ + "-" + entry + ".html")));
   EXPECT_EQ(run("report " + session + " --out " + path("r.pdf") + student).exit_code, 0);
+
+  // What the program leaves to a person, it says to be decided once somebody has.
+  ASSERT_EQ(json::parse(regraded.out)["verdict"], "review");
+  const auto decided =
+      run("ledger decide " + path("L") + " --session " + entry + " --verdict fail --person 'Dr. Weber' --reason 'two of three grooves are missing'");
+  ASSERT_EQ(decided.exit_code, 0) << decided.err;
+  const std::string to_instructors = report(session, ledger);
+  EXPECT_NE(to_instructors.find("fail, by Dr. Weber: two of three grooves are missing (entry "), std::string::npos);
+  EXPECT_NE(to_instructors.find("</b><br>" + new_points), std::string::npos) << "a decision changes no points";
+  EXPECT_EQ(report(session, student).find("two of three grooves"), std::string::npos) << "not before it is released";
+  ASSERT_EQ(run("ledger release " + path("L") + " --all").exit_code, 0);
+  const std::string to_student = report(session, student);
+  EXPECT_NE(to_student.find("fail: two of three grooves are missing (entry "), std::string::npos);
+  EXPECT_EQ(to_student.find("Dr. Weber"), std::string::npos) << "no names in a student's report";
 
   // another rubric than the one that counts is no student's report, and an instructor is told
   write_text_file(path("other.toml"),
