@@ -292,7 +292,7 @@ std::vector<std::uint8_t> marks_of(const std::vector<Piece>& removed, const Leaf
 }  // namespace
 
 ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm, const std::string& where) {
-  constexpr double k_thick_mm = 0.1, k_small_mm3 = 0.02, k_from_above = -0.5, k_below_mm = 0.3;
+  constexpr double k_thick_mm = 0.1, k_small_mm3 = 0.02, k_from_above = -0.5, k_below_mm = 0.3, k_thin_mm = 0.3;
   const Octree& before = tooth.tooth().octree;
   const LeafLattice lattice(before);
   std::vector<float> mm = distances_of(scan, lattice);
@@ -305,7 +305,7 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   double lowest_mm = 1e9;
   for (const Vec3 v : scan.vertices_mm) lowest_mm = std::min(lowest_mm, v.z);
 
-  ScanCut cut{before, {}, 0, 0.0, 0.0, 0};
+  ScanCut cut{before, {}, 0, 0.0, 0.0, 0, {}};
   std::vector<Piece> removed;
   for (Piece& piece : pieces.all()) {
     const double mm3 = static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3();
@@ -321,6 +321,16 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
       removed.push_back(std::move(piece));
     }
   }
+  // A groove that one mesh has and the other has not: its bottom lies deeper, apart from everything that was drilled.
+  const auto largest =
+      std::max_element(removed.begin(), removed.end(), [](const Piece& a, const Piece& b) { return a.leaves.size() < b.leaves.size(); });
+  for (auto& piece : removed) {
+    if (&piece == &*largest || piece.thickest_mm >= k_thin_mm) continue;
+    cut.apart.push_back(
+        {before.centre_mm(lattice.leaf(piece.leaves[0])), piece.thickest_mm, static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3()});
+    piece.leaves.clear();
+  }
+  std::erase_if(removed, [](const Piece& piece) { return piece.leaves.empty(); });
   cut.cavities = static_cast<int>(removed.size());
   if (removed.empty()) return cut;
 

@@ -66,6 +66,9 @@ class Works {
   void short_of_it();
   void wrong_place();
   void wrong_depth();
+  void pit();
+  /// The place of the floor nearest to the middle below which all is hard for so far; none where it ends in a canal.
+  [[nodiscard]] std::optional<Vec3> hard_floor(double deep_mm) const;
   void too_wide();
   void lesion();
   void faults();
@@ -193,6 +196,7 @@ void Works::wrong_depth() {
   for (const double mm : {0.8, 1.5})
     add(fmt::format("too_deep_by_{}_mm", plain_number(mm)), fmt::format("the target, its floor {} mm too deep", plain_number(mm)), Mistake::too_deep,
         deeper(mm));
+  pit();
   // in a curved side half the depth is no level: it follows the axial wall
   if (task_.zones.facing().lateral())
     add("half_as_deep", "the target, half as deep", Mistake::not_deep, [&f = f_, up = 0.5 * f_.mean_depth_mm()](Vec3 p) {
@@ -201,6 +205,41 @@ void Works::wrong_depth() {
     });
   else
     add("half_as_deep", "the target, half as deep", Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
+}
+
+std::optional<Vec3> Works::hard_floor(double deep_mm) const {
+  std::optional<Vec3> nearest;
+  const Tooth& tooth = f_.tooth();
+  for (const auto& leaf : f_.leaves()) {
+    const Vec3 place{leaf.at.x, leaf.at.y, f_.floor_mm(leaf.at)};
+    if (nearest && across(place, middle_) >= across(*nearest, middle_)) continue;
+    bool hard = true;
+    for (double down = 0.5 * tooth.octree.leaf_mm(); hard && down <= deep_mm; down += tooth.octree.leaf_mm())
+      hard = tooth.octree.is_solid(tooth.octree.tissue_at(f_.in_tooth(place - Vec3{0, 0, down})));
+    if (hard) nearest = place;
+  }
+  return nearest;
+}
+
+/// One hole of a point's width through the floor, where what lies below it is nearest: it stops short of that. Means and shares hardly see it.
+void Works::pit() {
+  constexpr double k_radius_mm = 0.5, k_deep_mm = 1.0, k_spared_mm = 0.3, k_least_mm = 0.4;
+  std::optional<Vec3> floor = hard_floor(k_deep_mm);
+  double deep = k_deep_mm;
+  for (const auto& tissue : task_.scenario.perforation.faults)
+    if (const auto below = f_.below(tissue); below && below->floor.z - below->tissue.z - k_spared_mm < deep) {
+      floor = below->floor;
+      deep = below->floor.z - below->tissue.z - k_spared_mm;
+    }
+  if (!floor || deep < k_least_mm) return;
+  add("pit_in_the_floor",
+      fmt::format("the target, and a pit 1 mm wide and up to {} mm deep in its floor, {} mm short of what lies below", plain_number(k_deep_mm),
+                  plain_number(k_spared_mm)),
+      Mistake::too_deep, [&f = f_, floor = *floor, deep](Vec3 p) {
+        const Vec3 q = f.local(p);
+        const double z = std::clamp(q.z, floor.z - deep + k_radius_mm, floor.z + 0.5);
+        return std::min(f.target_mm(p), length(q - Vec3{floor.x, floor.y, z}) - k_radius_mm);
+      });
 }
 
 void Works::too_wide() {

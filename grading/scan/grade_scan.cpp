@@ -7,7 +7,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/scan/cut_by_scan.h"
 #include "engine/scan/read_scan.h"
 #include "engine/scan/scale_fit.h"
 #include "engine/scan/smoothed.h"
@@ -144,6 +143,14 @@ void put_notes(const ScanFacts& f, Result& r) {
   r.notes.insert(r.notes.end(), f.notes.begin(), f.notes.end());
   if (f.cavities == 0) r.notes.emplace_back("the scan shows nothing that was removed");
   if (f.cavities > 1) r.notes.push_back(fmt::format("{} separate cavities were found, and all of them count", f.cavities));
+  if (!f.apart.empty()) {
+    const auto& deepest =
+        *std::max_element(f.apart.begin(), f.apart.end(), [](const ThinPiece& a, const ThinPiece& b) { return a.deep_mm < b.deep_mm; });
+    r.notes.push_back(fmt::format(
+        "apart from the cavity the scan lies up to {} mm deeper than the tooth, at [{}, {}, {}] mm: a nick, or a groove that one of the two "
+        "surfaces lacks; it is not counted, and a person must look at it",
+        fixed(deepest.deep_mm, 2), fixed(deepest.at_mm.x, 2), fixed(deepest.at_mm.y, 2), fixed(deepest.at_mm.z, 2)));
+  }
   if (f.second_share > k_nearly_as_well * f.pose.share)
     r.notes.push_back(fmt::format("the scan fits the tooth nearly as well in another pose ({} % of it, {} % in this one): a person must look at it",
                                   fixed(100 * f.second_share, 1), fixed(100 * f.pose.share, 1)));
@@ -188,6 +195,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   facts.cavities = cut.cavities;
   facts.unseen_mm3 = cut.unseen_mm3;
   facts.left_as_noise_mm3 = cut.left_as_noise_mm3;
+  facts.apart = cut.apart;
 
   GradedScan graded{{}, std::move(facts), tooth, {}, not_shown_by_scan(outer)};
   graded.after.octree = std::move(cut.after);

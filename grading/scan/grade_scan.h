@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/scan/cut_by_scan.h"
 #include "engine/scan/register_scan.h"
 #include "engine/scan/scan_fit.h"
 #include "grading/measures/grade_input.h"
@@ -26,6 +27,7 @@ struct ScanFacts {
   int cavities = 0;
   double unseen_mm3 = 0.0;  ///< of the tooth below where the scan ends
   double left_as_noise_mm3 = 0.0;
+  std::vector<ThinPiece> apart;    ///< thin pieces apart from the cavity: not counted
   double end_mm = 0.0;             ///< length of the rim where the scan ends; 0: it is closed
   int holes = 0;                   ///< other rims
   std::vector<std::string> notes;  ///< what was put right, and what is doubtful

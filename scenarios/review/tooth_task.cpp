@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
+#include "engine/tooth/distance_transform.h"
 #include "engine/tooth/tooth_notes.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/beside_task.h"
@@ -96,6 +97,8 @@ std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
       list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm below the fissure"});
   for (const double depth : {0.5, 0.3, 0.2})
     list.push_back({fmt::format("{{ kind = \"below_border\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm into dentin"});
+  for (const double depth : {1.2, 1.0})  // a worn crown, its pulp near: in enamel then
+    list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm below the fissure"});
   return list;
 }
 
@@ -112,7 +115,7 @@ std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
                        width, ridge, floor.toml),
            pulp_guard_text(0.5),
            fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
-           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge)});
+           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge), floor.words});
   return list;
 }
 
@@ -193,6 +196,59 @@ std::string lesion_criteria(const Tooth& tooth) {
       "\n[[rubric.criteria]]\nid = \"lesion\"\ntitle = \"Soft dentin removed\"\nmetric = \"touched_lesion_mm3\"\nfull = {}                   # of {} "
       "mm3\nzero = {}\npoints = 30\ncritical_below = {}         # with so much of it left the lesion goes on\n",
       fixed(k_full * mm3, 2), fixed(mm3, 2), fixed(k_zero * mm3, 2), fixed(k_zero * mm3, 2));
+}
+
+// A cavity's floor leaves 0.8 mm over the pulp where it is planned, and a candidate 0.5 mm: with less the pulp is injured (Murray, Smith, Windsor and
+// Mjör, Int Endod J 2003; 36: 33, recalled). What is planned and what fails lie a careful hand's overcut apart.
+constexpr double k_planned_over_pulp_mm = 0.8, k_least_over_pulp_mm = 0.5, k_far_from_pulp = 2.0;
+
+bool spares_the_pulp(const ToothTask& task, const Tooth& tooth) {
+  return !task.access && std::string_view(task.word) != "lesion" && has_tissue(tooth, "pulp");  // a lesion may reach as far as it likes
+}
+
+std::string over_pulp_criterion() {
+  return fmt::format(
+      "\n[[rubric.criteria]]\nid = \"over_pulp\"\ntitle = \"Hard tissue left over the pulp\"\nmetric = \"dentin_over_pulp_mm\"\nfull = {}\nzero = "
+      "{}\n"
+      "points = 5\ncritical_below = {}                 # with less the pulp is injured\n",
+      fixed(k_planned_over_pulp_mm - 0.1, 1), fixed(k_least_over_pulp_mm, 1), fixed(k_least_over_pulp_mm, 1));
+}
+
+/// From the target to the pulp where they are nearest, mm; 2 mm and more is 2.
+double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones) {
+  const Octree& tree = tooth.octree;
+  const auto around = static_cast<int>(k_far_from_pulp / tree.leaf_mm()) + 1;
+  IVec3 low = tree.size(), high{0, 0, 0};
+  zones.for_each_target_leaf([&](IVec3 leaf) {
+    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), std::min(low.z, leaf.z)};
+    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), std::max(high.z, leaf.z)};
+  });
+  const IVec3 from{std::max(0, low.x - around), std::max(0, low.y - around), std::max(0, low.z - around)};
+  const IVec3 to{std::min(tree.size().x, high.x + around), std::min(tree.size().y, high.y + around), std::min(tree.size().z, high.z + around)};
+  const IVec3 size{to.x - from.x, to.y - from.y, to.z - from.z};
+  if (size.x <= 0 || size.y <= 0 || size.z <= 0) return k_far_from_pulp;
+  const auto row = static_cast<std::size_t>(size.x), layer = row * static_cast<std::size_t>(size.y);
+  const auto index = [&](IVec3 c) {
+    return static_cast<std::size_t>(c.x) + row * static_cast<std::size_t>(c.y) + layer * static_cast<std::size_t>(c.z);
+  };
+  std::vector<std::uint8_t> pulp(layer * static_cast<std::size_t>(size.z));
+  const std::uint8_t id = tooth.tissue_id("pulp");
+  Octree::Cursor cursor;
+  bool any = false;
+  for (int z = 0; z < size.z; ++z)
+    for (int y = 0; y < size.y; ++y)
+      for (int x = 0; x < size.x; ++x)
+        if (tree.tissue(from + IVec3{x, y, z}, cursor) == id) pulp[index({x, y, z})] = 1, any = true;
+  if (!any) return k_far_from_pulp;
+  const auto nearest = nearest_seed(size, pulp);
+  double leaves = k_far_from_pulp / tree.leaf_mm();
+  zones.for_each_target_leaf([&](IVec3 leaf) {
+    const IVec3 at = leaf - from;
+    const auto seed = static_cast<std::size_t>(nearest[index(at)]);
+    const Vec3 way{at.x - static_cast<double>(seed % row), at.y - static_cast<double>(seed % layer / row), at.z - static_cast<double>(seed / layer)};
+    leaves = std::min(leaves, length(way) - 1);  // half a leaf on each side
+  });
+  return std::max(0.0, leaves) * tree.leaf_mm();
 }
 
 constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
@@ -308,16 +364,17 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                 "see `cavum tooth landmarks`, or choose another of " + words);
 
   const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
-                               beside_criteria(tooth, asked->opens);
-  std::string refused, against;
+                               beside_criteria(tooth, asked->opens) + (spares_the_pulp(*asked, tooth) ? over_pulp_criterion() : std::string());
+  std::string refused, against, too_deep;  // the last: a floor that was left out for the pulp
   const auto holds = [&](const std::string& text) {
     against = trial ? trial(text) : "";
     return against.empty();
   };
   std::vector<WrittenTask> unwise;  // sound, with warnings: only when there is none without
   std::size_t tried = 0;
-  double reaches = 0;
+  double reaches = 0, spares_mm = 0;  // the most of any choice that was left out for it
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
+    if (!too_deep.empty() && choice.floor == too_deep) continue;
     TaskText text{.id = id_of(tooth_file, task),
                   .title = asked->title,
                   .what = choice.what,
@@ -336,6 +393,11 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     CheckedScenario checked = check_whole(scenario_text(text), path);
     if (checked.sound() && checked.expert.reach < k_least_reach) {
       reaches = std::max(reaches, checked.expert.reach);
+    } else if (const double over_pulp =
+                   checked.laid && spares_the_pulp(*asked, tooth) ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_far_from_pulp;
+               checked.sound() && over_pulp < k_planned_over_pulp_mm) {
+      spares_mm = std::max(spares_mm, over_pulp);
+      too_deep = choice.floor;
     } else if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert.time_s);
       text.walls_limit_mm3 = wall_limit_mm3(checked.laid->zones, asked->walls_share);
@@ -359,6 +421,11 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   if (!against.empty())
     throw Error("--task " + task, fmt::format("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
                 "choose another task or tooth; --untried writes it all the same, as a draft");
+  if (spares_mm > 0)
+    throw Error("--task " + task,
+                fmt::format("in '{}' its floor would lie {} mm from the pulp; {} mm are asked for", tooth.name, fixed(spares_mm, 1),
+                            fixed(k_planned_over_pulp_mm, 1)),
+                "choose another task or tooth");
   if (reaches > 0)
     throw Error("--task " + task,
                 fmt::format("in '{}' no point of its tray reaches more than {} % of the cavity, which is too narrow for them", tooth.name,

@@ -37,6 +37,9 @@ Json facts_json(const grading::ScanFacts& f, const ScanArguments& o, double seco
   const auto row = [](Vec3 v) { return Json::array({grading::rounded(v.x), grading::rounded(v.y), grading::rounded(v.z)}); };
   const auto percent = [](double share) { return grading::rounded(100 * share); };
   const Rigid& pose = f.pose.to_tooth;
+  Json apart = Json::array();
+  for (const auto& piece : f.apart)
+    apart.push_back({{"at_mm", row(piece.at_mm)}, {"deep_mm", grading::rounded(piece.deep_mm)}, {"mm3", grading::rounded(piece.mm3)}});
   return {{"file", o.scan},
           {"units", o.units},
           {"mirrored", o.mirror},
@@ -56,6 +59,7 @@ Json facts_json(const grading::ScanFacts& f, const ScanArguments& o, double seco
           {"cavities", f.cavities},
           {"unseen_mm3", grading::rounded(f.unseen_mm3)},
           {"left_as_noise_mm3", grading::rounded(f.left_as_noise_mm3)},
+          {"apart", apart},
           {"end_mm", grading::rounded(f.end_mm)},
           {"holes", f.holes},
           {"pose", {{"rotation", {row(pose.rotation.row_x), row(pose.rotation.row_y), row(pose.rotation.row_z)}}, {"shift_mm", row(pose.shift_mm)}}},

@@ -78,14 +78,23 @@ struct Layers {
   std::vector<float> enamel, dentin, pulp;
 };
 
+struct Overlaps {
+  std::uint64_t leaves = 0;    ///< in more than one mesh
+  double of_the_enamel = 0.0;  ///< share of the enamel's leaves that lie in the dentin's mesh, too
+};
+
 /// Rule 1 of the header.
-std::uint64_t label_by_precedence(TissueGrid& grid, const Layers& f) {
-  std::uint64_t overlaps = 0;
+Overlaps label_by_precedence(TissueGrid& grid, const Layers& f) {
+  Overlaps overlaps;
+  std::uint64_t enamel = 0, both = 0;
   for (std::size_t i = 0; i < grid.tissue.size(); ++i) {
     const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0;
-    overlaps += e + d + p > 1;
+    overlaps.leaves += e + d + p > 1;
     grid.tissue[i] = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
+    enamel += grid.tissue[i] == k_enamel;
+    both += grid.tissue[i] == k_enamel && d;
   }
+  if (enamel > 0) overlaps.of_the_enamel = static_cast<double>(both) / static_cast<double>(enamel);
   return overlaps;
 }
 
@@ -168,9 +177,12 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     check_triangle_work(grid, dentin.mesh, paths.dentin);
     check_triangle_work(grid, pulp.mesh, paths.pulp);
     const Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid)};
-    out.overlap_leaves = label_by_precedence(grid, fields);
+    const Overlaps overlaps = label_by_precedence(grid, fields);
+    out.overlap_leaves = overlaps.leaves;
     check_layers(grid, paths);
+    require_layers_that_fit(layers_apart(grid), overlaps.of_the_enamel, fmt::format("{}, {}", paths.enamel, paths.dentin));
     out.gap_leaves = close_gaps(grid, fields);
+    check_closed_pulp(open_pulp(grid), options.sense, paths.pulp, out.sense);
   }
 
   // Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.

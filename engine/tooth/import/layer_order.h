@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/tooth/tissue_grid.h"
 
 namespace cavum {
 
@@ -16,5 +17,25 @@ namespace cavum {
 
 /// Throws Error when the pulp lies in the enamel: more of its faces are on enamel than on dentin, and no fewer than on air.
 void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where, const std::string& what_to_do);
+
+/// Voids between enamel and dentin.
+struct LayersApart {
+  double share = 0.0;      ///< of the places where one faces the other along an axis, those with a void between them, 0 to 1
+  double widest_mm = 0.0;  ///< the widest of those voids
+};
+/// Of a lattice before gaps are closed. Voids of more than 0.15 mm (and two leaves) up to 3 mm count.
+[[nodiscard]] LayersApart layers_apart(const TissueGrid& grid);
+
+/// Pulp that borders air more than 0.5 mm above the enamel's lowest place.
+struct OpenPulp {
+  double mm2 = 0.0;
+  Vec3 at_mm;  ///< one of its places
+};
+/// Of a lattice whose +z is occlusal, before periodontium is added.
+[[nodiscard]] OpenPulp open_pulp(const TissueGrid& grid);
+
+/// Throws Error when dentin and enamel stand apart, or one lies in the other by more than a twentyfifth of the enamel: they are not of one tooth, or
+/// not in one frame. `overlap_share`: of the enamel's leaves, those that lie in the dentin's surface, too.
+void require_layers_that_fit(const LayersApart& apart, double overlap_share, const std::string& where);
 
 }  // namespace cavum

@@ -171,6 +171,15 @@ void check_crown_size(Vec3 extent, const SenseOptions& options, const std::strin
            sense);
 }
 
+void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const std::string& where, ToothSense& sense) {
+  constexpr double k_open_mm2 = 0.05;  // some leaves may touch where a surface is ragged
+  if (open.mm2 <= k_open_mm2) return;
+  object(options, "pulp", where,
+         fmt::format("the pulp lies open in the crown: {:.2f} mm2 of it, at ({:.1f} {:.1f} {:.1f}) mm", open.mm2, open.at_mm.x, open.at_mm.y,
+                     open.at_mm.z),
+         "check that the surfaces belong together; a tooth whose pulp is open is no exam's tooth", sense);
+}
+
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,
                    ToothSense& sense) {
   const Vec3 along = enamel_centroid - dentin_centroid;

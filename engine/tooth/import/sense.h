@@ -12,6 +12,7 @@
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/import/frame.h"
+#include "engine/tooth/import/layer_order.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "engine/tooth/tooth.h"
 
@@ -51,6 +52,9 @@ inline constexpr double k_least_crown_width_mm = 4.5, k_most_crown_width_mm = 14
 /// Throws Error(`where`, ...) when the enamel's box is no human crown's: says which unit would make it one.
 /// `of_volume`: its voxels have a spacing instead of a unit.
 void check_crown_size(Vec3 enamel_extent_mm, const SenseOptions& options, const std::string& where, bool of_volume, ToothSense& sense);
+
+/// Throws Error(`where`, ...) when the pulp lies open in the crown (layer_order.h).
+void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const std::string& where, ToothSense& sense);
 
 /// Throws Error(`where`, ...) when the occlusal axis runs from the enamel to the root, or across the tooth, or, in a patient's frame, down
 /// for a lower tooth. A unit vector, and centroids, in one frame.

@@ -11,9 +11,9 @@ namespace cavum {
 
 /// Adds periodontium (id k_periodontium): every air leaf within `thickness_mm` (> 0; ~1 mm holds the ligament,
 /// 0.15-0.4 mm, and the bone's first layer) of the solid surface whose nearest solid leaf is dentin and that
-/// lies below the enamel's centroid (z). Other leaves keep their labels, all leaves their distances. The grid
-/// grows where the layer would not fit. Returns how many leaves were added; 0 when there is no dentin or
-/// `thickness_mm` is 0. Throws Error when `thickness_mm` is negative, not a number or above 5.
+/// lies below the enamel's centroid (z), and no more than 1 mm above the lowest enamel of its direction: a cleft in a crown holds none. Other leaves
+/// keep their labels, all leaves their distances. The grid grows where the layer would not fit. Returns how many leaves were added; 0 when there is
+/// no dentin or `thickness_mm` is 0. Throws Error when `thickness_mm` is negative, not a number or above 5.
 std::uint64_t add_periodontium(TissueGrid& grid, double thickness_mm);
 
 }  // namespace cavum

@@ -15,7 +15,7 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
   if (!(r.x > 0 && r.y > 0 && r.z > 0)) throw Error(where, "a radius is not larger than 0 mm", "give centre and radii: x,y,z,rx,ry,rz");
   std::uint8_t id = 0;
   for (const auto& t : tooth.tissues) {
-    if (t.name == "lesion") throw Error(where, "the tooth has a lesion already", "make it with one");
+    if (t.name == "lesion") throw Error(where, "the tooth has a lesion already", "grow it into the tooth as it was before");
     id = std::max(id, t.id);
   }
   if (id == 255) throw Error(where, "the tooth has 255 tissues", "use fewer");

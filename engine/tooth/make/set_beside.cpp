@@ -211,7 +211,9 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   const std::string word = side > 0 ? "mesial" : "distal", place = where + " --" + word;
   const double leaf = tooth.octree.leaf_mm();
   if (std::fabs(beside.tooth->octree.leaf_mm() - leaf) > 1e-9)
-    throw Error(place, fmt::format("its leaves have {:f} mm, the tooth's {:f}", beside.tooth->octree.leaf_mm(), leaf),
+    throw Error(place,
+                fmt::format("the leaves of '{}' have {} mm, the tooth's {}", beside.tooth->name, plain_number(beside.tooth->octree.leaf_mm()),
+                            plain_number(leaf)),
                 fmt::format("make it with --leaf-mm {}", plain_number(leaf)));
   s.filled = without_hollows(*beside.tooth);
   s.enamel = id_of(s.filled, "enamel");

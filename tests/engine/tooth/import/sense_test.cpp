@@ -13,6 +13,7 @@
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
+#include "engine/tooth/make/periodontium.h"
 #include "engine/tooth/tooth_notes.h"
 #include "tests/engine/tooth/import/imported_surfaces.h"
 #include "tests/engine/tooth/tooth_testing.h"
@@ -132,6 +133,50 @@ TEST(Sense, ExchangedLayersAreRefused) {
   s = molar();
   std::swap(s.enamel, s.pulp);
   EXPECT_NE(refusal(s, o), "");
+}
+
+TEST(Sense, LayersThatDoNotFitUponEachOtherAreRefused) {
+  const MeshImportOptions o = upright(k_sensed_mm);
+  for (const Vec3 by : {Vec3{0, 0, 1.0}, Vec3{1, 0, 0}, Vec3{0, -1, 0}}) {
+    Surfaces s = molar();
+    for (auto& v : s.enamel.vertices_mm) v += by;
+    const std::string why = refusal(s, o);
+    EXPECT_TRUE(says(why, "enamel and dentin do not fit")) << by.x << " " << by.y << " " << by.z << ": " << why;
+  }
+}
+
+TEST(Sense, APulpThatLiesOpenInTheCrownIsRefusedUnlessConfirmed) {
+  Surfaces s = molar();
+  double low = 1e9, high = -1e9;
+  for (const auto& v : s.pulp.vertices_mm) low = std::min(low, v.z), high = std::max(high, v.z);
+  for (auto& v : s.pulp.vertices_mm) v.z += 5.5 * std::max(0.0, v.z - 0.5 * (low + high)) / (high - low) * 2;  // its horns reach up through the crown
+  MeshImportOptions o = upright(k_sensed_mm);
+  EXPECT_TRUE(says(refusal(s, o), "the pulp lies open in the crown"));
+  o.sense.confirmed = {"pulp"};
+  const auto paths = s.write(fresh_folder());
+  EXPECT_TRUE(says(import_meshes(paths, o).sense.warnings, "confirmed against what was measured (pulp)"));
+}
+
+TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
+  TissueGrid grid;
+  grid.allocate({120, 120, 200}, 0.1, {-6, -6, -12});
+  for (int z = 20; z < 180; ++z)
+    for (int y = 0; y < 120; ++y)
+      for (int x = 0; x < 120; ++x) {
+        const Vec3 p = grid.centre_mm({x, y, z});
+        const double r = length({p.x, p.y, 0});
+        const bool cleft = std::fabs(p.x) < 0.15 && p.y > 0 && p.z > 1.0;
+        auto& t = grid.tissue[grid.index({x, y, z})];
+        t = r < 3 ? k_dentin : r < 4 && p.z > 0 && !cleft ? k_enamel : k_air;
+      }
+  EXPECT_GT(add_periodontium(grid, 1.0), 0u);
+  double highest = -1e9;
+  for (int z = 0; z < grid.size.z; ++z)
+    for (int y = 0; y < grid.size.y; ++y)
+      for (int x = 0; x < grid.size.x; ++x)
+        if (grid.tissue[grid.index({x, y, z})] == k_periodontium) highest = std::max(highest, grid.centre_mm({x, y, z}).z);
+  EXPECT_LT(highest, 1.1);
+  EXPECT_GT(highest, -0.2) << "it reaches up to the neck";
 }
 
 // The pulp alone turned over inside its dentin: wide where the root's end is.
