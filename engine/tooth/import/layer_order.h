@@ -34,7 +34,7 @@ struct OpenPulp {
 /// Of a lattice whose +z is occlusal, before periodontium is added.
 [[nodiscard]] OpenPulp open_pulp(const TissueGrid& grid);
 
-/// Throws Error when dentin and enamel stand apart, or one lies in the other by more than a twentyfifth of the enamel: they are not of one tooth, or
+/// Throws Error when dentin and enamel stand apart, or one lies in the other by more than a tenth of the enamel: they are not of one tooth, or
 /// not in one frame. `overlap_share`: of the enamel's leaves, those that lie in the dentin's surface, too.
 void require_layers_that_fit(const LayersApart& apart, double overlap_share, const std::string& where);
 
