@@ -17,7 +17,7 @@ namespace {
 
 using scenarios::Zone;
 
-constexpr double k_least_points = 0.005, k_least_lean_deg = 6.0, k_middle_mm = 0.4, k_degrees_of = 57.29577951308232;
+constexpr double k_least_points = 0.005, k_least_lean_deg = 6.0, k_middle_mm = 0.4, k_degrees_of = 57.29577951308232, k_least_covered_percent = 5.0;
 
 std::size_t at(Zone z) { return static_cast<std::size_t>(z); }
 std::size_t at(scenarios::Wall w) { return static_cast<std::size_t>(w); }
@@ -47,8 +47,12 @@ Shares by_volume(const Result& r, unsigned counts) {
   add(scenarios::k_counts_sides, Topic::beside, removed(Zone::container_sides));
   add(scenarios::k_counts_leeway, Topic::beside, removed(Zone::leeway_sides));
   add(scenarios::k_counts_bottom, Topic::too_deep, removed(Zone::container_bottom));
-  add(scenarios::k_counts_outside, Topic::elsewhere, removed(Zone::none));
-  add(scenarios::k_counts_protected, Topic::elsewhere, removed(Zone::protected_));
+  // straight on through the floor is too deep, however far it went
+  const auto below = [&r](Zone z) { return r.volumes.zone[at(z)].by_wall_mm3[at(scenarios::Wall::floor)]; };
+  for (const auto& [bit, zone] : {std::pair{scenarios::k_counts_outside, Zone::none}, std::pair{scenarios::k_counts_protected, Zone::protected_}}) {
+    add(bit, Topic::too_deep, below(zone));
+    add(bit, Topic::elsewhere, std::max(0.0, removed(zone) - below(zone)));
+  }
   add(scenarios::k_counts_faults, Topic::opened, r.perforation.fault.volume_mm3);
   add(scenarios::k_counts_time, Topic::time, 0);
   add(scenarios::k_counts_force, Topic::force, 0);
@@ -70,11 +74,27 @@ bool is_cut_elsewhere(const GradeInput& in, const Result& r, const scenarios::Me
   const WallMeasures* worst = nullptr;
   for (std::size_t w = m.first_wall; w < std::min(m.first_wall + m.walls, scenarios::k_walls); ++w)
     if (worst == nullptr || r.shape.wall[w].max_over_mm > worst->max_over_mm) worst = &r.shape.wall[w];
-  if (worst == nullptr || worst->worst_over.tick < 0) return false;
+  if (worst == nullptr || worst->worst_over.tick < 0 || worst == &r.shape.wall[at(scenarios::Wall::floor)]) return false;
   const Zone zone = in.zones.zone(in.before.octree.leaf_at(worst->worst_over.site_mm));
   const auto removed = [&r](Zone z) { return r.volumes.zone[at(z)].removed.mm3; };
   return (zone == Zone::none || zone == Zone::protected_) &&
          r.volumes.outside().mm3 > removed(Zone::container_sides) + removed(Zone::container_bottom);
+}
+
+/// What must not be opened was reached through the floor: the same mistake as a floor that is too deep.
+bool opened_through_floor(const GradeInput& in, const Result& r) {
+  const PerforationTruth& p = r.perforation.fault;
+  return p.perforated && p.first.tick >= 0 && in.zones.wall(in.before.octree.leaf_at(p.first.site_mm)) == scenarios::Wall::floor &&
+         r.shape.wall[at(scenarios::Wall::floor)].max_over_mm > 0;
+}
+
+/// One mistake that several measures see is named once: tissue over the chamber stands over the canals' mouths as well.
+void join(std::map<Topic, Lesson>& by_topic, Topic from, Topic to) {
+  const auto found = by_topic.find(from);
+  if (found == by_topic.end()) return;
+  by_topic[to].points += found->second.points;
+  by_topic[to].fails_exam = by_topic[to].fails_exam || found->second.fails_exam;
+  by_topic.erase(found);
 }
 
 /// What a criterion's value is charged for.
@@ -179,6 +199,8 @@ class Teller {
     l.look_mm = p;
     l.what =
         fmt::format("{} of roof was left over the pulp chamber, most of it {}.", mm3(r_.access.overhang ? r_.access.overhang->mm3 : 0), there(p));
+    if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_least_covered_percent)
+      l.what += fmt::format(" It stands over {} % of the canals' mouths.", fixed(covered, 0));
     l.instead = fmt::format("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
   }
   void canals(Lesson& l) const {
@@ -204,6 +226,12 @@ class Teller {
   }
   void too_deep(Lesson& l) const {
     const WallMeasures& m = r_.shape.wall[at(scenarios::Wall::floor)];
+    if (opened_through_floor(in_, r_)) {
+      opened(l);
+      l.what = fmt::format("The {} was opened {}{}: the floor is up to {} too deep.", r_.perforation.fault.tissue,
+                           there(r_.perforation.fault.first.site_mm), when_at(r_.perforation.fault.first), mm(std::max(0.0, m.max_over_mm)));
+      return;
+    }
     l.where = m.worst_over;
     if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     l.what = fmt::format("The floor is up to {} too deep{}{}.", mm(std::max(0.0, m.max_over_mm)),
@@ -214,8 +242,11 @@ class Teller {
     const ZoneVolume &none = r_.volumes.zone[at(Zone::none)], &guarded = r_.volumes.zone[at(Zone::protected_)];
     const bool is_guarded = guarded.removed.mm3 > none.removed.mm3;
     l.where = is_guarded ? guarded.first : none.first;
+    if (l.where.tick >= 0 && in_.zones.wall(in_.before.octree.leaf_at(l.where.site_mm)) == scenarios::Wall::floor) l.where = {};
     if (l.where.tick >= 0) l.look_mm = l.where.site_mm;
-    l.what = fmt::format("{} was cut {}{}.", mm3(r_.volumes.outside().mm3), is_guarded ? "of what must stay" : "far from the cavity", from(l.where));
+    const double below = none.by_wall_mm3[at(scenarios::Wall::floor)] + guarded.by_wall_mm3[at(scenarios::Wall::floor)];
+    l.what = fmt::format("{} was cut {}{}.", mm3(std::max(0.0, r_.volumes.outside().mm3 - below)),
+                         is_guarded ? "of what must stay" : "far from the cavity", from(l.where));
     l.instead = "Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.";
   }
   void opened(Lesson& l) const {
@@ -340,6 +371,8 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
       if (topic == main->first && c.critical_failed) by_topic[topic].fails_exam = true;
     }
   }
+  if (by_topic.contains(Topic::roof)) join(by_topic, Topic::canals, Topic::roof);
+  if (opened_through_floor(input, result)) join(by_topic, Topic::opened, Topic::too_deep);
   std::vector<Lesson> all;
   const Teller teller(input, result);
   for (auto& [topic, lesson] : by_topic) {

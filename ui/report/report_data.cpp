@@ -8,6 +8,7 @@
 #include "engine/language/language.h"
 #include "engine/language/shown.h"
 #include "engine/tooth/beside.h"
+#include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"
 #include "ui/report/figures/motion_track.h"
 #include "ui/report/figures/packed_array.h"
@@ -102,11 +103,36 @@ void add_words(json& data) {
     std::replace(name.begin(), name.end(), '_', ' ');
     words[name] = shown(name);
   }
-  if (data.contains("events"))
-    for (const auto& e : data["events"]) words[e["kind"].get<std::string>()] = shown(e["kind"].get<std::string>());
+  const auto kinds = [&words](const json& events) {
+    for (const auto& e : events) words[e["kind"].get<std::string>()] = shown(e["kind"].get<std::string>());
+  };
+  if (data.contains("events")) kinds(data["events"]);
+  if (data.contains("beside")) kinds(data["beside"]["events"]);
   data["words"] = std::move(words);
   data["decimal_sign"] = std::string(1, decimal_sign());
 }
+
+namespace {
+
+/// When each step was completed, in their order.
+json steps_json(const ReportSource& s) {
+  json list = json::array();
+  for (const auto& e : s.input.events)
+    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::step_completed)) list.push_back(static_cast<double>(e.tick) * k_tick_s);
+  return list;
+}
+
+/// The other session without what both have in common.
+json beside_json(const ReportBeside& beside, const json& own) {
+  json other = report_data(beside.source);
+  for (const char* same : {"schema", "kind", "title", "high_contrast", "tissues", "scale_mm", "words", "decimal_sign"}) other.erase(same);
+  for (const char* same : {"before", "tissue"})
+    if (other["grid"][same] == own["grid"][same]) other["grid"].erase(same);
+  other["name"] = beside.name;
+  return other;
+}
+
+}  // namespace
 
 json report_data(const ReportSource& s) {
   json data = {{"schema", 1},
@@ -137,6 +163,8 @@ json report_data(const ReportSource& s) {
   data["instruments"] = instruments_json(s);
   data["events"] = std::move(events);
   data["moments"] = std::move(moments);
+  data["steps_s"] = steps_json(s);
+  if (s.beside) data["beside"] = beside_json(*s.beside, data);
   add_words(data);
   return data;
 }

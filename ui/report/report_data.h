@@ -11,8 +11,9 @@
 namespace cavum::report {
 
 /// {"schema":1,"kind":"session","title","duration_s","high_contrast","tissues","grid","scale_mm","motion","instruments","events","moments"}; arrays
-/// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack. Of a scan ("kind":"scan") all that needs
-/// time is absent.
+/// are packed (figures/packed_array.h), their meaning is that of ToothGrid, ChangedCells and MotionTrack; with "steps_s", when each step was
+/// completed, and "beside", another session of the same exam without what both have in common, with its "name". Of a scan ("kind":"scan") all that
+/// needs time is absent.
 [[nodiscard]] nlohmann::json report_data(const ReportSource& source);
 
 /// Adds `words`, the page's messages in the reader's language, and `decimal_sign`; nothing in English.

@@ -212,7 +212,12 @@ void add_pictures(Document& d, const ReportSource& s) {
                                        : tr("The tooth in three dimensions, and the motion through it, need a browser with scripts and WebGL."),
                                 {}});
   Pictures above{{picture_from_above(s.input)}};
-  if (s.reader == ReportReader::student) {
+  if (s.beside) {
+    Picture other = picture_from_above(s.beside->source.input);
+    other.title = tr("Beside it, from above: {}", s.beside->name);
+    above.list.push_back(std::move(other));
+    above.columns = 2;
+  } else if (s.reader == ReportReader::student) {
     above.list.push_back(picture_as_planned(s.input));
     above.columns = 2;
   }

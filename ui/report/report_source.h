@@ -75,6 +75,14 @@ struct ReportEvent {
   std::optional<Vec3> site_mm;
 };
 
+struct ReportSource;
+
+/// Another who sat the same exam, shown beside this one.
+struct ReportBeside {
+  const ReportSource& source;
+  std::string name;  ///< "Candidate A18", "The built-in expert", in the reader's language
+};
+
 struct ReportSource {
   const grading::Result& result;
   const grading::GradeInput& input;
@@ -88,6 +96,7 @@ struct ReportSource {
   std::vector<grading::Why> lost = {};  ///< of each criterion that lost points
   std::vector<grading::Lesson> lessons = {};
   std::vector<ReportEvent> events = {};  ///< in order of time
+  std::optional<ReportBeside> beside = {};
 };
 
 /// With what follows from the result: `lost`, `lessons` and `events`. The references must outlive it.

@@ -5,11 +5,15 @@
 #include <filesystem>
 #include <iostream>
 #include <memory>
+#include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/scratch_folder.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
+#include "engine/session/session_reader.h"
 #include "grading/ledger/regrade.h"
 #include "ui/parts/own_places.h"
 #include "ui/report/figures/section_pictures.h"
@@ -17,13 +21,16 @@
 #include "ui/report/ledger_facts.h"
 #include "ui/report/report.h"
 #include "ui/verbs/marked_session.h"
+#include "ui/verbs/solved_exam.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
 namespace {
 
+constexpr char k_expert[] = "expert";  // of --beside
+
 struct ReportArguments {
-  std::string session, out, reader = "instructor", ledger;
+  std::string session, out, reader = "instructor", ledger, beside;
   MarkingOptions marking;
   bool overwrite = false, with_name = false, no_replay = false, pdf = false;
   [[nodiscard]] report::ReportReader for_whom() const {
@@ -61,6 +68,46 @@ Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSessio
   return m;
 }
 
+/// Another session of the same exam, and all that its report would be made of.
+struct Beside {
+  ScratchFolder scratch;
+  MarkedSession marked;
+  std::optional<grading::GradeInput> input;
+  std::optional<report::ReportSource> source;
+  std::string name;
+};
+
+/// The built-in expert sits the exam of the session.
+void sit_by_expert(const std::string& session, const std::string& out) {
+  const auto setup = scenarios::prepare_exam(SessionReader(session).setup());
+  auto expert = scenarios::make_simulated_candidate(*setup, k_expert, 1, OmniModel{});
+  static_cast<void>(sat_by(*setup, expert, out));
+}
+
+/// What `--beside` names. Throws Error when it is no session of the same task on the same tooth, or, in a student's report, another student's.
+std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession& own, const std::string& session, const report::ReportLedger* ledger,
+                                  grading::ExamGrounds& grounds) {
+  auto b = std::make_unique<Beside>();
+  const bool expert = o.beside == k_expert;
+  const std::string file = expert ? b->scratch.file("expert.cavum") : o.beside;
+  if (expert) sit_by_expert(session, file);
+  b->marked = marked_session(file, o.marking, grounds);
+  const grading::ReportFacts &mine = own.session->facts, &other = b->marked.session->facts;
+  if (mine.tooth_hash != other.tooth_hash || own.session->scenario.id != b->marked.session->scenario.id)
+    throw Error("--beside " + o.beside, "is of another task or tooth", "name a session of the same exam, or `expert`");
+  if (o.for_whom() == report::ReportReader::student && !expert && mine.candidate != other.candidate)
+    throw Error("--beside " + o.beside, "is another candidate's, which a student's report does not show",
+                "name an attempt of the same candidate, or `expert`");
+  if (o.for_whom() == report::ReportReader::student && !expert && ledger != nullptr)
+    report::require_released_result(ledger->session(to_hex(sha256(read_file(o.beside))), o.beside), b->marked.result);
+  b->input.emplace(b->marked.session->input());
+  b->source.emplace(report::report_source(b->marked.result, *b->input, other, b->marked.rubric));
+  const std::string points = fixed(b->marked.result.points, 1), most = fixed(b->marked.result.max_points, 1);
+  b->name = expert ? tr("the built-in expert, {} of {} points", points, most)
+                   : tr("candidate {}, {}, {} of {} points", as_is(other.candidate), as_is(other.created), points, most);
+  return b;
+}
+
 /// Writes the report of one session; `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
 void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
                   const ledger::FiledSession* filed, grading::ExamGrounds& grounds) {
@@ -73,6 +120,11 @@ void write_report(const std::string& session, const std::string& out, const Repo
   report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();
+  std::unique_ptr<Beside> beside;
+  if (!o.beside.empty()) {
+    beside = beside_of(o, m, session, ledger, grounds);
+    source.beside.emplace(report::ReportBeside{*beside->source, beside->name});
+  }
   if (filed != nullptr) {
     source.filing = report::filing_of(*ledger, *filed, source.reader, o.with_name);
     source.filing->not_filed = report::not_the_filed_result(*filed, m.result, source.reader);
@@ -91,7 +143,10 @@ void run_report(const ReportArguments& o) {
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
     throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
   if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
+  if (picture && !o.beside.empty())
+    throw Error("--beside " + o.beside, "is shown in a report, not in a picture of sections", "use a name ending in .html or .pdf");
   report::require_report_place(o.out, o.overwrite);
+  require_own_places({{"--out " + o.out, o.out}}, {{"session", o.session}, {"--beside", o.beside}});
   require_sound_marking(o.marking);
   grading::ExamGrounds grounds;
   if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr, grounds);
@@ -138,6 +193,7 @@ void add_report_verbs(CLI::App& app, int& exit_code) {
   one->add_option("--for", o->reader, "instructor: every figure; student: the verdict, the criteria, and where each point went")
       ->check(CLI::IsMember({"student", "instructor"}))
       ->capture_default_str();
+  one->add_option("--beside", o->beside, "another session of the same exam, or `expert`: its cavity and its replay beside this one's");
   one->add_option("--ledger", o->ledger, "the ledger that holds the session: other attempts, release, receipt");
   one->add_flag("--with-name", o->with_name, "with --ledger: also the candidate's name, once the result is released");
   one->add_flag("--no-replay", o->no_replay, "do not simulate the exam again to prove it");

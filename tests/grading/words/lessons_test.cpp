@@ -114,6 +114,27 @@ TEST_F(Lessons, ACutElsewhereIsNamed) {
   EXPECT_EQ(all[0].topic, Topic::elsewhere);
 }
 
+TEST(LessonsOfAChamber, WhatWasOpenedThroughTheFloorIsOneMistakeAndNotACutElsewhere) {
+  Carved work(box_task(), testing::chambered_block(0.1));
+  work.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.5), 61'000);
+  scenarios::RubricSpec rubric = box_rubric();
+  scenarios::CriterionSpec opened;
+  opened.id = opened.title = opened.metric = "perforated";
+  opened.full = 0, opened.zero = 1, opened.points = 10;
+  opened.critical_above = 0.5;
+  rubric.criteria.push_back(opened);
+  Result r = work.graded();
+  mark(r, rubric);
+  const auto all = lessons(work.input(), r);
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::too_deep);
+  EXPECT_TRUE(all[0].fails_exam);
+  for (const char* part : {"The pulp was opened ", " at 1:01: the floor is up to 0.9"})
+    EXPECT_NE(all[0].what.find(part), std::string::npos) << all[0].what;
+  for (const auto& l : all) EXPECT_TRUE(l.topic != Topic::elsewhere && l.topic != Topic::opened) << l.what;
+}
+
 TEST_F(Lessons, OfTwoMistakesTheDearerComesFirst) {
   work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
   work_.carve(box_hole(-1.5, 1.5, 1, 1.45, -2), 600);      // a little too wide

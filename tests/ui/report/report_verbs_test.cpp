@@ -209,5 +209,22 @@ TEST_F(ReportVerbs, AnExamsOwnReportComesAsHtmlOrPdf) {
   EXPECT_NE(html.find("not done for this report"), std::string::npos);
 }
 
+TEST_F(ReportVerbs, BesideASessionStandsOneOfTheSameExamThatTheReaderMaySee) {
+  const std::string mine = sit("4711", "Ann Lee", "novice", "b1"), mine_later = sit("4711", "Ann Lee", "expert", "b2"),
+                    others = sit("4712", "Bo Berg", "expert", "b3");
+  ASSERT_EQ(run("exam " + testing_ui::k_data + "/scenarios/slot.toml --candidate X --operator expert --quiet --out " + path("slot.cavum")).exit_code,
+            0);
+  const std::string out = "report " + mine + " --no-replay --out " + path("both.html") + " --beside ";
+  expect_refused(out + path("slot.cavum"), {"--beside", "another task or tooth", "`expert`"});
+  expect_refused(out + others + " --for student", {"another candidate's"});
+  expect_refused(out + mine_later + " --for student --ledger " + path("L"), {"not released"});
+  EXPECT_FALSE(fs::exists(path("both.html")));
+  EXPECT_NE(report(mine, "--beside " + others).find("Beside it, from above: candidate "), std::string::npos);
+  const std::string with_expert = report(mine, "--for student --beside expert");
+  EXPECT_NE(with_expert.find("the built-in expert, 100.0 of 100.0 points"), std::string::npos);
+  EXPECT_NE(with_expert.find("\"beside\":{"), std::string::npos) << "the page moves both";
+  EXPECT_NE(report(mine_later, "--for student --beside " + mine).find("Beside it"), std::string::npos);
+}
+
 }  // namespace
 }  // namespace cavum::report

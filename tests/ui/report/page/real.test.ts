@@ -8,6 +8,7 @@ import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
 import type { Browser } from "puppeteer-core";
 import type { ReportData } from "../src/data.ts";
+import { beside_data } from "../src/alignment.ts";
 import { Recording } from "../src/motion.ts";
 import { ToothField } from "../src/tooth_field.ts";
 import { ToothSurface } from "../src/tooth_surface.ts";
@@ -156,6 +157,72 @@ test("the report draws, moves, jumps to where points went, and is accessible", {
   assert.ok((await narrow.page.evaluate(() => document.documentElement.scrollWidth)) <= 360);
   assert.deepEqual(await violations(narrow.page, axe_source), []);
   await narrow.page.screenshot({ path: "report_real_narrow.png", fullPage: true });
+  await narrow.page.close();
+});
+
+test("two sessions stand side by side: seen alike, by one clock or at the same step, any moment within a second", { skip: k_skip }, async () => {
+  const both = join(folder, "beside.html");
+  cavum("report", session, "--beside", "expert", "--no-replay", "--out", both);
+  assert.ok(statSync(both).size <= 3e6);
+  const data = data_of(readFileSync(both, "utf8"));
+  const other = data.beside!;
+  assert.equal(other.grid.before, undefined, "the tooth before is the same, and there once");
+  assert.ok(data.steps_s!.length >= 1 && other.steps_s.length === 2);
+  const opened = await open(browser, both, "", 1200, 900);
+  const { page } = opened;
+  await page.evaluate(() => document.getElementById("tooth-3d")!.scrollIntoView());
+  const captions = async (): Promise<string[]> => page.evaluate(() => [...document.querySelectorAll(".side-by-side figcaption")].map((e) => e.textContent!));
+  const seek = async (t_s: number): Promise<number> =>
+    page.evaluate(async (t) => {
+      const from = performance.now();
+      const range = document.querySelector<HTMLInputElement>(".player input[type=range]")!;
+      range.value = String(t);
+      range.dispatchEvent(new Event("input"));
+      await new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())));
+      return performance.now() - from;
+    }, t_s);
+  // by the processor's time, which other programs do not lengthen: both teeth of a moment that lies anywhere
+  const teeth = [data, beside_data(data, other)].map((d) => { const field = new ToothField(d); return { field, surface: new ToothSurface(field, d) }; });
+  let slowest_ms = 0;
+  for (let i = 0; i < 20; ++i) {
+    const from = process.cpuUsage();
+    for (const { field, surface } of teeth) if (field.set_time(data.duration_s! * ((i * 7) % 20) / 20)) surface.moving();
+    const took = process.cpuUsage(from);
+    slowest_ms = Math.max(slowest_ms, (took.user + took.system) / 1000);
+  }
+  assert.ok(slowest_ms < 1000);
+  const took_ms: number[] = [];
+  for (let i = 0; i < 20; ++i) took_ms.push(await seek(data.duration_s! * ((i * 7) % 20) / 20));
+  took_ms.sort((a, b) => a - b);
+  console.log(`of 20 moments, both teeth: slowest ${slowest_ms.toFixed(0)} ms of the processor; until drawn by it, by the clock, median ${took_ms[10].toFixed(0)} ms`);
+
+  await seek(data.steps_s![0]);
+  assert.match((await captions())[1], new RegExp(`expert.* at 0:${data.steps_s![0].toFixed(1).padStart(4, "0").replace(".", "\\.")}`), "the same second");
+  await page.evaluate(() => {
+    const select = [...document.querySelectorAll("select")].find((s) => [...s.options].some((o) => o.value === "step"))!;
+    select.value = "step";
+    select.dispatchEvent(new Event("change"));
+  });
+  const clock = Number(/ at 0:([0-9.]+)/.exec((await captions())[1])![1]);
+  assert.ok(Math.abs(clock - other.steps_s[0]) < 0.11, `${clock} s, where the first step was completed at ${other.steps_s[0]} s`);
+
+  const canvases = async (): Promise<string[]> => (await settled(page), page.evaluate(() => [...document.querySelectorAll<HTMLCanvasElement>("#tooth-3d canvas")].map((c) => c.toDataURL())));
+  const seen = await canvases();
+  assert.equal(seen.length, 2);
+  await page.evaluate(() => [...document.querySelectorAll("button")].find((b) => b.textContent === "Occlusal")!.click());
+  const turned = await canvases();
+  assert.ok(seen.every((picture, i) => picture !== turned[i]), "both turn");
+  await page.focus("#tooth-3d .side-by-side figure:last-child canvas");
+  await page.keyboard.press("ArrowLeft");
+  const back = await canvases();
+  assert.ok(turned.every((picture, i) => picture !== back[i]), "from either of them");
+  assert.ok((await page.evaluate(() => document.querySelectorAll(".other-axis span[title]").length)) >= 2, "the other's events stand on the axis");
+  assert.deepEqual(await violations(page, axe_source), []);
+  await page.screenshot({ path: "report_real_beside.png" });
+  assert.deepEqual([...opened.requests, ...opened.complaints], []);
+  await page.close();
+  const narrow = await open(browser, both, "", 390, 800);
+  assert.ok((await narrow.page.evaluate(() => document.documentElement.scrollWidth)) <= 390);
   await narrow.page.close();
 });
 

@@ -10,7 +10,7 @@ const run = (...args) => {
   const { status } = spawnSync(process.execPath, args, { stdio: "inherit" });
   if (status !== 0) process.exit(1);
 };
-const parts = { units: ["data", "surface_nets", "tooth"], browser: ["browser"], real: ["real"] };
+const parts = { units: ["data", "alignment", "surface_nets", "tooth"], browser: ["browser"], real: ["real"] };
 const wanted = process.argv.slice(2).flatMap((name) => parts[name] ?? [name]);
 const bundled = `tests_bundled_${wanted.join("_")}`;
 const files = readdirSync("test").filter((name) => name.endsWith(".test.ts") && (wanted.length === 0 || wanted.some((w) => name.startsWith(w))));

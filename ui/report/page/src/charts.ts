@@ -5,7 +5,7 @@ import { type Clock, time_text } from "./clock.ts";
 import type { ExamEvent } from "./data.ts";
 import { button, make } from "./dom.ts";
 import type { Recording } from "./motion.ts";
-import { event_colour } from "./player.ts";
+import { event_colour } from "./stops.ts";
 import { tr, with_sign } from "./words.ts";
 
 interface Quantity {

@@ -69,6 +69,18 @@ export interface Moment {
   points_lost: number | null;
 }
 
+/** Another session of the same exam. */
+export interface Beside {
+  name: string;
+  duration_s: number;
+  grid: Omit<Grid, "before" | "tissue"> & Partial<Pick<Grid, "before" | "tissue">>;
+  motion: Motion;
+  instruments: Instrument[];
+  events: ExamEvent[];
+  moments: Moment[];
+  steps_s: number[];
+}
+
 export interface ReportData {
   schema: number;
   kind: "session" | "scan" | "class";
@@ -85,6 +97,9 @@ export interface ReportData {
   instruments?: Instrument[];
   events?: ExamEvent[];
   moments?: Moment[];
+  /** When each step was completed. */
+  steps_s?: number[];
+  beside?: Beside;
 }
 
 export type Numbers = Uint8Array | Int8Array | Uint16Array | Int16Array;

@@ -1,6 +1,7 @@
 // The report's page: fills in the 3D view, the scrubber and the charts, and wires the buttons that jump to a moment. Everything else in the
 // document was written by the program and stays as it is.
 import { Charts, number_text } from "./charts.ts";
+import { BesideView } from "./beside.ts";
 import { Clock } from "./clock.ts";
 import { read_data, type ReportData, type Vec3 } from "./data.ts";
 import { k_distance_edges, k_heat_edges } from "./deviation.ts";
@@ -29,7 +30,12 @@ function webgl_works(): boolean {
   }
 }
 
-function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): ToothView | null {
+interface Shown {
+  view: ToothView;
+  beside: BesideView | null;
+}
+
+function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): Shown | null {
   if (!webgl_works()) {
     say_why(section, tr("The tooth cannot be shown in 3D: this browser offers no WebGL 2 here (it may be switched off, or the graphics driver may not support it). Everything else on this page works."));
     return null;
@@ -45,7 +51,7 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
     const view = new ToothView(canvas, field, data, { edges, whole });
     controls.connect(view);
     section.querySelector(".fallback")?.remove();
-    return view;
+    return { view, beside: data.beside && clock ? new BesideView(controls.frame, view, data, data.beside, { edges, whole }, clock) : null };
   } catch (error) {
     controls.element.remove();
     say_why(section, tr("The tooth cannot be shown in 3D: {}. Everything else on this page works.", error instanceof Error ? error.message : String(error)));
@@ -78,9 +84,10 @@ function start(): void {
   document.documentElement.classList.add("scripted");
   document.documentElement.classList.toggle("high-contrast", data.high_contrast === true);
   const session = data.kind === "session" && data.motion !== undefined;
-  const clock = session ? new Clock(data.duration_s ?? 0) : null;
+  const clock = session ? new Clock(Math.max(data.duration_s ?? 0, data.beside?.duration_s ?? 0)) : null;
   const tooth = document.getElementById("tooth-3d");
-  const view = tooth ? tooth_in(tooth, data, clock) : null;
+  const shown = tooth ? tooth_in(tooth, data, clock) : null;
+  const view = shown?.view;
   if (!clock || !data.motion) return;
 
   const events = [...(data.events ?? [])].sort((a, b) => a.t_s - b.t_s);
@@ -97,10 +104,11 @@ function start(): void {
   };
   const player = new Player(clock, events, data.moments ?? [], (site_mm) => view?.mark(site_mm), measured);
   if (tooth) {
-    const frame = tooth.querySelector(".view");
+    const frame = tooth.querySelector(".side-by-side, .view");
     if (frame) frame.after(player.element);
     else tooth.append(player.element);
   }
+  if (shown?.beside && data.beside) player.set_beside(data.beside.name, shown.beside.axis, shown.beside.choice);
   const charts = document.getElementById("charts");
   if (charts && recording.n > 0) {
     new Charts(charts, recording, events, clock);

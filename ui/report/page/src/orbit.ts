@@ -32,6 +32,7 @@ export class Orbit {
   private readonly centre = new THREE.Vector3();
   private distance = 30;
   private readonly pointers = new Map<number, { x: number; y: number }>();
+  private twin: Orbit | null = null;
 
   /** `home`: what the view shows first; `whole`: all there is. `changed` is called after every move. */
   constructor(private readonly element: HTMLElement, private readonly home: Sphere, private readonly whole: Sphere, private readonly changed: () => void) {
@@ -55,6 +56,13 @@ export class Orbit {
 
   get dragging(): boolean {
     return this.pointers.size > 0;
+  }
+
+  /** Both look from the same place from now on. */
+  join(twin: Orbit): void {
+    this.twin = twin;
+    twin.twin = this;
+    this.place();
   }
 
   look(pose: Pose): void {
@@ -140,6 +148,19 @@ export class Orbit {
   }
 
   private place(): void {
+    this.stand();
+    this.twin?.follow(this);
+  }
+
+  /** As far away as the other one, where the views are of one shape. */
+  private follow(other: Orbit): void {
+    this.pose = { ...other.pose };
+    this.centre.copy(other.centre);
+    this.distance = (other.distance / other.fitting()) * this.fitting();
+    this.stand();
+  }
+
+  private stand(): void {
     const a = (this.pose.azimuth_deg * Math.PI) / 180;
     const e = (this.pose.elevation_deg * Math.PI) / 180;
     this.camera.position.set(Math.cos(e) * Math.cos(a), Math.cos(e) * Math.sin(a), Math.sin(e)).multiplyScalar(this.distance).add(this.centre);

@@ -48,6 +48,7 @@ export class ToothView {
   readonly radius: number;
   /** Called before each picture. */
   on_draw: (() => void) | null = null;
+  private twin: ToothView | null = null;
 
   /** Throws when WebGL is not to be had. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly field: ToothField, data: ReportData, options: ViewOptions) {
@@ -153,23 +154,33 @@ export class ToothView {
     this.redraw();
   }
 
+  /** Another view that shows what this one is told to show, from where this one is seen, and the other way round. */
+  join(twin: ToothView): void {
+    this.twin = twin;
+    this.orbit.join(twin.orbit);
+  }
+
   set_colouring(by_deviation: boolean): void {
+    this.twin?.set_colouring(by_deviation);
     this.shared.by_deviation.value = by_deviation;
     this.redraw();
   }
 
   set_target(visible: boolean): void {
+    this.twin?.set_target(visible);
     this.target.visible = visible;
     this.redraw();
   }
 
   set_instrument(visible: boolean): void {
+    this.twin?.set_instrument(visible);
     this.with_instrument = visible;
     this.redraw();
   }
 
   /** Cuts the tooth away beyond a plane; null shows it whole. */
   set_clip(clip: Clip | null): void {
+    this.twin?.set_clip(clip);
     this.clip = clip;
     const n = clip ? new THREE.Vector3(...clip.normal) : new THREE.Vector3();
     (this.shared.clip.value as THREE.Vector4).set(n.x, n.y, n.z, clip ? clip.offset_mm : 1);
