@@ -67,7 +67,7 @@ class Works {
   void wrong_place();
   void wrong_depth();
   void pit();
-  /// The place of the floor nearest to the middle below which all is hard for so far; none where it ends in a canal.
+  /// The place of the floor nearest to the middle below which all is hard for so far, away from the target; none where it ends in a canal.
   [[nodiscard]] std::optional<Vec3> hard_floor(double deep_mm) const;
   void too_wide();
   void lesion();
@@ -213,6 +213,8 @@ std::optional<Vec3> Works::hard_floor(double deep_mm) const {
   for (const auto& leaf : f_.leaves()) {
     const Vec3 place{leaf.at.x, leaf.at.y, f_.floor_mm(leaf.at)};
     if (nearest && across(place, middle_) >= across(*nearest, middle_)) continue;
+    constexpr double k_straight = 0.75;  // beside a slope a hole is a graze
+    if (f_.target_mm(f_.in_tooth(place - Vec3{0, 0, deep_mm})) < k_straight * deep_mm) continue;
     bool hard = true;
     for (double down = 0.5 * tooth.octree.leaf_mm(); hard && down <= deep_mm; down += tooth.octree.leaf_mm())
       hard = tooth.octree.is_solid(tooth.octree.tissue_at(f_.in_tooth(place - Vec3{0, 0, down})));
