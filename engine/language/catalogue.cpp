@@ -10,6 +10,8 @@
 #include <iterator>
 #include <limits>
 #include <set>
+#include <stdexcept>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/shipped.h"
@@ -56,8 +58,14 @@ std::optional<Said> said_of(const std::string& line, const std::string& message,
   if (line.empty()) return std::nullopt;
   const bool before = std::string_view(" ,;:.(").find(line.front()) != std::string_view::npos && !line.starts_with("  "),
              after = line.back() == ' ' || line.back() == '(';
-  if (!before && !after && Pattern(line).gaps() == 0 && line == message) return std::nullopt;
-  Said s{Pattern(fmt::format("{}{}{}", before ? "{}" : "", line, after ? "{}" : "")), message, number, before, after};
+  std::optional<Pattern> pattern;
+  try {
+    pattern.emplace(fmt::format("{}{}{}", before ? "{}" : "", line, after ? "{}" : ""));
+  } catch (const std::invalid_argument&) {  // a text with braces of its own: the beginning of a JSON object
+    return std::nullopt;
+  }
+  Said s{std::move(*pattern), message, number, before, after};
+  if (!before && !after && s.pattern.gaps() == 0 && line == message) return std::nullopt;
   const bool anchored = before || after || (line.front() != '{' && line.front() != '%' && line.back() == '}');
   if (s.pattern.letters() < (anchored ? k_least_part_letters : k_least_letters)) return std::nullopt;
   return s;

@@ -7,6 +7,7 @@
 #include <cctype>
 #include <unordered_map>
 #include <unordered_set>
+#include <vector>
 
 #include "engine/base/text.h"
 #include "engine/language/catalogue.h"
@@ -16,12 +17,18 @@ namespace cavum {
 namespace {
 
 constexpr int k_deepest = 12;
-constexpr std::size_t k_most_remembered = 4000, k_telling_letters = 16;
-constexpr char k_open[] = "\u27e6";  // of the pseudo-language
+constexpr std::size_t k_most_remembered = 20'000, k_telling_letters = 16;
+constexpr char k_open[] = "\u27e6";                           // of the pseudo-language
+constexpr char k_keep[] = "\ue000", k_keep_end[] = "\ue001";  // around what is kept, of the Unicode area for private use
+constexpr std::size_t k_mark_bytes = 3;
 
 /// The screens of a station say the same sentences sixty times a second. Of one thread.
-std::unordered_map<std::string, std::string>& memory() {
-  thread_local std::unordered_map<std::string, std::string> m;
+struct Remembered {
+  std::string text;
+  bool known = false;  ///< some message said it; else it stays as it is
+};
+std::unordered_map<std::string, Remembered>& memory() {
+  thread_local std::unordered_map<std::string, Remembered> m;
   thread_local std::string language;
   if (m.size() > k_most_remembered || language != catalogue().language()) m.clear();
   language = catalogue().language();
@@ -229,8 +236,8 @@ std::string sentence(std::string_view text, int depth, bool& known) {
     }
   if (!has_letters(text)) return std::string(text);
   if (const auto remembered = memory().find(std::string(text)); remembered != memory().end()) {
-    known = known || remembered->second != text;
-    return remembered->second;
+    known = known || remembered->second.known;
+    return remembered->second.text;
   }
   std::string out;
   if (const auto own = of_files().find(std::string(text)); own != of_files().end()) {
@@ -245,9 +252,12 @@ std::string sentence(std::string_view text, int depth, bool& known) {
   if (!found) found = in_parts(text, depth, out, false);
   if (!found) found = whole(text, depth, out);  // "{} at the {}" fits much that is put together of parts
   if (!found) found = in_parts(text, depth, out, true);
-  if (!found) return std::string(text);
-  memory()[std::string(text)] = out;
-  memory()[out] = out;
+  if (!found) {  // what nothing says is asked for again and again, in each way in which a sentence may be put together
+    memory()[std::string(text)] = {std::string(text), false};
+    return std::string(text);
+  }
+  memory()[std::string(text)] = {out, true};
+  memory()[out] = {out, false};
   known = true;
   return out;
 }
@@ -259,8 +269,43 @@ void add_translations(const std::map<std::string, std::string>& texts) {
   memory().clear();
 }
 
+std::string kept(std::string_view identifier) {
+  return catalogue().kind() == Catalogue::Kind::english ? std::string(identifier) : k_keep + std::string(identifier) + k_keep_end;
+}
+
+std::string without_marks(std::string text) {
+  for (const char* mark : {k_keep, k_keep_end})
+    for (std::size_t at = text.find(mark); at != text.npos; at = text.find(mark, at)) text.erase(at, k_mark_bytes);
+  return text;
+}
+
 std::string shown(std::string_view english) {
   if (catalogue().kind() == Catalogue::Kind::english) return std::string(english);
+  if (english.find(k_keep) != english.npos) {  // each a number of its own while the rest is translated
+    std::string line;
+    std::vector<std::string> identifiers;
+    for (std::size_t at = 0; at < english.size();) {
+      const std::size_t from = english.find(k_keep, at), to = from == english.npos ? from : english.find(k_keep_end, from);
+      if (to == english.npos) {
+        line += english.substr(at);
+        break;
+      }
+      line.append(english.substr(at, from - at)).append(fmt::format("{}{}{}", k_keep_end, identifiers.size(), k_keep_end));
+      std::string_view identifier = english.substr(from + k_mark_bytes, to - from - k_mark_bytes);
+      const std::size_t spaces = identifier.size() - (identifier.find_last_not_of(' ') + 1);  // of a column
+      line.append(spaces, ' ');
+      identifier.remove_suffix(spaces);
+      identifiers.emplace_back(identifier);
+      at = to + k_mark_bytes;
+    }
+    std::string out = shown(line);
+    for (std::size_t i = 0; i < identifiers.size(); ++i) {
+      const std::string mark = fmt::format("{}{}{}", k_keep_end, i, k_keep_end);
+      const std::string text = catalogue().kind() == Catalogue::Kind::pseudo ? "\u27e8" + identifiers[i] + "\u27e9" : identifiers[i];
+      if (const auto place = out.find(mark); place != out.npos) out.replace(place, mark.size(), text);
+    }
+    return out;
+  }
   std::string out;
   for (std::size_t at = 0;;) {
     const std::size_t end = english.find('\n', at);
@@ -273,7 +318,7 @@ std::string shown(std::string_view english) {
 }
 
 std::string remembered(std::string translated) {
-  if (catalogue().kind() == Catalogue::Kind::translated) memory()[translated] = translated;
+  if (catalogue().kind() == Catalogue::Kind::translated) memory()[translated] = {translated, false};
   return translated;
 }
 

@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
@@ -189,7 +190,7 @@ std::string to_text(const Comparison& c) {
   s += fmt::format("\n  {}{}{}{}\n", cell("points", 18), cell(points(c.before.points, c.before.max), 16), cell(points(c.points, c.max), 16),
                    cell(signed_points(c.points - c.before.points), 10));
   for (const auto& d : c.criteria) {
-    s += fmt::format("  {}{}{}{}", cell(d.id, 18), cell(points(d.old_points, d.old_max), 16), cell(points(d.new_points, d.new_max), 16),
+    s += fmt::format("  {}{}{}{}", kept(cell(d.id, 18)), cell(points(d.old_points, d.old_max), 16), cell(points(d.new_points, d.new_max), 16),
                      cell(signed_points(d.difference()), 10));
     for (std::size_t i = 0; i < d.why.size(); ++i) s += (i > 0 ? "; " : "") + d.why[i];
     if (!same(d.old_value, d.new_value) && d.old_value && d.new_value)

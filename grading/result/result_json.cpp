@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "grading/result/measure_marking.h"
@@ -261,18 +262,26 @@ Json to_json(const Result& r) {
 
 namespace {
 
+/// "critical criterion ID: ...": the identifier is no word to translate.
+std::string with_id_kept(const std::string& reason, const Result& r) {
+  for (const auto& c : r.criteria)
+    if (const std::string begin = k_critical_reason + c.id + ":"; reason.starts_with(begin))
+      return k_critical_reason + kept(c.id) + reason.substr(begin.size() - 1);
+  return reason;
+}
+
 std::string verdict_text(const Result& r) {
   std::string s = one_line(fmt::format("{} ({})", r.scenario_title, r.tooth_name)) + "\n";
   s += fmt::format("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)\n", verdict_name(r.verdict), fixed(r.points, 1),
                    fixed(r.max_points, 1), fixed(r.points_bound, 1));
-  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(reason));
+  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(with_id_kept(reason, r)));
   return s;
 }
 
 std::string criteria_text(const Result& r) {
   std::string s = "\n";
   for (const auto& c : r.criteria)
-    s += fmt::format("  {}{}{}{}\n", padded(one_line(c.id) + " ", 16),
+    s += fmt::format("  {}{}{}{}\n", kept(padded(one_line(c.id) + " ", 16)),
                      padded(fmt::format("{} / {}", c.judged ? fixed(c.points, 1) : "-", fixed(c.max, 1)), 14),
                      padded(c.judged ? "± " + fixed(c.points_bound, 1) : "", 9),
                      c.critical_failed && !r.verdict_reasons.empty() ? "critical: see above" : one_line(c.reason));

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/language/shown.h"
 #include "grading/words/loss_finder.h"
 
 namespace cavum::grading {
@@ -13,7 +14,7 @@ Why why(const GradeInput& input, const Result& result, const scenarios::RubricSp
   Why w;
   std::string known;
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i) {
-    known += (known.empty() ? "" : ", ") + rubric.criteria[i].id;
+    known += (known.empty() ? "" : ", ") + kept(rubric.criteria[i].id);
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
     w.full = rubric.criteria[i].full;

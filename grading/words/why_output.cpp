@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
 #include "grading/result/result_json.h"
@@ -57,10 +58,10 @@ std::string to_text(const Why& w) {
   const auto& c = w.criterion;
   const scenarios::Measure measure = scenarios::known_measure(c.metric);
   const char* full_end = measure.reads == scenarios::Reads::yes_no ? "" : w.full < w.zero ? " or less" : " or more";
-  std::string s =
-      fmt::format("{} ({}): {} of {} points, {} lost\n  {}; full marks at {}{}, none from {} on\n  {}\n", c.id, c.metric, fixed(c.points, 2),
-                  fixed(c.max, 2), fixed(c.max - c.points, 2), c.value ? value_text(measure, *c.value, c.bound, 3) : std::string("not measured"),
-                  value_text(measure, w.full, 0, 3), full_end, value_text(measure, w.zero, 0, 3), c.reason);
+  std::string s = fmt::format("{} ({}): {} of {} points, {} lost\n  {}; full marks at {}{}, none from {} on\n  {}\n", kept(c.id), kept(c.metric),
+                              fixed(c.points, 2), fixed(c.max, 2), fixed(c.max - c.points, 2),
+                              c.value ? value_text(measure, *c.value, c.bound, 3) : std::string("not measured"), value_text(measure, w.full, 0, 3),
+                              full_end, value_text(measure, w.zero, 0, 3), c.reason);
   if (!w.items.empty()) s += "\n";
   for (const auto& i : w.items) {
     std::string time;

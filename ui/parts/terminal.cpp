@@ -71,7 +71,7 @@ struct SafeTerminal::Stream {
     stream_.rdbuf(buffer_before_);
     standard_ = before_;
     std::fclose(filtered_);
-    write_whole(fd_, translate_ ? in_language(terminal_text(rest_)) : terminal_text(rest_));
+    write_whole(fd_, translate_ ? in_language(terminal_text(rest_)) : without_marks(terminal_text(rest_)));
   }
   void translate(bool on) {
     if (filtered_ == nullptr) return;
@@ -90,7 +90,7 @@ struct SafeTerminal::Stream {
     if (const std::size_t line = rest_.rfind('\n'); translate_ && text.size() >= k_buffer && line != std::string::npos) whole = line + 1;
     std::string safe = terminal_text(std::string_view(rest_).substr(0, whole));
     rest_.erase(0, whole);
-    return write_whole(fd_, translate_ ? in_language(safe) : safe) ? static_cast<ssize_t>(text.size()) : 0;
+    return write_whole(fd_, translate_ ? in_language(safe) : without_marks(std::move(safe))) ? static_cast<ssize_t>(text.size()) : 0;
   } catch (const std::exception&) {
     return 0;
   }

@@ -39,10 +39,10 @@ ReportEvent event_of(const SessionEvent& e, const grading::GradeInput& input, co
   const auto is = [&](scenarios::ExamEventKind kind) { return e.kind == scenarios::event_name(kind); };
   ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, said("device"), shown(spaced(e.kind)), site_of(detail)};
   const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
-  if (is(scenarios::ExamEventKind::step_started)) say(said("step"), tr("step \"{}\" begins", step));
-  if (is(scenarios::ExamEventKind::step_completed)) say(said("step"), tr("step \"{}\" completed", step));
-  if (is(scenarios::ExamEventKind::step_failed)) say(said("step"), tr("step \"{}\" failed", step));
-  if (is(scenarios::ExamEventKind::step_time_limit)) say(said("limit"), tr("time limit of step \"{}\"", step));
+  if (is(scenarios::ExamEventKind::step_started)) say(said("step"), tr("step \"{}\" begins", as_is(step)));
+  if (is(scenarios::ExamEventKind::step_completed)) say(said("step"), tr("step \"{}\" completed", as_is(step)));
+  if (is(scenarios::ExamEventKind::step_failed)) say(said("step"), tr("step \"{}\" failed", as_is(step)));
+  if (is(scenarios::ExamEventKind::step_time_limit)) say(said("limit"), tr("time limit of step \"{}\"", as_is(step)));
   if (is(scenarios::ExamEventKind::time_limit)) say(said("limit"), tr("time limit of the exam"));
   if (is(scenarios::ExamEventKind::over_speed)) say(said("violation"), tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
   if (is(scenarios::ExamEventKind::point_not_allowed)) {

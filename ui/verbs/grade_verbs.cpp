@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "grading/result/compare.h"
 #include "grading/result/result_json.h"
 #include "grading/words/measures_page.h"
@@ -94,7 +95,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
             fmt::format("  {}{}{}{}\n", cell(c.before.verdict, c.before.points, c.before.max), cell(now, c.points, c.max), change, one_line(file));
         for (const auto& d : c.criteria)
           if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
-            std::string line = fmt::format("      {} {}", d.id, grading::signed_points(d.difference()));
+            std::string line = fmt::format("      {} {}", kept(d.id), grading::signed_points(d.difference()));
             for (std::size_t i = 0; i < d.why.size(); ++i) line += (i > 0 ? "; " : ": ") + d.why[i];
             table += line + "\n";
           }

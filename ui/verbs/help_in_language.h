@@ -13,7 +13,7 @@ namespace cavum::ui {
 class HelpInLanguage : public CLI::Formatter {
  public:
   HelpInLanguage() {
-    for (const char* english : {said("REQUIRED"), said("Usage"), said("Positionals"), said("OPTIONS"), said("SUBCOMMAND"), said("SUBCOMMANDS"),
+    for (const char* english : {said("Options"), said("REQUIRED"), said("Usage"), said("Positionals"), said("OPTIONS"), said("SUBCOMMAND"), said("SUBCOMMANDS"),
                                 said("TEXT"), said("INT"), said("UINT"), said("FLOAT"), said("NUMBER")})
       label(english, shown(english));
   }

@@ -13,6 +13,7 @@
 #include "engine/base/file.h"
 #include "engine/base/scratch_folder.h"
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "engine/tooth/tooth.h"
 #include "grading/battery/battery_output.h"
 #include "grading/result/result_json.h"
@@ -172,7 +173,7 @@ nlohmann::ordered_json to_json(const Caught& c) {
 }
 
 std::string to_text(const Caught& c) {
-  std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", c.criterion.id,
+  std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", kept(c.criterion.id),
                               c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), grading::verdict_name(c.result.verdict));
   if (c.as_named) return s;
   for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", reason);
@@ -235,7 +236,7 @@ int solve(const ScenarioArguments& o) {
               << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of "
               << r.progress.steps << " completed, ended: " << r.progress.finish << "\n";
     for (const auto& c : r.criteria)
-      std::cout << "  " << one_line(c.id) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
+      std::cout << "  " << kept(one_line(c.id)) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
   }
   for (const auto& reason : solved.reasons) std::cout << "because: " << one_line(reason) << "\n";
   if (!passed) std::cout << "what to do: " << one_line(solved.advice) << "\n";

@@ -73,6 +73,25 @@ TEST_F(Language, WhatIsPassedAsItIsStaysAndKeepsTheLineInOrder) {
   EXPECT_EQ(with_isolates("\u2068 never ended", xml_text, "<bdi>", "</bdi>"), xml_text("\u2068 never ended"));
 }
 
+TEST_F(Language, AnIdentifierInAPrintedLineIsKept) {
+  EXPECT_EQ(kept("depth"), "depth");
+  set_language("de");
+  EXPECT_EQ(shown("depth"), "Tiefe");
+  EXPECT_EQ(shown(kept("depth")), "depth");
+  EXPECT_EQ(shown("  " + kept("removed         ") + "12.3 / 30.0   full marks"), "  removed         12,3 / 30,0   volle Punktzahl");
+  EXPECT_EQ(shown("critical criterion " + kept("walls") + ": 0.65 ± 0.05 mm"), "kritisches Kriterium walls: 0,65 ± 0,05 mm");
+  EXPECT_EQ(shown("take one of: " + kept("depth") + ", " + kept("time")).substr(shown("take one of: ").size() - 1), " depth, time");
+  EXPECT_EQ(without_marks("a " + kept("depth") + " b"), "a depth b");
+  set_language("qps");
+  EXPECT_EQ(shown(kept("depth")), "⟨depth⟩");
+}
+
+TEST_F(Language, AMessageOfSeveralLinesIsFoundLineByLine) {
+  set_language("de");
+  EXPECT_EQ(shown("\ntime 24.5 s (handpiece 23.5 s, idle 1.4 s), way 141 mm, force 0.89 N mean, 1.54 N peak\n"),
+            "\nZeit 24,5 s (Handstück 23,5 s, untätig 1,4 s), Weg 141 mm, Kraft 0,89 N im Mittel, 1,54 N höchstens\n");
+}
+
 TEST_F(Language, ATextInAPictureIsTranslatedAndItsTagsAreNot) {
   set_language("de");
   EXPECT_EQ(shown_svg("<svg aria-label='target'><text x='1.5' y='2'>removed, damage</text><text>0.5</text><path d='M1.5 2'/></svg>"),
