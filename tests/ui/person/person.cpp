@@ -106,20 +106,38 @@ Seen Person::look() const {
   }
 }
 
+Vec3 Person::at_rest() const {
+  constexpr double k_still_mm = 0.03;
+  constexpr int k_pictures = 60;
+  Vec3 last = look().tip_mm;
+  for (int i = 0, still = 0; i < k_pictures && still < 3; ++i) {
+    const Vec3 now = look().tip_mm;
+    still = length(now - last) < k_still_mm ? still + 1 : 0;
+    last = now;
+  }
+  return last;
+}
+
 void Person::learn() {
-  constexpr double k_settles_s = 0.35;
+  constexpr double k_moved_mm = 0.2;
+  constexpr int k_tries = 10;
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3 units;
     (i == 0 ? units.x : i == 1 ? units.y : units.z) = 0.8;
-    const Vec3 before = look().tip_mm;
-    const Vec3 did = means_.move(units);
-    wait_s(k_settles_s);
-    const Vec3 after = look().tip_mm;
-    per_unit_mm_[i] = (after - before) / length(did);
+    // a hand that sees nothing move does it once more
+    for (int n = 0;; ++n) {
+      const Vec3 before = at_rest();
+      const Vec3 did = means_.move(units);
+      wait_s(0.3);
+      const Vec3 way = at_rest() - before;
+      per_unit_mm_[i] = way / length(did);
+      if (length(way) > k_moved_mm) break;
+      if (n == k_tries) throw std::runtime_error("the tip did not follow the hand");
+    }
     static_cast<void>(means_.move(units * -1.0));
-    wait_s(k_settles_s);
+    wait_s(0.3);
   }
-  wanted_mm_ = look().tip_mm;
+  wanted_mm_ = at_rest();
 }
 
 void Person::want(Vec3 tip_mm) {
@@ -133,7 +151,7 @@ void Person::want(Vec3 tip_mm) {
 
 int Person::follow(const Way& way) {
   // the hand aims at the line, a little ahead of the tip; further ahead, and deeper, where the tip is held back
-  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_deeper_mm = 0.6, k_patience_s = 12.0, k_progress_mm = 0.05,
+  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_deeper_mm = 0.6, k_patience_s = 25.0, k_progress_mm = 0.05,
                    k_most_aside_mm = 0.7;
   double done_mm = -1.0, ahead_mm = k_ahead_mm;
   auto progressed = std::chrono::steady_clock::now();

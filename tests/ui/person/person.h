@@ -28,6 +28,8 @@ class Person {
  private:
   /// A picture that began after the call.
   [[nodiscard]] Seen look() const;
+  /// Where the tip comes to rest.
+  [[nodiscard]] Vec3 at_rest() const;
   void want(Vec3 tip_mm);
 
   Means& means_;
