@@ -37,7 +37,7 @@ sleep 0.3
 picture 04-briefing
 key enter
 wait exam
-until 20
+until 8
 picture 05-exam
 key 2
 sleep 0.5
