@@ -79,10 +79,10 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
   ImGui::Dummy({0, t.px(4)});
   if (c.sitting->device().pointer() != nullptr)
-    quiet_text(t, s.mouse_free ? "Mouse: points at buttons. Tab: it is the stylus again"
+    quiet_text(t, s.mouse_free ? "Mouse: points at buttons. Tab or middle button: it is the stylus again"
                                : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: upright. "
-                                 "Shift: finer. Tab: mouse for buttons");
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+                                 "Shift: finer. Tab or middle button: mouse for buttons");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
   ImGui::EndChild();
   const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
@@ -248,7 +248,11 @@ void exam_screen(const ScreenContext& c) {
   if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);
   end_area();
   if (PointerStylus* pointer = c.sitting->device().pointer()) {
-    if (key_pressed(GLFW_KEY_TAB)) s.mouse_free = !s.mouse_free;
+    const auto& played = c.input.played();
+    const bool middle = std::any_of(played.begin(), played.end(), [](const InputEvent& e) {
+      return e.kind == InputEvent::Kind::button && e.code == GLFW_MOUSE_BUTTON_MIDDLE && e.down;
+    });
+    if (key_pressed(GLFW_KEY_TAB) || middle) s.mouse_free = !s.mouse_free;
     if (over && ImGui::IsMouseClicked(ImGuiMouseButton_Left)) s.mouse_free = false;
     move_pointer(c, view, *pointer, l.tooth.y);
     s.capture_mouse = !s.mouse_free && !asked_something(s);

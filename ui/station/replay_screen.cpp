@@ -141,7 +141,7 @@ void replay_screen(const ScreenContext& c) {
   show_gauges(t, setup, now, player.runner().depth_mm, {true, true, true});
   quiet_text(t, "Target removed: about " + number_text("%.1f %%", 100.0 * static_cast<double>(player.runner().target_shares) /
                                                                       static_cast<double>(setup.zones.target_shares())));
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
   end_area();
   controls(c, {0, screen.y - bottom}, {screen.x, bottom});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});

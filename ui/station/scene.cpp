@@ -21,7 +21,9 @@ constexpr int k_colours = 16;  // tissues with a colour of their own; further on
 constexpr glm::vec3 k_night(0.085F, 0.105F, 0.130F);
 
 bool same(const SceneView& a, const SceneView& b) {
-  const auto facts = [](const SceneView& v) { return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.clear, v.stereo, v.high_contrast); };
+  const auto facts = [](const SceneView& v) {
+    return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.foot, v.clear, v.stereo, v.high_contrast);
+  };
   return facts(a) == facts(b) && a.tool.tip_mm == b.tool.tip_mm && a.tool.rotation == b.tool.rotation;
 }
 
@@ -77,17 +79,18 @@ Table2D distances_of(const DiamondPoint& point) {
 }
 
 /// Places of the head's surface, tool frame: enough to tell whether it touches.
-std::vector<Vec3> surface_of_head(const DiamondPoint& point) {
-  constexpr int k_around = 18;
+std::vector<Vec3> surface_of_head(const DiamondPoint& point, double up_to_mm, int around) {
   constexpr double k_step_mm = 0.12;
   std::vector<Vec3> all;
-  for (const auto& p : point.head.walk(k_step_mm, point.cutting_length_mm))
-    for (int i = 0; i < k_around; ++i) {
-      const double a = 6.283185307179586 * i / k_around;
+  for (const auto& p : point.head.walk(k_step_mm, up_to_mm))
+    for (int i = 0; i < around; ++i) {
+      const double a = 6.283185307179586 * i / around;
       all.push_back({p.at.r_mm * std::cos(a), p.at.r_mm * std::sin(a), p.at.z_mm});
     }
   return all;
 }
+
+constexpr float k_foot_ends_mm = 5.0F;  // higher than that, a head has no ring below it
 
 /// A renderer on the processor leaves a core to the servo and shows ten pictures a second at least; a graphics card has more to spare.
 constexpr double k_budget_by_processor_ms = 60.0, k_budget_ms = 12.0;
@@ -138,7 +141,9 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
       governor_(drawn_by_processor() ? EffectGovernor(k_budget_by_processor_ms, k_level_by_processor) : EffectGovernor(k_budget_ms, 0)) {
   for (const DiamondPoint& point : tray) {
     distances_.push_back(distances_of(point));
-    surfaces_.push_back(surface_of_head(point));
+    surfaces_.push_back(surface_of_head(point, point.cutting_length_mm, 18));
+    ends_.push_back(surface_of_head(point, std::min(1.0, point.cutting_length_mm), 9));
+    radii_mm_.push_back(point.head_radius_mm);
   }
   const MeshData handpiece = handpiece_mesh();
   handpiece_.put(handpiece.vertices, handpiece.indices);
@@ -205,6 +210,26 @@ float Scene::touch(const SceneView& view) const {
   return 1.0F - glm::smoothstep(k_touching_mm, k_clear_mm, static_cast<float>(nearest_mm));
 }
 
+float Scene::above_mm(const SceneView& view) const {
+  const Mat3 r = rotation(view.tool.rotation);
+  const Vec3 axis{r.row_x.z, r.row_y.z, r.row_z.z};
+  const auto touches = [&](double down_mm) {
+    const Vec3 tip = view.tool.tip_mm - axis * down_mm;
+    return std::ranges::any_of(ends_[static_cast<std::size_t>(view.point)], [&](Vec3 p) {
+      return tooth_.distance_mm(tip + Vec3{dot(r.row_x, p), dot(r.row_y, p), dot(r.row_z, p)}) <= 0.0;
+    });
+  };
+  constexpr double k_step_mm = 0.15;
+  double free = 0.0;
+  while (free < static_cast<double>(k_foot_ends_mm) && !touches(free + k_step_mm)) free += k_step_mm;
+  double blocked = free + k_step_mm;
+  for (int i = 0; i < 4; ++i) {
+    const double middle = 0.5 * (free + blocked);
+    (touches(middle) ? blocked : free) = middle;
+  }
+  return static_cast<float>(free);
+}
+
 void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   lamp_ = lamp_of(view.camera, effects.shadow_edge);
   glEnable(GL_DEPTH_TEST);
@@ -254,11 +279,18 @@ void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, 
   const ShaderProgram& touched = *programs.touched_tooth;
   prepare(touched);
   touched.set("to_tool", glm::inverse(to_glm(view.tool)));
-  touched.set("tool_table", glm::vec4(k_tool_table, touch(view)));
+  const float touches = touch(view);
+  touched.set("tool_table", glm::vec4(k_tool_table, touches));
+  const float above = view.foot ? above_mm(view) : k_foot_ends_mm;
+  const float shows = (1.0F - touches) * (1.0F - glm::smoothstep(k_foot_ends_mm - 1.0F, k_foot_ends_mm, above));
+  constexpr float k_beside_mm = 0.15F, k_opens = 0.6F, k_bends_per_mm = 0.15F, k_deeper_mm = 2.0F;
+  const auto head_mm = static_cast<float>(radii_mm_[static_cast<std::size_t>(view.point)]);
+  touched.set("foot", glm::vec4(head_mm + k_beside_mm + k_opens * above / (1.0F + k_bends_per_mm * above), -above - k_deeper_mm, shows, 0));
+  touched.set("tool_axis", glm::vec3(to_glm(view.tool)[2]));
   touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.point)].texture());
-  // the tip's ball, and as far as its touch is seen
-  constexpr float k_half_mm = 3.0F, k_around_mm = 4.5F;
-  const glm::vec3 middle = glm::vec3(to_glm(view.tool) * glm::vec4(0, 0, k_half_mm, 1));
+  // the tip's ball, and as far as its touch and its foot are seen
+  constexpr float k_around_mm = 5.5F;
+  const glm::vec3 middle(to_glm(view.tool)[3]);
   tooth_.draw_hard_tissue(sight, count_, {middle, k_around_mm, true});
   tooth_.draw_open_pulp(sight, count_);
   prepare(*programs.tooth);

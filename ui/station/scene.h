@@ -26,6 +26,7 @@ struct SceneView {
   int point = -1;         ///< of the tray; -1 = no instrument
   float spin_rad = 0;     ///< how far the running point has turned, as shown
   bool handpiece = true;  ///< shown; it fades where one looks along it
+  bool foot = true;       ///< the ring on the tissue below the head, wider the higher the head is
   bool clear = false;     ///< practice: look through the tooth
   bool stereo = false;    ///< one picture for each eye, side by side
   bool high_contrast = false;
@@ -68,6 +69,8 @@ class Scene {
   };
   /// How much the head touches, 0..1.
   [[nodiscard]] float touch(const SceneView& view) const;
+  /// How far down along its axis the head is free, mm; 5 and a little at most.
+  [[nodiscard]] float above_mm(const SceneView& view) const;
   void cast_shadows(const SceneView& view, const Effects& effects);
   void draw_eye(const SceneView& view, int eye, int x, int width, int height, const Programs& programs);
   void draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
@@ -89,8 +92,9 @@ class Scene {
   ToothDrawing tooth_;
   std::vector<Tissue> tissues_;
   std::vector<GpuMesh> heads_, shanks_, bodies_;
-  std::vector<Table2D> distances_;  // of the points
-  std::vector<std::vector<Vec3>> surfaces_;
+  std::vector<Table2D> distances_;                  // of the points
+  std::vector<std::vector<Vec3>> surfaces_, ends_;  // of the whole heads; of their lowest millimetre
+  std::vector<double> radii_mm_;                    // of the heads
   GpuMesh handpiece_, target_;
   ShaderProgram depth_program_, plain_program_, glass_program_, smooth_program_;
   std::map<std::pair<int, bool>, std::unique_ptr<Programs>> programs_;  // by taps and reflections

@@ -23,8 +23,8 @@
 namespace cavum::station {
 namespace {
 
-constexpr std::array<const char*, 17> k_words{"mouse", "wait", "go",   "until",   "type",  "key",    "hold", "release", "sleep",
-                                              "stall", "hide", "show", "picture", "words", "memory", "fail", "close"};
+constexpr std::array<const char*, 19> k_words{"mouse", "wait", "go",      "until", "type", "key",  "hold",   "release", "sleep", "stall",
+                                              "hide",  "show", "picture", "words", "pace", "tell", "memory", "fail",    "close"};
 
 std::string all_words() {
   std::string list;
@@ -94,6 +94,10 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 0) throw Error(where, fmt::format("'{}' needs seconds", c.word), "write a number of 0 or more");
     }
+    if (c.word == "pace") {
+      std::istringstream value(c.text);
+      if (!(value >> c.number) || c.number < 1) throw Error(where, "'pace' needs pictures a second", "write a number of 1 or more");
+    }
     if (c.word == "mouse") {
       std::istringstream x(c.text);
       std::string button;
@@ -159,10 +163,22 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
     std::filesystem::create_directories(pictures_);
     window.keep_words((std::filesystem::path(pictures_) / (file_name_of(c.text) + ".txt")).string());
   }
+  if (c.word == "pace") pace_hz_ = c.number;
+  if (c.word == "tell" && !pictures_.empty()) {
+    std::filesystem::create_directories(pictures_);
+    told_to_ = (std::filesystem::path(pictures_) / (file_name_of(c.text) + ".txt")).string();
+    std::filesystem::remove(told_to_);
+  }
   if (c.word == "memory") std::printf("%s: %.1f MB\n", c.text.c_str(), memory_mb());
   if (c.word == "fail") throw Error(where, "the script let the window fail", "leave 'fail' out");
   if (c.word == "close") window.ask_to_close();
   return true;
+}
+
+void Script::shown(Screen screen, double exam_s, Vec3 tip_mm) {
+  if (told_to_.empty()) return;
+  std::ofstream(told_to_, std::ios::app) << screen_name(screen) << std::fixed << std::setprecision(4) << ' ' << exam_s << ' ' << tip_mm.x << ' '
+                                         << tip_mm.y << ' ' << tip_mm.z << '\n';
 }
 
 void Script::tell(const Command& c, Screen screen, double exam_s) const {

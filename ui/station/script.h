@@ -16,6 +16,9 @@
 //   hide, show       the window
 //   picture NAME     of the screen, NAME.png in the folder of pictures
 //   words NAME       that the screen says, NAME.txt beside the pictures; a screen that says nothing in widgets adds none
+//   pace PICTURES    a second from now on, as near as the computer can
+//   tell NAME        from now on, of each picture, a line in NAME.txt beside the pictures: its screen, the exam's clock in seconds, and where it
+//                    shows the tip (tooth frame, mm)
 //   memory NAME      prints NAME and what the program holds in memory, MB
 //   fail             throws in the window's thread
 //   close            the window, as its cross does
@@ -39,6 +42,10 @@ class Script {
   /// Before each frame: does what is due. `exam_s`: the exam's clock. Throws Error when a wait is in vain, or for `fail`.
   void step(Window& window, Screen screen, double exam_s, double now_s);
   [[nodiscard]] bool done() const noexcept { return next_ >= commands_.size(); }
+  /// Pictures a second that it asked for; 0 = none.
+  [[nodiscard]] double pace_hz() const noexcept { return pace_hz_; }
+  /// After each frame, for `tell`.
+  void shown(Screen screen, double exam_s, Vec3 tip_mm);
 
  private:
   struct Command {
@@ -54,6 +61,8 @@ class Script {
   void tell(const Command& command, Screen screen, double exam_s) const;
 
   std::string path_, pictures_;
+  std::string told_to_;  // file of `tell`; empty = none
+  double pace_hz_ = 0.0;
   std::vector<Command> commands_;
   std::size_t next_ = 0;
   bool let_go_ = false;

@@ -103,6 +103,8 @@ out vec4 pixel;
          k_shadow_part + R"(
 uniform sampler2D tool_mm;    // distance from the instrument by radius and height
 uniform vec4 tool_table;      // of radius: scale; of height: scale, offset; how much it touches, 0..1
+uniform vec4 foot;            // ring below the head: its radius; lowest height where it shows; how much of it shows, 0..1
+uniform vec3 tool_axis;       // from the tip to the hand
 void main() {
   vec3 n = normalize(facing), v = normalize(eye_mm - place);
   float nv = dot(n, v);
@@ -110,12 +112,16 @@ void main() {
   nv = max(nv, 0.05);
   float nl = dot(n, lamp);
   float lit = lit_at(in_lamp) * smoothstep(-0.25, 0.1, nl);
-  float near = 1.0, ring = 1.0;
+  float near = 1.0, ring = 1.0, line = 0.0;
 #ifdef TOOL
   vec2 where = vec2(length(in_tool.xy) * tool_table.x, in_tool.z * tool_table.y + tool_table.z);
   float mm = texture(tool_mm, where).r;
   near = 1.0 - 0.55 * exp2(-3.5 * max(mm, 0.0));
   ring = 1.0 - 0.90 * tool_table.w * (1.0 - smoothstep(0.02, 0.50, mm));
+  // on tissue that looks up to the head, not on walls
+  float wide = length(in_tool.xy);
+  line = foot.z * (1.0 - smoothstep(0.5, 1.0, abs(wide - foot.x) / max(0.10, 1.3 * fwidth(wide)))) * smoothstep(0.25, 0.45, dot(n, tool_axis)) *
+         smoothstep(foot.y, foot.y + 0.3, in_tool.z) * (1.0 - smoothstep(0.2, 0.6, in_tool.z));
 #endif
   float enamel = nature.x, pulp = nature.y, open = nature.z;
   float soft = mix(0.30, 0.18, enamel);  // light wanders in tissue
@@ -132,7 +138,7 @@ void main() {
   float nh = max(dot(n, normalize(lamp + v)), 0.0);
   float sharp = mix(40.0, 260.0, max(enamel, pulp));
   c += lamp_colour * wet * lit * f * 0.09 * sharp * exp2(1.44 * sharp * (nh - 1.0)) * step(0.0, nl);
-  pixel = finished(c * ring, 1.0);
+  pixel = finished(c * ring * mix(vec3(1.0), vec3(0.04, 0.42, 0.55), line), 1.0);
 })";
 }
 

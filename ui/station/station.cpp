@@ -150,6 +150,7 @@ class Station {
     window_.begin_frame();
     show(frame_s);
     window_.end_frame();
+    script_.shown(state_.screen, exam_s(), state_.view.tool.tip_mm);
     const bool is_stylus = std::exchange(state_.capture_mouse, false) && state_.screen == Screen::exam;
     window_.capture_mouse(is_stylus);
     set_navigation(!pointer_at_work());
@@ -159,7 +160,8 @@ class Station {
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
     // no more pictures than eyes need, fewer when the processor draws: the servo shares it
-    const double least_s = window_.software() ? 1.0 / 25.0 : 1.0 / 120.0;
+    const double usual_hz = window_.software() ? 25.0 : 120.0;
+    const double least_s = 1.0 / (script_.pace_hz() > 0 ? script_.pace_hz() : usual_hz);
     if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
   }
 

@@ -31,6 +31,7 @@ void keys(StationState& s, double frame_s, bool arrows_turn) {
   if (key_pressed(GLFW_KEY_R)) camera.roll_deg = std::fmod(camera.roll_deg + 15.0F, 360.0F);
   if (key_pressed(GLFW_KEY_T)) s.view.stereo = !s.view.stereo;
   if (key_pressed(GLFW_KEY_H)) s.view.handpiece = !s.view.handpiece;
+  if (key_pressed(GLFW_KEY_G)) s.view.foot = !s.view.foot;
   camera.eyes_apart_mm = s.view.stereo ? 0.06F * camera.distance_mm : 0.0F;
 }
 

@@ -49,13 +49,15 @@ void rest(int ms) { std::this_thread::sleep_for(std::chrono::milliseconds(ms)); 
 }  // namespace
 
 XHand::XHand() {
-  // libXtst has no header here that a build needs: two functions of it, as XTest.h declares them
+  // libXtst has no header here that a build needs: four functions of it, as XTest.h declares them
   library_ = ::dlopen("libXtst.so.6", RTLD_NOW);
   if (library_ == nullptr) return;
   display_ = XOpenDisplay(nullptr);
   if (display_ == nullptr) return;
   fake_key_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(::dlsym(library_, "XTestFakeKeyEvent"));
   fake_motion_ = reinterpret_cast<int (*)(void*, int, int, unsigned long)>(::dlsym(library_, "XTestFakeRelativeMotionEvent"));
+  fake_place_ = reinterpret_cast<int (*)(void*, int, int, int, unsigned long)>(::dlsym(library_, "XTestFakeMotionEvent"));
+  fake_button_ = reinterpret_cast<int (*)(void*, unsigned, int, unsigned long)>(::dlsym(library_, "XTestFakeButtonEvent"));
 }
 
 XHand::~XHand() {
@@ -77,6 +79,53 @@ void XHand::tap(const std::string& name, int ms) const {
 void XHand::move(int x, int y) const {
   fake_motion_(display_, x, y, 0);
   XFlush(display_of(display_));
+}
+
+void XHand::point_at(int x, int y) const {
+  fake_place_(display_, 0, x, y, 0);
+  XFlush(display_of(display_));
+}
+
+void XHand::button(unsigned number, bool down) const {
+  fake_button_(display_, number, down ? 1 : 0, 0);
+  XFlush(display_of(display_));
+}
+
+void XHand::click(unsigned number, int ms) const {
+  button(number, true);
+  rest(ms);
+  button(number, false);
+}
+
+std::optional<std::pair<int, int>> XHand::see(unsigned long colour) const {
+  constexpr int k_least_wide = 60;
+  Display* d = display_of(display_);
+  const int wide = DisplayWidth(d, DefaultScreen(d)), high = DisplayHeight(d, DefaultScreen(d));
+  XImage* image = XGetImage(d, DefaultRootWindow(d), 0, 0, static_cast<unsigned>(wide), static_cast<unsigned>(high), AllPlanes, ZPixmap);
+  if (image == nullptr) return {};
+  // rows of the colour's longest run that lie over one another
+  int best_rows = 0, rows = 0, last = -1;
+  std::optional<std::pair<int, int>> found;
+  for (int y = 0; y < high; ++y) {
+    int run = 0, longest = 0, end = 0;
+    for (int x = 0; x < wide; ++x) {
+      run = (XGetPixel(image, x, y) & 0xffffffUL) == colour ? run + 1 : 0;
+      if (run > longest) {
+        longest = run;
+        end = x;
+      }
+    }
+    const int middle = end - longest / 2;
+    const bool there = longest >= k_least_wide;
+    rows = !there ? 0 : last >= 0 && middle > last - k_least_wide && middle < last + k_least_wide ? rows + 1 : 1;
+    last = there ? middle : -1;
+    if (rows > best_rows) {
+      best_rows = rows;
+      found = std::pair{end - 4, y - 2};  // its right edge: no letters
+    }
+  }
+  XDestroyImage(image);
+  return best_rows >= 8 ? found : std::nullopt;
 }
 
 void XHand::take_the_keyboard(int ms) const {

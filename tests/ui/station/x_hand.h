@@ -1,7 +1,9 @@
 // A hand on the keyboard and mouse of an X server, for tests: the events are those of real devices (extension XTEST), not of our program.
 #pragma once
 
+#include <optional>
 #include <string>
+#include <utility>
 
 namespace cavum::testing_station {
 
@@ -20,6 +22,13 @@ class XHand {
   void tap(const std::string& key, int ms) const;
   /// The mouse by so many pixels.
   void move(int x, int y) const;
+  /// The mouse to this place of the screen.
+  void point_at(int x, int y) const;
+  /// A button of the mouse: 1 left, 2 middle, 3 right; 4 and 5 are one notch of the wheel away from the person and back.
+  void button(unsigned number, bool down) const;
+  void click(unsigned number, int ms) const;
+  /// Middle of the largest patch of this colour (0xRRGGBB) on the screen, 60 pixels wide or wider; nothing when there is none.
+  [[nodiscard]] std::optional<std::pair<int, int>> see(unsigned long colour) const;
   /// Another window opens, takes the keyboard, and goes after so many ms.
   void take_the_keyboard(int ms) const;
   /// Asks the window with this title to close, as a desktop does. False when there is none.
@@ -37,6 +46,8 @@ class XHand {
   unsigned long mode_ = 0;  // of the screen that was taken away
   int (*fake_key_)(void*, unsigned, int, unsigned long) = nullptr;
   int (*fake_motion_)(void*, int, int, unsigned long) = nullptr;
+  int (*fake_place_)(void*, int, int, int, unsigned long) = nullptr;
+  int (*fake_button_)(void*, unsigned, int, unsigned long) = nullptr;
 };
 
 }  // namespace cavum::testing_station

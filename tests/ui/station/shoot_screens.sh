@@ -1,0 +1,163 @@
+#!/usr/bin/env bash
+# Pictures of every screen of the station, for eyes: shoot_screens.sh FOLDER WIDTHxHEIGHT [LANGUAGE]. Needs xvfb-run; at 3840x2160 some minutes.
+#   tests/ui/station/shoot_screens.sh build/release/pictures/4k 3840x2160
+#   CAVUM=build/release/cavum   another program
+set -euo pipefail
+[ $# -ge 2 ] || { sed -n 2,4p "$0" >&2; exit 2; }
+here=$(cd "$(dirname "$0")/../../.." && pwd)
+cavum=$(realpath "${CAVUM:-$here/build/release/cavum}")
+mkdir -p "$1"
+out=$(realpath "$1")
+size=$2 language=${3:-en}
+work=$(mktemp -d)
+trap 'rm -rf "$work"' EXIT
+export CAVUM_HOME=$work/home LANGUAGE=$language CAVUM_DATA=$here/data
+mkdir "$CAVUM_HOME"
+task=$here/data/scenarios/class_1.toml
+block=$here/tests/replay/block_cavity.toml
+
+sit() { # NAME OPTIONS: the script comes from standard input; in a window of that size
+  cat >"$work/script"
+  xvfb-run -a -s "-screen 0 ${size}x24" "$cavum" --language "$language" station "${@:2}" --effects 2 --width "${size%x*}" --height "${size#*x}" \
+    --script "$work/script" --pictures "$out" >"$work/said" 2>&1 || { echo "$1:" && cat "$work/said"; } >&2
+}
+
+to_exam="sleep 0.3
+picture 01-sign-in
+type K7
+key enter
+wait preparing
+picture 02-preparing
+wait device-check
+picture 03-device-check"
+sit exam "$task" --device simulated --out "$work/exam.cavum" <<END
+$to_exam
+go briefing
+sleep 0.3
+picture 04-briefing
+key enter
+wait exam
+until 8
+picture 05-exam
+key 2
+sleep 0.5
+picture 06-from-the-side
+key m
+sleep 0.3
+picture 07-mirror
+key m
+key t
+sleep 0.3
+picture 08-both-eyes
+key t
+key escape
+sleep 0.5
+picture 09-finished
+key enter
+wait grading
+picture 10-grading
+wait result
+sleep 0.5
+picture 11-result
+key enter
+END
+sit replay --replay "$work/exam.cavum" <<END
+wait replay
+key end
+sleep 3
+picture 12-replay
+key escape
+END
+sit tutorial "$task" --tutorial --out "$work/tutorial.cavum" <<END
+sleep 0.3
+picture 13-sign-in-to-practise
+go device-check
+sleep 1
+key space 0.6
+go briefing
+key enter
+wait exam
+sleep 1
+picture 14-tutorial
+key u
+sleep 0.3
+picture 15-practice
+key c
+hold pagedown
+sleep 2
+release pagedown
+picture 16-practice-at-the-tooth
+key escape
+sleep 0.3
+key enter
+wait result
+key enter
+END
+sed 's/^time_limit_s/pauses = { count = 1, longest_s = 60, button = 1 }\n&/' "$block" >"$work/paused.toml"
+sit contrast "$work/paused.toml" --tooth "$here/tests/replay/block.cvt" --device mouse --high-contrast --left-handed --text-scale 1.3 --out "$work/paused.cavum" <<END
+go device-check
+sleep 1
+key space 0.6
+go briefing
+sleep 0.3
+picture 17-briefing-contrast
+key enter
+wait exam
+until 1
+picture 18-exam-contrast-left-handed
+key p
+sleep 0.5
+picture 19-pause
+key p
+sleep 0.3
+key escape
+sleep 0.3
+key enter
+wait result
+sleep 0.3
+picture 20-result-contrast
+key enter
+END
+echo overthelake | "$cavum" station --set-supervisor-code >/dev/null
+sit kiosk "$block" --device simulated --kiosk --out "$work/kiosk.cavum" <<END
+type K7
+go device-check
+go briefing
+key enter
+wait exam
+until 2
+key f4
+close
+sleep 0.5
+picture 21-leave
+key escape
+sleep 0.5
+picture 22-tried-to-leave
+key escape
+sleep 0.5
+key enter
+wait result
+close
+sleep 0.5
+type overthelake
+key enter
+END
+cp "$task" "$work/mine.toml"
+sit author --author "$work/mine.toml" <<END
+wait author
+sleep 6
+picture 23-author
+key l
+sleep 1
+picture 24-author-landmarks
+close
+END
+sit self-check "$block" --device inverse3 --out "$work/none.cavum" <<END
+type K7
+key enter
+wait self-check
+sleep 0.5
+picture 25-self-check
+close
+END
+ls "$out"
