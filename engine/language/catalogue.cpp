@@ -14,6 +14,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/kept.h"
 #include "engine/base/shipped.h"
 #include "engine/language/language.h"
 
@@ -187,7 +188,10 @@ std::string language_of_environment() {
   return "en";
 }
 
-void set_language(const std::string& language) { current() = Catalogue(language); }
+void set_language(const std::string& language) {
+  current() = Catalogue(language);
+  kept_is_marked = current().kind() != Catalogue::Kind::english;
+}
 
 const std::string& language() noexcept { return current().language(); }
 

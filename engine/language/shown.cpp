@@ -9,6 +9,7 @@
 #include <unordered_set>
 #include <vector>
 
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/language/catalogue.h"
 #include "engine/language/say.h"
@@ -18,8 +19,7 @@ namespace {
 
 constexpr int k_deepest = 12;
 constexpr std::size_t k_most_remembered = 20'000, k_telling_letters = 16;
-constexpr char k_open[] = "\u27e6";                           // of the pseudo-language
-constexpr char k_keep[] = "\ue000", k_keep_end[] = "\ue001";  // around what is kept, of the Unicode area for private use
+constexpr char k_open[] = "\u27e6";  // of the pseudo-language
 constexpr std::size_t k_mark_bytes = 3;
 
 /// The screens of a station say the same sentences sixty times a second. Of one thread.
@@ -267,10 +267,6 @@ std::string sentence(std::string_view text, int depth, bool& known) {
 void add_translations(const std::map<std::string, std::string>& texts) {
   for (const auto& [english, translated] : texts) of_files().insert_or_assign(english, translated);
   memory().clear();
-}
-
-std::string kept(std::string_view identifier) {
-  return catalogue().kind() == Catalogue::Kind::english ? std::string(identifier) : k_keep + std::string(identifier) + k_keep_end;
 }
 
 std::string without_marks(std::string text) {

@@ -11,9 +11,7 @@ namespace cavum {
 /// translation, and what stood in its gaps is translated likewise. Sentences that were put together with "; ", ": ", ", " or ". " are translated part
 /// by part. Numbers get the language's decimal sign. What no sentence fits stays English. Line ends stay.
 [[nodiscard]] std::string shown(std::string_view english);
-/// An identifier in a line that is printed in English and translated as a whole: it stays in the line as it is. In English the same string.
-[[nodiscard]] std::string kept(std::string_view identifier);
-/// What is left of a text with such identifiers when nothing translates it.
+/// What is left of a text with identifiers that were marked (base/kept.h) when nothing translates it.
 [[nodiscard]] std::string without_marks(std::string text);
 /// The texts in a picture: what stands between its tags, and its labels.
 [[nodiscard]] std::string shown_svg(std::string_view svg);

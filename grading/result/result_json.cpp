@@ -6,8 +6,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "grading/result/measure_marking.h"

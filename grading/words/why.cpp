@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/language/shown.h"
+#include "engine/base/kept.h"
 #include "grading/words/loss_finder.h"
 
 namespace cavum::grading {

@@ -4,8 +4,8 @@
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
 #include "grading/result/result_json.h"

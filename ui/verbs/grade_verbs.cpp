@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/language/shown.h"
 #include "grading/result/compare.h"

@@ -8,6 +8,7 @@
 #include <cstdlib>
 
 #include "engine/base/error.h"
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/language/catalogue.h"
 #include "engine/language/pattern.h"
