@@ -15,7 +15,7 @@ std::string pseudo(std::string_view english) {
   for (std::size_t i = 0; i < english.size(); ++i) {
     const char c = english[i];
     if (c == '\n') {  // each line is shown by itself
-      out += i + 1 < english.size() ? "\u27e7\n\u27e6" : "\n";
+      out += i + 1 < english.size() ? "\u27e7\n\u27e6" : "\u27e7\n";
       continue;
     }
     if (c == '%' && i + 1 < english.size() && english[i + 1] != ' ') conversion = true;
@@ -30,7 +30,7 @@ std::string pseudo(std::string_view english) {
     if (c == '}') gap = false;
     if (conversion && std::string_view("diouxXfFeEgGaAcs").find(c) != std::string_view::npos) conversion = false;
   }
-  return out + "\u27e7";
+  return english.ends_with('\n') ? out : out + "\u27e7";
 }
 
 }  // namespace cavum

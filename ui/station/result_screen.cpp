@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/language/say.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -41,7 +42,7 @@ void criteria(const Theme& t, const grading::Result& r) {
 void held_result_screen(const ScreenContext& c) {
   begin_card(c.theme, "Your exam is recorded and sealed", 640);
   wrapped_text("The result is held until the school releases it.");
-  quiet_text(c.theme, fmt::format("{},  candidate {}", c.sitting->setup().scenario.title, c.sitting->candidate()));
+  quiet_text(c.theme, tr("{},  candidate {}", as_is(shown(c.sitting->setup().scenario.title)), as_is(c.sitting->candidate())));
   ImGui::Dummy({0, c.theme.px(8)});
   if (main_button(c.theme, "Done  (Enter)", true)) c.state.wish = Wish::next_candidate;
   end_area();
@@ -86,8 +87,8 @@ void result_screen(const ScreenContext& c) {
   ImGui::PopStyleColor();
   pop_font();
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
-  quiet_text(t, fmt::format("{},  candidate {},  {} minutes{}", r.scenario_title, c.sitting->candidate(), clock_text(r.motion.time_s),
-                            c.practice ? ",  practice" : ""));
+  quiet_text(t, tr("{},  candidate {},  {} minutes{}", as_is(shown(r.scenario_title)), as_is(c.sitting->candidate()), clock_text(r.motion.time_s),
+                   c.practice ? ",  practice" : ""));
   for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
   ImGui::Dummy({0, t.px(4)});
   criteria(t, r);
