@@ -22,7 +22,7 @@ constexpr Vec3 k_inverse3_middle_mm{0, -120, 150};  // of its space, where the c
 }  // namespace
 
 void Means::await(const Eye& eye, const std::string& screen) const {
-  constexpr double k_patience_s = 240.0;
+  constexpr double k_patience_s = 600.0;
   const auto began = Clock::now();
   while (eye().screen != screen) {
     if (std::chrono::duration<double>(Clock::now() - began).count() > k_patience_s)
