@@ -68,12 +68,16 @@ for (const language of ["en", "de"])
     write("ledger", "report", ledger, "--out", join(folder, `released-${language}`));
     write("scan", "grade", join(folder, "class_1.stl"), "--scenario", join(source, "data/scenarios/class_1.toml"), "--report", at("scan"));
     write("cohort", "report", ledger, "--exam", "block_cavity", "--out", at("class"));
-    write("explain", join(source, "data/measured/hunt/recording.csv"), "--seed", "3", "--out", at("explain"));
-    write("explain", join(source, "data/measured/hunt/recording.csv"), "--dry-run", "--out", at("understood"));
-    write("explain", "--protocol", at("protocol"));
-    const pages = ["instructor", "beside", "student", "scan", "class", "explain", "understood", "protocol"].map(at);
+    // what explain says of a table is English in every language, and its pages say so
+    const english = language === "en" ? ["explain", "understood", "protocol"] : [];
+    if (english.length > 0) {
+      write("explain", join(source, "data/measured/hunt/recording.csv"), "--seed", "3", "--out", at("explain"));
+      write("explain", join(source, "data/measured/hunt/recording.csv"), "--dry-run", "--out", at("understood"));
+      write("explain", "--protocol", at("protocol"));
+    }
+    const pages = ["instructor", "beside", "student", "scan", "class", ...english].map(at);
     for (const name of readdirSync(join(folder, `released-${language}`))) pages.push(join(folder, `released-${language}`, name));
-    assert.equal(pages.length, 9);
+    assert.equal(pages.length, 6 + english.length);
     for (const file of pages) {
       assert.match(readFileSync(file, "utf8").slice(0, 200), new RegExp(`<html lang=['"]${language}['"]`), file);
       for (const width of [1280, 390]) assert.deepEqual(await wrong_with(file, width), [], `${file}, ${width} px`);
