@@ -31,7 +31,7 @@ class Kept : public testing::Test {
  protected:
   static void SetUpTestSuite() {
     shared_ = new School();
-    const std::string ticket = shared_->ticket("4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "37"}}; });
+    const std::string ticket = shared_->ticket("Matr-4711", [](Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "37"}}; });
     const std::string path =
         shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
     Ledger ledger = shared_->ledger();
@@ -96,11 +96,11 @@ TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHa
   const Backup second = back_up(school_.places(), backup, false);
   EXPECT_FALSE(second.identities);
   EXPECT_TRUE(second.older_identities);
-  EXPECT_EQ(where_it_stands(backup, "4711"), "");
+  EXPECT_EQ(where_it_stands(backup, "Matr-4711"), "");
 }
 
 TEST_F(Kept, ForgettingCancelsTicketsThatWereNotUsed) {
-  const std::string ticket = school_.ticket("4711"), candidate = parse_ticket(ticket, "", "ticket").candidate;
+  const std::string ticket = school_.ticket("Matr-4711"), candidate = parse_ticket(ticket, "", "ticket").candidate;
   const std::string sat = school_.sit(ticket);
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -163,7 +163,7 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
   EXPECT_TRUE(s.result_erased_by);
   Identities identities(school_.places().identities());
   int left_out = 0;
-  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out).find("4711"), std::string::npos);
+  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out).find("Matr-4711"), std::string::npos);
 }
 
 TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
@@ -215,14 +215,14 @@ TEST_F(Kept, ForgettingErasesIdentityAndRecordingOfEveryExamAndTellsNobodyWhoItW
   Ledger ledger = school_.ledger();
   const json receipt = ledger.receipt(session_);
   Identities identities(school_.places().identities());
-  const std::string other = identities.enrol("4711", "", "another exam", School::key());
+  const std::string other = identities.enrol("Matr-4711", "", "another exam", School::key());
   std::vector<std::string> pseudonyms;
-  for (const auto& i : identities.of_person("4711")) pseudonyms.push_back(i.pseudonym);
+  for (const auto& i : identities.of_person("Matr-4711")) pseudonyms.push_back(i.pseudonym);
   ASSERT_EQ(pseudonyms.size(), 2u) << "one for each exam";
   forget(ledger, pseudonyms, {.motion = true, .results = true});
   for (const auto& p : pseudonyms) EXPECT_TRUE(identities.forget(p));
   EXPECT_FALSE(std::filesystem::exists(recording()));
-  EXPECT_EQ(where_it_stands(school_.file(""), "4711"), "");
+  EXPECT_EQ(where_it_stands(school_.file(""), "Matr-4711"), "");
   EXPECT_EQ(where_it_stands(school_.file(""), "extra_time_percent"), "");
   expect_proofs_hold(receipt);
   std::size_t forgotten = 0;
@@ -286,9 +286,10 @@ TEST_F(Kept, ResultsOfOlderEntriesCanBeErasedToo) {
 TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
   const School school;
   Identities identities(school.places().identities());
-  const std::string a = identities.enrol("4711", "Ada", "exam A", School::key()), b = identities.enrol("4711", "Ada", "exam B", School::key());
+  const std::string a = identities.enrol("Matr-4711", "Ada", "exam A", School::key()),
+                    b = identities.enrol("Matr-4711", "Ada", "exam B", School::key());
   EXPECT_NE(a, b);
-  EXPECT_EQ(identities.enrol("4711", "Ada", "exam A", School::key()), a);
+  EXPECT_EQ(identities.enrol("Matr-4711", "Ada", "exam A", School::key()), a);
   EXPECT_EQ(identities.of_person(a).size(), 2u);
   EXPECT_TRUE(identities.check(School::key()).empty());
   for (const char* sql : {"UPDATE identity SET exam = 'exam C' WHERE exam = 'exam A'", "UPDATE identity SET name = 'Bob' WHERE exam = 'exam A'",
@@ -301,7 +302,7 @@ TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
 
 TEST(Pseudonyms, AFileOfThemThatKeepsWhoIsForgottenIsRefused) {
   const School school;
-  Identities(school.places().identities()).enrol("4711", "Ada", "exam", School::key());
+  Identities(school.places().identities()).enrol("Matr-4711", "Ada", "exam", School::key());
   test::tamper(school.places().identities(),
                "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END; "
                "UPDATE identity SET id = id");
@@ -312,7 +313,7 @@ TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
   const School school;
   const std::string path = school.file("old.db");
   const Bytes salt(16, 7);
-  const std::string pseudonym = old_pseudonym_of(School::key(), salt, "4711");
+  const std::string pseudonym = old_pseudonym_of(School::key(), salt, "Matr-4711");
   {
     Database db = Database::open(path, true);
     db.run("PRAGMA application_id = 1130460745");
@@ -320,9 +321,9 @@ TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
     db.prepare("INSERT INTO identity VALUES (?, '4711', 'Ada', ?)").bind(1, pseudonym).bind(2, salt).run();
   }
   Identities identities(path);
-  EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "4711");
+  EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "Matr-4711");
   EXPECT_TRUE(identities.check(School::key()).empty());
-  EXPECT_NE(identities.enrol("4711", "Ada", "exam", School::key()), pseudonym) << "a new exam has one of its own";
+  EXPECT_NE(identities.enrol("Matr-4711", "Ada", "exam", School::key()), pseudonym) << "a new exam has one of its own";
   EXPECT_EQ(identities.of_person(pseudonym).size(), 2u);
   SigningKey next = load_signing_key(school.file("next.key"), "school");
   identities.seal_again(School::key(), next);
