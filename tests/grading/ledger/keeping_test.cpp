@@ -318,7 +318,7 @@ TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
     Database db = Database::open(path, true);
     db.run("PRAGMA application_id = 1130460745");
     db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
-    db.prepare("INSERT INTO identity VALUES (?, '4711', 'Ada', ?)").bind(1, pseudonym).bind(2, salt).run();
+    db.prepare("INSERT INTO identity VALUES (?, 'Matr-4711', 'Ada', ?)").bind(1, pseudonym).bind(2, salt).run();
   }
   Identities identities(path);
   EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "Matr-4711");
