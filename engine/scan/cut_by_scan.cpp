@@ -44,6 +44,10 @@ struct LeafLattice {
     const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
     return low + IVec3{static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny), static_cast<std::int32_t>(i / (nx * ny))};
   }
+  [[nodiscard]] Vec3 centre_mm(std::size_t i) const {
+    const IVec3 l = leaf(i) - low;
+    return first_mm + Vec3{double(l.x), double(l.y), double(l.z)} * leaf_mm;
+  }
   /// Calls `visit(index, centre)` for leaves about as near to a triangle as `reach_mm`, for some more than once: a large one in parts, whose boxes
   /// hold less beside it.
   template <class Visit>
@@ -189,6 +193,15 @@ class Pieces {
   [[nodiscard]] double thickness_mm(std::size_t i) const { return static_cast<double>(mm_[i]) - tooth_.at_leaf_mm(lattice_.leaf(i)); }
   [[nodiscard]] bool is_tooth(std::size_t i) const { return !tooth_.outside()[tooth_.tooth().octree.tissue(lattice_.leaf(i))]; }
 
+  /// How much deeper at most, mm; to some hundredths of a millimetre where that is more than the octree's distances reach.
+  [[nodiscard]] double depth_mm(const Piece& piece) const {
+    double deepest = 0.0;
+    Octree::Cursor cursor;
+    for (const std::size_t i : piece.leaves)
+      if (mm_[i] < k_far_off) deepest = std::max(deepest, static_cast<double>(mm_[i]) - tooth_.distance(lattice_.centre_mm(i), cursor).mm);
+    return deepest;
+  }
+
   std::vector<Piece> all() {
     std::vector<Piece> pieces;
     for (std::size_t i = 0; i < seen_.size(); ++i)
@@ -325,9 +338,10 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   const auto largest =
       std::max_element(removed.begin(), removed.end(), [](const Piece& a, const Piece& b) { return a.leaves.size() < b.leaves.size(); });
   for (auto& piece : removed) {
-    if (&piece == &*largest || piece.thickest_mm >= k_thin_mm) continue;
-    cut.apart.push_back(
-        {before.centre_mm(lattice.leaf(piece.leaves[0])), piece.thickest_mm, static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3()});
+    if (&piece == &*largest) continue;
+    const double deep_mm = pieces.depth_mm(piece);
+    if (deep_mm >= k_thin_mm) continue;
+    cut.apart.push_back({lattice.centre_mm(piece.leaves[0]), deep_mm, static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3()});
     piece.leaves.clear();
   }
   std::erase_if(removed, [](const Piece& piece) { return piece.leaves.empty(); });

@@ -220,6 +220,40 @@ def bad_scans(cavum, folder, seed):
     return failed + (["formats and units give other points: %s" % marks_of] if abs(marks_of[0] - marks_of[1]) > 0.5 else [])
 
 
+def with_nick(corners, deep_mm, radius_mm=1.0):
+    """The outermost place of the crown towards +x, pressed in by a ball."""
+    crown = corners[(corners[:, 2] > -3.0) & (corners[:, 2] < -1.0)]
+    outermost = crown[np.argmax(crown[:, 0])]
+    centre = outermost + [radius_mm - deep_mm, 0, 0]
+    away = corners - centre
+    far = np.linalg.norm(away, axis=1)
+    dented = corners.copy()
+    inside = far < radius_mm
+    dented[inside] = centre + radius_mm * away[inside] / np.maximum(far[inside], 1e-9)[:, None]
+    # the ball's own side away from the tooth is no surface of it
+    dented[inside, 0] = centre[0] - np.abs(dented[inside, 0] - centre[0])
+    return dented
+
+
+def nicked_scans(cavum, folder, seed):
+    """A thin piece apart from the cavity is named and left to a person; a deep one is counted."""
+    random = np.random.default_rng(seed + 3)
+    corners, triangles = originals(cavum, folder, True)[0][2]
+    path, failed, said = os.path.join(folder, "nicked.stl"), [], {}
+    for deep_mm in (0.0, 0.2, 0.5):
+        scanner.write_stl(path, *scanner.scan(with_nick(corners, deep_mm) if deep_mm else corners, triangles, random, "fine"))
+        said[deep_mm] = json.loads(cavum.must("scan", "grade", path, "--scenario", cavum.scenario("class_1"), "--json"))
+    for deep_mm, s in said.items():
+        print("a nick %.1f mm deep: %s, %.1f points, outside %.3f mm3, apart %s" % (
+            deep_mm, s["verdict"], s["score"]["points"], s["volumes"]["outside_mm3"], s["scan"]["apart"]), flush=True)
+    grown = [said[d]["volumes"]["outside_mm3"] - said[0.0]["volumes"]["outside_mm3"] for d in (0.2, 0.5)]
+    if said[0.0]["scan"]["apart"] or len(said[0.2]["scan"]["apart"]) != 1 or said[0.2]["verdict"] != "review" or grown[0] > 0.02:
+        failed.append("a nick 0.2 mm deep is not named, left to a person and uncounted")
+    if said[0.5]["scan"]["apart"] or grown[1] < 0.15:
+        failed.append("a nick 0.5 mm deep is not counted")
+    return failed
+
+
 def corners_of_ball(corners, radius_mm):
     away = corners - corners.mean(axis=0)
     return radius_mm * away / np.linalg.norm(away, axis=1)[:, None]
@@ -238,7 +272,7 @@ def main():
     cavum = Cavum(os.path.abspath(o.cavum), os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
     print("seed", o.seed)
     failed = marks(cavum, o.work, o.poses, o.seed, o.quick) + others(cavum, o.work, o.others, o.seed, o.quick)
-    failed += bad_scans(cavum, o.work, o.seed)
+    failed += bad_scans(cavum, o.work, o.seed) + nicked_scans(cavum, o.work, o.seed)
     for f in failed:
         print("FAILED", f)
     return 1 if failed else 0

@@ -144,6 +144,69 @@ TEST(Registration, WhatIsCutIsWhatWasCarvedAndTheRootThatIsNotSeenStays) {
   }
 }
 
+/// A ball whose deepest place lies `deep_mm` inside the crown, on the way from (0, 0, z) along `to`: by the vertices of the surface alone.
+Vec3 ball_into(const TriangleMesh& surface, Vec3 from, Vec3 to, double radius_mm, double deep_mm) {
+  const auto nearest = [&](Vec3 c) {
+    double least = 1e9;
+    for (const Vec3& v : surface.vertices_mm) least = std::min(least, length(v - c));
+    return least;
+  };
+  // from far outside inwards: the first place where the surface is as near as the ball is to reach into it
+  double far = 12;
+  while (nearest(from + to * far) > radius_mm - deep_mm) far -= 0.005;
+  return from + to * far;
+}
+
+ScanCut cut_of_slot_and_ball(Vec3 centre, double radius_mm, std::vector<RemovedLeaf>& ball) {
+  Tooth tooth = molar_with_a_slot();
+  ball.reserve(400000);
+  tooth.octree.reserve_edits(40000);
+  const Vec3 r{radius_mm + 0.3, radius_mm + 0.3, radius_mm + 0.3};
+  EXPECT_TRUE(tooth.octree.carve(
+      centre - r, centre + r, [&](Vec3 p) { return length(p - centre) - radius_mm; }, ball));
+  const TriangleMesh scan = outer_surface(tooth, outside().outside());
+  return cut_by_scan(scan, caps_over(scan, rims_of(scan)), outside(), 0.02, "scan.stl");
+}
+
+// What is thin and lies apart is named and stays; what is thick there, or thin but part of the cavity, is removed.
+TEST(Registration, AThinPieceApartIsNamedAndNotCountedAThickOneIs) {
+  const TriangleMesh surface = outer_surface(molar(), outside().outside());
+  const Vec3 side = normalized(Vec3{0.9, 0.43, 0.0});
+  for (const double deep_mm : {0.2, 0.45}) {
+    std::vector<RemovedLeaf> ball;
+    const Vec3 centre = ball_into(surface, {0, 0, -1.0}, side, 1.0, deep_mm);
+    const ScanCut cut = cut_of_slot_and_ball(centre, 1.0, ball);
+    ASSERT_GT(ball.size(), 50u);
+    std::size_t gone = 0;
+    for (const auto& r : ball) gone += cut.after.tissue(r.leaf()) == k_air ? 1 : 0;
+    if (deep_mm < 0.3) {
+      EXPECT_EQ(cut.cavities, 1);
+      EXPECT_EQ(gone, 0u);
+      ASSERT_EQ(cut.apart.size(), 1u);
+      EXPECT_NEAR(cut.apart[0].deep_mm, deep_mm, 0.03);
+      EXPECT_LT(length(cut.apart[0].at_mm - centre), 1.1);
+      EXPECT_NEAR(cut.apart[0].mm3, static_cast<double>(ball.size()) * 0.001, 0.3 * static_cast<double>(ball.size()) * 0.001);
+    } else {
+      EXPECT_EQ(cut.cavities, 2);
+      EXPECT_TRUE(cut.apart.empty());
+      EXPECT_NEAR(static_cast<double>(gone), static_cast<double>(ball.size()), 0.05 * static_cast<double>(ball.size()));
+    }
+  }
+  // as thin as the first, but beside the slot and joined to it: nothing is left out
+  std::vector<RemovedLeaf> ball;
+  const double radius_mm = 0.8;
+  double height = 5;
+  for (const Vec3 v : surface.vertices_mm)
+    if (std::fabs(v.x - 1.9) < 0.1 && std::fabs(v.y) < 0.1) height = v.z;
+  const ScanCut cut = cut_of_slot_and_ball({2.0, 0, height + radius_mm - 0.2}, radius_mm, ball);
+  std::size_t gone = 0;
+  for (const auto& r : ball) gone += cut.after.tissue(r.leaf()) == k_air ? 1 : 0;
+  ASSERT_GT(ball.size(), 20u);
+  EXPECT_EQ(cut.cavities, 1);
+  EXPECT_TRUE(cut.apart.empty());
+  EXPECT_GT(gone, ball.size() * 8 / 10);
+}
+
 // A crown with a cavity and 10 um of noise, measured too large or too small by a scanner.
 TEST(ScaleFit, TellsByHowMuchAScanIsTooLarge) {
   Random random(drawn_seed("ScaleFit.TellsByHowMuch"));
