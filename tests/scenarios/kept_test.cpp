@@ -1,4 +1,4 @@
-// Scenario files as they shipped on 2026-11-21 (kept/): an exam office has such files, and they load for ever.
+// Scenario files as they shipped on 2026-11-21 (kept/), but for the names of pages: an exam office has such files, and they load for ever.
 #include <gtest/gtest.h>
 
 #include <filesystem>

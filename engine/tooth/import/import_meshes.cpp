@@ -183,6 +183,7 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     require_layers_that_fit(layers_apart(grid), overlaps.of_the_enamel, fmt::format("{}, {}", paths.enamel, paths.dentin));
     out.gap_leaves = close_gaps(grid, fields);
     check_closed_pulp(open_pulp(grid), options.sense, paths.pulp, out.sense);
+    tell_bare_dentin(bare_dentin(grid), out.sense);
   }
 
   // Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.

@@ -241,6 +241,10 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
       check_upright(placed.frame.axes.row_z, placed.dentin_centroid, placed.enamel_centroid, options.sense, path, out.sense);
   }
   TissueGrid grid = resample(volume, s, placed.frame.axes, placed.origin, placed.box, options.leaf_mm, path);
+  if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0) {
+    check_closed_pulp(open_pulp(grid), options.sense, path, out.sense);
+    tell_bare_dentin(bare_dentin(grid), out.sense);
+  }
   const auto around = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
   out.spacing_assumed = volume.spacing_assumed;

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/tooth/make/neck_by_sector.h"
 
 namespace cavum {
 
@@ -92,6 +93,51 @@ OpenPulp open_pulp(const TissueGrid& grid) {
           }
       }
   found.mm2 = static_cast<double>(open) * grid.leaf_mm * grid.leaf_mm;
+  return found;
+}
+
+BareDentin bare_dentin(const TissueGrid& grid) {
+  constexpr double k_above_neck_mm = 1.0;
+  const NeckBySector neck(grid);
+  const auto above = static_cast<std::int32_t>(k_above_neck_mm / grid.leaf_mm);
+  const IVec3 n = grid.size;
+  std::vector<std::uint8_t> faces(grid.count());  // on air, of dentin that is bare and was not yet counted
+  for (std::int32_t z = 1; z + 1 < n.z; ++z)
+    for (std::int32_t y = 1; y + 1 < n.y; ++y)
+      for (std::int32_t x = 1; x + 1 < n.x; ++x) {
+        const IVec3 cell{x, y, z};
+        if (grid.tissue[grid.index(cell)] != k_dentin || z <= neck.lowest_enamel(cell) + above) continue;
+        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+          if (grid.tissue[grid.index(cell + step)] == k_air) ++faces[grid.index(cell)];
+      }
+  BareDentin found;
+  std::vector<IVec3> place;
+  for (std::int32_t z = 1; z + 1 < n.z; ++z)
+    for (std::int32_t y = 1; y + 1 < n.y; ++y)
+      for (std::int32_t x = 1; x + 1 < n.x; ++x) {
+        if (faces[grid.index({x, y, z})] == 0) continue;
+        std::uint64_t count = 0;
+        Vec3 sum;
+        const auto take = [&](IVec3 cell) {
+          std::uint8_t& f = faces[grid.index(cell)];
+          if (f == 0) return;
+          count += f;
+          f = 0;
+          sum += grid.centre_mm(cell);
+          place.push_back(cell);
+        };
+        place.clear();
+        take({x, y, z});
+        for (std::size_t next = 0; next < place.size(); ++next)
+          for (std::int32_t dz = -1; dz <= 1; ++dz)
+            for (std::int32_t dy = -1; dy <= 1; ++dy)
+              for (std::int32_t dx = -1; dx <= 1; ++dx) take(place[next] + IVec3{dx, dy, dz});
+        const double mm2 = static_cast<double>(count) * grid.leaf_mm * grid.leaf_mm;
+        found.mm2 += mm2;
+        if (mm2 <= found.largest_mm2) continue;
+        found.largest_mm2 = mm2;
+        found.at_mm = sum / static_cast<double>(place.size());
+      }
   return found;
 }
 

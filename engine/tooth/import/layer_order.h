@@ -34,6 +34,15 @@ struct OpenPulp {
 /// Of a lattice whose +z is occlusal, before periodontium is added.
 [[nodiscard]] OpenPulp open_pulp(const TissueGrid& grid);
 
+/// Dentin that borders air in the crown, more than 1 mm above the lowest enamel of its direction.
+struct BareDentin {
+  double mm2 = 0.0;          ///< in all
+  double largest_mm2 = 0.0;  ///< of the largest place that hangs together
+  Vec3 at_mm;                ///< the middle of that place
+};
+/// Of a lattice whose +z is occlusal.
+[[nodiscard]] BareDentin bare_dentin(const TissueGrid& grid);
+
 /// Throws Error when dentin and enamel stand apart, or one lies in the other by more than a tenth of the enamel: they are not of one tooth, or
 /// not in one frame. `overlap_share`: of the enamel's leaves, those that lie in the dentin's surface, too.
 void require_layers_that_fit(const LayersApart& apart, double overlap_share, const std::string& where);

@@ -180,6 +180,15 @@ void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const 
          "check that the surfaces belong together; a tooth whose pulp is open is no exam's tooth", sense);
 }
 
+void tell_bare_dentin(const BareDentin& bare, ToothSense& sense) {
+  constexpr double k_bare_mm2 = 0.3;  // some leaves are bare where two meshes end upon each other
+  if (bare.largest_mm2 <= k_bare_mm2) return;
+  sense.warnings.push_back(
+      fmt::format("dentin lies bare in the crown: {:.1f} mm2 of it, the largest place of {:.1f} mm2 about ({:.1f} {:.1f} {:.1f}) mm: worn, or the "
+                  "enamel has a hole, a crack or a cavity; look at it (tooth show) before it is an exam's tooth",
+                  bare.mm2, bare.largest_mm2, bare.at_mm.x, bare.at_mm.y, bare.at_mm.z));
+}
+
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,
                    ToothSense& sense) {
   const Vec3 along = enamel_centroid - dentin_centroid;

@@ -157,7 +157,9 @@ TEST(Sense, APulpThatLiesOpenInTheCrownIsRefusedUnlessConfirmed) {
   EXPECT_TRUE(says(import_meshes(paths, o).sense.warnings, "confirmed against what was measured (pulp)"));
 }
 
-TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
+/// A crown of enamel 1 mm thick on dentin, and what is not enamel of it.
+template <class Bare>
+TissueGrid crown_without(const Bare& bare) {
   TissueGrid grid;
   grid.allocate({120, 120, 200}, 0.1, {-6, -6, -12});
   for (int z = 20; z < 180; ++z)
@@ -165,10 +167,30 @@ TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
       for (int x = 0; x < 120; ++x) {
         const Vec3 p = grid.centre_mm({x, y, z});
         const double r = length({p.x, p.y, 0});
-        const bool cleft = std::fabs(p.x) < 0.15 && p.y > 0 && p.z > 1.0;
-        auto& t = grid.tissue[grid.index({x, y, z})];
-        t = r < 3 ? k_dentin : r < 4 && p.z > 0 && !cleft ? k_enamel : k_air;
+        grid.tissue[grid.index({x, y, z})] = r < 3 && p.z < 5 ? k_dentin : r < 4 && p.z > 0 && !bare(p) ? k_enamel : k_air;
       }
+  return grid;
+}
+
+TEST(Sense, DentinThatLiesBareInTheCrownIsMeasured) {
+  EXPECT_EQ(bare_dentin(crown_without([](Vec3) { return false; })).mm2, 0.0);
+  // a hole 1.2 mm wide through the top, and a crack 0.3 mm wide down the side to the neck, of which the last millimetre may be a notch of the neck
+  const BareDentin hole = bare_dentin(crown_without([](Vec3 p) { return p.z > 5 && p.x * p.x + p.y * p.y < 0.36; }));
+  EXPECT_NEAR(hole.largest_mm2, 3.14159265 * 0.36, 0.15);
+  EXPECT_LT(length(hole.at_mm - Vec3{0, 0, 4.95}), 0.1);
+  const BareDentin crack = bare_dentin(crown_without([](Vec3 p) { return p.y > 0 && std::fabs(p.x) < 0.15 && p.z > 1 && p.z < 5; }));
+  EXPECT_NEAR(crack.mm2, 0.3 * 4, 0.4);
+  EXPECT_NEAR(crack.at_mm.y, 2.95, 0.1);
+  ToothSense sense;
+  tell_bare_dentin(crack, sense);
+  EXPECT_TRUE(says(sense.warnings, "dentin lies bare in the crown"));
+  sense = {};
+  tell_bare_dentin({0.2, 0.1, {}}, sense);
+  EXPECT_TRUE(sense.warnings.empty());
+}
+
+TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
+  TissueGrid grid = crown_without([](Vec3 p) { return std::fabs(p.x) < 0.15 && p.y > 0 && p.z > 1.0; });
   EXPECT_GT(add_periodontium(grid, 1.0), 0u);
   double highest = -1e9;
   for (int z = 0; z < grid.size.z; ++z)
