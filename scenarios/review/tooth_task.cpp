@@ -10,11 +10,11 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
-#include "engine/tooth/distance_transform.h"
 #include "engine/tooth/tooth_notes.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
+#include "scenarios/review/over_pulp.h"
 #include "scenarios/review/tooth_task_parts.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_map.h"
@@ -198,57 +198,8 @@ std::string lesion_criteria(const Tooth& tooth) {
       fixed(k_full * mm3, 2), fixed(mm3, 2), fixed(k_zero * mm3, 2), fixed(k_zero * mm3, 2));
 }
 
-// A cavity's floor leaves 0.8 mm over the pulp where it is planned, and a candidate 0.5 mm: with less the pulp is injured (Murray, Smith, Windsor and
-// Mjör, Int Endod J 2003; 36: 33, recalled). What is planned and what fails lie a careful hand's overcut apart.
-constexpr double k_planned_over_pulp_mm = 0.8, k_least_over_pulp_mm = 0.5, k_far_from_pulp = 2.0;
-
 bool spares_the_pulp(const ToothTask& task, const Tooth& tooth) {
   return !task.access && std::string_view(task.word) != "lesion" && has_tissue(tooth, "pulp");  // a lesion may reach as far as it likes
-}
-
-std::string over_pulp_criterion() {
-  return fmt::format(
-      "\n[[rubric.criteria]]\nid = \"over_pulp\"\ntitle = \"Hard tissue left over the pulp\"\nmetric = \"dentin_over_pulp_mm\"\nfull = {}\nzero = "
-      "{}\n"
-      "points = 5\ncritical_below = {}                 # with less the pulp is injured\n",
-      fixed(k_planned_over_pulp_mm - 0.1, 1), fixed(k_least_over_pulp_mm, 1), fixed(k_least_over_pulp_mm, 1));
-}
-
-/// From the target to the pulp where they are nearest, mm; 2 mm and more is 2.
-double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones) {
-  const Octree& tree = tooth.octree;
-  const auto around = static_cast<int>(k_far_from_pulp / tree.leaf_mm()) + 1;
-  IVec3 low = tree.size(), high{0, 0, 0};
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), std::min(low.z, leaf.z)};
-    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), std::max(high.z, leaf.z)};
-  });
-  const IVec3 from{std::max(0, low.x - around), std::max(0, low.y - around), std::max(0, low.z - around)};
-  const IVec3 to{std::min(tree.size().x, high.x + around), std::min(tree.size().y, high.y + around), std::min(tree.size().z, high.z + around)};
-  const IVec3 size{to.x - from.x, to.y - from.y, to.z - from.z};
-  if (size.x <= 0 || size.y <= 0 || size.z <= 0) return k_far_from_pulp;
-  const auto row = static_cast<std::size_t>(size.x), layer = row * static_cast<std::size_t>(size.y);
-  const auto index = [&](IVec3 c) {
-    return static_cast<std::size_t>(c.x) + row * static_cast<std::size_t>(c.y) + layer * static_cast<std::size_t>(c.z);
-  };
-  std::vector<std::uint8_t> pulp(layer * static_cast<std::size_t>(size.z));
-  const std::uint8_t id = tooth.tissue_id("pulp");
-  Octree::Cursor cursor;
-  bool any = false;
-  for (int z = 0; z < size.z; ++z)
-    for (int y = 0; y < size.y; ++y)
-      for (int x = 0; x < size.x; ++x)
-        if (tree.tissue(from + IVec3{x, y, z}, cursor) == id) pulp[index({x, y, z})] = 1, any = true;
-  if (!any) return k_far_from_pulp;
-  const auto nearest = nearest_seed(size, pulp);
-  double leaves = k_far_from_pulp / tree.leaf_mm();
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    const IVec3 at = leaf - from;
-    const auto seed = static_cast<std::size_t>(nearest[index(at)]);
-    const Vec3 way{at.x - static_cast<double>(seed % row), at.y - static_cast<double>(seed % layer / row), at.z - static_cast<double>(seed / layer)};
-    leaves = std::min(leaves, length(way) - 1);  // half a leaf on each side
-  });
-  return std::max(0.0, leaves) * tree.leaf_mm();
 }
 
 constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
@@ -394,7 +345,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     if (checked.sound() && checked.expert.reach < k_least_reach) {
       reaches = std::max(reaches, checked.expert.reach);
     } else if (const double over_pulp =
-                   checked.laid && spares_the_pulp(*asked, tooth) ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_far_from_pulp;
+                   checked.laid && spares_the_pulp(*asked, tooth) ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_planned_over_pulp_mm;
                checked.sound() && over_pulp < k_planned_over_pulp_mm) {
       spares_mm = std::max(spares_mm, over_pulp);
       too_deep = choice.floor;
