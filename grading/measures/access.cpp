@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/det_math.h"
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/bounds.h"
 #include "grading/measures/cut_surface.h"

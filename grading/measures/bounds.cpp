@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/det_math.h"
 #include "engine/statistics/order.h"
 #include "engine/statistics/statistics.h"
 #include "grading/measures/cut_surface.h"

@@ -10,17 +10,6 @@
 
 namespace cavum::grading {
 
-double atan_deg(double t) noexcept {
-  const double a = std::fabs(t);
-  double x = a > 1 ? 1 / a : a;
-  // halved three times: tan(a/2) = t / (1 + sqrt(1 + t²)); then the series needs few terms
-  for (int i = 0; i < 3; ++i) x = x / (1 + std::sqrt(1 + x * x));
-  const double q = x * x;
-  double angle = 8 * x * (1 - q * (1.0 / 3 - q * (1.0 / 5 - q * (1.0 / 7 - q * (1.0 / 9 - q / 11)))));
-  if (a > 1) angle = k_pi / 2 - angle;
-  return (t < 0 ? -angle : angle) * 180 / k_pi;
-}
-
 namespace {
 
 struct Sample {

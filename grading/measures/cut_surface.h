@@ -15,7 +15,4 @@ namespace cavum::grading {
 /// topmost leaves, and down from each removed leaf.
 [[nodiscard]] ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick);
 
-/// Angle whose tangent is `t`, degrees; by arithmetic alone, error below 1e-9.
-[[nodiscard]] double atan_deg(double t) noexcept;
-
 }  // namespace cavum::grading

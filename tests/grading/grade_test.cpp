@@ -109,10 +109,6 @@ TEST(Grade, TaperIsMeasuredToADegree) {
   }
 }
 
-TEST(Grade, ArcTangentAgreesWithTheLibrary) {
-  for (double t = -20; t < 20; t += 0.037) EXPECT_NEAR(atan_deg(t), std::atan(t) * 180 / std::numbers::pi, 1e-7) << t;
-}
-
 TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 100);

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/det_math.h"
+
 namespace cavum {
 namespace {
 
-constexpr double k_deg = 57.29577951308232;
 constexpr std::size_t k_round = 36;       // so many of 72 directions make a closed line
 constexpr double k_bulge_mm = 1.0;        // least difference of heights of contour that tells the buccal side
 constexpr double k_higher_cusp_mm = 0.5;  // a premolar's buccal cusp over its lingual one
@@ -16,11 +17,9 @@ constexpr double k_cusp_off_axis_mm = 0.4;
 constexpr double k_canals_apart_mm = 1.0;
 constexpr double k_rise_mm = 0.15, k_taper_mm = 0.3, k_root_mm = 0.5;  // least differences between mesial and distal that count as a sign
 
-double turned_deg(double x, double y) { return std::atan2(y, x) * k_deg; }
-
 /// As a line: -90 to 90 degrees.
 double line_deg_of(double x, double y) {
-  double deg = turned_deg(x, y);
+  double deg = direction_deg(x, y);
   if (deg > 90) deg -= 180;
   if (deg <= -90) deg += 180;
   return deg;
@@ -63,7 +62,7 @@ double width_at(const Polyline& line, double x) {
 std::optional<SeenTurn> by_bulge(const Landmarks& l) {
   const auto fall = fall_of(l.height_of_contour_mm, l.long_axis);
   if (!fall || fall->across_mm() < k_bulge_mm) return std::nullopt;
-  return SeenTurn{turned_deg(fall->y, -fall->x), false, fmt::format("the crown bulges {:.1f} mm lower there than across", fall->across_mm())};
+  return SeenTurn{direction_deg(fall->y, -fall->x), false, fmt::format("the crown bulges {:.1f} mm lower there than across", fall->across_mm())};
 }
 
 /// The buccal cusp of a premolar is the higher one; alone, it stands buccal of the axis.
@@ -73,14 +72,14 @@ std::optional<SeenTurn> by_premolar_cusps(const Landmarks& l) {
     const double higher = across.z;
     if (higher < 0) across = -across;
     if (std::fabs(higher) >= k_higher_cusp_mm)
-      return SeenTurn{turned_deg(across.y, -across.x), false,
+      return SeenTurn{direction_deg(across.y, -across.x), false,
                       fmt::format("the cusp there is {:.1f} mm higher, as premolars have it", std::fabs(higher))};
     return SeenTurn{line_deg_of(across.y, -across.x), true, "the two cusps stand across it"};
   }
   if (l.cusps.size() != 1) return std::nullopt;
   const Vec3 off = l.cusps[0].tip_mm - l.long_axis.through_mm;
   if (off.x * off.x + off.y * off.y < k_cusp_off_axis_mm * k_cusp_off_axis_mm) return std::nullopt;
-  return SeenTurn{turned_deg(off.y, -off.x), false, "the only cusp that stands out lies there"};
+  return SeenTurn{direction_deg(off.y, -off.x), false, "the only cusp that stands out lies there"};
 }
 
 /// The canals of a lower molar leave a chamber that is long from mesial to distal.
@@ -97,7 +96,7 @@ std::optional<SeenTurn> by_canals(const Landmarks& l) {
   }
   const double apart = std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy), n = static_cast<double>(l.canal_mouths.size());
   if (apart / n < k_canals_apart_mm * k_canals_apart_mm) return std::nullopt;
-  return SeenTurn{0.5 * turned_deg(xx - yy, 2 * xy), true, "the canals leave the chamber along it"};
+  return SeenTurn{0.5 * direction_deg(xx - yy, 2 * xy), true, "the canals leave the chamber along it"};
 }
 
 void count_sign(double mesial_minus_distal, double least, const char* words, Orientation& o) {
