@@ -19,10 +19,10 @@ struct Region {
   int nx = 0, ny = 0;
   std::vector<std::uint8_t> inside;
   std::vector<double> depth;  ///< columns to the edge, 0.5 at a border column
-  [[nodiscard]] bool has(int x, int y) const noexcept {
-    return x >= 0 && y >= 0 && x < nx && y < ny &&
-           inside[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] != 0;
+  [[nodiscard]] std::size_t index(int x, int y) const noexcept {
+    return static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x);
   }
+  [[nodiscard]] bool has(int x, int y) const noexcept { return x >= 0 && y >= 0 && x < nx && y < ny && inside[index(x, y)] != 0; }
 };
 
 Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
@@ -38,7 +38,7 @@ Region region_of(int nx, int ny, const std::vector<std::uint8_t>& inside) {
     for (int x = 0; x < nx; ++x) {
       const int n = nearest[static_cast<std::size_t>(y + 1) * static_cast<std::size_t>(px) + static_cast<std::size_t>(x + 1)];
       const double dx = n % px - (x + 1), dy = n / px - (y + 1);
-      r.depth[static_cast<std::size_t>(y) * static_cast<std::size_t>(nx) + static_cast<std::size_t>(x)] = std::sqrt(dx * dx + dy * dy) - 0.5;
+      r.depth[r.index(x, y)] = std::sqrt(dx * dx + dy * dy) - 0.5;
     }
   return r;
 }
@@ -72,10 +72,10 @@ std::vector<Column> trace(const Region& r, Column start) {
   return loop;
 }
 
-/// Marks the component of `start` as done.
-void erase_component(Region& r, Column start) {
-  std::vector<Column> todo{start};
-  const auto clear = [&r](Column c) { r.inside[static_cast<std::size_t>(c.y) * static_cast<std::size_t>(r.nx) + static_cast<std::size_t>(c.x)] = 0; };
+/// Takes the component of `start` out of the region; returns its columns.
+std::vector<Column> take_component(Region& r, Column start) {
+  std::vector<Column> todo{start}, taken{start};
+  const auto clear = [&r](Column c) { r.inside[r.index(c.x, c.y)] = 0; };
   clear(start);
   while (!todo.empty()) {
     const Column c = todo.back();
@@ -85,23 +85,39 @@ void erase_component(Region& r, Column start) {
         if (r.has(c.x + dx, c.y + dy)) {
           clear({c.x + dx, c.y + dy});
           todo.push_back({c.x + dx, c.y + dy});
+          taken.push_back(todo.back());
         }
   }
+  return taken;
 }
 
-/// Closed loops that cover a region, innermost first.
+/// Closed loops that cover a region, innermost first. Where an innermost loop runs around a core of more than the spacing, another goes through the
+/// core's middle: a pillar would be left.
 std::vector<std::vector<Column>> loops_of(const Region& region, double spacing_columns) {
   const double deepest = region.depth.empty() ? 0 : *std::max_element(region.depth.begin(), region.depth.end());
   std::vector<std::vector<Column>> loops;
-  for (int ring = static_cast<int>(deepest / spacing_columns); ring >= 0; --ring) {
-    Region level = region;
-    for (std::size_t i = 0; i < level.inside.size(); ++i) level.inside[i] = region.inside[i] != 0 && region.depth[i] >= ring * spacing_columns;
+  const auto trace_all = [&loops](Region level, const auto& of_component) {
     for (int y = 0; y < level.ny; ++y)
       for (int x = 0; x < level.nx; ++x)
         if (level.has(x, y)) {
-          loops.push_back(trace(level, {x, y}));
-          erase_component(level, {x, y});
+          std::vector<Column> loop = trace(level, {x, y});
+          of_component(take_component(level, {x, y}));
+          loops.push_back(std::move(loop));
         }
+  };
+  for (int ring = static_cast<int>(deepest / spacing_columns); ring >= 0; --ring) {
+    const double from = ring * spacing_columns;
+    Region level = region;
+    for (std::size_t i = 0; i < level.inside.size(); ++i) level.inside[i] = region.inside[i] != 0 && region.depth[i] >= from;
+    trace_all(std::move(level), [&](const std::vector<Column>& columns) {
+      double middle = 0;
+      for (const Column c : columns) middle = std::max(middle, region.depth[region.index(c.x, c.y)]);
+      if (middle < from + 0.5 * spacing_columns || middle >= from + spacing_columns) return;  // narrow, or it has a next ring
+      Region core = region;
+      std::fill(core.inside.begin(), core.inside.end(), std::uint8_t{0});
+      for (const Column c : columns) core.inside[region.index(c.x, c.y)] = region.depth[region.index(c.x, c.y)] >= middle - 1;
+      trace_all(std::move(core), [](const std::vector<Column>&) {});
+    });
   }
   return loops;
 }

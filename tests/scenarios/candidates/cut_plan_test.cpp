@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/base/file.h"
@@ -46,6 +47,35 @@ struct Planned {
     return furthest;
   }
 };
+
+// Whatever the width, no place of a layer is further from the point's ways than the head is wide: a pillar would be left.
+TEST(CutPlan, LeavesNoCoreBetweenItsLoops) {
+  for (double width = 1.6; width < 4.4; width += 0.1) {
+    const std::string box = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [" + std::to_string(width) + ", " +
+                            std::to_string(width - 0.2) + ", 3]\n";
+    const Planned p(scenario_text(box));
+    const ReachMap map = p.reach(k_expert_margin);
+    PlanOptions options;
+    options.finish_spacing_mm = 1e9;
+    const auto way = plan_cut(map, p.tooth, options);
+    double furthest = 0;
+    for (int y = 0; y < map.ny; ++y)
+      for (int x = 0; x < map.nx; ++x) {
+        const double low = map.lowest_mm[map.index(x, y)];
+        if (low == ReachMap::k_unreachable) continue;
+        const Vec3 column = map.at(x, y, low);
+        double nearest = 1e9;
+        for (std::size_t i = 1; i < way.size(); ++i) {
+          if (!way[i].cut || !way[i - 1].cut) continue;
+          const Vec3 a = way[i - 1].tip_mm, ab = way[i].tip_mm - a, ac = column - a;
+          const double n = ab.x * ab.x + ab.y * ab.y, t = n > 0 ? std::clamp((ac.x * ab.x + ac.y * ab.y) / n, 0.0, 1.0) : 0.0;
+          nearest = std::min(nearest, std::hypot(ac.x - t * ab.x, ac.y - t * ab.y));
+        }
+        furthest = std::max(furthest, nearest);
+      }
+    EXPECT_LT(furthest, 0.45) << "target " << width << " mm wide, head of 0.5 mm radius";
+  }
+}
 
 TEST(CutPlan, FollowsALeaningTargetAlongItsAxisAndStaysInIt) {
   const Planned p(scenario_text(k_leaning));
