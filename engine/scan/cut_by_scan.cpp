@@ -304,7 +304,8 @@ std::vector<std::uint8_t> marks_of(const std::vector<Piece>& removed, const Leaf
 
 }  // namespace
 
-ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm, const std::string& where) {
+ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm, const std::string& where,
+                    ThinApart thin) {
   constexpr double k_thick_mm = 0.1, k_small_mm3 = 0.02, k_from_above = -0.5, k_below_mm = 0.3, k_thin_mm = 0.3;
   const Octree& before = tooth.tooth().octree;
   const LeafLattice lattice(before);
@@ -338,7 +339,7 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   const auto largest =
       std::max_element(removed.begin(), removed.end(), [](const Piece& a, const Piece& b) { return a.leaves.size() < b.leaves.size(); });
   for (auto& piece : removed) {
-    if (&piece == &*largest) continue;
+    if (&piece == &*largest || thin == ThinApart::goes) continue;
     const double deep_mm = pieces.depth_mm(piece);
     if (deep_mm >= k_thin_mm) continue;
     cut.apart.push_back({lattice.centre_mm(piece.leaves[0]), deep_mm, static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3()});

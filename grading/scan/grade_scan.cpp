@@ -148,8 +148,8 @@ void put_notes(const ScanFacts& f, Result& r) {
         *std::max_element(f.apart.begin(), f.apart.end(), [](const ThinPiece& a, const ThinPiece& b) { return a.deep_mm < b.deep_mm; });
     r.notes.push_back(fmt::format(
         "apart from the cavity the scan lies up to {} mm deeper than the tooth, at [{}, {}, {}] mm: a nick, or a groove that one of the two "
-        "surfaces lacks; it is not counted, and a person must look at it",
-        fixed(deepest.deep_mm, 2), fixed(deepest.at_mm.x, 2), fixed(deepest.at_mm.y, 2), fixed(deepest.at_mm.z, 2)));
+        "surfaces lacks; it is not counted, and a person must look at it. {}",
+        fixed(deepest.deep_mm, 2), fixed(deepest.at_mm.x, 2), fixed(deepest.at_mm.y, 2), fixed(deepest.at_mm.z, 2), f.were_they_counted));
   }
   if (f.second_share > k_nearly_as_well * f.pose.share)
     r.notes.push_back(fmt::format("the scan fits the tooth nearly as well in another pose ({} % of it, {} % in this one): a person must look at it",
@@ -191,19 +191,29 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   const TriangleMesh mesh = moved(scan.mesh, facts.pose.to_tooth);
   const Evened even = evened(mesh, moved(scan.points, facts.pose.to_tooth), facts.fit.noise_mm, outer, path);
   put_bounds(even, outer, facts);
-  ScanCut cut = cut_by_scan(even.mesh, moved(scan.caps, facts.pose.to_tooth), outer, facts.surface_bound_mm, path);
+  const TriangleMesh caps = moved(scan.caps, facts.pose.to_tooth);
+  const auto graded_by = [&](ScanCut cut, ScanFacts of) {
+    GradedScan graded{{}, std::move(of), tooth, {}, not_shown_by_scan(outer)};
+    graded.after.octree = std::move(cut.after);
+    graded.removed.reserve(cut.removed.size());
+    for (const auto& leaf : cut.removed) graded.removed.push_back({k_untimed_tick, leaf});
+    graded.result = grade(graded.input(scenario, tooth, zones), rubric);
+    graded.result.progress.finish = "scan";
+    return graded;
+  };
+  ScanCut cut = cut_by_scan(even.mesh, caps, outer, facts.surface_bound_mm, path);
   facts.cavities = cut.cavities;
   facts.unseen_mm3 = cut.unseen_mm3;
   facts.left_as_noise_mm3 = cut.left_as_noise_mm3;
   facts.apart = cut.apart;
-
-  GradedScan graded{{}, std::move(facts), tooth, {}, not_shown_by_scan(outer)};
-  graded.after.octree = std::move(cut.after);
-  graded.removed.reserve(cut.removed.size());
-  for (const auto& leaf : cut.removed) graded.removed.push_back({k_untimed_tick, leaf});
-  graded.result = grade(graded.input(scenario, tooth, zones), rubric);
+  if (!facts.apart.empty()) {
+    Result all = graded_by(cut_by_scan(even.mesh, caps, outer, facts.surface_bound_mm, path, ThinApart::goes), facts).result;
+    mark(all, rubric);
+    facts.were_they_counted = fmt::format("Were it counted, the verdict would be {}, with {} of {} points", verdict_name(all.verdict),
+                                          fixed(all.points, 1), fixed(all.max_points, 1));
+  }
+  GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);
-  graded.result.progress.finish = "scan";
   mark(graded.result, rubric);
   return graded;
 }

@@ -104,18 +104,47 @@ std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
 
 std::string no_fissure(const Tooth&, const Landmarks& l) { return l.central_fissure_mm.size() < 2 ? "no central fissure is found on it" : ""; }
 
+/// How much of the marginal ridges an outline along the fissure leaves, mm from their crests, best first: only what takes in the pits at the ends
+/// that it leaves standing, for a pit that stays is caries left. A crest stands a millimetre inside the proximal surface, so 0.7 mm are the least
+/// that leaves a ridge of 1.6 mm; a pit nearer to the crest stays, and `pits_left` says so.
+struct RidgeMargins {
+  std::vector<double> mm;
+  std::string pits_left;  ///< for the candidate; empty: none
+};
+RidgeMargins ridge_margins(const Landmarks& l, bool mesial, bool distal) {
+  constexpr double k_all[] = {1.6, 1.2, 0.9, 0.7}, k_inside_mm = 0.05;
+  double nearest = 1e9;
+  RidgeMargins margins;
+  const auto look_at = [&](const std::optional<Vec3>& pit, const MarginalRidge& ridge, const char* word) {
+    if (!pit || !ridge.lowest_mm) return;
+    const double away = std::hypot(pit->x - ridge.lowest_mm->x, pit->y - ridge.lowest_mm->y) - k_inside_mm;
+    nearest = std::min(nearest, away);
+    if (away < k_all[std::size(k_all) - 1]) margins.pits_left += fmt::format("; the {} pit lies in its ridge and stays", word);
+  };
+  if (mesial) look_at(l.mesial_pit_mm, l.mesial_ridge, "mesial");
+  if (distal) look_at(l.distal_pit_mm, l.distal_ridge, "distal");
+  for (const double mm : k_all)
+    if (mm <= nearest) margins.mm.push_back(mm);
+  if (margins.mm.empty()) margins.mm.push_back(k_all[std::size(k_all) - 1]);
+  return margins;
+}
+
 std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
   std::vector<TaskChoice> list;
   const std::string width = isthmus_mm(l);
+  const RidgeMargins ridges = ridge_margins(l, true, true);
   for (const Floor& floor : floors(tooth, l))
-    for (const char* ridge : {"1.6", "1.2", "0.8"})
+    for (const double mm : ridges.mm) {
+      const std::string ridge = fixed(mm, 1);
       list.push_back(
           {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
                        "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
                        width, ridge, floor.toml),
            pulp_guard_text(0.5),
-           fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; leave both marginal ridges.", width, floor.words),
-           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge", width, floor.words, ridge), floor.words});
+           fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; take in its pits, leave both marginal ridges{}.",
+                       width, floor.words, ridges.pits_left),
+           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge{}", width, floor.words, ridge, ridges.pits_left), floor.words});
+    }
   return list;
 }
 
@@ -135,6 +164,9 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
                  k_least_above_neck_mm, k_box_widest_mm);
   const std::string width = fixed(beside.width_mm, 1), isthmus = isthmus_mm(l);
   const double above = beside.above_neck_mm;
+  const RidgeMargins ridges = ridge_margins(l, side<0, side> 0);  // the other one stands
+  const std::string ridge = fixed(std::min(1.2, ridges.mm[0]), 1);
+  const std::string pit = with_step ? ridges.pits_left : "";
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
     for (const Floor& floor : all)
@@ -144,9 +176,9 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
         if (with_step)
           zones = fmt::format(
               "# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
-              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = 1.2, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact "
+              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {}, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact "
               "area.\n",
-              word, isthmus, word, floor.toml);
+              word, isthmus, ridge, word, floor.toml);
         else
           zones = "# A box at the contact area, open to the neighbouring tooth.\n";
         zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
@@ -156,9 +188,10 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
             fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
                         axial, level);
         list.push_back({zones, pulp_guard_text(0.5),
-                        with_step ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}.", isthmus, floor.words, box_words)
-                                  : fmt::format("Cut {}.", box_words),
-                        with_step ? fmt::format("isthmus {} mm, floor {}, {}", isthmus, floor.words, box_words) : box_words});
+                        with_step
+                            ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}{}.", isthmus, floor.words, box_words, pit)
+                            : fmt::format("Cut {}.", box_words),
+                        with_step ? fmt::format("isthmus {} mm, floor {}, {}{}", isthmus, floor.words, box_words, pit) : box_words});
       }
   return list;
 }

@@ -163,7 +163,7 @@ void run_landmarks(const LandmarkArgs& a) {
 }  // namespace
 
 void add_landmarks(CLI::App& tooth) {
-  auto* verb = tooth.add_subcommand("landmarks", "Cusps, fissures, pits, ridges, neck, pulp and canals as points in mm");
+  auto* verb = tooth.add_subcommand("landmarks", "Cusps, fissures, pits, ridges, neck, pulp and canals as points in mm")->alias("show");
   auto a = std::make_shared<LandmarkArgs>();
   verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
   verb->add_option("--out", a->picture, "Picture to write (.svg): from above and from two sides");

@@ -78,23 +78,22 @@ struct Layers {
   std::vector<float> enamel, dentin, pulp;
 };
 
-struct Overlaps {
-  std::uint64_t leaves = 0;    ///< in more than one mesh
-  double of_the_enamel = 0.0;  ///< share of the enamel's leaves that lie in the dentin's mesh, too
-};
-
 /// Rule 1 of the header.
 Overlaps label_by_precedence(TissueGrid& grid, const Layers& f) {
   Overlaps overlaps;
-  std::uint64_t enamel = 0, both = 0;
+  std::uint64_t enamel = 0, pulp = 0, enamel_in_dentin = 0, pulp_in_dentin = 0;
   for (std::size_t i = 0; i < grid.tissue.size(); ++i) {
     const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0;
     overlaps.leaves += e + d + p > 1;
-    grid.tissue[i] = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
-    enamel += grid.tissue[i] == k_enamel;
-    both += grid.tissue[i] == k_enamel && d;
+    const std::uint8_t t = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
+    grid.tissue[i] = t;
+    enamel += t == k_enamel;
+    enamel_in_dentin += t == k_enamel && d;
+    pulp += p;
+    pulp_in_dentin += p && d;
   }
-  if (enamel > 0) overlaps.of_the_enamel = static_cast<double>(both) / static_cast<double>(enamel);
+  if (enamel > 0) overlaps.of_the_enamel = static_cast<double>(enamel_in_dentin) / static_cast<double>(enamel);
+  if (pulp > 0) overlaps.of_the_pulp = static_cast<double>(pulp_in_dentin) / static_cast<double>(pulp);
   return overlaps;
 }
 
@@ -180,10 +179,14 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     const Overlaps overlaps = label_by_precedence(grid, fields);
     out.overlap_leaves = overlaps.leaves;
     check_layers(grid, paths);
-    require_layers_that_fit(layers_apart(grid), overlaps.of_the_enamel, fmt::format("{}, {}", paths.enamel, paths.dentin));
+    require_layers_that_fit(layers_apart(grid), overlaps, fmt::format("{}, {}", paths.enamel, paths.dentin));
     out.gap_leaves = close_gaps(grid, fields);
     check_closed_pulp(open_pulp(grid), options.sense, paths.pulp, out.sense);
+    require_pulp_in_root(pulp_below_dentin_mm(grid), paths.pulp);
+    const EnamelPieces pieces = enamel_pieces(grid);
+    require_no_floating_enamel(pieces, paths.enamel);
     tell_bare_dentin(bare_dentin(grid), out.sense);
+    tell_pieces(pieces, out.sense);
   }
 
   // Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.

@@ -8,6 +8,9 @@
 #include "engine/tooth/make/neck_by_sector.h"
 
 namespace cavum {
+namespace {
+constexpr IVec3 k_sides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+}
 
 std::array<std::uint64_t, 256> pulp_faces(IVec3 size, const std::vector<std::uint8_t>& tissue) {
   std::array<std::uint64_t, 256> faces{};
@@ -34,23 +37,26 @@ void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std:
 
 LayersApart layers_apart(const TissueGrid& grid) {
   constexpr double k_widest_mm = 3.0, k_seam_mm = 0.15;
-  std::uint64_t apart = 0, together = 0;
-  int widest = 0;
+  std::uint64_t runs = 0, together = 0;
   const int most = static_cast<int>(k_widest_mm / grid.leaf_mm), seam = std::max(2, static_cast<int>(k_seam_mm / grid.leaf_mm));
+  std::vector<std::uint64_t> voids(static_cast<std::size_t>(most) + 1);  // by their width, leaves
   // along each axis: enamel and dentin one after the other, or with a void between them
   const auto walk = [&](int n, const auto& cell) {
-    std::uint8_t before = k_air;  // last hard tissue
+    std::uint8_t before = k_air, last = k_air;  // last hard tissue, last cell
     int gap = 0;
     for (int i = 0; i < n; ++i) {
       const std::uint8_t t = cell(i);
+      runs += t == k_enamel && last != k_enamel;
+      last = t;
       if (t == k_air) {
         ++gap;
         continue;
       }
       if ((t == k_enamel && before == k_dentin) || (t == k_dentin && before == k_enamel)) {
-        together += gap <= seam;
-        apart += gap > seam && gap <= most;
-        if (gap > seam && gap <= most) widest = std::max(widest, gap);
+        if (gap <= seam)
+          ++together;
+        else if (gap <= most)
+          ++voids[static_cast<std::size_t>(gap)];
       }
       before = t;
       gap = 0;
@@ -63,9 +69,15 @@ LayersApart layers_apart(const TissueGrid& grid) {
     for (int x = 0; x < n.x; ++x) walk(n.y, [&](int y) { return grid.tissue[grid.index({x, y, z})]; });
   for (int y = 0; y < n.y; ++y)
     for (int x = 0; x < n.x; ++x) walk(n.z, [&](int z) { return grid.tissue[grid.index({x, y, z})]; });
+  std::uint64_t apart = 0, below = 0;
+  for (const auto count : voids) apart += count;
   LayersApart found;
-  if (apart + together > 0) found.share = static_cast<double>(apart) / static_cast<double>(apart + together);
-  found.widest_mm = widest * grid.leaf_mm;
+  if (runs > 0) found.facing = static_cast<double>(apart + together) / static_cast<double>(runs);
+  if (apart == 0) return found;
+  found.share = static_cast<double>(apart) / static_cast<double>(apart + together);
+  std::size_t usual = 0;
+  while ((below += voids[usual]) * 2 < apart) ++usual;
+  found.usual_mm = static_cast<double>(usual) * grid.leaf_mm;
   return found;
 }
 
@@ -86,7 +98,7 @@ OpenPulp open_pulp(const TissueGrid& grid) {
     for (int y = 1; y + 1 < n.y; ++y)
       for (int x = 1; x + 1 < n.x; ++x) {
         if (grid.tissue[grid.index({x, y, z})] != k_pulp) continue;
-        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+        for (const IVec3 step : k_sides)
           if (grid.tissue[grid.index(IVec3{x, y, z} + step)] == k_air) {
             ++open;
             found.at_mm = grid.origin_mm + Vec3{x + 0.5, y + 0.5, z + 0.5} * grid.leaf_mm;
@@ -107,7 +119,7 @@ BareDentin bare_dentin(const TissueGrid& grid) {
       for (std::int32_t x = 1; x + 1 < n.x; ++x) {
         const IVec3 cell{x, y, z};
         if (grid.tissue[grid.index(cell)] != k_dentin || z <= neck.lowest_enamel(cell) + above) continue;
-        for (const IVec3 step : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}, IVec3{0, 0, 1}, IVec3{0, 0, -1}})
+        for (const IVec3 step : k_sides)
           if (grid.tissue[grid.index(cell + step)] == k_air) ++faces[grid.index(cell)];
       }
   BareDentin found;
@@ -141,18 +153,100 @@ BareDentin bare_dentin(const TissueGrid& grid) {
   return found;
 }
 
-void require_layers_that_fit(const LayersApart& apart, double overlap_share, const std::string& where) {
-  constexpr double k_most_apart = 0.03, k_most_overlap = 0.1;  // eleven human teeth: at most 0.005 and 0.003
+double pulp_below_dentin_mm(const TissueGrid& grid) {
+  const auto layer = static_cast<std::size_t>(grid.size.x) * static_cast<std::size_t>(grid.size.y);
+  const auto lowest = [&](std::uint8_t tissue) {
+    return static_cast<std::size_t>(std::find(grid.tissue.begin(), grid.tissue.end(), tissue) - grid.tissue.begin()) / layer;
+  };
+  return (static_cast<double>(lowest(k_dentin)) - static_cast<double>(lowest(k_pulp))) * grid.leaf_mm;
+}
+
+void require_pulp_in_root(double below_mm, const std::string& where) {
+  constexpr double k_most_mm = 0.5;
+  if (below_mm > k_most_mm)
+    throw Error(where, fmt::format("pulp and dentin do not fit: the pulp hangs {:.1f} mm out of the root", below_mm),
+                "check that both surfaces are of one tooth and in one frame");
+}
+
+void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps, const std::string& where) {
+  // thirteen human teeth: see docs/anatomy.md
+  constexpr double k_least_facing = 0.5, k_most_apart = 0.03, k_most_overlap = 0.1, k_pulp_in = 0.8;
   constexpr const char* k_what_to_do =
       "check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown";
-  if (apart.share > k_most_apart)
+  if (apart.facing < k_least_facing)
     throw Error(where,
-                fmt::format("enamel and dentin do not fit: at {:.0f} % of the places where they face each other there is a void between them, up to "
-                            "{:.1f} mm wide",
-                            100 * apart.share, apart.widest_mm),
+                fmt::format("enamel and dentin do not fit: along {:.0f} % of the ways through the enamel no dentin is met", 100 * (1 - apart.facing)),
                 k_what_to_do);
-  if (overlap_share > k_most_overlap)
-    throw Error(where, fmt::format("enamel and dentin do not fit: {:.0f} % of the enamel lie in the dentin, too", 100 * overlap_share), k_what_to_do);
+  if (apart.share > k_most_apart)
+    throw Error(
+        where,
+        fmt::format("enamel and dentin do not fit: at {:.0f} % of the places where they face each other there is a void between them, half of "
+                    "them {:.1f} mm wide or more",
+                    100 * apart.share, apart.usual_mm),
+        k_what_to_do);
+  if (overlaps.of_the_enamel > k_most_overlap)
+    throw Error(where, fmt::format("enamel and dentin do not fit: {:.0f} % of the enamel lie in the dentin, too", 100 * overlaps.of_the_enamel),
+                k_what_to_do);
+  if (overlaps.of_the_pulp > k_most_overlap && overlaps.of_the_pulp < k_pulp_in)
+    throw Error(where,
+                fmt::format("pulp and dentin do not fit: {:.0f} % of the pulp lie in the dentin, too, where all of it should, or none",
+                            100 * overlaps.of_the_pulp),
+                "check that both surfaces are of one tooth and in one frame");
+}
+
+EnamelPieces enamel_pieces(const TissueGrid& grid) {
+  constexpr double k_least_mm3 = 0.02;
+  struct Piece {
+    std::uint64_t leaves = 0;
+    bool on_dentin = false;
+    Vec3 sum;
+  };
+  std::vector<Piece> pieces;
+  std::vector<std::uint8_t> left(grid.count());
+  for (std::size_t i = 0; i < left.size(); ++i) left[i] = grid.tissue[i] == k_enamel;
+  const IVec3 n = grid.size;
+  std::vector<IVec3> open;
+  for (std::int32_t z = 1; z + 1 < n.z; ++z)
+    for (std::int32_t y = 1; y + 1 < n.y; ++y)
+      for (std::int32_t x = 1; x + 1 < n.x; ++x) {
+        if (left[grid.index({x, y, z})] == 0) continue;
+        Piece piece;
+        left[grid.index({x, y, z})] = 0;
+        open.push_back({x, y, z});
+        while (!open.empty()) {
+          const IVec3 at = open.back();
+          open.pop_back();
+          ++piece.leaves;
+          piece.sum += grid.centre_mm(at);
+          for (const IVec3 step : k_sides) {
+            const IVec3 next = at + step;
+            if (next.x < 1 || next.y < 1 || next.z < 1 || next.x + 1 >= n.x || next.y + 1 >= n.y || next.z + 1 >= n.z) continue;
+            piece.on_dentin = piece.on_dentin || grid.tissue[grid.index(next)] == k_dentin;
+            if (left[grid.index(next)] == 0) continue;
+            left[grid.index(next)] = 0;
+            open.push_back(next);
+          }
+        }
+        pieces.push_back(piece);
+      }
+  EnamelPieces found;
+  std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaves > b.leaves; });
+  for (std::size_t i = 1; i < pieces.size(); ++i) {
+    const double mm3 = static_cast<double>(pieces[i].leaves) * grid.leaf_mm * grid.leaf_mm * grid.leaf_mm;
+    if (mm3 < k_least_mm3) break;
+    double& sum = pieces[i].on_dentin ? found.apart_mm3 : found.floating_mm3;
+    if (sum == 0) (pieces[i].on_dentin ? found.apart_mm : found.floating_mm) = pieces[i].sum / static_cast<double>(pieces[i].leaves);
+    sum += mm3;
+  }
+  return found;
+}
+
+void require_no_floating_enamel(const EnamelPieces& pieces, const std::string& where) {
+  if (pieces.floating_mm3 > 0)
+    throw Error(where,
+                fmt::format("{:.2f} mm3 of the enamel touch neither the crown nor any dentin, about ({:.1f} {:.1f} {:.1f}) mm", pieces.floating_mm3,
+                            pieces.floating_mm.x, pieces.floating_mm.y, pieces.floating_mm.z),
+                "take what is not of this tooth out of the mesh");
 }
 
 }  // namespace cavum

@@ -189,6 +189,13 @@ void tell_bare_dentin(const BareDentin& bare, ToothSense& sense) {
                   bare.mm2, bare.largest_mm2, bare.at_mm.x, bare.at_mm.y, bare.at_mm.z));
 }
 
+void tell_pieces(const EnamelPieces& pieces, ToothSense& sense) {
+  if (pieces.apart_mm3 > 0)
+    sense.warnings.push_back(
+        fmt::format("{:.2f} mm3 of the enamel lie apart from the crown, about ({:.1f} {:.1f} {:.1f}) mm: a pearl, or a part of it", pieces.apart_mm3,
+                    pieces.apart_mm.x, pieces.apart_mm.y, pieces.apart_mm.z));
+}
+
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,
                    ToothSense& sense) {
   const Vec3 along = enamel_centroid - dentin_centroid;

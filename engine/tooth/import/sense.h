@@ -59,6 +59,9 @@ void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const 
 /// A warning where dentin lies bare in the crown (layer_order.h): human teeth wear, but a hole or a crack looks the same.
 void tell_bare_dentin(const BareDentin& bare, ToothSense& sense);
 
+/// A warning where enamel lies on dentin apart from the crown's.
+void tell_pieces(const EnamelPieces& pieces, ToothSense& sense);
+
 /// Throws Error(`where`, ...) when the occlusal axis runs from the enamel to the root, or across the tooth, or, in a patient's frame, down
 /// for a lower tooth. A unit vector, and centroids, in one frame.
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,

@@ -15,6 +15,7 @@
 #include "engine/tooth/make/make_premolar.h"
 #include "engine/tooth/make/periodontium.h"
 #include "engine/tooth/tooth_notes.h"
+#include "tests/engine/tooth/import/import_testing.h"
 #include "tests/engine/tooth/import/imported_surfaces.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
@@ -145,6 +146,38 @@ TEST(Sense, LayersThatDoNotFitUponEachOtherAreRefused) {
   }
 }
 
+TEST(Sense, SurfacesOfAnotherToothAreRefused) {
+  const MeshImportOptions o = upright(k_sensed_mm);
+  Surfaces s = molar();
+  for (auto& v : s.enamel.vertices_mm) v.z += 16;  // above all dentin: they nowhere face each other
+  EXPECT_TRUE(says(refusal(s, o), "no dentin is met"));
+
+  // a pulp of which a half lies in the dentin's surface, too: there is room for it, or none
+  EXPECT_NO_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.02}, "x"));
+  EXPECT_NO_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.97}, "x"));
+  EXPECT_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.5}, "x"), Error);
+}
+
+TEST(Sense, EnamelThatFloatsIsRefusedAndAPearlIsTold) {
+  const MeshImportOptions o = upright(k_sensed_mm);
+  Surfaces s = molar();
+  Vec3 top{0, 0, -1e9}, side{-1e9, 0, 0};
+  for (const auto& v : s.enamel.vertices_mm) top = v.z > top.z ? v : top;
+  for (const auto& v : s.dentin.vertices_mm)
+    if (std::fabs(v.z + 9) < 0.2) side = v.x > side.x ? v : side;
+  const auto with = [&](Vec3 centre) {
+    Surfaces more = s;
+    const TriangleMesh extra = ball(centre, 0.6, 12);
+    const auto first = static_cast<std::uint32_t>(more.enamel.vertices_mm.size());
+    more.enamel.vertices_mm.insert(more.enamel.vertices_mm.end(), extra.vertices_mm.begin(), extra.vertices_mm.end());
+    for (const auto& t : extra.triangles) more.enamel.triangles.push_back({t[0] + first, t[1] + first, t[2] + first});
+    return more;
+  };
+  EXPECT_TRUE(says(refusal(with(top + Vec3{0, 0, 2}), o), "touch neither the crown nor any dentin"));
+  const Surfaces pearl = with(side + Vec3{0.2, 0, 0});
+  EXPECT_TRUE(says(import_meshes(pearl.write(fresh_folder()), o).sense.warnings, "apart from the crown"));
+}
+
 TEST(Sense, APulpThatLiesOpenInTheCrownIsRefusedUnlessConfirmed) {
   Surfaces s = molar();
   double low = 1e9, high = -1e9;
@@ -187,6 +220,18 @@ TEST(Sense, DentinThatLiesBareInTheCrownIsMeasured) {
   sense = {};
   tell_bare_dentin({0.2, 0.1, {}}, sense);
   EXPECT_TRUE(sense.warnings.empty());
+}
+
+TEST(Sense, APulpMayEndAtTheApexAndNotHangOutOfIt) {
+  for (const int out : {-3, 0, 3, 8}) {  // leaves
+    TissueGrid grid = crown_without([](Vec3) { return false; });
+    for (int z = 20 - out; z < 140; ++z)
+      for (int y = 56; y < 64; ++y)
+        for (int x = 56; x < 64; ++x) grid.tissue[grid.index({x, y, z})] = k_pulp;
+    EXPECT_NEAR(pulp_below_dentin_mm(grid), 0.1 * out, 1e-9);
+  }
+  EXPECT_NO_THROW(require_pulp_in_root(0.3, "pulp.stl"));
+  EXPECT_THROW(require_pulp_in_root(0.8, "pulp.stl"), Error);
 }
 
 TEST(Sense, ACleftInTheCrownHoldsNoPeriodontium) {
