@@ -202,6 +202,11 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
     for (const auto& t : r.tissues)
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = measure_progress(input);
+  if (input.landmarks_anew)
+    r.notes.emplace_back(
+        "the recording is of before exams kept the landmarks that their zones follow: this version found them anew, and the zones may lie elsewhere "
+        "than "
+        "in the exam; a person must look at it, and the sealed result is the exam's");
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
     r.notes.push_back(fmt::format("{} of {} steps were not completed", r.progress.steps - r.progress.steps_completed, r.progress.steps));
   note_steps(input, r);

@@ -65,6 +65,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
   s->sealed_result_json = reader.result_json();
   s->notes = setup.notes;
   s->landmarks_json = setup.landmarks_json;
+  s->landmarks_anew = s->landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,
               setup.points_toml, setup.notes};
   if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);

@@ -36,6 +36,7 @@ struct GradedSession {
   std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
   std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
   std::string landmarks_json;                              ///< that the exam's zones were laid by, where they follow any
+  bool landmarks_anew = false;                             ///< they follow some, and the recording holds none
   std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
   std::optional<SessionSetup> again;                       ///< none when it was recorded under other physics than this program's
   std::shared_ptr<const ToothApart> apart;                 ///< null: nothing stands beside the tooth
@@ -44,6 +45,7 @@ struct GradedSession {
   [[nodiscard]] GradeInput input() const {
     GradeInput in{scenario, apart ? apart->own : *before,  *zones, apart ? own.after : after.octree, inputs,
                   records,  apart ? own.removed : removed, events};
+    in.landmarks_anew = landmarks_anew;
     in.sat_under_ticks = sat_under_ticks;
     in.again = again ? &*again : nullptr;
     in.beside = beside ? &*beside : nullptr;
