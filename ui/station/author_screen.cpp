@@ -169,7 +169,7 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
 const char* picture_heading(const AuthorContext& c) {
   if (c.screen.scene == nullptr) return "The tooth is being read ...";
   if (c.busy) return "ZONES BEFORE THE LAST CHANGE";
-  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : "ZONES";
+  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : c.state.by_landmarks ? "LANDMARKS" : "ZONES";
 }
 
 void points_by_key(const AuthorContext& c, const AuthorZone& zone) {

@@ -189,7 +189,7 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   }
   go(player.ticks());
   EXPECT_NE(player.runner().finish, scenarios::Finish::running);
-  EXPECT_EQ(player.instruction(), "");
+  EXPECT_EQ(player.instruction(player.runner()), "");
   go(0);
   EXPECT_EQ(player.runner().ticks, 0);
   EXPECT_EQ(player.tooth().count_leaves(), setup->tooth.octree.count_leaves());
