@@ -32,7 +32,8 @@ void criteria(const Theme& t, const grading::Result& r) {
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = t.px(180), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F, top = at.y + t.px(6);
-    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + width, top + t.px(8)}, ink(t.line));
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + width, top + t.px(8)}, ink(t.raised));
+    ImGui::GetWindowDrawList()->AddRect({at.x, top}, {at.x + width, top + t.px(8)}, ink(t.line));
     ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + width * share, top + t.px(8)}, ink(c.critical_failed ? t.bad : t.accent));
     ImGui::Dummy({width, t.px(8)});
   }

@@ -19,7 +19,7 @@ trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home LANGUAGE=$language CAVUM_DATA=$here/data
 mkdir "$CAVUM_HOME"
 task=$here/data/scenarios/class_1.toml
-block=$here/tests/replay/block_cavity.toml
+block=$here/data/scenarios/slot.toml
 
 sit() { # NAME OPTIONS: the script comes from standard input; in a window of that size
   sed 's/^picture \(.*\)/&\nwords \1/' >"$work/script"
@@ -99,7 +99,7 @@ wait result
 key enter
 END
 sed 's/^time_limit_s/pauses = { count = 1, longest_s = 60, button = 1 }\n&/' "$block" >"$work/paused.toml"
-sit contrast "$work/paused.toml" --tooth "$here/tests/replay/block.cvt" --device mouse --high-contrast --left-handed --text-scale 1.3 --out "$work/paused.cavum" <<END
+sit contrast "$work/paused.toml" --tooth "$here/data/teeth/block.cvt" --device mouse --high-contrast --left-handed --text-scale 1.3 --out "$work/paused.cavum" <<END
 type K7
 go device-check
 sleep 1
