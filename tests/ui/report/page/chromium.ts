@@ -123,12 +123,13 @@ export interface Seek {
   processor_ms: number;
 }
 
-/** Moves the scrubber to `n` moments all over the exam, one after the other. */
+/** Moves the scrubber to `n` moments all over the exam, each time from a picture that rests. */
 export async function seeks(browser: Browser, page: Page, n: number): Promise<Seek[]> {
   const duration_s = await page.evaluate(() => Number(document.querySelector<HTMLInputElement>(".player input[type=range]")!.max));
   const all: Seek[] = [];
   for (let i = 0; i < n; ++i) {
     const t_s = (duration_s * ((i * 7) % n)) / n;
+    await settled(page);
     const before = processor_ms(browser);
     const clock_ms = await page.evaluate(async (t) => {
       const from = performance.now();
