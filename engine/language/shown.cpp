@@ -111,7 +111,7 @@ bool whole(std::string_view text, int depth, std::string& out, std::size_t least
     }
   for (const Said& s : Catalogue::said_sentences()) {
     if (s.pattern.all_letters() < least_letters) break;  // the longest stand first
-    if (!s.pattern.message().starts_with(begin)) continue;
+    if (!std::string_view(s.message).starts_with(begin)) continue;
     auto gaps = s.pattern.match(text);
     if (!gaps) continue;
     const auto t = c.find(s.message);

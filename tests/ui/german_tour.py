@@ -43,7 +43,9 @@ def readable(page):
 
 def english_words(text, english, german):
     """With where they stand. What stands beside / _ \\ . or a digit is a path, a file or an identifier; what is quoted is one, too."""
-    text = re.sub(r"'[^'\n]{1,60}'", " ", text)
+    text = re.sub(r"'[^'\n]{1,60}'|„[^“\n]{1,60}“", " ", text)
+    text = re.sub(r"\b(?:U?INT|FLOAT|TEXT):\S[^=\n]*?(?==|\s{2}|\n|$)", " ", text)  # what an option takes, as CLI11 writes it: FLOAT:0.2 to 600
+    text = re.sub(r"^  [a-z][a-z-]+  +", " ", text, flags=re.MULTILINE)  # a verb of a list, the name of a criterion
     for m in re.finditer(r"(?<![\w/.\\<=-])[A-Za-zÄÖÜäöüß]{2,}(?![\w/\\=>]|[.-]\w)", text):
         word = m.group().lower()
         if word in english and word not in german:
@@ -65,7 +67,7 @@ def commands(source, folder):
     yield ["devices"]
     yield ["ledger", "init", ledger, "--school", "Zahnklinik"]
     yield ["ledger", "ticket", ledger, slot, "--candidate", "4711", "--from", "2020-01-01T00:00Z", "--until", "2190-01-01T00:00Z", "--out", f"{folder}/t"]
-    yield ["exam", slot, "--ticket", f"{folder}/t/4711.ticket", "--operator", "expert", "--out", f"{folder}/4711.cavum"]
+    yield ["exam", slot, "--ticket", f"{folder}/t", "--operator", "expert", "--out", f"{folder}/4711.cavum"]
     yield ["ledger", "add", ledger, f"{folder}/4711.cavum"]
     yield ["ledger", "add", ledger, s]
     yield ["ledger", "show", ledger]
