@@ -91,7 +91,7 @@ def main():
         print("SKIPPED: takes some minutes; CAVUM_DEEP=1 runs it")
         return 0
     if not ENGLISH.exists() or not GERMAN.exists():
-        print("SKIPPED: wamerican and wngerman are not installed (./dev test --deep installs them)")
+        print("SKIPPED: install wamerican and wngerman first")
         return 0
     cavum, source = sys.argv[1:3]
     with tempfile.TemporaryDirectory() as scratch:
