@@ -100,8 +100,8 @@ bool may_stand_as_it_is(std::string_view text) {
 std::string sentence(std::string_view text, int depth, bool& known);
 
 /// The message that the whole text is, with or without gaps. One with a gap that holds words of which nothing is known is none: a sentence is in one
-/// language. Sentences of fewer letters than `least_letters` are left out.
-bool whole(std::string_view text, int depth, std::string& out, std::size_t least_letters = 0) {
+/// language. Sentences of fewer letters than `least_letters` are left out, and those with gaps that do not begin with `begin`.
+bool whole(std::string_view text, int depth, std::string& out, std::size_t least_letters = 0, std::string_view begin = {}) {
   const Catalogue& c = catalogue();
   const std::string exact(text);
   if (c.kind() != Catalogue::Kind::pseudo || c.knows(exact))
@@ -111,6 +111,7 @@ bool whole(std::string_view text, int depth, std::string& out, std::size_t least
     }
   for (const Said& s : Catalogue::said_sentences()) {
     if (s.pattern.all_letters() < least_letters) break;  // the longest stand first
+    if (!std::string_view(s.message).starts_with(begin)) continue;
     auto gaps = s.pattern.match(text);
     if (!gaps) continue;
     const auto t = c.find(s.message);
@@ -176,7 +177,7 @@ bool in_parts(std::string_view text, int depth, std::string& out, bool some_suff
       bool known = false;
       std::string own;
       const std::string joined = std::string(between).append(part);
-      if (at > 0 && (catalogue().knows(joined) || between == ", ") && whole(joined, depth + 1, own)) {  // ", of it {} mm3 beyond"
+      if (at > 0 && (catalogue().knows(joined) || between == ", ") && whole(joined, depth + 1, own, 0, between)) {  // ", of it {} mm3 beyond"
         known = true;
         all.erase(all.size() - between.size());
       } else {

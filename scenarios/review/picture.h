@@ -48,9 +48,13 @@ struct PictureSpec {
 /// The key to the colours, an `<svg>` element, with what stands beside the tooth where anything does. `with_removed` adds what a graded section
 /// shows.
 [[nodiscard]] std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
-/// The same in up to four `<svg>` elements: tissues, lines, what was removed, what stands beside.
-[[nodiscard]] std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
+/// Puts a picture's words into another language.
+using InWords = std::string (*)(std::string_view english);
+/// The same in up to four `<svg>` elements: tissues, lines, what was removed, what stands beside. `in_words`: the room that each entry has is that of
+/// its translation.
+[[nodiscard]] std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false,
+                                                        InWords in_words = nullptr);
 /// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
-[[nodiscard]] std::string heat_legend_svg();
+[[nodiscard]] std::string heat_legend_svg(InWords in_words = nullptr);
 
 }  // namespace cavum::scenarios

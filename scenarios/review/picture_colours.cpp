@@ -44,7 +44,7 @@ struct KeyEntry {
 constexpr double k_of_a_telephone_px = 330;
 
 /// In rows, none wider than `most_px`; the entries of `second` begin another one.
-std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}, double most_px = 1e9) {
+std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}, double most_px = 1e9, InWords in_words = nullptr) {
   constexpr double k_row_px = 22;
   std::string items;
   double width = 0, y = 0;
@@ -52,7 +52,9 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
     if (row->empty()) continue;
     double x = 4;
     for (const auto& e : *row) {
-      const double wide = 34 + 6.6 * static_cast<double>(e.text.size());
+      const std::string text = in_words != nullptr ? in_words(e.text) : e.text;
+      const auto letters = std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; });
+      const double wide = 34 + 6.6 * static_cast<double>(letters);
       if (x > 4 && x + wide > most_px) {
         x = 4;
         y += k_row_px;
@@ -62,7 +64,7 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
       else
         items += fmt::format("<rect x='{}' y='{}' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x),
                              svg_number(y + 4), e.colour);
-      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), e.text);
+      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), text);
       x += wide;
       width = std::max(width, x);
     }
@@ -126,7 +128,7 @@ const char* finding_colour(const Palette& colours, Zone zone) {
 
 std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tissue_colour(palette_of(high_contrast), tissue); }
 
-std::string heat_legend_svg() {
+std::string heat_legend_svg(InWords in_words) {
   std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
   const auto band = [](std::size_t i) {
     return svg_number(k_heat[i].from_percent) + (i == 0 ? " % or more" : fmt::format(" to {} %", svg_number(k_heat[i - 1].from_percent)));
@@ -135,7 +137,7 @@ std::string heat_legend_svg() {
     entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});
   for (std::size_t i = std::size(k_heat); i-- > 0;)
     entries.push_back({k_heat[i].under, (i + 1 == std::size(k_heat) ? "left standing: " : "") + band(i), false});
-  return key_svg(entries);
+  return key_svg(entries, {}, k_of_a_telephone_px, in_words);
 }
 
 namespace {
@@ -174,11 +176,11 @@ std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast
   return key_svg(first, key.beside);
 }
 
-std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
+std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast, InWords in_words) {
   const Key key = key_of(tooth, with_removed, palette_of(high_contrast));
   std::vector<std::string> parts;
   for (const auto* part : {&key.tissues, &key.lines, &key.removed, &key.beside})
-    if (!part->empty()) parts.push_back(key_svg(*part, {}, k_of_a_telephone_px));
+    if (!part->empty()) parts.push_back(key_svg(*part, {}, k_of_a_telephone_px, in_words));
   return parts;
 }
 

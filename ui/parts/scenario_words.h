@@ -11,4 +11,12 @@ inline void show_texts_of(const scenarios::Scenario& scenario) {
   if (const auto own = scenario.languages.find(language()); own != scenario.languages.end()) add_translations(own->second);
 }
 
+/// One of its texts, while it is still being written and shown() does not know it.
+[[nodiscard]] inline std::string text_of(const scenarios::Scenario& scenario, const std::string& english) {
+  const auto own = scenario.languages.find(language());
+  if (own == scenario.languages.end()) return english;
+  const auto text = own->second.find(english);
+  return text == own->second.end() ? english : text->second;
+}
+
 }  // namespace cavum::ui

@@ -120,7 +120,7 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   Pictures pictures{{}, 2, false};
   pictures.list = class_pictures(t);
   d.blocks.emplace_back(std::move(pictures));
-  d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(), ""}}, 1, false});
+  d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(shown), ""}}, 1, false});
   d.blocks.emplace_back(Paragraph{tr("The sections run through the middle of what was cut too much."), "", Paragraph::Kind::small});
   if (t.left_out > 0)
     d.blocks.emplace_back(Paragraph{tr("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out),

@@ -124,7 +124,7 @@ void add_marks(Document& d, const ReportSource& s) {
 
 Pictures key_to_sections(const ReportSource& s) {
   Pictures key{{}, 3};
-  for (auto& svg : scenarios::legend_parts_svg(s.input.seen_before(), true, s.input.scenario.accommodations.high_contrast))
+  for (auto& svg : scenarios::legend_parts_svg(s.input.seen_before(), true, s.input.scenario.accommodations.high_contrast, shown))
     key.list.push_back({std::move(svg), ""});
   return key;
 }

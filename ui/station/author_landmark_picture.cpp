@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/language/shown.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/author_sight.h"
 
@@ -44,7 +45,7 @@ struct Box {
   [[nodiscard]] bool meets(const Box& b) const { return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y; }
 };
 
-std::string words_of(const AuthorLandmark& mark) { return mark.title() + (mark.by_person ? " (by hand)" : ""); }
+std::string words_of(const AuthorLandmark& mark) { return shown(mark.title()) + (mark.by_person ? shown(" (by hand)") : ""); }
 
 /// The landmark's own place moved onto what it lies on; none, and a message, when the line of sight misses.
 std::optional<Vec3> met(const AuthorContext& c, const AuthorLandmark& mark, Vec3 from, Vec3 way) {
@@ -102,6 +103,7 @@ void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight&
     if (free == corners.end() && !chosen) continue;
     const ImVec2 corner = free == corners.end() ? corners[0] : *free;
     taken.push_back({corner, {corner.x + size.x, corner.y + size.y}});
+    ImGui::LogText("%s\n", text.c_str());
     author_words(draw, corner, chosen ? IM_COL32_WHITE : shade(mark.by_person ? k_by_person : k_found), text.c_str());
   }
 }

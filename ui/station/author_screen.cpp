@@ -5,10 +5,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
+#include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/language/shown.h"
+#include "ui/parts/scenario_words.h"
+#include "ui/station/window.h"
 
 namespace cavum::station {
 namespace {
@@ -31,23 +36,27 @@ void change(const AuthorContext& c, const std::string& name, bool pull, const Ed
   attempt(c, pull, [&] { c.document.make(edit(), name); });
 }
 
+constexpr std::array k_top_buttons{"Undo (Ctrl Z)", "Redo (Ctrl Y)", "Save (Ctrl S)"};
+
 void top_bar(const AuthorContext& c, ImVec2 size, AuthorWish& wish) {
   const Theme& t = c.screen.theme;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
   begin_area(t, "author top", {0, 0}, size, true);
   ImGui::PopStyleVar();
-  const float buttons = t.px(440);
+  float buttons = 0;  // side_button's labels in the reader's language
+  for (const char* label : k_top_buttons)
+    buttons += ImGui::CalcTextSize(shown(label).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
   ImGui::BeginChild("file", {size.x - buttons - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  quiet_text(t, fmt::format("Authoring    {}{}", c.document.path(), c.document.unsaved() ? "    NOT SAVED" : "    saved"));
-  wrapped_text(c.screen.scenario.title);
+  quiet_text(t, fmt::format("Authoring    {}    {}", c.document.path(), c.document.unsaved() ? "NOT SAVED" : "saved"));
+  wrapped_text(ui::text_of(c.screen.scenario, c.screen.scenario.title));
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
-  if (side_button(t, "Undo (Ctrl Z)")) wish = AuthorWish::undo;
-  ImGui::SameLine();
-  if (side_button(t, "Redo (Ctrl Y)")) wish = AuthorWish::redo;
-  ImGui::SameLine();
-  if (side_button(t, "Save (Ctrl S)")) wish = AuthorWish::save;
+  constexpr std::array k_wishes{AuthorWish::undo, AuthorWish::redo, AuthorWish::save};
+  for (std::size_t i = 0; i < k_top_buttons.size(); ++i) {
+    if (side_button(t, k_top_buttons[i])) wish = k_wishes[i];
+    ImGui::SameLine();
+  }
   ImGui::EndChild();
   end_area();
 }
@@ -83,12 +92,12 @@ void numbers(const AuthorContext& c) {
     const AuthorNumber& n = zone.numbers[i];
     const bool chosen = s.number == i;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
-    text_line((chosen ? "> " : "   ") + n.label);
+    text_line((chosen ? "> " : "   ") + shown(n.label));
     if (chosen) ImGui::PopStyleColor();
     ImGui::PushID(n.place.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     auto value = static_cast<float>(n.value);
-    const std::string format = fmt::format("%.3f {}", n.unit);
+    const std::string format = fmt::format("%.3f {}", std::string_view(n.unit) == "deg" ? "°" : n.unit);
     if (ImGui::DragFloat("##number", &value, 0.01F, static_cast<float>(n.low), static_cast<float>(n.high), format.c_str()))
       author_set_number(c, n, static_cast<double>(value), true);
     if (ImGui::IsItemActivated()) s.number = i;
@@ -123,12 +132,14 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
     if (s.zone < c.zones.size()) numbers(c);
   }
   ImGui::Separator();
+  push_font(Font::small);  // two beside each other in any language
   for (std::size_t i = 0; i < k_author_layers; ++i) {
     const std::string label = fmt::format("{} (F{})", layer_name(static_cast<AuthorLayer>(i)), i + 1);
     s.shown_differs = ImGui::Checkbox(shown_label(label.c_str()).c_str(), &s.shown[i]) || s.shown_differs;
     if (i % 2 == 0) ImGui::SameLine(size.x / 2);
   }
   if (ImGui::Checkbox(shown_label("landmarks (F6)").c_str(), &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
+  pop_font();
   quiet_text(t, s.by_landmarks ? "Tab: landmark.  Arrows or mouse: move it on the surface, 0.1 mm, with Shift 0.01.  X: back where it was found."
                                : "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: "
                                  "size, PgUp and PgDn: larger, smaller.");
@@ -169,7 +180,7 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
 const char* picture_heading(const AuthorContext& c) {
   if (c.screen.scene == nullptr) return "The tooth is being read ...";
   if (c.busy) return "ZONES BEFORE THE LAST CHANGE";
-  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : "ZONES";
+  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : c.state.by_landmarks ? "LANDMARKS" : "ZONES";
 }
 
 void points_by_key(const AuthorContext& c, const AuthorZone& zone) {

@@ -16,7 +16,7 @@ void fact(const Theme& t, const char* name, const std::string& value) {
   ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
   text_line(name);
   ImGui::PopStyleColor();
-  ImGui::SameLine(t.px(150));
+  ImGui::SameLine(t.px(170));
   wrapped_text(value);
 }
 
@@ -43,7 +43,7 @@ void briefing_screen(const ScreenContext& c) {
   if (scenario.force_limit_n > 0) fact(t, "Force", number_text("at most %.1f N", scenario.force_limit_n));
   std::string points;
   for (const auto& p : c.sitting->setup().points) points += (points.empty() ? "" : "; ") + p.title;
-  fact(t, "Points", points);
+  fact(t, "Diamond points", points);
   ImGui::Dummy({0, t.px(8)});
   ImGui::Separator();
   ImGui::Dummy({0, t.px(4)});

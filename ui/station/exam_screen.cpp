@@ -78,10 +78,6 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
   ImGui::Dummy({0, t.px(4)});
-  if (c.sitting->device().pointer() != nullptr)
-    quiet_text(t, s.mouse_free ? "Mouse: points at buttons. Tab or middle button: it is the stylus again"
-                               : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: upright. "
-                                 "Shift: finer. Tab or middle button: mouse for buttons");
   quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
   ImGui::EndChild();
   const float width = ImGui::GetContentRegionAvail().x;
@@ -128,24 +124,38 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
     if (mounted || marked)
       draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
     const ImU32 steel = ink(may ? t.text : t.faint), coated = ink(may ? t.warn : t.faint);
-    draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(50)}, steel, coated);
+    draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(62)}, steel, coated);
     push_font(Font::small);
-    // shape and size on a line each; the longest shapes a little smaller, so that all can be read
-    const auto size_from = c.shelf[i].name.rfind('-');
-    const std::string shape = c.shelf[i].name.substr(0, size_from),
-                      size_mm = size_from == std::string::npos ? "" : c.shelf[i].name.substr(size_from + 1);
-    const float room = size.x - t.px(4);
-    float below = t.px(40);
-    for (const std::string& line : {shown(shape), shown(size_mm)}) {
+    // shape, its end and size on a line each; a long line a little smaller, so that all can be read
+    const std::string title = shown(c.shelf[i].title);
+    const float room = size.x - t.px(6);
+    float below = t.px(54);
+    for (std::size_t from = 0; from < title.size();) {
+      const std::size_t to = std::min(title.find(", ", from), title.size());
+      const std::string line = title.substr(from, to - from);
       const float wide = ImGui::CalcTextSize(line.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / std::max(1.0F, wide));
       draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - std::min(wide, room)) / 2, at.y + size.y - below}, ink(may ? t.text : t.quiet),
                    line.c_str());
-      below -= t.px(18);
+      ImGui::LogText("%s\n", line.c_str());
+      below -= t.px(17);
+      from = to + 2;
     }
     if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), fmt::format("F{}", i + 1).c_str());
     pop_font();
   }
   end_area();
+}
+
+/// How mouse and keyboard are the stylus: into the picture, on the left, below what stands in its corner.
+void pointer_keys(const Theme& t, bool mouse_free, ImVec2 at, ImVec2 size) {
+  const std::string english = mouse_free ? "Mouse: points at buttons. Tab or middle button: it is the stylus again"
+                                         : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: "
+                                           "upright. Shift: finer. Tab or middle button: mouse for buttons";
+  push_font(Font::small);
+  const std::string text = shown(english), lines = in_lines(text, std::min(t.px(210), 0.25F * size.x));
+  ImGui::GetWindowDrawList()->AddText({at.x + t.px(16), at.y + t.px(44)}, ink(t.quiet), lines.c_str());
+  ImGui::LogText("%s\n", text.c_str());
+  pop_font();
 }
 
 bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave; }
@@ -245,6 +255,7 @@ void exam_screen(const ScreenContext& c) {
   } else if (c.practice) {
     words_in_picture(t, l.tooth_at, l.tooth, "PRACTICE", coaching_hint(c.sitting->setup(), view), t.accent);
   }
+  if (c.sitting->device().pointer() != nullptr) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
   if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);
   end_area();
   if (PointerStylus* pointer = c.sitting->device().pointer()) {

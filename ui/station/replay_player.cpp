@@ -6,7 +6,6 @@
 #include <chrono>
 
 #include "engine/base/error.h"
-#include "ui/parts/scenario_words.h"
 
 namespace cavum::station {
 namespace {
@@ -32,12 +31,12 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       ended_by_hand_(std::any_of(events_.begin(), events_.end(),
                                  [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); })),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {
-  ui::show_texts_of(setup_->scenario);
   Moment first;
   first.servo = simulation_.state;
   first.input.tip_nm = reader_.setup().first_tip_nm;
   first.output.proxy_mm = reader_.setup().first_tip_mm();
   now_ = std::make_unique<Moment>(first);
+  show();
   snapshots_.push_back(std::make_shared<const Moment>(std::move(first)));
   filler_ = std::jthread([this](const std::stop_token& stop) { fill(stop); });
 }

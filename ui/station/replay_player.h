@@ -34,12 +34,21 @@ class ReplayPlayer {
   [[nodiscard]] std::int64_t reached();
   [[nodiscard]] std::int64_t between() const noexcept { return between_; }
 
+  /// What of a moment stands beside the tooth.
+  struct Shown {
+    std::int64_t tick = 0;
+    scenarios::RunnerState runner;
+    TickInput input;
+    TickOutput output;
+  };
+  /// Keeps the present moment's figures: those that belong to the tooth which is drawn from now on.
+  void show() { shown_ = {tick(), now_->runner, now_->input, now_->output}; }
+  [[nodiscard]] const Shown& shown() const noexcept { return shown_; }
+
   [[nodiscard]] std::int64_t tick() const noexcept { return now_->servo.tick; }
   [[nodiscard]] const Octree& tooth() const noexcept { return now_->servo.tooth; }
-  [[nodiscard]] const TickInput& input() const noexcept { return now_->input; }
-  [[nodiscard]] const TickOutput& output() const noexcept { return now_->output; }
   [[nodiscard]] const scenarios::RunnerState& runner() const noexcept { return now_->runner; }
-  [[nodiscard]] const std::string& instruction() const noexcept { return runner_.instruction(now_->runner); }
+  [[nodiscard]] const std::string& instruction(const scenarios::RunnerState& at) const noexcept { return runner_.instruction(at); }
   [[nodiscard]] std::uint64_t hash() const noexcept { return state_hash(now_->servo); }
 
  private:
@@ -67,6 +76,7 @@ class ReplayPlayer {
   bool ended_by_hand_ = false;  // what the candidate or the supervisor ended is no input of a tick
   std::int64_t between_ = 1, goal_ = 0;
   std::unique_ptr<Moment> now_;
+  Shown shown_;
   std::mutex mutex_;                                      // of what stands below it
   std::vector<std::shared_ptr<const Moment>> snapshots_;  // every `between_` ticks, as far as they reach
   std::jthread filler_;                                   // last: it ends before anything it uses

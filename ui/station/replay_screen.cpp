@@ -35,11 +35,12 @@ void top_bar(const ScreenContext& c, ImVec2 size) {
   ImGui::PopStyleVar();
   ImGui::BeginChild("replay step", {size.x - t.px(260), 0}, false, ImGuiWindowFlags_NoScrollbar);
   quiet_text(t, fmt::format("Replay of {}    candidate {}", player.session().path(), player.session().setup().candidate));
-  wrapped_text(player.instruction().empty() ? "The exam is over." : player.instruction());
+  const std::string& instruction = player.instruction(player.shown().runner);
+  wrapped_text(instruction.empty() ? "The exam is over." : instruction);
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("replay clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
-  const scenarios::RunnerState& runner = player.runner();
+  const scenarios::RunnerState& runner = player.shown().runner;
   exam_clock(t, static_cast<double>(runner.ticks - runner.paused_ticks) * k_tick_s, 0.0, scenarios::Runner::paused(runner));
   ImGui::EndChild();
   end_area();
@@ -61,7 +62,7 @@ void time_line(const ScreenContext& c) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const auto x_of = [&](double tick) { return at.x + width * static_cast<float>(tick / all); };
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ink(t.raised), t.px(4));
-  draw.AddRectFilled(at, {x_of(static_cast<double>(player.tick())), at.y + height}, ink(t.accent), t.px(4));
+  draw.AddRectFilled(at, {x_of(static_cast<double>(player.shown().tick)), at.y + height}, ink(t.accent), t.px(4));
   draw.AddRectFilled({x_of(s.replay_at) - t.px(2), at.y - t.px(4)}, {x_of(s.replay_at) + t.px(2), at.y + height + t.px(4)}, ink(t.text));
   for (const SessionEvent& e : player.events()) {
     const char* word = mark_of(e.kind);
@@ -83,7 +84,9 @@ void controls(const ScreenContext& c, ImVec2 at, ImVec2 size) {
   begin_area(t, "replay controls", at, size, true);
   time_line(c);
   const double back_s = ImGui::GetIO().KeyShift ? 10.0 : 1.0;
-  if (side_button(t, s.playing ? "Stop  (Space)" : "Play  (Space)", t.px(130)) || key_pressed(GLFW_KEY_SPACE)) {
+  const auto wide = [](const char* english) { return ImGui::CalcTextSize(shown(english).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x; };
+  const float room = std::max(wide("Stop  (Space)"), wide("Play  (Space)"));  // it stays where it is, whichever it says
+  if (side_button(t, s.playing ? "Stop  (Space)" : "Play  (Space)", room) || key_pressed(GLFW_KEY_SPACE)) {
     s.playing = !s.playing;
     if (s.playing && s.replay_at >= all) s.replay_at = 0.0;
   }
@@ -122,14 +125,15 @@ void replay_screen(const ScreenContext& c) {
     if (s.replay_at >= static_cast<double>(player.ticks())) s.playing = false;
   }
   player.seek(static_cast<std::int64_t>(s.replay_at));
-  // on the way to a far place the window stays awake, but draws no tooth that is passed by
+  // on the way to a far place the window stays awake, and shows the tooth and the figures from where it sets out
   const bool there = player.work(s.playing ? 0.03 : 0.12);
   if (there || s.playing) {
     c.scene->tooth().take(player.tooth());
     c.scene->tooth().update();
-    s.view.tool = {player.output().proxy_mm, player.input().pose().rotation};
-    s.view.point = player.input().point;
-    if (s.playing) turn_point(s.view, player.output().rpm, c.frame_s);
+    player.show();
+    s.view.tool = {player.shown().output.proxy_mm, player.shown().input.pose().rotation};
+    s.view.point = player.shown().input.point;
+    if (s.playing) turn_point(s.view, player.shown().output.rpm, c.frame_s);
   }
 
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -137,10 +141,10 @@ void replay_screen(const ScreenContext& c) {
   top_bar(c, {screen.x, top});
   begin_area(t, "replay gauges", {s.left_handed ? 0 : screen.x - side, top}, {side, middle}, true);
   const scenarios::ExamSetup& setup = player.setup();
-  const TickOutput& now = player.output();
-  show_gauges(t, setup, now, player.runner().depth_mm, {true, true, true});
-  quiet_text(t, "Target removed: about " + number_text("%.1f %%", 100.0 * static_cast<double>(player.runner().target_shares) /
-                                                                      static_cast<double>(setup.zones.target_shares())));
+  const ReplayPlayer::Shown& now = player.shown();
+  show_gauges(t, setup, now.output, now.runner.depth_mm, {true, true, true});
+  quiet_text(t, "Target removed: about " +
+                    number_text("%.1f %%", 100.0 * static_cast<double>(now.runner.target_shares) / static_cast<double>(setup.zones.target_shares())));
   quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
   end_area();
   controls(c, {0, screen.y - bottom}, {screen.x, bottom});

@@ -9,6 +9,8 @@
 #include <filesystem>
 
 #include "engine/language/say.h"
+#include "engine/language/shown.h"
+#include "grading/result/mark.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -17,9 +19,9 @@ namespace {
 
 void criteria(const Theme& t, const grading::Result& r) {
   if (!ImGui::BeginTable("criteria", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn(shown_label("Criterion").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(190));
-  ImGui::TableSetupColumn(shown_label("Points").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(110));
-  ImGui::TableSetupColumn(shown_label("Why").c_str(), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(shown_label("Criterion").c_str(), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(shown_label("Points").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(130));
+  ImGui::TableSetupColumn("##share", ImGuiTableColumnFlags_WidthFixed, t.px(190));
   ImGui::TableHeadersRow();
   for (const grading::CriterionResult& c : r.criteria) {
     ImGui::TableNextRow();
@@ -27,15 +29,30 @@ void criteria(const Theme& t, const grading::Result& r) {
     wrapped_text(c.title);
     ImGui::TableNextColumn();
     text_line(number_text("%.1f", c.points) + number_text(" of %.0f", c.max));
-    const ImVec2 at = ImGui::GetCursorScreenPos();
-    const float width = t.px(96), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F;
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width, at.y + t.px(5)}, ink(t.line));
-    ImGui::GetWindowDrawList()->AddRectFilled(at, {at.x + width * share, at.y + t.px(5)}, ink(c.critical_failed ? t.bad : t.accent));
-    ImGui::Dummy({width, t.px(6)});
     ImGui::TableNextColumn();
-    quiet_text(t, (c.critical_failed ? "Fails the exam. " : "") + c.reason);
+    const ImVec2 at = ImGui::GetCursorScreenPos();
+    const float width = t.px(180), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F, top = at.y + t.px(6);
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + width, top + t.px(8)}, ink(t.raised));
+    ImGui::GetWindowDrawList()->AddRect({at.x, top}, {at.x + width, top + t.px(8)}, ink(t.line));
+    ImGui::GetWindowDrawList()->AddRectFilled({at.x, top}, {at.x + width * share, top + t.px(8)}, ink(c.critical_failed ? t.bad : t.accent));
+    ImGui::Dummy({width, t.px(8)});
   }
   ImGui::EndTable();
+}
+
+/// The three mistakes that cost most, in words of the clinic. Figures with their bounds, places in mm and ticks are for the report.
+void what_to_work_on(const Theme& t, const std::vector<grading::Lesson>& lessons) {
+  constexpr std::size_t k_most = 3;
+  if (lessons.empty()) return;
+  heading_text("What to work on");
+  for (std::size_t i = 0; i < lessons.size() && i < k_most; ++i) {
+    const grading::Lesson& l = lessons[i];
+    ImGui::PushStyleColor(ImGuiCol_Text, l.fails_exam ? t.bad : t.accent);
+    text_line(number_text("%.1f points", l.points) + shown(l.fails_exam ? "; this alone fails the exam" : ""));
+    ImGui::PopStyleColor();
+    wrapped_text(l.what);
+    quiet_text(t, l.instead);
+  }
 }
 
 /// The school tells the result, not the station.
@@ -89,7 +106,10 @@ void result_screen(const ScreenContext& c) {
   heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
   quiet_text(t, tr("{},  candidate {},  {} minutes{}", as_is(shown(r.scenario_title)), as_is(c.sitting->candidate()), clock_text(r.motion.time_s),
                    c.practice ? ",  practice" : ""));
-  for (const auto& reason : r.verdict_reasons) wrapped_text(reason);
+  for (const auto& reason : r.verdict_reasons)
+    if (!reason.starts_with(grading::k_critical_reason)) wrapped_text(reason);  // that one is among the mistakes
+  ImGui::Dummy({0, t.px(4)});
+  what_to_work_on(t, c.sitting->lessons());
   ImGui::Dummy({0, t.px(4)});
   criteria(t, r);
   if (c.sitting->report().first_disagreement >= 0)

@@ -25,11 +25,12 @@ void sign_in_screen(const ScreenContext& c) {
   ImGui::Checkbox(shown_label("Left-handed layout").c_str(), &s.left_handed);
   ImGui::SameLine(0, t.px(24));
   ImGui::Checkbox(shown_label("High contrast").c_str(), &s.high_contrast);
+  ImGui::AlignTextToFramePadding();
   text_line("Size of text");
   ImGui::SameLine();
   ImGui::SetNextItemWidth(t.px(220));
   auto scale = static_cast<float>(s.text_scale);
-  ImGui::SliderFloat("##scale", &scale, 0.8F, 1.8F, "%.1f");
+  ImGui::SliderFloat("##scale", &scale, 0.8F, 1.8F, number_text("%.1f", s.text_scale).c_str(), ImGuiSliderFlags_NoInput);
   s.text_scale = static_cast<double>(static_cast<int>(scale * 10.0F + 0.5F)) / 10.0;
   ImGui::Dummy({0, t.px(8)});
   const std::string code = s.code.data();
@@ -37,6 +38,7 @@ void sign_in_screen(const ScreenContext& c) {
   if (main_button(t, "Continue  (Enter)", usable, false) || (entered && usable)) s.wish = Wish::sign_in;
   if (c.practice) {
     ImGui::SameLine(0, t.px(24));
+    ImGui::SetCursorPosY(ImGui::GetCursorPosY() + (t.px(44) - ImGui::GetFrameHeight()) / 2);
     bool tutorial = s.tutorial_wanted;
     if (ImGui::Checkbox(shown_label("Two-minute tutorial first").c_str(), &tutorial)) s.tutorial_wanted = tutorial;
   }

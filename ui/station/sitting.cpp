@@ -12,7 +12,6 @@
 #include "engine/session/session_reader.h"
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
-#include "ui/parts/scenario_words.h"
 
 namespace cavum::station {
 namespace {
@@ -108,7 +107,6 @@ Sitting::~Sitting() {
 void Sitting::advance() {
   if (stage_ == Stage::preparing && is_ready(preparing_)) {
     setup_ = preparing_.get();
-    ui::show_texts_of(setup_->scenario);
     check_ = std::make_unique<DeviceCheck>(device_->for_check(), station_stylus_kind(options_.device.name).facts.rate_hz);
     stage_ = Stage::checking;
   }
@@ -237,6 +235,7 @@ void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {
     grading::ClosedExam closed = grading::grade_and_close(live_->exam());
     ledger::remember_closed(closed.graded->notes, live_->exam().recorder().path());
+    lessons_ = grading::lessons(closed.graded->input(), closed.result);
     return closed;
   });
   stage_ = Stage::grading;

@@ -11,6 +11,7 @@
 #include "engine/device/with_desk.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/station_ticket.h"
+#include "grading/words/lessons.h"
 #include "scenarios/exam/live_exam.h"
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
@@ -77,6 +78,8 @@ class Sitting {
 
   /// When `done`.
   [[nodiscard]] const grading::ClosedExam& closed() const { return *closed_; }
+  /// What the candidate should take away of it, the dearest mistake first.
+  [[nodiscard]] const std::vector<grading::Lesson>& lessons() const { return lessons_; }
   [[nodiscard]] const scenarios::LiveReport& report() const { return report_; }
   /// Of the session, from `running` on.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
@@ -110,6 +113,7 @@ class Sitting {
   Desk desk_;
   std::unique_ptr<WithDesk> with_desk_;
   std::unique_ptr<scenarios::LiveExam> live_;
+  std::vector<grading::Lesson> lessons_;  // of `grading_` until it is ready
   std::future<grading::ClosedExam> grading_;
   std::optional<grading::ClosedExam> closed_;
   scenarios::LiveReport report_;

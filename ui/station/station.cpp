@@ -17,6 +17,7 @@
 #include "engine/session/session_reader.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/parts/interrupt.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
 #include "ui/station/screens.h"
@@ -68,6 +69,7 @@ class Station {
         lock_(options.supervisor_hash),
         check_(options.sitting.device.name, options.self_check_hours.value_or(0.0)),
         window_({"Cavum", options.width, options.height, options.monitor, lock_.locked()}) {
+    ui::show_texts_of(scenario_);
     if (!options_.script.empty()) script_ = Script(read_text_file(options_.script), options_.script, options_.pictures);
     usual_look();
     if (replay_) {

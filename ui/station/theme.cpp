@@ -4,9 +4,13 @@
 #include <GLFW/glfw3.h>
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
+#include <cctype>
 #include <cmath>
 #include <cstdio>
+#include <set>
+#include <string_view>
 
 #include "engine/language/shown.h"
 #include "ui/station/window.h"
@@ -188,10 +192,47 @@ void text_line(const std::string& english) {
 }
 
 void wrapped_text(const std::string& english) {
-  const std::string text = shown(english);
-  ImGui::PushTextWrapPos(0.0F);
-  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
-  ImGui::PopTextWrapPos();
+  const std::string text = shown(english), lines = in_lines(text, ImGui::GetContentRegionAvail().x);
+  ImGui::GetWindowDrawList()->AddText(ImGui::GetCursorScreenPos(), ImGui::GetColorU32(ImGuiCol_Text), lines.c_str(), lines.c_str() + lines.size());
+  ImGui::LogText("%s\n", text.c_str());
+  ImGui::Dummy(ImGui::CalcTextSize(lines.c_str(), lines.c_str() + lines.size()));
+}
+
+std::string in_lines(const std::string& text, float width) {
+  static const std::set<std::string, std::less<>> k_units{"mm", "mm²", "mm³", "mm2", "mm3", "N", "s", "%", "rpm", "ms"};
+  std::string lines;
+  float used = 0.0F;
+  const float space = ImGui::CalcTextSize(" ").x;
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find_first_of(" \n", at), text.size());
+    const std::string word = text.substr(at, end - at);
+    std::string bare = word;
+    while (!bare.empty() && std::string_view(",.;:)").find(bare.back()) != std::string_view::npos) bare.pop_back();
+    const bool first = lines.empty() || lines.back() == '\n',
+               unit = !first && std::isdigit(static_cast<unsigned char>(lines.back())) != 0 && k_units.contains(bare);
+    const float wide = ImGui::CalcTextSize(word.c_str()).x;
+    if (!first && used + space + wide > width) {
+      // the number goes along with its unit
+      const std::size_t number = unit ? lines.find_last_of(" \n") : lines.npos;
+      if (number != lines.npos && lines[number] == ' ') {
+        used = ImGui::CalcTextSize(lines.c_str() + number + 1).x + space + wide;
+        lines[number] = '\n';
+        lines += " " + word;
+      } else {
+        lines += "\n" + word;
+        used = wide;
+      }
+    } else {
+      lines += (first ? "" : " ") + word;
+      used += (first ? 0.0F : space) + wide;
+    }
+    if (end < text.size() && text[end] == '\n') {
+      lines += '\n';
+      used = 0.0F;
+    }
+    at = end + 1;
+  }
+  return lines;
 }
 
 std::string shown_label(const char* english) { return fmt::format("{}###{}", shown(english), english); }

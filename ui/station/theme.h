@@ -29,6 +29,9 @@ void begin_card(const Theme& theme, const char* heading, float width);
 void quiet_text(const Theme& theme, const std::string& text);
 /// What went wrong, in the colour for that; nothing for an empty text.
 void bad_text(const Theme& theme, const std::string& text);
+/// A text of the reader's language in lines of at most `width` pixels of the present font, parted by line ends. Only spaces part lines, and none
+/// between a number and its unit. A longer word stays whole.
+[[nodiscard]] std::string in_lines(const std::string& text, float width);
 // These texts, labels and headings are English, and are shown in the reader's language.
 void heading_text(const std::string& text);
 void wrapped_text(const std::string& text);

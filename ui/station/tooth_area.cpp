@@ -69,13 +69,14 @@ void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* up
   ImGui::LogText("%s\n%s\n", shown(upper).c_str(), lower.c_str());
   if (lower.empty()) return;
   const float width = std::min(size.x - theme.px(40), theme.px(680)), pad = theme.px(12);
-  const ImVec2 text = ImGui::CalcTextSize(lower.c_str(), nullptr, false, width - 2 * pad);
+  const std::string lines = in_lines(lower, width - 2 * pad);
+  const ImVec2 text = ImGui::CalcTextSize(lines.c_str());
   const ImVec2 corner{at.x + (size.x - text.x) / 2 - pad, at.y + size.y - text.y - 2 * pad - theme.px(16)};
   ImVec4 ground = theme.panel;
   ground.w = 0.9F;
   draw.AddRectFilled(corner, {corner.x + text.x + 2 * pad, corner.y + text.y + 2 * pad}, ink(ground), theme.px(6));
   draw.AddRect(corner, {corner.x + text.x + 2 * pad, corner.y + text.y + 2 * pad}, ink(colour), theme.px(6));
-  draw.AddText(nullptr, 0.0F, {corner.x + pad, corner.y + pad}, ink(theme.text), lower.c_str(), nullptr, width - 2 * pad);
+  draw.AddText({corner.x + pad, corner.y + pad}, ink(theme.text), lines.c_str());
 }
 
 }  // namespace cavum::station

@@ -13,8 +13,9 @@ namespace cavum::ui {
 class HelpInLanguage : public CLI::Formatter {
  public:
   HelpInLanguage() {
-    for (const char* english : {said("Options"), said("REQUIRED"), said("Usage"), said("Positionals"), said("OPTIONS"), said("SUBCOMMAND"),
-                                said("SUBCOMMANDS"), said("TEXT"), said("INT"), said("UINT"), said("FLOAT"), said("NUMBER")})
+    for (const char* english :
+         {said("Options"), said("REQUIRED"), said("Usage"), said("Positionals"), said("OPTIONS"), said("SUBCOMMAND"), said("SUBCOMMANDS"),
+          said("Needs"), said("Excludes"), said("Env"), said("TEXT"), said("INT"), said("UINT"), said("FLOAT"), said("NUMBER")})
       label(english, shown(english));
   }
   std::string make_group(std::string group, bool is_positional, std::vector<const CLI::Option*> options) const override {

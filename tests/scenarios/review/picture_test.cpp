@@ -3,12 +3,14 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <stdexcept>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -123,6 +125,29 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
     EXPECT_LE(drawn_in(svg, colour), leaves) << colour;
     EXPECT_EQ(drawn_in(svg, colour) * expected.begin()->second, leaves * drawn_in(svg, expected.begin()->first)) << "the same share of each column";
     EXPECT_NE(key.find(colour), std::string::npos) << "the key names it";
+  }
+}
+
+TEST(Picture, InALanguageOfLongWordsNoEntryOfAKeyRunsIntoTheNext) {
+  const auto twice_as_long = [](std::string_view english) { return std::string(english) + ", " + std::string(english); };
+  constexpr double k_letter_px = 6.0;  // of 12 px type, on the average
+  for (const std::string& key : legend_parts_svg(testing::dentin_block(2, 2, 0.2), true, false, twice_as_long)) {
+    double width = 0;
+    ASSERT_EQ(std::sscanf(key.c_str() + key.find("width='"), "width='%lf", &width), 1);
+    std::vector<std::array<double, 3>> entries;  // x, y, end
+    for (std::size_t at = key.find("<text"); at != std::string::npos; at = key.find("<text", at + 1)) {
+      double x = 0, y = 0;
+      ASSERT_EQ(std::sscanf(key.c_str() + at, "<text x='%lf' y='%lf'", &x, &y), 2);
+      const std::size_t from = key.find('>', at) + 1;
+      entries.push_back({x, y, x + k_letter_px * static_cast<double>(key.find('<', from) - from)});
+    }
+    ASSERT_FALSE(entries.empty());
+    for (std::size_t i = 0; i < entries.size(); ++i) {
+      EXPECT_LE(entries[i][2], width) << key;
+      if (i > 0 && entries[i][1] == entries[i - 1][1]) {
+        EXPECT_GT(entries[i][0] - 21, entries[i - 1][2]) << key;
+      }
+    }
   }
 }
 

@@ -1,9 +1,14 @@
 // What stands behind the screens and needs no window: the check of the devices, the coach, the camera, the gauges' words.
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <ctime>
 #include <functional>
+#include <memory>
 #include <thread>
 
 #include "engine/device/simulated_stylus.h"
@@ -157,19 +162,55 @@ TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
   EXPECT_NE(coaching_hint(*setup_, v).find("in the air"), std::string::npos);
 }
 
-TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
-  const testing_basics::Folder folder;
-  ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
+/// A novice's exam in a file; with its setup.
+std::unique_ptr<scenarios::ExamSetup> record_novice(const std::string& scenario, const std::string& file) {
   scenarios::ExamOptions options;
   options.candidate = "t";
   options.device = "simulated Omni";
-  const auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
-  {
-    auto candidate = scenarios::make_simulated_candidate(*setup, "novice", 3, OmniModel{});
-    const auto exam = scenarios::Exam::start(*setup, folder.file("s.cavum"), candidate.start_mm());
-    scenarios::run_exam(*exam, candidate);
-    exam->close("{}");
+  auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + scenario, options);
+  auto candidate = scenarios::make_simulated_candidate(*setup, "novice", 3, OmniModel{});
+  const auto exam = scenarios::Exam::start(*setup, file, candidate.start_mm());
+  scenarios::run_exam(*exam, candidate);
+  exam->close("{}");
+  return setup;
+}
+
+/// Of this thread, s.
+double thread_s() {
+  timespec t{};
+  ::clock_gettime(CLOCK_THREAD_CPUTIME_ID, &t);
+  return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
+}
+
+void expect_within_a_second(const std::string& scenario) {
+  const testing_basics::Folder folder;
+  ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
+  (void)record_novice(scenario, folder.file("s.cavum"));
+  ReplayPlayer player(folder.file("s.cavum"));
+  while (player.reached() < player.ticks()) std::this_thread::sleep_for(std::chrono::milliseconds(50));
+  double slowest_s = 0, slowest_clock_s = 0;
+  for (int i = 0; i < 24; ++i) {
+    const auto began = std::chrono::steady_clock::now();
+    const double from_s = thread_s();
+    player.seek((player.ticks() * ((i * 7) % 24) + player.ticks() / 2) / 24);  // far from where it was, and from any snapshot
+    while (!player.work(0.05)) continue;
+    slowest_s = std::max(slowest_s, thread_s() - from_s);
+    slowest_clock_s = std::max(slowest_clock_s, std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   }
+  std::printf("%s, %.0f s long: the slowest of 24 moments is there after %.3f s of the processor, %.3f s by the clock\n", scenario.c_str(),
+              static_cast<double>(player.ticks()) * k_tick_s, slowest_s, slowest_clock_s);
+  EXPECT_LT(slowest_s, 1.0);
+}
+
+TEST(ReplayPlayer, IsAtAnyMomentWithinASecondOfTheProcessor) {
+  expect_within_a_second("/tests/replay/block_cavity.toml");
+  if (std::getenv("CAVUM_DEEP") != nullptr) expect_within_a_second("/data/scenarios/molar_access.toml");
+}
+
+TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
+  const testing_basics::Folder folder;
+  ::setenv("CAVUM_HOME", folder.file("home").c_str(), 1);
+  const auto setup = record_novice("/tests/replay/block_cavity.toml", folder.file("s.cavum"));
   ReplayPlayer player(folder.file("s.cavum"));
   const auto& chunks = player.session().chunks();
   ASSERT_GT(chunks.size(), 8u);
@@ -189,7 +230,7 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   }
   go(player.ticks());
   EXPECT_NE(player.runner().finish, scenarios::Finish::running);
-  EXPECT_EQ(player.instruction(), "");
+  EXPECT_EQ(player.instruction(player.runner()), "");
   go(0);
   EXPECT_EQ(player.runner().ticks, 0);
   EXPECT_EQ(player.tooth().count_leaves(), setup->tooth.octree.count_leaves());
@@ -204,6 +245,17 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
   player.seek(player.ticks() + 1000);  // beyond the end is the end
   while (!player.work(0.05)) continue;
   EXPECT_EQ(player.tick(), player.ticks());
+  // what stands beside the tooth stays that of the tooth that is drawn, until another is
+  player.show();
+  player.seek(0);
+  (void)player.work(0.0);
+  EXPECT_NE(player.tick(), player.ticks());
+  EXPECT_EQ(player.shown().tick, player.ticks());
+  EXPECT_EQ(player.shown().runner.target_shares, [&] {
+    player.seek(player.ticks());
+    while (!player.work(0.05)) continue;
+    return player.runner().target_shares;
+  }());
 }
 
 /// Where a place of the tooth frame is seen, -1..1 to the right and up.

@@ -1,23 +1,28 @@
 #!/usr/bin/env bash
-# Pictures of every screen of the station, for eyes: shoot_screens.sh FOLDER WIDTHxHEIGHT [LANGUAGE]. Needs xvfb-run; at 3840x2160 some minutes.
-#   tests/ui/station/shoot_screens.sh build/release/pictures/4k 3840x2160
+# Pictures of every screen of the station, for eyes, and beside each what it says, NAME.txt: shoot_screens.sh FOLDER [WIDTHxHEIGHT LANGUAGE]. Without a
+# size: at 1280x800 and 3840x2160 in English and German, a folder each. Needs xvfb-run; takes some minutes each.
+#   tests/ui/station/shoot_screens.sh build/release/pictures/all
 #   CAVUM=build/release/cavum   another program
 set -euo pipefail
-[ $# -ge 2 ] || { sed -n 2,4p "$0" >&2; exit 2; }
+[ $# -eq 1 ] || [ $# -eq 3 ] || { sed -n 2,5p "$0" >&2; exit 2; }
+if [ $# -eq 1 ]; then
+  for size in 1280x800 3840x2160; do for language in en de; do "$0" "$1/$language-$size" "$size" "$language"; done; done
+  exit
+fi
 here=$(cd "$(dirname "$0")/../../.." && pwd)
 cavum=$(realpath "${CAVUM:-$here/build/release/cavum}")
 mkdir -p "$1"
 out=$(realpath "$1")
-size=$2 language=${3:-en}
+size=$2 language=$3
 work=$(mktemp -d)
 trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home LANGUAGE=$language CAVUM_DATA=$here/data
 mkdir "$CAVUM_HOME"
 task=$here/data/scenarios/class_1.toml
-block=$here/tests/replay/block_cavity.toml
+block=$here/data/scenarios/slot.toml
 
 sit() { # NAME OPTIONS: the script comes from standard input; in a window of that size
-  cat >"$work/script"
+  sed 's/^picture \(.*\)/&\nwords \1/' >"$work/script"
   xvfb-run -a -s "-screen 0 ${size}x24" "$cavum" --language "$language" station "${@:2}" --effects 2 --width "${size%x*}" --height "${size#*x}" \
     --script "$work/script" --pictures "$out" >"$work/said" 2>&1 || { echo "$1:" && cat "$work/said"; } >&2
 }
@@ -94,7 +99,8 @@ wait result
 key enter
 END
 sed 's/^time_limit_s/pauses = { count = 1, longest_s = 60, button = 1 }\n&/' "$block" >"$work/paused.toml"
-sit contrast "$work/paused.toml" --tooth "$here/tests/replay/block.cvt" --device mouse --high-contrast --left-handed --text-scale 1.3 --out "$work/paused.cavum" <<END
+sit contrast "$work/paused.toml" --tooth "$here/data/teeth/block.cvt" --device mouse --high-contrast --left-handed --text-scale 1.3 --out "$work/paused.cavum" <<END
+type K7
 go device-check
 sleep 1
 key space 0.6
@@ -159,5 +165,23 @@ wait self-check
 sleep 0.5
 picture 25-self-check
 close
+END
+# the tooth from occlusal, buccal, lingual, mesial and distal: untouched, opened, finished
+"$cavum" exam "$task" --candidate K7 --operator expert --quiet --out "$work/expert.cavum" >"$work/said"
+sides() { for side in 1 2 3 4 5; do printf 'key %s\nsleep 0.5\npicture %s-%s\n' $side "$1" $side; done; }
+sit tooth --replay "$work/expert.cavum" <<END
+wait replay
+key h
+sleep 2
+$(sides 31-untouched)
+hold shift
+key .
+release shift
+sleep 5
+$(sides 32-opened)
+key end
+sleep 5
+$(sides 33-finished)
+key escape
 END
 ls "$out"

@@ -1,5 +1,6 @@
 // A headless Chromium for the tests, drawing by the processor. Every page reports what it asked of the network and what it complained about.
 import { spawnSync } from "node:child_process";
+import { readdirSync, readFileSync } from "node:fs";
 import { pathToFileURL } from "node:url";
 import puppeteer, { type Browser, type Page } from "puppeteer-core";
 
@@ -50,9 +51,13 @@ export async function open(browser: Browser, file: string, fragment = "", width 
   return opened;
 }
 
-/** Waits for two pictures, so that what changed is drawn. */
+/** Waits for two pictures, so that what changed is drawn, and until views that were drawn with fewer pixels meanwhile have all of them. */
 export async function settled(page: Page): Promise<void> {
-  await page.evaluate(() => new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done()))));
+  await page.evaluate(async () => {
+    const pictures = (): Promise<void> => new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())));
+    await pictures();
+    while (document.querySelector("canvas[data-rests=false]")) await pictures();
+  });
 }
 
 /** Waits until something is true; the page's rules forbid the waiting that evaluates strings. */
@@ -87,6 +92,56 @@ export function different(a: { data: Uint8Array }, b: { data: Uint8Array }): num
   let n = 0;
   for (let i = 0; i < a.data.length; i += 4) if (Math.abs(a.data[i] - b.data[i]) + Math.abs(a.data[i + 1] - b.data[i + 1]) + Math.abs(a.data[i + 2] - b.data[i + 2]) > 24) ++n;
   return n;
+}
+
+/** Processor time of the browser and all that it began, ms, in steps of 10. */
+function processor_ms(browser: Browser): number {
+  const all = new Map<string, { parent: string; ms: number }>();
+  for (const id of readdirSync("/proc").filter((name) => /^\d+$/.test(name)))
+    try {
+      const text = readFileSync(`/proc/${id}/stat`, "utf8");
+      const fields = text.slice(text.lastIndexOf(")") + 2).split(" ");
+      all.set(id, { parent: fields[1], ms: 10 * (Number(fields[11]) + Number(fields[12])) });
+    } catch {
+      // it ended meanwhile
+    }
+  const root = String(browser.process()!.pid);
+  let sum = 0;
+  for (const [id, { ms }] of all) {
+    let at: string | undefined = id;
+    while (at && at !== root) at = all.get(at)?.parent;
+    if (at === root) sum += ms;
+  }
+  return sum;
+}
+
+export interface Seek {
+  t_s: number;
+  /** By the clock, from the scrubber's input until two pictures later. */
+  clock_ms: number;
+  /** Of the browser with all its processes meanwhile: what it takes on a quiet machine at most. */
+  processor_ms: number;
+}
+
+/** Moves the scrubber to `n` moments all over the exam, each time from a picture that rests. */
+export async function seeks(browser: Browser, page: Page, n: number): Promise<Seek[]> {
+  const duration_s = await page.evaluate(() => Number(document.querySelector<HTMLInputElement>(".player input[type=range]")!.max));
+  const all: Seek[] = [];
+  for (let i = 0; i < n; ++i) {
+    const t_s = (duration_s * ((i * 7) % n)) / n;
+    await settled(page);
+    const before = processor_ms(browser);
+    const clock_ms = await page.evaluate(async (t) => {
+      const from = performance.now();
+      const range = document.querySelector<HTMLInputElement>(".player input[type=range]")!;
+      range.value = String(t);
+      range.dispatchEvent(new Event("input"));
+      await new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())));
+      return performance.now() - from;
+    }, t_s);
+    all.push({ t_s, clock_ms, processor_ms: processor_ms(browser) - before });
+  }
+  return all;
 }
 
 /** Seconds that the scrubber stands at. */

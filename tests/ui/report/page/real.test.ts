@@ -6,13 +6,12 @@ import { createRequire } from "node:module";
 import { tmpdir } from "node:os";
 import { join, resolve } from "node:path";
 import { after, before, test } from "node:test";
-import type { Browser } from "puppeteer-core";
+import type { Browser, Page } from "puppeteer-core";
 import type { ReportData } from "../src/data.ts";
-import { beside_data } from "../src/alignment.ts";
 import { Recording } from "../src/motion.ts";
 import { ToothField } from "../src/tooth_field.ts";
 import { ToothSurface } from "../src/tooth_surface.ts";
-import { different, k_skip, launch, open, pixels, scrubber_s, settled, violations } from "./chromium.ts";
+import { different, k_skip, launch, open, pixels, scrubber_s, seeks, settled, violations } from "./chromium.ts";
 import { unbalanced_edges, volume } from "./mesh_checks.ts";
 
 const axe_source = readFileSync(createRequire(resolve("package.json")).resolve("axe-core/axe.min.js"), "utf8");
@@ -130,6 +129,15 @@ test("verdict, points and every criterion in the page are those of grade --json"
   }
 });
 
+/** Any moment is drawn within a second of the processor's time, which other programs do not lengthen. */
+async function within_a_second(page: Page, what: string): Promise<void> {
+  const all = await seeks(browser, page, 20);
+  const of = (name: "clock_ms" | "processor_ms"): number[] => all.map((s) => s[name]).sort((a, b) => a - b);
+  const [clock, processor] = [of("clock_ms"), of("processor_ms")];
+  console.log(`${what}, 20 moments until drawn: of the processor median ${processor[10]} ms, slowest ${processor[19]} ms; by the clock median ${clock[10].toFixed(0)} ms, slowest ${clock[19].toFixed(0)} ms, ${clock.filter((ms) => ms <= 1000).length} within a second`);
+  assert.ok(processor[19] < 1000, `${processor[19]} ms`);
+}
+
 test("the report draws, moves, jumps to where points went, and is accessible", { skip: k_skip }, async () => {
   const opened = await open(browser, file, "", 1200, 900);
   const { page } = opened;
@@ -142,6 +150,7 @@ test("the report draws, moves, jumps to where points went, and is accessible", {
   await settled(page);
   assert.equal(await scrubber_s(page), 1);
   assert.ok(different(end, await pixels(page)) > 1000);
+  await within_a_second(page, "one tooth");
   const wanted = await page.evaluate(() => {
     const jump = [...document.querySelectorAll<HTMLElement>(".jump")].find((b) => b.dataset.x !== undefined && Number(b.dataset.t) > 1)!;
     jump.click();
@@ -172,31 +181,10 @@ test("two sessions stand side by side: seen alike, by one clock or at the same s
   const { page } = opened;
   await page.evaluate(() => document.getElementById("tooth-3d")!.scrollIntoView());
   const captions = async (): Promise<string[]> => page.evaluate(() => [...document.querySelectorAll(".side-by-side figcaption")].map((e) => e.textContent!));
-  const seek = async (t_s: number): Promise<number> =>
-    page.evaluate(async (t) => {
-      const from = performance.now();
-      const range = document.querySelector<HTMLInputElement>(".player input[type=range]")!;
-      range.value = String(t);
-      range.dispatchEvent(new Event("input"));
-      await new Promise<void>((done) => requestAnimationFrame(() => requestAnimationFrame(() => done())));
-      return performance.now() - from;
-    }, t_s);
-  // by the processor's time, which other programs do not lengthen: both teeth of a moment that lies anywhere
-  const teeth = [data, beside_data(data, other)].map((d) => { const field = new ToothField(d); return { field, surface: new ToothSurface(field, d) }; });
-  let slowest_ms = 0;
-  for (let i = 0; i < 20; ++i) {
-    const from = process.cpuUsage();
-    for (const { field, surface } of teeth) if (field.set_time(data.duration_s! * ((i * 7) % 20) / 20)) surface.moving();
-    const took = process.cpuUsage(from);
-    slowest_ms = Math.max(slowest_ms, (took.user + took.system) / 1000);
-  }
-  assert.ok(slowest_ms < 1000);
-  const took_ms: number[] = [];
-  for (let i = 0; i < 20; ++i) took_ms.push(await seek(data.duration_s! * ((i * 7) % 20) / 20));
-  took_ms.sort((a, b) => a - b);
-  console.log(`of 20 moments, both teeth: slowest ${slowest_ms.toFixed(0)} ms of the processor; until drawn by it, by the clock, median ${took_ms[10].toFixed(0)} ms`);
+  await within_a_second(page, "both teeth");
 
-  await seek(data.steps_s![0]);
+  await page.evaluate((t) => { location.hash = `#t=${t}`; }, data.steps_s![0]);
+  await settled(page);
   assert.match((await captions())[1], new RegExp(`expert.* at 0:${data.steps_s![0].toFixed(1).padStart(4, "0").replace(".", "\\.")}`), "the same second");
   await page.evaluate(() => {
     const select = [...document.querySelectorAll("select")].find((s) => [...s.options].some((o) => o.value === "step"))!;

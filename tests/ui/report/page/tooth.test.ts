@@ -3,6 +3,7 @@
 import assert from "node:assert/strict";
 import { test } from "node:test";
 import { probe } from "../src/probe.ts";
+import { thinned } from "../src/thinned_surface.ts";
 import { ToothField } from "../src/tooth_field.ts";
 import { heat_at, k_no_distance_mm, target_surface, ToothSurface } from "../src/tooth_surface.ts";
 import type { ReportData } from "../src/data.ts";
@@ -127,6 +128,18 @@ test("the target's outline lies on its walls and floor and has no lid", () => {
     highest = Math.max(highest, p[2]);
   }
   assert.ok(highest > 2.9 && highest < 3.6, `up to ${highest}, where the tooth ends`);
+});
+
+test("with fewer triangles it is closed with the same moving part, and nearly of the same volume", () => {
+  const fewer = { positions: still.positions, triangles: thinned(still, field.size, field.moving_edges()) };
+  assert.ok(fewer.triangles.length < 0.5 * still.triangles.length, `${fewer.triangles.length / 3} of ${still.triangles.length / 3} triangles`);
+  for (const t_s of [0, 0.6 * k_duration_s, k_duration_s]) {
+    field.set_time(t_s);
+    const moving = surface.moving()!;
+    assert.equal(unbalanced_edges(fewer, moving), 0, `at ${t_s} s`);
+    const whole = volume(still, moving);
+    assert.ok(Math.abs(volume(fewer, moving) - whole) < 0.05 * whole, `${volume(fewer, moving)} of ${whole}`);
+  }
 });
 
 test("pulp that the tooth encloses has no surface of its own", () => {

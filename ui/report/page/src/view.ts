@@ -11,7 +11,8 @@ import type { ToothField } from "./tooth_field.ts";
 import { section_material, shared_uniforms, type SharedUniforms, tooth_material } from "./tooth_material.ts";
 import { heat_at, type Surface, target_surface, ToothSurface } from "./tooth_surface.ts";
 import { Surroundings } from "./surroundings.ts";
-import { marker_of, outline_material, spheres, tissue_kind } from "./view_parts.ts";
+import { thinned } from "./thinned_surface.ts";
+import { drawn_by_processor, marker_of, outline_material, spheres, tissue_kind } from "./view_parts.ts";
 
 export interface ViewOptions {
   edges: readonly number[];
@@ -19,6 +20,9 @@ export interface ViewOptions {
 }
 
 const k_back = 0xf4f5f3;
+// Drawn by the processor, a picture that changes has fewer pixels and triangles, and all of them when it has rested for a while.
+const k_changing_share = 0.5;
+const k_rest_ms = 500;
 
 export class ToothView {
   readonly orbit: Orbit;
@@ -29,7 +33,7 @@ export class ToothView {
   private readonly shared: SharedUniforms;
   private readonly surroundings: Surroundings;
   private readonly density: THREE.Data3DTexture;
-  private readonly still: { surface: Surface; geometry: THREE.BufferGeometry };
+  private readonly still: { surface: Surface; geometry: THREE.BufferGeometry; thinned: THREE.BufferGeometry; mesh: THREE.Mesh | null };
   private readonly duration_s: number;
   private deeper_mm = 0;
   private readonly section: THREE.Mesh;
@@ -42,6 +46,9 @@ export class ToothView {
   private section_version = -1;
   private with_instrument = true;
   private pending = false;
+  private readonly by_processor: boolean;
+  private pixel_share = 1;
+  private rest_timer: ReturnType<typeof setTimeout> | undefined;
   private sampled: Sample | null = null;
   private sampled_s = 0;
   readonly centre: THREE.Vector3;
@@ -52,7 +59,8 @@ export class ToothView {
 
   /** Throws when WebGL is not to be had. */
   constructor(private readonly canvas: HTMLCanvasElement, private readonly field: ToothField, data: ReportData, options: ViewOptions) {
-    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: true, preserveDrawingBuffer: true });
+    this.by_processor = drawn_by_processor();
+    this.renderer = new THREE.WebGLRenderer({ canvas, antialias: !this.by_processor, preserveDrawingBuffer: true });
     this.renderer.setClearColor(k_back);
     this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2));
     this.duration_s = data.duration_s ?? 0;
@@ -75,9 +83,12 @@ export class ToothView {
     });
     const surface = this.surface.still();
     const still = geometry_of(surface);
-    this.still = { surface, geometry: still };
+    const fewer = new THREE.BufferGeometry();
+    if (this.by_processor) fewer.copy(still).setIndex(new THREE.BufferAttribute(thinned(surface, field.size, field.moving_edges()), 1));
+    this.still = { surface, geometry: still, thinned: fewer, mesh: null };
     for (const geometry of [still, this.growing.geometry, geometry_of(this.surface.open_pulp())]) {
       const mesh = new THREE.Mesh(geometry, material);
+      this.still.mesh ??= mesh;
       mesh.frustumCulled = false;
       place(mesh, [0, 0, 0]);
       this.scene.add(mesh);
@@ -214,7 +225,8 @@ export class ToothView {
   /** For a class: shows the share that deviated by more than `deeper_mm`. */
   set_heat_depth(deeper_mm: number): void {
     this.deeper_mm = deeper_mm;
-    this.still.geometry.setAttribute("marks", new THREE.BufferAttribute(this.surface.heat_marks(this.still.surface, deeper_mm), 2));
+    const marks = new THREE.BufferAttribute(this.surface.heat_marks(this.still.surface, deeper_mm), 2);
+    for (const geometry of [this.still.geometry, this.still.thinned]) geometry.setAttribute("marks", marks);
     this.redraw();
   }
 
@@ -232,7 +244,9 @@ export class ToothView {
     });
   }
 
-  draw(): void {
+  /** `rests`: nothing has changed for a while. */
+  draw(rests = false): void {
+    if (this.by_processor) this.adapt_pixels(rests);
     this.update_tooth();
     this.update_section();
     this.update_instrument();
@@ -241,6 +255,20 @@ export class ToothView {
     this.marker.quaternion.copy(this.orbit.camera.quaternion);
     this.on_draw?.();
     this.renderer.render(this.scene, this.orbit.camera);
+  }
+
+  private adapt_pixels(rests: boolean): void {
+    const share = rests ? 1 : k_changing_share;
+    if (share !== this.pixel_share) this.renderer.setPixelRatio(Math.min(window.devicePixelRatio, 2) * (this.pixel_share = share));
+    if (this.still.mesh) this.still.mesh.geometry = rests ? this.still.geometry : this.still.thinned;
+    this.canvas.dataset.rests = String(rests);
+    clearTimeout(this.rest_timer);
+    if (rests) return;
+    // from when this picture stands
+    requestAnimationFrame(() => {
+      clearTimeout(this.rest_timer);
+      this.rest_timer = setTimeout(() => requestAnimationFrame(() => this.pending || this.draw(true)), k_rest_ms);
+    });
   }
 
   private update_tooth(): void {

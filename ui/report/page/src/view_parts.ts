@@ -69,3 +69,12 @@ export function marker_of(): THREE.Group {
   group.visible = false;
   return group;
 }
+
+/** No graphics card draws here: the browser does it itself, or a driver that is a program. */
+export function drawn_by_processor(): boolean {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return false;
+  const name = gl.getExtension("WEBGL_debug_renderer_info") ? String(gl.getParameter(0x9246)) : String(gl.getParameter(gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name);
+}
