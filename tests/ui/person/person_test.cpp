@@ -3,6 +3,7 @@
 // aids.
 //   [CAVUM_PERSON=mouse] umockdev-wrapper person_test     each means, or this one, for the cavity's first way
 //   CAVUM_DEEP=1 ...                                      for the whole cavity, at both rates
+//   CAVUM_PERSON_KEEP=FOLDER ...                          sessions, and the tip's places of each picture, stay there
 #include "tests/ui/person/person.h"
 
 #include <gtest/gtest.h>
@@ -89,7 +90,11 @@ class PersonAtTheStation : public ::testing::Test {
   }
 
   Outcome sits(const std::string& name, int pictures_s, Work work) {
-    const std::string run = name + "-" + std::to_string(pictures_s), session = folder_.file(run + ".cavum");
+    const char* keep = std::getenv("CAVUM_PERSON_KEEP");
+    const std::string run = name + "-" + std::to_string(pictures_s), kept = keep == nullptr ? folder_.file("kept") : keep,
+                      session = kept + "/" + run + ".cavum";
+    std::filesystem::create_directories(kept);
+    for (const std::string& old : {session, kept + "/" + run + ".txt"}) std::filesystem::remove(old);
     const auto setup = scenarios::prepare_exam(k_task, {});
     std::unique_ptr<Means> means;
     if (name == "keyboard") means = std::make_unique<KeyboardMeans>(*hand_);
@@ -100,13 +105,13 @@ class PersonAtTheStation : public ::testing::Test {
     }
     write_text_file(folder_.file("script"), "pace " + std::to_string(pictures_s) + "\ntell " + run + "\nsleep 3000\n");
     const std::string command = std::string("exec " CAVUM_BINARY " station ") + k_task + " " + means->options() + " --out " + session +
-                                " --width 800 --height 500 --effects 5 --script " + folder_.file("script") + " --pictures " + folder_.file("told") +
-                                " >" + folder_.file("out") + " 2>" + folder_.file("err");
+                                " --width 800 --height 500 --effects 5 --script " + folder_.file("script") + " --pictures " + kept + " >" +
+                                folder_.file("out") + " 2>" + folder_.file("err");
     std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
     pid_t child = -1;
     EXPECT_EQ(::posix_spawn(&child, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
     Outcome o;
-    Told told(folder_.file("told/" + run + ".txt"));
+    Told told(kept + "/" + run + ".txt");
     const Eye eye = [&told] { return told(); };
     try {
       const auto shelf = points_on_the_shelf();
