@@ -201,6 +201,11 @@ StylusMeans::StylusMeans(testing_station::XHand& hand, const std::string& home, 
   write_text_file(
       home + "/pedal.toml",
       to_toml({.vendor = 0x068e, .product = 0x00f2, .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true}}));
+  // held upright: a grip points along its own y axis, to the tip
+  const double half = std::sqrt(0.5);
+  service_.change([half](auto&, auto& grips) {
+    for (auto& grip : grips) grip.second.orientation = {half, -half, 0, 0};
+  });
   service_.move_to((start_mm + k_inverse3_middle_mm) / 1000.0);
   thread_ = std::thread([this] { hold(); });
 }

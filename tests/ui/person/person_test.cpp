@@ -94,7 +94,7 @@ class PersonAtTheStation : public ::testing::Test {
     const std::string run = name + "-" + std::to_string(pictures_s), kept = keep == nullptr ? folder_.file("kept") : keep,
                       session = kept + "/" + run + ".cavum";
     std::filesystem::create_directories(kept);
-    for (const std::string& old : {session, kept + "/" + run + ".txt"}) std::filesystem::remove(old);
+    for (const std::string& old : {session, session + "-wal", session + "-shm", kept + "/" + run + ".txt"}) std::filesystem::remove(old);
     const auto setup = scenarios::prepare_exam(k_task, {});
     std::unique_ptr<Means> means;
     if (name == "keyboard") means = std::make_unique<KeyboardMeans>(*hand_);
