@@ -20,6 +20,7 @@ trap 'rm -rf "$work"' EXIT
 export CAVUM_HOME=$work/home
 xvfb-run -a "$cavum" station "$here/data/scenarios/class_1.toml" --device mouse --extra-time-s $((60 * minutes)) --width 640 --height 480 \
   --out "$work/s.cavum" --script "$work/script" | tee "$work/said"
+"$cavum" grade "$work/s.cavum" --json | sed -n 's/.*"removed_mm3": *\([0-9.]*\).*/removed: \1 mm3/p' | head -1
 awk '/^minute-/ { if (first == "") first = $2; last = $2; n++ } END { if (n == 0) exit 1; printf "after the first minute: %+.1f MB in %d minutes\n", last - first, n - 1 }' \
   "$work/said"
 echo "load: $(cut -d' ' -f1-3 /proc/loadavg)"
