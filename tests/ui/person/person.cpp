@@ -156,7 +156,7 @@ void Person::want(Vec3 tip_mm) {
 int Person::follow(const Way& way) {
   // the hand aims at the line, a little ahead of the tip, and never further from the tip than it would press
   constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_press_mm = 0.7, k_patience_s = 25.0, k_progress_mm = 0.05,
-                   k_on_line_mm = 0.4, k_most_aside_mm = 0.35, k_above_mm = 0.15, k_beside_mm = 0.25;
+                   k_on_line_mm = 0.4, k_most_aside_mm = 2.0, k_above_mm = 0.15, k_beside_mm = 0.25;
   bool begun = false;
   double done_mm = 0.0, deepest_mm = 1e9, ahead_mm = k_ahead_mm;
   auto progressed = std::chrono::steady_clock::now();
@@ -179,15 +179,16 @@ int Person::follow(const Way& way) {
     // over the line first, then down to it, then along it
     Vec3 aim = off.z > k_above_mm ? there : at(way, at_mm + ahead_mm);
     if (off.z > k_above_mm && std::hypot(off.x, off.y) > k_beside_mm) aim.z = tip.z;
-    // what holds the tip off the line is seen while it is near: as much is added on the other side
-    if (length(off) < k_on_line_mm) {
-      aside_mm_ += off * 0.25;
-      if (const double size = length(aside_mm_); size > k_most_aside_mm) aside_mm_ = aside_mm_ * (k_most_aside_mm / size);
-      aim -= off * 0.5 + aside_mm_;
-    }
     const Vec3 way_there = aim - tip;
     const double far_mm = length(way_there);
-    want(far_mm > k_press_mm ? tip + way_there * (k_press_mm / far_mm) : aim);
+    if (far_mm > k_press_mm) aim = tip + way_there * (k_press_mm / far_mm);
+    // what keeps the tip off the line, be it the tooth or that the hand is elsewhere than it believes: as much is added on the other side
+    if (begun) {
+      aside_mm_ += Vec3{off.x, off.y, off.z > k_above_mm ? 0.0 : off.z} * 0.25;
+      if (const double size = length(aside_mm_); size > k_most_aside_mm) aside_mm_ = aside_mm_ * (k_most_aside_mm / size);
+      aim -= off * (0.5 * std::min(1.0, k_on_line_mm / std::max(length(off), k_near_mm)));
+    }
+    want(aim - aside_mm_);
   }
 }
 
