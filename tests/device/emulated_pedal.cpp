@@ -1,6 +1,7 @@
 #include "tests/device/emulated_pedal.h"
 
 #include <linux/hidraw.h>
+#include <poll.h>
 #include <sys/ioctl.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -105,7 +106,10 @@ void EmulatedPedal::unplug() {
 
 bool EmulatedPedal::report(const std::vector<std::uint8_t>& bytes) {
   const int fd = umockdev_testbed_get_dev_fd(bed_.get(), node().c_str());
-  return fd >= 0 && ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
+  // nobody reads it any more: what they left unread would hold up the foot
+  pollfd room{fd, POLLOUT, 0};
+  if (fd < 0 || ::poll(&room, 1, 0) != 1 || (room.revents & POLLOUT) == 0) return false;
+  return ::write(fd, bytes.data(), bytes.size()) == static_cast<ssize_t>(bytes.size());
 }
 
 void EmulatedPedal::forbid() {

@@ -13,15 +13,16 @@ struct Effects {
   int samples;        ///< a pixel, by the graphics card; 1 = none
   bool smooth_edges;  ///< by a pass over the picture instead
   bool reflections;   ///< of the room in wet enamel and metal; else of the lamp alone
+  int drops;          ///< of spray and chips in the air; 0 = none
   float scale;        ///< of the picture drawn, to what is shown
 };
 inline constexpr std::array<Effects, 6> k_effects{{
-    {2048, 9, 4, false, true, 1.0F},
-    {1024, 9, 1, true, true, 1.0F},
-    {1024, 4, 1, true, true, 1.0F},
-    {512, 4, 1, true, false, 1.0F},
-    {512, 1, 1, false, false, 1.0F},
-    {512, 1, 1, false, false, 0.7F},
+    {2048, 9, 4, false, true, 480, 1.0F},
+    {1024, 9, 1, true, true, 480, 1.0F},
+    {1024, 4, 1, true, true, 320, 1.0F},
+    {512, 4, 1, true, false, 160, 1.0F},
+    {512, 1, 1, false, false, 0, 1.0F},
+    {512, 1, 1, false, false, 0, 0.7F},
 }};
 
 class EffectGovernor {

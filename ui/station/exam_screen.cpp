@@ -78,7 +78,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
   ImGui::Dummy({0, t.px(4)});
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray");
   ImGui::EndChild();
   const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
@@ -227,6 +227,7 @@ void exam_screen(const ScreenContext& c) {
   s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
   s.view.point = view.ticks > 0 ? view.input.point : -1;
   turn_point(s.view, view.output.rpm, c.frame_s);
+  spray_on(s.view.spray, view.output.rpm, view.output.cutting, view.enamel_share, view.dentin_share, c.frame_s);
   if (s.tutorial && view.ticks > 0) s.tutorial->see(tutorial_sight(c, view));
 
   top_bar(c, view, l);

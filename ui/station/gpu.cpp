@@ -181,6 +181,37 @@ void GpuMesh::draw(DrawCount& count) const {
   count.triangles += count_ / 3;
 }
 
+GpuDrops::~GpuDrops() {
+  if (array_ == 0) return;
+  glDeleteVertexArrays(1, &array_);
+  glDeleteBuffers(1, &vertices_);
+}
+
+void GpuDrops::put(std::span<const GpuDrop> drops) {
+  if (array_ == 0) {
+    glGenVertexArrays(1, &array_);
+    glGenBuffers(1, &vertices_);
+  }
+  glBindVertexArray(array_);
+  upload(GL_ARRAY_BUFFER, vertices_, drops);
+  glEnableVertexAttribArray(0);
+  glVertexAttribPointer(0, 4, GL_FLOAT, GL_FALSE, sizeof(GpuDrop), place(offsetof(GpuDrop, at_mm)));  // and size_mm behind it
+  glEnableVertexAttribArray(1);
+  glVertexAttribPointer(1, 4, GL_UNSIGNED_BYTE, GL_TRUE, sizeof(GpuDrop), place(offsetof(GpuDrop, colour)));
+  glBindVertexArray(0);
+  count_ = static_cast<int>(drops.size());
+}
+
+void GpuDrops::draw(DrawCount& count) const {
+  if (count_ == 0) return;
+  glEnable(GL_PROGRAM_POINT_SIZE);
+  glBindVertexArray(array_);
+  glDrawArrays(GL_POINTS, 0, count_);
+  glBindVertexArray(0);
+  glDisable(GL_PROGRAM_POINT_SIZE);
+  ++count.draws;
+}
+
 Table2D::~Table2D() {
   if (texture_ != 0) glDeleteTextures(1, &texture_);
 }

@@ -33,6 +33,13 @@ struct ToothVertex {
   friend bool operator==(const ToothVertex&, const ToothVertex&) = default;
 };
 
+/// Something round and small in the air: place in mm, width in mm, colour and opacity 0..255.
+struct GpuDrop {
+  std::array<float, 3> at_mm{};
+  float size_mm = 0.0F;
+  std::array<std::uint8_t, 4> colour{};
+};
+
 /// What a picture took.
 struct DrawCount {
   int draws = 0, triangles = 0;
@@ -77,6 +84,21 @@ class GpuMesh {
   void bind();
 
   unsigned array_ = 0, vertices_ = 0, indices_ = 0;
+  int count_ = 0;
+};
+
+/// Drops on the graphics card, all in one draw.
+class GpuDrops {
+ public:
+  GpuDrops() = default;
+  ~GpuDrops();
+  GpuDrops(const GpuDrops&) = delete;
+  GpuDrops& operator=(const GpuDrops&) = delete;
+  void put(std::span<const GpuDrop> drops);
+  void draw(DrawCount& count) const;
+
+ private:
+  unsigned array_ = 0, vertices_ = 0;
   int count_ = 0;
 };
 

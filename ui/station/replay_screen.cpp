@@ -135,6 +135,11 @@ void replay_screen(const ScreenContext& c) {
     s.view.point = player.shown().input.point;
     if (s.playing) turn_point(s.view, player.shown().output.rpm, c.frame_s);
   }
+  constexpr double k_pale = 0.5;  // of what it cut is not at hand here
+  if (s.playing)
+    spray_on(s.view.spray, player.shown().output.rpm, player.shown().output.cutting, k_pale, k_pale, c.frame_s);
+  else
+    s.view.spray = {};
 
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const float top = t.px(98), bottom = t.px(118), side = std::min(t.px(250), screen.x * 0.4F), middle = screen.y - top - bottom;
@@ -145,7 +150,7 @@ void replay_screen(const ScreenContext& c) {
   show_gauges(t, setup, now.output, now.runner.depth_mm, {true, true, true});
   quiet_text(t, "Target removed: about " +
                     number_text("%.1f %%", 100.0 * static_cast<double>(now.runner.target_shares) / static_cast<double>(setup.zones.target_shares())));
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head");
+  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray");
   end_area();
   controls(c, {0, screen.y - bottom}, {screen.x, bottom});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});

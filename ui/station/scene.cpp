@@ -22,7 +22,7 @@ constexpr glm::vec3 k_night(0.085F, 0.105F, 0.130F);
 
 bool same(const SceneView& a, const SceneView& b) {
   const auto facts = [](const SceneView& v) {
-    return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.foot, v.clear, v.stereo, v.high_contrast);
+    return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.foot, v.drops, v.spray, v.clear, v.stereo, v.high_contrast);
   };
   return facts(a) == facts(b) && a.tool.tip_mm == b.tool.tip_mm && a.tool.rotation == b.tool.rotation;
 }
@@ -137,6 +137,7 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
       depth_program_(depth_vertex(), depth_fragment()),
       plain_program_(plain_vertex(), plain_fragment()),
       glass_program_(glass_vertex(), plain_fragment()),
+      drop_program_(drop_vertex(), drop_fragment()),
       smooth_program_(WholePicture::vertex_shader, smooth_fragment()),
       governor_(drawn_by_processor() ? EffectGovernor(k_budget_by_processor_ms, k_level_by_processor) : EffectGovernor(k_budget_ms, 0)) {
   for (const DiamondPoint& point : tray) {
@@ -337,6 +338,23 @@ void Scene::draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight)
   glEnable(GL_DEPTH_TEST);
 }
 
+bool Scene::has_drops(const SceneView& view) const {
+  return view.drops && has_tool(view) && (view.spray.water > 0 || view.spray.chips > 0) && k_effects[effects_level()].drops > 0;
+}
+
+void Scene::draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width, float height) {
+  drop_program_.use();
+  drop_program_.set("model", to_glm(view.tool));
+  drop_program_.set("to_picture", sight.to_picture);
+  drop_program_.set("pixels", 0.5F * height * view.camera.projection(width / height)[1][1]);
+  glEnable(GL_BLEND);
+  glBlendFunc(GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA);
+  glDepthMask(GL_FALSE);
+  drops_.draw(count_);
+  glDepthMask(GL_TRUE);
+  glDisable(GL_BLEND);
+}
+
 void Scene::draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float opacity) {
   if (opacity < 0.02F) return;
   if (opacity > 0.98F) return mesh.draw(count_);
@@ -378,6 +396,7 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   } else {
     draw_tooth(view, sight, programs);
   }
+  if (has_drops(view)) draw_drops(view, sight, static_cast<float>(width), static_cast<float>(height));
   if (tool) {
     metal(tool_matrix(view));
     draw_metal(shanks_[static_cast<std::size_t>(view.point)], *programs.metal, shank_opacity(view, eye));
@@ -407,7 +426,8 @@ glm::ivec4 Scene::rectangle_drawn(const SceneView& view, int width, int height) 
   };
   hold(glm::mat4(1.0F), tooth_.box_mm());
   constexpr float k_widest = 1.5F, k_longest = 13.2F;
-  if (tool) hold(to_glm(view.tool), {glm::vec3(-k_widest, -k_widest, -0.2F), glm::vec3(k_widest, k_widest, k_longest)});
+  const float wide = has_drops(view) ? k_spray_reach_mm : k_widest;
+  if (tool) hold(to_glm(view.tool), {glm::vec3(-wide, -wide, -0.2F), glm::vec3(wide, wide, k_longest)});
   if (behind) return whole;
   const glm::vec2 size(width, height), from = glm::clamp(0.5F + 0.5F * low, 0.0F, 1.0F) * size,
                                        to = glm::clamp(0.5F + 0.5F * high, 0.0F, 1.0F) * size;
@@ -446,6 +466,7 @@ unsigned Scene::picture(const SceneView& view, int width, int height) {
     lamp_ = lamp_of(view.camera, effects.shadow_edge);
   else
     cast_shadows(view, effects);
+  if (has_drops(view)) drops_.put(drops_of(view.spray, radii_mm_[static_cast<std::size_t>(view.point)], effects.drops));
   target_picture_.resize(wide, high, effects.samples);
   target_picture_.begin(background_of(view));
   if (view.stereo) {

@@ -15,6 +15,7 @@
 #include "ui/station/effects.h"
 #include "ui/station/gpu.h"
 #include "ui/station/light.h"
+#include "ui/station/spray.h"
 #include "ui/station/tooth_drawing.h"
 
 namespace cavum::station {
@@ -27,6 +28,8 @@ struct SceneView {
   float spin_rad = 0;     ///< how far the running point has turned, as shown
   bool handpiece = true;  ///< shown; it fades where one looks along it
   bool foot = true;       ///< the ring on the tissue below the head, wider the higher the head is
+  bool drops = true;      ///< spray and chips, where effects have any
+  Spray spray;            ///< what flies
   bool clear = false;     ///< practice: look through the tooth
   bool stereo = false;    ///< one picture for each eye, side by side
   bool high_contrast = false;
@@ -77,6 +80,9 @@ class Scene {
   /// The target through hard tissue that is clear as glass.
   void draw_clear_tissue(const SceneView& view, const ToothDrawing::Sight& sight, const Programs& programs);
   void draw_bodies(const SceneView& view, const ToothDrawing::Sight& sight);
+  /// Spray and chips, with the tooth before them.
+  void draw_drops(const SceneView& view, const ToothDrawing::Sight& sight, float width, float height);
+  [[nodiscard]] bool has_drops(const SceneView& view) const;
   void draw_metal(const GpuMesh& mesh, const ShaderProgram& metal, float opacity);
   /// Where something is drawn, pixels: from x, y to x, y.
   [[nodiscard]] glm::ivec4 rectangle_drawn(const SceneView& view, int width, int height) const;
@@ -96,7 +102,8 @@ class Scene {
   std::vector<std::vector<Vec3>> surfaces_, ends_;  // of the whole heads; of their lowest millimetre
   std::vector<double> radii_mm_;                    // of the heads
   GpuMesh handpiece_, target_;
-  ShaderProgram depth_program_, plain_program_, glass_program_, smooth_program_;
+  GpuDrops drops_;
+  ShaderProgram depth_program_, plain_program_, glass_program_, drop_program_, smooth_program_;
   std::map<std::pair<int, bool>, std::unique_ptr<Programs>> programs_;  // by taps and reflections
   EffectGovernor governor_;
   std::optional<std::size_t> fixed_level_;

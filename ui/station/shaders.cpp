@@ -255,6 +255,31 @@ void main() {
 })";
 }
 
+std::string drop_vertex() {
+  return std::string() + R"(
+layout(location = 0) in vec4 at;  // and how wide
+layout(location = 1) in vec4 shade;
+uniform mat4 model, to_picture;
+uniform float pixels;  // that a mm is wide at a distance of 1
+out vec4 colour;
+void main() {
+  gl_Position = to_picture * (model * vec4(at.xyz, 1.0));
+  float wide = pixels * at.w / max(gl_Position.w, 0.1);
+  gl_PointSize = clamp(wide, 1.0, 64.0);
+  colour = vec4(shade.rgb, shade.a * min(1.0, wide * wide));  // what is smaller than a pixel covers less of it
+})";
+}
+
+std::string drop_fragment() {
+  return std::string() + R"(
+in vec4 colour;
+out vec4 pixel;
+void main() {
+  float away = length(2.0 * gl_PointCoord - 1.0);
+  pixel = vec4(colour.rgb * (1.08 - 0.45 * gl_PointCoord.y), colour.a * (1.0 - smoothstep(0.3, 1.0, away)));
+})";
+}
+
 std::string smooth_fragment() {
   return std::string() + R"(
 in vec2 over_all;

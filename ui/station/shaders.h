@@ -19,6 +19,9 @@ namespace cavum::station {
 [[nodiscard]] std::string plain_vertex();
 [[nodiscard]] std::string plain_fragment();
 [[nodiscard]] std::string glass_vertex();
+/// Drops and chips in the air, round and soft.
+[[nodiscard]] std::string drop_vertex();
+[[nodiscard]] std::string drop_fragment();
 /// Edges of a finished picture made smooth: where the brightness jumps, the pixel is mixed with those along the edge.
 [[nodiscard]] std::string smooth_fragment();
 

@@ -32,6 +32,7 @@ void keys(StationState& s, double frame_s, bool arrows_turn) {
   if (key_pressed(GLFW_KEY_T)) s.view.stereo = !s.view.stereo;
   if (key_pressed(GLFW_KEY_H)) s.view.handpiece = !s.view.handpiece;
   if (key_pressed(GLFW_KEY_G)) s.view.foot = !s.view.foot;
+  if (key_pressed(GLFW_KEY_N)) s.view.drops = !s.view.drops;
   camera.eyes_apart_mm = s.view.stereo ? 0.06F * camera.distance_mm : 0.0F;
 }
 

@@ -290,8 +290,13 @@ void Window::capture_mouse(bool captured) {
   if (captured == captured_) return;
   captured_ = captured;
   if (glfwRawMouseMotionSupported() == GLFW_TRUE) glfwSetInputMode(window_, GLFW_RAW_MOUSE_MOTION, captured ? GLFW_TRUE : GLFW_FALSE);
-  mouse_known_ = false;  // where it goes on from is no way that a hand made
   glfwSetInputMode(window_, GLFW_CURSOR, captured ? GLFW_CURSOR_DISABLED : GLFW_CURSOR_NORMAL);
+  // where it goes on from is no way that a hand made; the first way from there is one
+  double x = 0, y = 0;
+  glfwGetCursorPos(window_, &x, &y);
+  mouse_x_ = static_cast<float>(x);
+  mouse_y_ = static_cast<float>(y);
+  mouse_known_ = true;
 }
 
 void Window::come_back() {

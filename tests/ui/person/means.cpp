@@ -21,7 +21,7 @@ constexpr Vec3 k_inverse3_middle_mm{0, -120, 150};  // of its space, where the c
 
 }  // namespace
 
-void Means::await(const Eye& eye, const std::string& screen) const {
+void Means::await(const Eye& eye, const std::string& screen) {
   constexpr double k_patience_s = 600.0;
   const auto began = Clock::now();
   while (eye().screen != screen) {
@@ -29,29 +29,46 @@ void Means::await(const Eye& eye, const std::string& screen) const {
       throw std::runtime_error("the screen '" + screen + "' did not come, '" + eye().screen + "' shows");
     rest_s(0.1);
   }
-  rest_s(0.5);  // a person looks first
+  see(eye, 2);  // a person looks first
+}
+
+void Means::see(const Eye& eye, int pictures) {
+  constexpr double k_at_least_s = 0.3, k_patience_s = 60.0;
+  const auto began = Clock::now();
+  const std::int64_t until = eye().picture + pictures + 1;  // the running one may have begun before
+  rest_s(k_at_least_s);
+  while (eye().picture < until) {
+    if (std::chrono::duration<double>(Clock::now() - began).count() > k_patience_s) throw std::runtime_error("no picture came for a minute");
+    rest_s(0.02);
+  }
+}
+
+void Means::try_pedal(const Eye& eye) {
+  constexpr double k_stands_s = 1.5, k_pressed_s = 0.8;
+  rest_s(k_stands_s);
+  pedal(true);
+  rest_s(k_pressed_s);
+  see(eye, 2);
+  pedal(false);
+  see(eye, 2);
 }
 
 void KeyboardMeans::come_to_exam(const Eye& eye, int point, int /*shelf*/) {
   await(eye, "sign-in");
   for (const char* letter : {"k", "1"}) hand_.tap(letter, 40);
-  rest_s(0.4);
+  see(eye, 2);
   hand_.tap("Return", 60);
   await(eye, "device-check");
-  rest_s(1.5);
-  pedal(true);
-  rest_s(0.8);
-  pedal(false);
-  rest_s(0.8);
+  try_pedal(eye);
   for (int i = 0; i < 20 && eye().screen == "device-check"; ++i) {
     hand_.tap("Return", 60);
-    rest_s(0.6);
+    see(eye, 3);
   }
   await(eye, "briefing");
   hand_.tap("Return", 60);
   await(eye, "exam");
   hand_.tap("F" + std::to_string(point + 1), 60);
-  rest_s(0.5);
+  see(eye, 2);
 }
 
 Vec3 KeyboardMeans::move(Vec3 units) {
@@ -90,49 +107,58 @@ Vec3 KeyboardMeans::move(Vec3 units) {
 }
 
 void KeyboardMeans::hand_in(const Eye& eye) {
-  hand_.tap("Escape", 60);
-  rest_s(0.6);
-  hand_.tap("Return", 60);
+  for (int i = 0; i < 5 && eye().screen == "exam"; ++i) {
+    hand_.tap("Escape", 60);
+    see(eye, 3);
+    hand_.tap("Return", 60);
+    see(eye, 3);
+  }
   await(eye, "result");
   hand_.tap("Return", 60);
 }
 
-void MouseMeans::press_main_button() const {
+void MouseMeans::press_main_button(const Eye& eye) const {
   constexpr unsigned long k_accent = 0x56b4e9;  // of the button that goes on
   hand_.point_at(5, 5);
-  rest_s(0.4);
+  see(eye, 2);
   const auto place = hand_.see(k_accent);
   if (!place) return;
   hand_.point_at(place->first, place->second);
-  rest_s(0.3);
+  see(eye, 2);
   hand_.click(1, 80);
-  rest_s(0.6);
+}
+
+void MouseMeans::leave(const Eye& eye, const std::string& screen) const {
+  for (int i = 0; i < 20 && eye().screen == screen; ++i) {
+    press_main_button(eye);
+    see(eye, 3);
+  }
+}
+
+void MouseMeans::click_at(const Eye& eye, int x, int y) const {
+  hand_.point_at(x, y);
+  see(eye, 2);
+  hand_.click(1, 80);
+  see(eye, 3);
 }
 
 void MouseMeans::come_to_exam(const Eye& eye, int point, int shelf) {
   await(eye, "sign-in");
-  press_main_button();
+  leave(eye, "sign-in");
   await(eye, "device-check");
   hand_.point_at(5, 5);
-  rest_s(1.5);
-  pedal(true);
-  rest_s(0.8);
-  pedal(false);
-  rest_s(1.0);
-  for (int i = 0; i < 20 && eye().screen == "device-check"; ++i) press_main_button();
+  try_pedal(eye);
+  leave(eye, "device-check");
   await(eye, "briefing");
-  press_main_button();
+  leave(eye, "briefing");
   await(eye, "exam");
   hand_.click(2, 60);  // the pointer
-  rest_s(0.4);
+  see(eye, 2);
   // the tray: along the window's lower edge, one field beside the other
   constexpr int k_wide = 800, k_tray_y = 430, k_edge = 14;  // of its 800 x 500 pixels
-  hand_.point_at(k_edge + (2 * point + 1) * (k_wide - 2 * k_edge) / (2 * shelf), k_tray_y);
-  rest_s(0.4);
-  hand_.click(1, 80);
-  rest_s(0.4);
+  click_at(eye, k_edge + (2 * point + 1) * (k_wide - 2 * k_edge) / (2 * shelf), k_tray_y);
   hand_.click(2, 60);  // the stylus again
-  rest_s(0.5);
+  see(eye, 2);
 }
 
 Vec3 MouseMeans::move(Vec3 units) {
@@ -156,24 +182,30 @@ Vec3 MouseMeans::move(Vec3 units) {
 
 void MouseMeans::hand_in(const Eye& eye) {
   hand_.click(2, 60);
-  rest_s(0.5);
+  see(eye, 2);
   constexpr int k_finished_x = 675, k_finished_y = 335;  // the last button of the panel on the right
-  hand_.point_at(k_finished_x, k_finished_y);
-  rest_s(0.4);
-  hand_.click(1, 80);
-  rest_s(0.8);
-  press_main_button();
+  for (int i = 0; i < 5 && eye().screen == "exam"; ++i) {
+    click_at(eye, k_finished_x, k_finished_y);
+    press_main_button(eye);
+    see(eye, 3);
+  }
   await(eye, "result");
-  press_main_button();
+  press_main_button(eye);  // the window closes
 }
 
 StylusMeans::StylusMeans(testing_station::XHand& hand, const std::string& home, Vec3 start_mm) : KeyboardMeans(hand), wanted_mm_(start_mm) {
   StationStylus station = usual_station_stylus(inverse3_kind());
   station.settings["port"] = static_cast<double>(service_.port());
   write_text_file(home + "/stylus-inverse3.toml", to_toml(station));
+  // not one that is unknown after 40 ms of silence: this program may wait longer for a core
   write_text_file(
       home + "/pedal.toml",
-      to_toml({.vendor = 0x068e, .product = 0x00f2, .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false}}));
+      to_toml({.vendor = 0x068e, .product = 0x00f2, .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true}}));
+  // held upright: a grip points along its own y axis, to the tip
+  const double half = std::sqrt(0.5);
+  service_.change([half](auto&, auto& grips) {
+    for (auto& grip : grips) grip.second.orientation = {half, -half, 0, 0};
+  });
   service_.move_to((start_mm + k_inverse3_middle_mm) / 1000.0);
   thread_ = std::thread([this] { hold(); });
 }

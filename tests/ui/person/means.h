@@ -43,7 +43,11 @@ class Means {
   virtual void hand_in(const Eye& eye) = 0;
 
  protected:
-  void await(const Eye& eye, const std::string& screen) const;
+  static void await(const Eye& eye, const std::string& screen);
+  /// Until so many pictures were shown that began after the call.
+  static void see(const Eye& eye, int pictures);
+  /// As the check before an exam asks for.
+  void try_pedal(const Eye& eye);
   testing_station::XHand& hand_;
 };
 
@@ -69,7 +73,10 @@ class MouseMeans final : public Means {
   void hand_in(const Eye& eye) override;
 
  private:
-  void press_main_button() const;
+  void press_main_button(const Eye& eye) const;
+  /// Presses it until another screen shows.
+  void leave(const Eye& eye, const std::string& screen) const;
+  void click_at(const Eye& eye, int x, int y) const;
 };
 
 /// An Inverse3 and a foot pedal, both emulated, in a hand with mass, spring and damping that the station's forces push; units are mm. The keyboard is

@@ -28,16 +28,17 @@ Vec3 at(const Way& way, double mm) {
   return way.back() + normalized(way.back() - way[way.size() - 2]) * std::min(mm, k_beyond_mm);
 }
 
-/// How far along the way its place nearest to `tip` lies, seen from above.
-double nearest_mm(const Way& way, Vec3 tip) {
+/// How far along the way its place nearest to `tip` lies, seen from above; no further than `most_mm`.
+double nearest_mm(const Way& way, Vec3 tip, double most_mm) {
   double best = 1e9, found = 0, before = 0;
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Vec3 piece = way[i] - way[i - 1], to = tip - way[i - 1];
+    if (before > most_mm) break;
     const double size = length(piece), t = std::clamp((piece.x * to.x + piece.y * to.y) / (size * size), 0.0, 1.0);
     const Vec3 off = tip - (way[i - 1] + piece * t);
     if (const double mm = std::hypot(off.x, off.y); mm < best) {
       best = mm;
-      found = before + t * size;
+      found = std::min(most_mm, before + t * size);
     }
     before += size;
   }
@@ -121,6 +122,9 @@ Vec3 Person::at_rest() const {
 void Person::learn() {
   constexpr double k_moved_mm = 0.2;
   constexpr int k_tries = 10;
+  // the first way of a mouse may only tell where it is
+  static_cast<void>(means_.move({0.4, 0.4, 0}));
+  static_cast<void>(means_.move({-0.4, -0.4, 0}));
   for (std::size_t i = 0; i < 3; ++i) {
     Vec3 units;
     (i == 0 ? units.x : i == 1 ? units.y : units.z) = 0.8;
@@ -150,32 +154,41 @@ void Person::want(Vec3 tip_mm) {
 }
 
 int Person::follow(const Way& way) {
-  // the hand aims at the line, a little ahead of the tip; further ahead, and deeper, where the tip is held back
-  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_deeper_mm = 0.6, k_patience_s = 25.0, k_progress_mm = 0.05,
-                   k_most_aside_mm = 0.7;
-  double done_mm = -1.0, ahead_mm = k_ahead_mm;
+  // the hand aims at the line, a little ahead of the tip, and never further from the tip than it would press
+  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_press_mm = 0.7, k_patience_s = 25.0, k_progress_mm = 0.05,
+                   k_on_line_mm = 0.4, k_most_aside_mm = 2.0, k_above_mm = 0.15, k_beside_mm = 0.25;
+  bool begun = false;
+  double done_mm = 0.0, deepest_mm = 1e9, ahead_mm = k_ahead_mm;
   auto progressed = std::chrono::steady_clock::now();
   for (;;) {
     const Vec3 tip = look().tip_mm;
-    const double at_mm = nearest_mm(way, tip), all_mm = length_mm(way);
-    const Vec3 there = at(way, at_mm);
-    if (all_mm - at_mm < k_near_mm && length(tip - there) < 2 * k_near_mm) return 0;
+    const double at_mm = begun ? nearest_mm(way, tip, done_mm + k_most_ahead_mm) : 0.0, all_mm = length_mm(way);
+    const Vec3 there = at(way, at_mm), off = tip - there;
+    begun = begun || length(off) < k_on_line_mm;
+    if (all_mm - at_mm < k_near_mm && length(off) < 2 * k_near_mm) return 0;
     const auto now = std::chrono::steady_clock::now();
-    if (at_mm > done_mm + k_progress_mm) {
-      done_mm = at_mm;
+    if (at_mm > done_mm + k_progress_mm || tip.z < deepest_mm - k_progress_mm) {
+      done_mm = std::max(done_mm, at_mm);
+      deepest_mm = std::min(deepest_mm, tip.z);
       ahead_mm = k_ahead_mm;
       progressed = now;
     } else {
       ahead_mm = std::min(ahead_mm + 0.1, k_most_ahead_mm);
       if (std::chrono::duration<double>(now - progressed).count() > k_patience_s) return 1;
     }
-    Vec3 aim = at(way, at_mm + ahead_mm);
-    const Vec3 off = tip - there;  // how far the tip stands off the line: as much is added on its other side
-    aside_mm_ += off * 0.3;
-    if (const double size = length(aside_mm_); size > k_most_aside_mm) aside_mm_ = aside_mm_ * (k_most_aside_mm / size);
-    aim -= off * 0.5 + aside_mm_;
-    aim.z = std::max(aim.z, tip.z - k_deeper_mm);
-    want(aim);
+    // over the line first, then down to it, then along it
+    Vec3 aim = off.z > k_above_mm ? there : at(way, at_mm + ahead_mm);
+    if (off.z > k_above_mm && std::hypot(off.x, off.y) > k_beside_mm) aim.z = tip.z;
+    const Vec3 way_there = aim - tip;
+    const double far_mm = length(way_there);
+    if (far_mm > k_press_mm) aim = tip + way_there * (k_press_mm / far_mm);
+    // what keeps the tip off the line, be it the tooth or that the hand is elsewhere than it believes: as much is added on the other side
+    if (begun) {
+      aside_mm_ += Vec3{off.x, off.y, off.z > k_above_mm ? 0.0 : off.z} * 0.25;
+      if (const double size = length(aside_mm_); size > k_most_aside_mm) aside_mm_ = aside_mm_ * (k_most_aside_mm / size);
+      aim -= off * (0.5 * std::min(1.0, k_on_line_mm / std::max(length(off), k_near_mm)));
+    }
+    want(aim - aside_mm_);
   }
 }
 

@@ -2,6 +2,7 @@
 // rendered; what is compared is taken from pixels alone. Where the instrument stands in the picture is worked out from its profile and the camera,
 // the height of touching from the octree: nothing asks the renderer.
 //   CAVUM_DEEP=1 station_test --gtest_filter='DepthCues*'      60 poses instead of 12
+//   CAVUM_SPRAY=1 ...                                           through spray and chips
 #include <epoxy/gl.h>
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -218,6 +219,7 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
   for (int n = 0; n < poses; ++n) {
     SceneView view;
     view.handpiece = false;
+    if (std::getenv("CAVUM_SPRAY") != nullptr) view.spray = {0.37 * n, 1.0F, 1.0F, glm::vec3(0.9F)};
     view.camera.target_mm = {0, 0, static_cast<float>(top_mm) - 1.5F};
     Touch touch;
     std::vector<Vec3> surface;

@@ -268,21 +268,26 @@ void run_without_window(const std::string& path, double seconds) {
 
 TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
   constexpr std::size_t k_ticks = 5000, k_enough = 4000;
-  const std::vector<std::pair<std::string, std::string>> ways{{"open", "until 5.2\n"},
-                                                              {"hidden", "until 1\nhide\nuntil 4\nshow\nuntil 5.2\n"},
-                                                              {"stalled", "until 1.5\nstall 2\nuntil 5.2\n"},
-                                                              {"absent", ""}};
+  struct Way {
+    std::string name, script, more;
+  };
+  const std::vector<Way> ways{{"open", "until 5.2\n", ""},
+                              {"hidden", "until 1\nhide\nuntil 4\nshow\nuntil 5.2\n", ""},
+                              {"stalled", "until 1.5\nstall 2\nuntil 5.2\n", ""},
+                              {"with spray", "until 5.2\n", "--effects 2"},
+                              {"spray off", "key n\nuntil 5.2\n", "--effects 2"},
+                              {"absent", "", ""}};
   // a late computer cuts a run short: it is asked again, a few times
   constexpr int k_tries = 4;
   std::vector<Prefix> runs;
-  for (const auto& [name, script] : ways) {
+  for (const auto& [name, script, more] : ways) {
     Prefix longest;
     for (int i = 0; i < k_tries && longest.inputs.size() < k_enough; ++i) {
       std::filesystem::remove(session());
       if (script.empty()) {
         run_without_window(session(), 5.2);
       } else {
-        ASSERT_EQ(run(k_to_exam + script + "key escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"), 0) << said();
+        ASSERT_EQ(run(k_to_exam + script + "key escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n", more), 0) << said();
       }
       EXPECT_TRUE(verify_session(session()).verified) << name;
       if (Prefix p = prefix_of(session(), k_ticks); p.inputs.size() > longest.inputs.size()) longest = std::move(p);
@@ -294,10 +299,10 @@ TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
     const std::size_t n = std::min(runs[0].inputs.size(), runs[i].inputs.size()), seconds = std::min(runs[0].hashes.size(), runs[i].hashes.size());
     EXPECT_GT(n, 200u) << "the computer is too busy to say anything";
     for (std::size_t t = 0; t < n; ++t) {
-      ASSERT_EQ(runs[0].inputs[t], runs[i].inputs[t]) << ways[i].first << ", tick " << t;
-      ASSERT_EQ(runs[0].records[t], runs[i].records[t]) << ways[i].first << ", tick " << t;
+      ASSERT_EQ(runs[0].inputs[t], runs[i].inputs[t]) << ways[i].name << ", tick " << t;
+      ASSERT_EQ(runs[0].records[t], runs[i].records[t]) << ways[i].name << ", tick " << t;
     }
-    for (std::size_t s = 0; s < seconds; ++s) ASSERT_EQ(runs[0].hashes[s], runs[i].hashes[s]) << ways[i].first << ", second " << s;
+    for (std::size_t s = 0; s < seconds; ++s) ASSERT_EQ(runs[0].hashes[s], runs[i].hashes[s]) << ways[i].name << ", second " << s;
   }
 }
 
