@@ -270,6 +270,10 @@ def main():
     parser.add_argument("--quick", action="store_true", help="one preparation only")
     o = parser.parse_args()
     os.makedirs(o.work, exist_ok=True)
+    if o.quick:  # what an earlier program made is of no use
+        for name in os.listdir(o.work):
+            if name.endswith((".stl", ".cvt", ".cavum", ".json")):
+                os.remove(os.path.join(o.work, name))
     cavum = Cavum(os.path.abspath(o.cavum), os.path.dirname(os.path.dirname(os.path.dirname(os.path.abspath(__file__)))))
     print("seed", o.seed)
     failed = marks(cavum, o.work, o.poses, o.seed, o.quick) + others(cavum, o.work, o.others, o.seed, o.quick)

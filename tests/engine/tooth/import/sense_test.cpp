@@ -178,18 +178,6 @@ TEST(Sense, EnamelThatFloatsIsRefusedAndAPearlIsTold) {
   EXPECT_TRUE(says(import_meshes(pearl.write(fresh_folder()), o).sense.warnings, "apart from the crown"));
 }
 
-TEST(Sense, APulpThatLiesOpenInTheCrownIsRefusedUnlessConfirmed) {
-  Surfaces s = molar();
-  double low = 1e9, high = -1e9;
-  for (const auto& v : s.pulp.vertices_mm) low = std::min(low, v.z), high = std::max(high, v.z);
-  for (auto& v : s.pulp.vertices_mm) v.z += 5.5 * std::max(0.0, v.z - 0.5 * (low + high)) / (high - low) * 2;  // its horns reach up through the crown
-  MeshImportOptions o = upright(k_sensed_mm);
-  EXPECT_TRUE(says(refusal(s, o), "the pulp lies open in the crown"));
-  o.sense.confirmed = {"pulp"};
-  const auto paths = s.write(fresh_folder());
-  EXPECT_TRUE(says(import_meshes(paths, o).sense.warnings, "confirmed against what was measured (pulp)"));
-}
-
 /// A crown of enamel 1 mm thick on dentin, and what is not enamel of it.
 template <class Bare>
 TissueGrid crown_without(const Bare& bare) {
@@ -220,6 +208,26 @@ TEST(Sense, DentinThatLiesBareInTheCrownIsMeasured) {
   sense = {};
   tell_bare_dentin({0.2, 0.1, {}}, sense);
   EXPECT_TRUE(sense.warnings.empty());
+}
+
+TEST(Sense, APulpThatLiesOpenInTheCrownIsRefusedUnlessConfirmed) {
+  const auto with_pulp_up_to = [](int top) {
+    TissueGrid grid = crown_without([](Vec3) { return false; });
+    for (int z = 40; z < top; ++z)
+      for (int y = 56; y < 64; ++y)
+        for (int x = 56; x < 64; ++x) grid.tissue[grid.index({x, y, z})] = k_pulp;
+    return open_pulp(grid);
+  };
+  SenseOptions options;
+  ToothSense sense;
+  EXPECT_EQ(with_pulp_up_to(170).mm2, 0.0);
+  EXPECT_NO_THROW(check_closed_pulp(with_pulp_up_to(170), options, "pulp.stl", sense));
+  const OpenPulp open = with_pulp_up_to(180);  // to the crown's top
+  EXPECT_NEAR(open.mm2, 0.64, 1e-9);
+  EXPECT_THROW(check_closed_pulp(open, options, "pulp.stl", sense), Error);
+  options.confirmed = {"pulp"};
+  check_closed_pulp(open, options, "pulp.stl", sense);
+  EXPECT_TRUE(says(sense.warnings, "confirmed against what was measured (pulp)"));
 }
 
 TEST(Sense, APulpMayEndAtTheApexAndNotHangOutOfIt) {
