@@ -57,11 +57,13 @@ Json to_json(const Why& w) {
 std::string to_text(const Why& w) {
   const auto& c = w.criterion;
   const scenarios::Measure measure = scenarios::known_measure(c.metric);
-  const char* full_end = measure.reads == scenarios::Reads::yes_no ? "" : w.full < w.zero ? " or less" : " or more";
-  std::string s = fmt::format("{} ({}): {} of {} points, {} lost\n  {}; full marks at {}{}, none from {} on\n  {}\n", kept(c.id), kept(c.metric),
-                              fixed(c.points, 2), fixed(c.max, 2), fixed(c.max - c.points, 2),
-                              c.value ? value_text(measure, *c.value, c.bound, 3) : std::string("not measured"), value_text(measure, w.full, 0, 3),
-                              full_end, value_text(measure, w.zero, 0, 3), c.reason);
+  const std::string full = value_text(measure, w.full, 0, 3), none = value_text(measure, w.zero, 0, 3);
+  std::string s = fmt::format("{} ({}): {} of {} points, {} lost\n  {}; {}\n  {}\n", kept(c.id), kept(c.metric), fixed(c.points, 2), fixed(c.max, 2),
+                              fixed(c.max - c.points, 2), c.value ? value_text(measure, *c.value, c.bound, 3) : std::string("not measured"),
+                              measure.reads == scenarios::Reads::yes_no ? fmt::format("full marks at {}, none at {}", full, none)
+                              : w.full < w.zero                         ? fmt::format("full marks at {} or less, none from {} on", full, none)
+                                                                        : fmt::format("full marks at {} or more, none from {} down", full, none),
+                              c.reason);
   if (!w.items.empty()) s += "\n";
   for (const auto& i : w.items) {
     std::string time;

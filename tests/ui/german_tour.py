@@ -75,8 +75,8 @@ def commands(source, folder):
     yield ["ledger", "verify", ledger]
     yield ["ledger", "tickets", ledger]
     yield ["ledger", "backup", ledger, "--out", f"{folder}/backup"]
-    yield ["cohort", "simulate", f"{source}/tests/replay/block_cavity.toml", "--ledger", ledger, "--sessions", f"{folder}/class", "--n", "3"]
-    yield ["cohort", "report", ledger, "--exam", "block_cavity", "--out", f"{folder}/class.html"]
+    yield ["cohort", "simulate", slot, "--ledger", ledger, "--sessions", f"{folder}/class", "--n", "3"]
+    yield ["cohort", "report", ledger, "--exam", "slot", "--out", f"{folder}/class.html"]
     yield ["ledger", "decide", ledger]
     # refused
     yield ["grade", f"{folder}/none.cavum"]

@@ -4,13 +4,16 @@
 #include <algorithm>
 #include <array>
 #include <chrono>
+#include <cmath>
 #include <cstdio>
 #include <cstdlib>
 #include <ctime>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "engine/statistics/order.h"
+#include "engine/tooth/octree_edit.h"
 #include "scenarios/exam/exam.h"
 #include "ui/station/gpu.h"
 #include "ui/station/scene.h"
@@ -49,6 +52,41 @@ struct Took {
   DrawCount most;
 };
 
+/// A tooth whose target's box is cut away, and that is cut on at its walls, a twentieth of a cubic millimetre a picture.
+class Opened {
+ public:
+  Opened(const Octree& tooth, const scenarios::ZoneMap& zones)
+      : tooth_(tooth),
+        middle_((zones.target_low_mm() + zones.target_high_mm()) * 0.5),
+        half_((zones.target_high_mm() - zones.target_low_mm()) * 0.5) {
+    tooth_.reserve_edits(200'000);
+    removed_.reserve(1U << 21);
+    cut(middle_, half_ + Vec3{0.5, 0.5, 0.5}, [this](Vec3 mm) {
+      const Vec3 d = mm - middle_;
+      return std::max({std::abs(d.x) - half_.x, std::abs(d.y) - half_.y, std::abs(d.z) - half_.z});
+    });
+  }
+  [[nodiscard]] const Octree& tooth() const noexcept { return tooth_; }
+  void cut_on() {
+    constexpr double k_head_mm = 0.5, k_turn_rad = 0.07, k_outwards_mm = 0.0005, k_down_mm = 0.004;
+    ++steps_;
+    const double turn = k_turn_rad * steps_, wider = k_outwards_mm * steps_;
+    const double down = std::fmod(k_down_mm * steps_, half_.z);
+    const Vec3 at = middle_ + Vec3{(half_.x + wider) * std::cos(turn), (half_.y + wider) * std::sin(turn), -down};
+    cut(at, {k_head_mm + 0.2, k_head_mm + 0.2, k_head_mm + 0.2}, [at](Vec3 mm) { return length(mm - at) - k_head_mm; });
+  }
+
+ private:
+  void cut(Vec3 middle, Vec3 reach, const auto& shape) {
+    removed_.clear();
+    static_cast<void>(tooth_.carve(middle - reach, middle + reach, shape, removed_));
+  }
+  Octree tooth_;
+  Vec3 middle_, half_;
+  std::vector<RemovedLeaf> removed_;
+  int steps_ = 0;
+};
+
 }  // namespace
 
 void print_frame_times(const StationOptions& options, int frames) {
@@ -67,42 +105,63 @@ void print_frame_times(const StationOptions& options, int frames) {
   std::printf("%s, %d x %d: %zu triangles, %zu of them kept for drawing; first mesh %.2f s (processor %.2f s)\n", renderer_name().c_str(),
               options.width, options.height, scene.tooth().triangles(), scene.tooth().triangles_kept(), made_s, made_processor_s);
   std::printf("load of the computer: %s\n", load_text().c_str());
-  std::printf("effects  picture      beside       ms: median  least  95 %%   of the processor  draws  triangles\n");
-  // the view turns, so that the shadow is made anew each time; or it stands still and the point moves. What is compared is drawn by turns: other
-  // programs hold up all of it alike
-  const auto draw = [&](const std::string& level, bool turning) {
-    std::array<Took, k_beside.size()> took;
+  std::printf("effects   picture        beside     ms: median  least   95 %%  of the processor  draws  triangles\n");
+  // What is compared is drawn by turns: other programs hold up all of it alike.
+  const auto draw = [&](const std::string& level, const char* name, bool turning, std::span<const Beside> besides, const auto& cut) {
+    std::vector<Took> took(besides.size());
     for (int i = 0; i < frames; ++i)
-      for (std::size_t b = 0; b < k_beside.size(); ++b) {
-        if (turning)
+      for (std::size_t b = 0; b < besides.size(); ++b) {
+        if (turning)  // so that the shadow is made anew each time
           view.camera.orbit(3.0F, 0.0F);
         else
           view.tool.tip_mm.x = 0.003 * ((3 * i + static_cast<int>(b)) % 160);
-        view.foot = k_beside[b].ring;
-        view.drops = k_beside[b].spray;
+        view.foot = besides[b].ring;
+        view.drops = besides[b].spray;
         view.spray = {0.05 * i, 1.0F, 1.0F, {0.9F, 0.9F, 0.8F}};
+        cut();
         const double before_s = processor_s();
+        const auto took_from = Clock::now();
+        scene.tooth().update();
         static_cast<void>(scene.picture(view, options.width, options.height));
+        took[b].ms.push_back(1e3 * seconds_since(took_from));
         took[b].processor_ms.push_back(1e3 * (processor_s() - before_s));
-        took[b].ms.push_back(scene.last_ms());
         took[b].most.draws = std::max(took[b].most.draws, scene.counted().draws);
         took[b].most.triangles = std::max(took[b].most.triangles, scene.counted().triangles);
       }
-    for (std::size_t b = 0; b < k_beside.size(); ++b) {
+    for (std::size_t b = 0; b < besides.size(); ++b) {
       std::sort(took[b].ms.begin(), took[b].ms.end());
       std::sort(took[b].processor_ms.begin(), took[b].processor_ms.end());
-      std::printf("%-8s %-12s %-12s %10.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), turning ? "view turns" : "point moves", k_beside[b].name,
-                  quantile_of_sorted(took[b].ms, 0.5), took[b].ms.front(), quantile_of_sorted(took[b].ms, 0.95),
-                  quantile_of_sorted(took[b].processor_ms, 0.5), took[b].most.draws, took[b].most.triangles);
+      std::printf("%-9s %-14s %-12s %8.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), name, besides[b].name, quantile_of_sorted(took[b].ms, 0.5),
+                  took[b].ms.front(), quantile_of_sorted(took[b].ms, 0.95), quantile_of_sorted(took[b].processor_ms, 0.5), took[b].most.draws,
+                  took[b].most.triangles);
       std::fflush(stdout);
     }
   };
-  for (std::size_t level = 0; level < k_effects.size(); ++level) {
-    scene.fix_effects(level);
-    for (const bool turning : {true, false}) draw(std::to_string(level), turning);
-  }
-  scene.fix_effects(std::nullopt);
-  for (const bool turning : {true, false}) draw("by itself", turning);
+  const auto at_each_level = [&](const auto& rows) {
+    for (std::size_t level = 0; level < k_effects.size(); ++level) {
+      scene.fix_effects(level);
+      rows(std::to_string(level));
+    }
+    scene.fix_effects(std::nullopt);
+    rows("by itself");
+  };
+  at_each_level([&](const std::string& level) {
+    draw(level, "view turns", true, k_beside, [] {});
+    draw(level, "point moves", false, k_beside, [] {});
+  });
+
+  Opened opened(setup->tooth.octree, setup->zones);
+  scene.tooth().take(opened.tooth());
+  scene.tooth().update();
+  std::printf("the target's box cut away: %zu triangles kept for drawing\n", scene.tooth().triangles_kept());
+  const auto ring_and_spray = std::span(k_beside).last(1);
+  at_each_level([&](const std::string& level) {
+    draw(level, "opened, turns", true, ring_and_spray, [] {});
+    draw(level, "cuts on", false, ring_and_spray, [&] {
+      opened.cut_on();
+      scene.tooth().take(opened.tooth());
+    });
+  });
   std::printf("it settled at effects %zu; load of the computer: %s\n", scene.effects_level(), load_text().c_str());
 }
 

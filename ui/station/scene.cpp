@@ -240,10 +240,12 @@ void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   glPolygonOffset(1.5F, 2.0F);
   depth_program_.use();
   depth_program_.set("to_lamp", lamp_.to_lamp);
-  // of the tooth only when it or the lamp moved
+  // of the tooth only when it or the lamp moved; while it is cut in picture after picture, only in each fourth
+  constexpr int k_cuts_a_shadow = 4;
   const ShadowOf now{tooth_.version(), view.camera.turn_deg, view.camera.target_mm};
-  const bool fresh = resting_shadow_.resize(effects.shadow_edge);
-  if (fresh || !(now == resting_)) {
+  cuts_in_a_row_ = now.version == shown_version_ ? 0 : cuts_in_a_row_ + 1;
+  const bool fresh = resting_shadow_.resize(effects.shadow_edge), cut_on = cuts_in_a_row_ > 0 && cuts_in_a_row_ % k_cuts_a_shadow != 1;
+  if (fresh || !now.same_lamp(resting_) || (now.version != resting_.version && !cut_on)) {
     resting_ = now;
     resting_shadow_.begin();
     depth_program_.set("model", glm::mat4(1.0F));
@@ -453,8 +455,8 @@ unsigned Scene::picture(const SceneView& view, int width, int height) {
   height = std::max(height, 16);
   const std::size_t level = effects_level();
   const Effects& effects = k_effects[level];
-  const bool current =
-      drawn_ > 0 && same(view, shown_) && shown_version_ == tooth_.version() && shown_size_ == glm::ivec2(width, height) && shown_level_ == level;
+  const bool current = drawn_ > 0 && same(view, shown_) && shown_version_ == tooth_.version() && shown_size_ == glm::ivec2(width, height) &&
+                       shown_level_ == level && (view.clear || resting_.version == shown_version_);
   if (current) return shown_texture_;
   const auto began = std::chrono::steady_clock::now();
   count_ = {};

@@ -68,7 +68,7 @@ class Scene {
     std::uint64_t version = 0;
     float turn_deg = 0;
     glm::vec3 target_mm{0};
-    friend bool operator==(const ShadowOf&, const ShadowOf&) = default;
+    [[nodiscard]] bool same_lamp(const ShadowOf& other) const { return turn_deg == other.turn_deg && target_mm == other.target_mm; }
   };
   /// How much the head touches, 0..1.
   [[nodiscard]] float touch(const SceneView& view) const;
@@ -111,6 +111,7 @@ class Scene {
   Lamp lamp_;
   DepthMap resting_shadow_, shadow_, no_shadow_;  // of the tooth alone; with the instrument; of nothing
   ShadowOf resting_;
+  int cuts_in_a_row_ = 0;  // pictures for each of which the tooth was another
   RenderTarget target_picture_, smoothed_;
   WholePicture whole_picture_;
   SceneView shown_;

@@ -26,36 +26,36 @@ struct Joined {
 /// A vertex as seen from its patch.
 struct Seen {
   std::array<std::int64_t, 3> at{};  // of the tooth, in steps
-  std::array<int, 3> side{};         // -1, 1 on the patch's border, else 0
+  int cell_leaves = 0;               // the smallest of the patches that share it
   std::array<int, 3> cell{};
 };
 
-Seen seen(const PatchVertex& v, const PatchPlace& place, int cell_leaves) {
+constexpr int k_along = SurfacePatches::k_edge / 2 + 2;  // the most cells of vertices that are joined, and the two borders
+
+Seen seen(const PatchVertex& v, const PatchPlace& place) {
   // a vertex beside the border is a hundredth of a leaf away from it at least
   constexpr std::int64_t k_on_border = k_in_leaf / 512;
   constexpr std::int64_t k_patch = SurfacePatches::k_edge * k_in_leaf;
   const std::array<double, 3> origin{place.origin_mm.x, place.origin_mm.y, place.origin_mm.z};
   const std::array<int, 3> number{place.number.x, place.number.y, place.number.z};
-  const int cells = SurfacePatches::k_edge / cell_leaves;
   Seen s;
+  std::array<std::int64_t, 3> in_patch{};
+  std::array<int, 3> side{};  // -1, 1 on the patch's border
   for (std::size_t i = 0; i < 3; ++i) {
     s.at[i] = std::llround((static_cast<double>(v.position_mm[i]) - origin[i]) / place.leaf_mm * static_cast<double>(k_in_leaf));
-    const std::int64_t in_patch = s.at[i] - (number[i] * k_patch - k_in_leaf / 2);  // its first point is the middle of a leaf
-    s.side[i] = in_patch < k_on_border ? -1 : in_patch > k_patch - k_on_border ? 1 : 0;
-    const auto inner = std::clamp<std::int64_t>(in_patch / (cell_leaves * k_in_leaf), 0, cells - 1);
-    s.cell[i] = s.side[i] == 0 ? static_cast<int>(inner) : s.side[i] < 0 ? cells : cells + 1;
+    in_patch[i] = s.at[i] - (number[i] * k_patch - k_in_leaf / 2);  // its first point is the middle of a leaf
+    side[i] = in_patch[i] < k_on_border ? -1 : in_patch[i] > k_patch - k_on_border ? 1 : 0;
   }
+  s.cell_leaves = SurfacePatches::k_edge;
+  for (int z = 0; z <= std::abs(side[2]); ++z)
+    for (int y = 0; y <= std::abs(side[1]); ++y)
+      for (int x = 0; x <= std::abs(side[0]); ++x)
+        if (const int c = place.cells[PatchPlace::beside(x * side[0], y * side[1], z * side[2])]; c > 0) s.cell_leaves = std::min(s.cell_leaves, c);
+  const int cells = SurfacePatches::k_edge / s.cell_leaves;
+  for (std::size_t i = 0; i < 3; ++i)
+    s.cell[i] = side[i] == 0 ? static_cast<int>(std::clamp<std::int64_t>(in_patch[i] / (s.cell_leaves * k_in_leaf), 0, cells - 1))
+                             : k_along - (side[i] < 0 ? 2 : 1);
   return s;
-}
-
-/// Some patch that shares the vertex stays as it is.
-bool at_whole_patch(const Seen& s, std::uint32_t whole) {
-  if (whole == 0) return false;
-  for (int z = 0; z <= std::abs(s.side[2]); ++z)
-    for (int y = 0; y <= std::abs(s.side[1]); ++y)
-      for (int x = 0; x <= std::abs(s.side[0]); ++x)
-        if ((whole & PatchPlace::beside(x * s.side[0], y * s.side[1], z * s.side[2])) != 0) return true;
-  return false;
 }
 
 /// Which way it faces, 0..5: the two walls of a fissure stay apart.
@@ -84,23 +84,23 @@ PatchVertex vertex_of(const Joined& j, const PatchPlace& place) {
 
 }  // namespace
 
-SurfacePatch thinned(const SurfacePatch& patch, const PatchPlace& place, int cell_leaves) {
-  if (cell_leaves < 1 || SurfacePatches::k_edge % cell_leaves != 0)
-    throw Error("thinned patch", fmt::format("cells of {} leaves do not fit a patch", cell_leaves), "take 1, 2, 4, 8 or 16");
-  const int along = SurfacePatches::k_edge / cell_leaves + 2;
-  std::vector<std::uint16_t> of_cell(static_cast<std::size_t>(6 * along * along * along), k_new_cell), of_vertex;
+SurfacePatch thinned(const SurfacePatch& patch, const PatchPlace& place) {
+  for (std::size_t i = 0; i < place.cells.size(); ++i)
+    if (const int c = place.cells[i]; c < 0 || (c == 0 && i == PatchPlace::beside(0, 0, 0)) || (c > 0 && SurfacePatches::k_edge % c != 0))
+      throw Error("thinned patch", fmt::format("cells of {} leaves do not fit a patch", c), "take 1, 2, 4, 8 or 16");
+  std::vector<std::uint16_t> of_cell(static_cast<std::size_t>(6 * k_along * k_along * k_along), k_new_cell), of_vertex;
   std::vector<Joined> joined;
   of_vertex.reserve(patch.vertices.size());
   for (const PatchVertex& v : patch.vertices) {
-    const Seen s = seen(v, place, cell_leaves);
-    if (at_whole_patch(s, place.whole)) {
+    const Seen s = seen(v, place);
+    if (s.cell_leaves == 1) {
       of_vertex.push_back(static_cast<std::uint16_t>(joined.size()));
       joined.emplace_back();
       joined.back().whole = true;
       joined.back().kept = v;
       continue;
     }
-    auto& number = of_cell[static_cast<std::size_t>(facing(v) + 6 * (s.cell[0] + along * (s.cell[1] + along * s.cell[2])))];
+    auto& number = of_cell[static_cast<std::size_t>(facing(v) + 6 * (s.cell[0] + k_along * (s.cell[1] + k_along * s.cell[2])))];
     if (number == k_new_cell) {
       number = static_cast<std::uint16_t>(joined.size());
       joined.emplace_back();

@@ -10,8 +10,12 @@ namespace cavum::station {
 namespace {
 
 constexpr int k_block = 5;  // patches along a block's edge
-/// Edge of a cell that becomes one vertex: a renderer on the processor draws a tenth of the triangles, a graphics card a third.
-constexpr int k_cell_leaves_by_processor = 4, k_cell_leaves = 2;
+/// Edge of a cell that becomes one vertex where nobody worked, and where somebody did: a renderer on the processor draws a tenth and a third of the
+/// triangles, a graphics card a third and all.
+struct Cells {
+  int untouched, cut;  // leaves
+};
+constexpr Cells k_cells_by_processor{4, 2}, k_cells{2, 1};
 
 glm::vec3 place_mm(const ToothVertex& v) { return {v.at_mm[0], v.at_mm[1], v.at_mm[2]}; }
 
@@ -76,16 +80,12 @@ void ToothDrawing::remake(Drawn& drawn, std::uint32_t number) {
     patch.triangles.clear();
     return;
   }
-  if (patch.whole) {
-    patch.triangles = surface.triangles;
-    patch.vertices = shading_.shaded(leaves_, surface, at, drawn.own);
-    return;
-  }
-  PatchPlace place{at, leaves_.leaf_mm(), leaves_.origin_mm(), 0};
+  const Cells cells = by_processor_ ? k_cells_by_processor : k_cells;
+  PatchPlace place{at, leaves_.leaf_mm(), leaves_.origin_mm(), {}};
   for_each_around(at, 1, [&](IVec3 p) {
-    if (drawn.patches[number_of(p)].whole) place.whole |= PatchPlace::beside(p.x - at.x, p.y - at.y, p.z - at.z);
+    place.cells[PatchPlace::beside(p.x - at.x, p.y - at.y, p.z - at.z)] = drawn.patches[number_of(p)].cut ? cells.cut : cells.untouched;
   });
-  SurfacePatch thin = thinned(surface, place, by_processor_ ? k_cell_leaves_by_processor : k_cell_leaves);
+  SurfacePatch thin = thinned(surface, place);
   patch.vertices = shading_.shaded(leaves_, thin, at, drawn.own);
   patch.triangles = std::move(thin.triangles);
 }
@@ -141,14 +141,11 @@ ToothDrawing::Extent ToothDrawing::extent_of(std::span<const ToothVertex> vertic
 void ToothDrawing::mark(Drawn& drawn, std::span<const std::uint32_t> touched) {
   const int light = static_cast<int>(std::ceil(ToothShading::k_reach_mm / (SurfacePatches::k_edge * leaves_.leaf_mm())));
   for (const std::uint32_t number : touched) {
-    drawn.patches[number].old = true;
+    Patch& patch = drawn.patches[number];
     const IVec3 at = place_of(number);
-    for_each_around(at, 1, [&](IVec3 p) {
-      Patch& patch = drawn.patches[number_of(p)];
-      if (patch.whole) return;
-      patch.whole = true;
-      for_each_around(p, 1, [&](IVec3 q) { drawn.patches[number_of(q)].old = true; });  // the border stays as it is from here on
-    });
+    patch.old = true;
+    if (!patch.cut) for_each_around(at, 1, [&](IVec3 p) { drawn.patches[number_of(p)].old = true; });  // their borders become finer
+    patch.cut = true;
     for_each_around(at, light, [&](IVec3 p) {
       if (!drawn.patches[number_of(p)].vertices.empty()) drawn.dim.push_back(number_of(p));
     });

@@ -1,6 +1,5 @@
 // The tooth on the graphics card, kept up with what was cut. Taking what changed is short and needs the tooth to stand still; making meshes of it and
-// sending them on comes afterwards. Blocks of 5x5x5 patches are one mesh each. Patches that were cut, and those around them, are drawn as the leaves
-// have them, the others thinned.
+// sending them on comes afterwards. Blocks of 5x5x5 patches are one mesh each. Patches that were cut are finer than the others.
 #pragma once
 
 #include <vector>
@@ -55,9 +54,9 @@ class ToothDrawing {
     float radius_mm = 0.0F, sine = 1.0F;  // of the cone's half angle; 1 = faces every way
   };
   struct Patch {
-    bool whole = false;  // not thinned
-    bool old = true;     // to be made anew
-    bool open = false;   // air beside it
+    bool cut = false;   // finer than what nobody worked on
+    bool old = true;    // to be made anew
+    bool open = false;  // air beside it
     std::vector<ToothVertex> vertices;
     std::vector<std::array<std::uint16_t, 3>> triangles;
   };
@@ -77,7 +76,7 @@ class ToothDrawing {
   [[nodiscard]] static Extent extent_of(std::span<const ToothVertex> vertices, std::span<const std::uint32_t> indices);
   void draw(const Drawn& drawn, const Sight& sight, DrawCount& count, bool open_alone = false, const Ball* ball = nullptr) const;
   std::size_t update(Drawn& drawn);
-  /// Patches touched, those around them whole, and in reach of light.
+  /// Patches touched become finer; and what is in reach of their light.
   void mark(Drawn& drawn, std::span<const std::uint32_t> touched);
   void remake(Drawn& drawn, std::uint32_t number);
   void send(Drawn& drawn, std::size_t block);

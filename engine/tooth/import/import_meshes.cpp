@@ -11,7 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/import/fill_mesh.h"
-#include "engine/tooth/import/layer_order.h"
+#include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/make/periodontium.h"
 #include "engine/tooth/mesh/read_mesh.h"
 
@@ -123,7 +123,7 @@ std::uint64_t close_gaps(TissueGrid& grid, const Layers& f) {
   return closed;
 }
 
-/// Whether the three files are what they are said to be, by the rule of layer_order.h.
+/// Whether the three files are what they are said to be, by the rule of layers_fit.h.
 void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   const auto touched = pulp_faces(grid.size, grid.tissue);
   const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];

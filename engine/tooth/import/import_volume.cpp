@@ -11,7 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
-#include "engine/tooth/import/layer_order.h"
+#include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/import/read_volume.h"
 #include "engine/tooth/import/segment.h"
 #include "engine/tooth/make/periodontium.h"

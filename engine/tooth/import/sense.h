@@ -12,7 +12,7 @@
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/import/frame.h"
-#include "engine/tooth/import/layer_order.h"
+#include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "engine/tooth/tooth.h"
 
@@ -53,10 +53,10 @@ inline constexpr double k_least_crown_width_mm = 4.5, k_most_crown_width_mm = 14
 /// `of_volume`: its voxels have a spacing instead of a unit.
 void check_crown_size(Vec3 enamel_extent_mm, const SenseOptions& options, const std::string& where, bool of_volume, ToothSense& sense);
 
-/// Throws Error(`where`, ...) when the pulp lies open in the crown (layer_order.h).
+/// Throws Error(`where`, ...) when the pulp lies open in the crown (layers_fit.h).
 void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const std::string& where, ToothSense& sense);
 
-/// A warning where dentin lies bare in the crown (layer_order.h): human teeth wear, but a hole or a crack looks the same.
+/// A warning where dentin lies bare in the crown (layers_fit.h): human teeth wear, but a hole or a crack looks the same.
 void tell_bare_dentin(const BareDentin& bare, ToothSense& sense);
 
 /// A warning where enamel lies on dentin apart from the crown's.

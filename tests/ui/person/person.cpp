@@ -181,6 +181,8 @@ int Person::follow(const Way& way) {
     if (off.z > k_above_mm && std::hypot(off.x, off.y) > k_beside_mm) aim.z = tip.z;
     const Vec3 way_there = aim - tip;
     const double far_mm = length(way_there);
+    // what it adds on the other side holds no way up: what of it points back along the way there was of another piece of line
+    if (far_mm > 0) aside_mm_ -= way_there * (0.25 * std::max(0.0, dot(aside_mm_, way_there)) / (far_mm * far_mm));
     if (far_mm > k_press_mm) aim = tip + way_there * (k_press_mm / far_mm);
     // what keeps the tip off the line, be it the tooth or that the hand is elsewhere than it believes: as much is added on the other side
     if (begun) {

@@ -54,8 +54,8 @@ struct CutBall {
   double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
 };
 
-TEST(ThinnedPatches, AreClosedTogetherWhicheverStayWhole) {
-  Random random(testing_basics::drawn_seed("ThinnedPatches.AreClosedTogetherWhicheverStayWhole"));
+TEST(ThinnedPatches, AreClosedTogetherWhateverTheirCells) {
+  Random random(testing_basics::drawn_seed("ThinnedPatches.AreClosedTogetherWhateverTheirCells"));
   MolarShape shape;
   shape.leaf_mm = 0.15;
   Tooth tooth = make_molar(shape);
@@ -69,21 +69,21 @@ TEST(ThinnedPatches, AreClosedTogetherWhicheverStayWhole) {
   for (const std::uint8_t own : {SurfacePatches::k_hard_tissue, static_cast<std::uint8_t>(k_pulp)}) {
     const SurfacePatches surface(leaves, own);
     const IVec3 size = surface.size();
-    for (const int cell : {2, 4}) {
-      std::vector<bool> whole(surface.count());
-      for (std::size_t i = 0; i < whole.size(); ++i) whole[i] = random.below(4) == 0;
+    for (const std::vector<int>& drawn : {std::vector<int>{1, 2, 2, 2}, {1, 4, 4, 4}, {1, 2, 4, 4}, {1, 2, 4, 8}}) {
+      std::vector<int> cells(surface.count());
+      for (int& c : cells) c = drawn[random.below(drawn.size())];
       Pile thin, all;
       for (std::size_t i = 0; i < surface.count(); ++i) {
         const auto n = static_cast<int>(i);
-        PatchPlace place{{n % size.x, n / size.x % size.y, n / size.x / size.y}, leaves.leaf_mm(), leaves.origin_mm(), 0};
+        PatchPlace place{{n % size.x, n / size.x % size.y, n / size.x / size.y}, leaves.leaf_mm(), leaves.origin_mm(), {}};
         for (int dz = -1; dz <= 1; ++dz)
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
               const IVec3 p = place.number + IVec3{dx, dy, dz};
               const bool there = p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < size.x && p.y < size.y && p.z < size.z;
-              if (there && whole[static_cast<std::size_t>((p.z * size.y + p.y) * size.x + p.x)]) place.whole |= PatchPlace::beside(dx, dy, dz);
+              if (there) place.cells[PatchPlace::beside(dx, dy, dz)] = cells[static_cast<std::size_t>((p.z * size.y + p.y) * size.x + p.x)];
             }
-        const SurfacePatch made = whole[i] ? surface.patch(i) : thinned(surface.patch(i), place, cell);
+        const SurfacePatch made = thinned(surface.patch(i), place);
         for (const auto& t : made.triangles)
           thin.add({made.vertices[t[0]].position_mm, made.vertices[t[1]].position_mm, made.vertices[t[2]].position_mm});
         const SurfacePatch& before = surface.patch(i);
@@ -91,14 +91,20 @@ TEST(ThinnedPatches, AreClosedTogetherWhicheverStayWhole) {
           all.add({before.vertices[t[0]].position_mm, before.vertices[t[1]].position_mm, before.vertices[t[2]].position_mm});
       }
       ASSERT_TRUE(all.closed());
-      EXPECT_TRUE(thin.closed()) << "tissue " << int{own} << ", cells of " << cell;
+      const int coarsest = drawn.back();
+      EXPECT_TRUE(thin.closed()) << "tissue " << int{own} << ", cells of up to " << coarsest;
       EXPECT_LT(thin.triangles(), all.triangles() * 3 / 4);
-      EXPECT_NEAR(thin.volume(), all.volume(), 0.02 * cell * all.volume());  // chords lie inside what bulges
+      EXPECT_NEAR(thin.volume(), all.volume(), 0.02 * coarsest * all.volume());  // chords lie inside what bulges
     }
   }
 }
 
-TEST(ThinnedPatches, RefuseCellsThatDoNotFit) { EXPECT_THROW(static_cast<void>(thinned({}, {}, 3)), Error); }
+TEST(ThinnedPatches, RefuseCellsThatDoNotFit) {
+  PatchPlace place;
+  EXPECT_THROW(static_cast<void>(thinned({}, place)), Error);  // none of its own
+  place.cells.fill(3);
+  EXPECT_THROW(static_cast<void>(thinned({}, place)), Error);
+}
 
 TEST(ToothShading, LittleLightReachesTheFloorOfADeepHole) {
   Tooth tooth = make_block({6, 6, 5}, {{"enamel", 1.5}, {"dentin", 3.5}}, 0.05);

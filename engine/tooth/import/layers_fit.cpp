@@ -1,4 +1,4 @@
-#include "engine/tooth/import/layer_order.h"
+#include "engine/tooth/import/layers_fit.h"
 
 #include <fmt/core.h>
 

@@ -1,5 +1,5 @@
-// The pulp lies in dentin and touches hardly anything else, in every tooth: what it touches tells whether enamel,
-// dentin and pulp are what the user says they are. Meshes and label maps are judged by the same rule.
+// Are enamel, dentin and pulp what the user says they are, and of one tooth? Told from a lattice of leaves, so that meshes and label maps are judged by
+// the same rules: what the pulp touches and where it ends, voids between enamel and dentin, pieces that hang on nothing, dentin that lies bare.
 #pragma once
 
 #include <array>
