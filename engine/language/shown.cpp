@@ -113,7 +113,7 @@ bool whole(std::string_view text, int depth, std::string& out, std::size_t least
     if (s.pattern.all_letters() < least_letters) break;  // the longest stand first
     if (!std::string_view(s.message).starts_with(begin)) continue;
     auto gaps = s.pattern.match(text);
-    if (!gaps) continue;
+    if (!gaps || (!begin.empty() && s.before && !gaps->front().empty())) continue;  // it begins the text, too
     const auto t = c.find(s.message);
     if (!t) continue;
     bool all_known = true;
@@ -202,7 +202,7 @@ std::string sentence(std::string_view text, int depth, bool& known) {
   if (depth > k_deepest || text.empty() || text.starts_with(k_open)) return std::string(text);
   if (text.front() == ' ' || text.back() == ' ') {
     std::string part;  // ", at " and the like
-    if (has_letters(text) && whole(text, depth, part)) {
+    if (has_letters(text) && whole(text, depth, part, 0, text.front() == ' ' ? " " : "")) {
       known = true;
       return part;
     }

@@ -307,6 +307,7 @@ std::vector<std::uint8_t> marks_of(const std::vector<Piece>& removed, const Leaf
 ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm, const std::string& where,
                     ThinApart thin) {
   constexpr double k_thick_mm = 0.1, k_small_mm3 = 0.02, k_from_above = -0.5, k_below_mm = 0.3, k_thin_mm = 0.3;
+  constexpr double k_broad_mm3 = 0.05, k_broad_noises = 2.0;  // noise is thin, or small, but not this
   const Octree& before = tooth.tooth().octree;
   const LeafLattice lattice(before);
   std::vector<float> mm = distances_of(scan, lattice);
@@ -323,7 +324,8 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   std::vector<Piece> removed;
   for (Piece& piece : pieces.all()) {
     const double mm3 = static_cast<double>(piece.leaves.size()) * before.leaf_volume_mm3();
-    if (piece.thickest_mm < k_thick_mm || mm3 < k_small_mm3) {
+    const bool broad = mm3 >= k_broad_mm3 && piece.thickest_mm >= k_broad_noises * noise_mm;
+    if ((piece.thickest_mm < k_thick_mm && !broad) || mm3 < k_small_mm3) {
       cut.left_as_noise_mm3 += mm3;
       ++cut.left_as_noise;
     } else if (piece.bounding == 0 || static_cast<double>(piece.up) < k_from_above * static_cast<double>(piece.bounding)) {

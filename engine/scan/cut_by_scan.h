@@ -28,8 +28,8 @@ struct ScanCut {
 enum class ThinApart { stays, goes };
 
 /// Removed is a leaf of the tooth outside the scan, where the scan lies more than `noise_mm` deeper than the tooth's surface did, in a piece that is
-/// somewhere thicker than 0.1 mm and larger than 0.02 mm³. A piece that the scan bounds from above, as a base or a cut through the neck does the
-/// root, is not seen and stays. So does a thin piece apart from the largest one: `apart`
+/// somewhere thicker than 0.1 mm and larger than 0.02 mm³, or thicker than twice `noise_mm` and larger than 0.05 mm³. A piece that the scan bounds
+/// from above, as a base or a cut through the neck does the root, is not seen and stays. So does a thin piece apart from the largest one: `apart`
 /// names it. `scan`: in the tooth's frame, its faces outwards; `caps`: what closes its rims. Throws Error(`where`, ...) where the
 /// cavity runs below the end of the scan, and where no inside is left.
 [[nodiscard]] ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const OuterSurface& tooth, double noise_mm,

@@ -122,7 +122,10 @@ Evened evened(const TriangleMesh& scan, const std::vector<SurfacePoint>& points,
 /// How far the surface may lie from the true one, by what scatters where nothing was cut.
 void put_bounds(const Evened& even, const OuterSurface& tooth, ScanFacts& facts) {
   constexpr double k_sigmas = 4.0, k_least_mm = 0.03, k_most_mm = 0.1, k_least_mean_mm = 0.003;
-  facts.smoothed_noise_mm = even.points.empty() ? facts.fit.noise_mm : fit_of(even.points, {}, tooth).noise_mm;
+  // averaging makes no noise: more than the scan's own is something that was cut there
+  constexpr double k_finest_mm = k_least_mm / k_sigmas;
+  facts.smoothed_noise_mm =
+      even.points.empty() ? facts.fit.noise_mm : std::min(fit_of(even.points, {}, tooth).noise_mm, std::max(k_finest_mm, facts.fit.noise_mm));
   facts.surface_bound_mm = std::clamp(k_sigmas * facts.smoothed_noise_mm, k_least_mm, k_most_mm);
   facts.surface_mean_bound_mm = std::max(k_least_mean_mm, facts.smoothed_noise_mm);
 }
@@ -211,6 +214,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
     mark(all, rubric);
     facts.were_they_counted = fmt::format("Were it counted, the verdict would be {}, with {} of {} points", verdict_name(all.verdict),
                                           fixed(all.points, 1), fixed(all.max_points, 1));
+    for (std::size_t i = 0; i < all.verdict_reasons.size(); ++i) facts.were_they_counted += (i == 0 ? ": " : "; ") + all.verdict_reasons[i];
   }
   GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);

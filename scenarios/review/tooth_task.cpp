@@ -15,6 +15,7 @@
 #include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/over_pulp.h"
+#include "scenarios/review/ridge_margins.h"
 #include "scenarios/review/tooth_task_parts.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_map.h"
@@ -83,7 +84,8 @@ double enamel_under_fissure_mm(const Tooth& tooth, const Landmarks& l) {
   return std::max(0.0, surface - border);
 }
 
-std::string isthmus_mm(const Landmarks& l) { return fixed(std::clamp(k_isthmus_share * across_mm(l), k_narrowest_mm, k_widest_mm), 1); }
+/// To a tenth, as the task says it.
+double isthmus_mm(const Landmarks& l) { return 0.1 * std::round(10.0 * std::clamp(k_isthmus_share * across_mm(l), k_narrowest_mm, k_widest_mm)); }
 
 /// Floors of an occlusal cavity, deepest first: from the surface where that ends in dentin, else from the border of enamel and dentin.
 struct Floor {
@@ -98,44 +100,24 @@ std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
   for (const double depth : {0.5, 0.3, 0.2})
     list.push_back({fmt::format("{{ kind = \"below_border\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm into dentin"});
   for (const double depth : {1.2, 1.0})  // a worn crown, its pulp near: in enamel then
-    list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm below the fissure"});
+    list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)),
+                    fixed(depth, 1) + (depth < enamel_mm + k_in_dentin_mm ? " mm below the fissure, in part in enamel" : " mm below the fissure")});
   return list;
 }
 
-std::string no_fissure(const Tooth&, const Landmarks& l) { return l.central_fissure_mm.size() < 2 ? "no central fissure is found on it" : ""; }
-
-/// How much of the marginal ridges an outline along the fissure leaves, mm from their crests, best first: only what takes in the pits at the ends
-/// that it leaves standing, for a pit that stays is caries left. A crest stands a millimetre inside the proximal surface, so 0.7 mm are the least
-/// that leaves a ridge of 1.6 mm; a pit nearer to the crest stays, and `pits_left` says so.
-struct RidgeMargins {
-  std::vector<double> mm;
-  std::string pits_left;  ///< for the candidate; empty: none
-};
-RidgeMargins ridge_margins(const Landmarks& l, bool mesial, bool distal) {
-  constexpr double k_all[] = {1.6, 1.2, 0.9, 0.7}, k_inside_mm = 0.05;
-  double nearest = 1e9;
-  RidgeMargins margins;
-  const auto look_at = [&](const std::optional<Vec3>& pit, const MarginalRidge& ridge, const char* word) {
-    if (!pit || !ridge.lowest_mm) return;
-    const double away = std::hypot(pit->x - ridge.lowest_mm->x, pit->y - ridge.lowest_mm->y) - k_inside_mm;
-    nearest = std::min(nearest, away);
-    if (away < k_all[std::size(k_all) - 1]) margins.pits_left += fmt::format("; the {} pit lies in its ridge and stays", word);
-  };
-  if (mesial) look_at(l.mesial_pit_mm, l.mesial_ridge, "mesial");
-  if (distal) look_at(l.distal_pit_mm, l.distal_ridge, "distal");
-  for (const double mm : k_all)
-    if (mm <= nearest) margins.mm.push_back(mm);
-  if (margins.mm.empty()) margins.mm.push_back(k_all[std::size(k_all) - 1]);
-  return margins;
+std::string no_fissure(const Landmarks& l, int through) {
+  if (l.central_fissure_mm.size() < 2) return "no central fissure is found on it";
+  const std::string why = ridge_margins(l, isthmus_mm(l), through).why_none;
+  return why.empty() ? "" : why + "; see `cavum tooth show`, and put ridge or pits by hand where they are wrong";
 }
 
 std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
   std::vector<TaskChoice> list;
-  const std::string width = isthmus_mm(l);
-  const RidgeMargins ridges = ridge_margins(l, true, true);
+  const std::string width = fixed(isthmus_mm(l), 1);
+  const RidgeMargins ridges = ridge_margins(l, isthmus_mm(l), 0);
   for (const Floor& floor : floors(tooth, l))
-    for (const double mm : ridges.mm) {
-      const std::string ridge = fixed(mm, 1);
+    for (const RidgeMargin& margin : ridges.may) {
+      const std::string ridge = fixed(margin.ridge_mm, 1);
       list.push_back(
           {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
                        "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
@@ -143,7 +125,9 @@ std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
            pulp_guard_text(0.5),
            fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; take in its pits, leave both marginal ridges{}.",
                        width, floor.words, ridges.pits_left),
-           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge{}", width, floor.words, ridge, ridges.pits_left), floor.words});
+           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge{}", width, floor.words,
+                       fixed(0.1 * std::floor(10.0 * margin.left_mm + 1e-6), 1), ridges.pits_left),
+           floor.words});
     }
   return list;
 }
@@ -162,10 +146,12 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
   const ContactBox beside =
       box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
                  k_least_above_neck_mm, k_box_widest_mm);
-  const std::string width = fixed(beside.width_mm, 1), isthmus = isthmus_mm(l);
+  const std::string width = fixed(beside.width_mm, 1), isthmus = fixed(isthmus_mm(l), 1);
   const double above = beside.above_neck_mm;
-  const RidgeMargins ridges = ridge_margins(l, side<0, side> 0);  // the other one stands
-  const std::string ridge = fixed(std::min(1.2, ridges.mm[0]), 1);
+  const RidgeMargins ridges = with_step ? ridge_margins(l, isthmus_mm(l), side) : RidgeMargins{};  // the other ridge stands
+  constexpr double k_usual_ridge_mm = 1.2;
+  const auto usual = std::find_if(ridges.may.begin(), ridges.may.end(), [](const RidgeMargin& m) { return m.ridge_mm <= k_usual_ridge_mm; });
+  const std::string ridge = with_step ? fixed((usual != ridges.may.end() ? *usual : ridges.may[0]).ridge_mm, 1) : "";
   const std::string pit = with_step ? ridges.pits_left : "";
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
@@ -239,8 +225,8 @@ constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1
 
 const std::vector<ToothTask>& tasks() {
   const auto no_step = [](int side) {
-    return [side](const Tooth& tooth, const Landmarks& l) {
-      const std::string fissure = no_fissure(tooth, l);
+    return [side](const Tooth&, const Landmarks& l) {
+      const std::string fissure = no_fissure(l, side);
       return fissure.empty() ? no_contact(l, side) : fissure;
     };
   };
@@ -255,7 +241,8 @@ const std::vector<ToothTask>& tasks() {
   };
   const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
   static const std::vector<ToothTask> k_tasks{
-      {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_fissure, class_1},
+      {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
+       [](const Tooth&, const Landmarks& l) { return no_fissure(l, 0); }, class_1},
       {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
       {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
       {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
@@ -339,8 +326,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   const ToothTask* asked = nullptr;
   std::string words;
   for (const auto& t : tasks()) {
-    words += (words.empty() ? "" : ", ") + std::string(t.word);
-    if (t.word == task) asked = &t;
+    if (t.word == task)
+      asked = &t;
+    else
+      words += (words.empty() ? "" : ", ") + std::string(t.word);
   }
   if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + words);
   if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())

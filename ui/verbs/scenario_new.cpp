@@ -95,9 +95,12 @@ std::string against(const std::string& text, const std::string& file, Trial& tri
   const Solved solved = solve_exam(*setup, 1, scratch.file("expert.cavum"));
   if (!solved.result) return solved.reasons.front();
   trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
-  if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent)
-    return fmt::format("the built-in expert gets {} % of the points ({}){}", fixed(trial.expert_percent, 0),
-                       grading::verdict_name(solved.result->verdict), solved.reasons.empty() ? "" : ": " + solved.reasons.front());
+  if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent) {
+    std::string why = fmt::format("the built-in expert gets {} % of the points ({})", fixed(trial.expert_percent, 0),
+                                  grading::verdict_name(solved.result->verdict));
+    for (std::size_t i = 0; i < solved.reasons.size(); ++i) why += (i == 0 ? ": " : "; ") + solved.reasons[i];
+    return why;
+  }
   const grading::Battery battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   trial.wrong_work = battery.rows.size();
   for (const auto& p : battery.problems)

@@ -209,9 +209,10 @@ void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
                       "ask the school to enrol this station, with the one-time code that it gave; --out is the request to write");
   station->add_flag("--replace-key", enrol.replace_key,
                     "make a new key for this enrolled station, and ask for it to take the old one's place; --out as above");
-  station->add_option(
-      "--stylus", enrol.styluses,
-      fmt::format("with --enrol or --replace-key: {}; only recordings of it count then; may be repeated", stylus_kinds().ids({StylusHand::person})));
+  std::string kinds = stylus_kinds().ids({StylusHand::person});
+  for (std::size_t at = kinds.find(", "); at != kinds.npos; at = kinds.find(", ", at)) kinds.replace(at, 2, "|");
+  station->add_option("--stylus", enrol.styluses, "with --enrol or --replace-key: only recordings of this stylus count then; may be repeated")
+      ->type_name(kinds);
 }
 
 }  // namespace

@@ -76,11 +76,18 @@ bool put_point(std::vector<Vec3>& list, std::size_t number, Vec3 at) {
 void put_ridge(MarginalRidge& ridge, Vec3 at) {
   ridge.lowest_mm = at;
   if (ridge.crest_mm.empty()) return;
-  // the crest goes through its lowest place: the nearest of its points moves there
-  auto near = ridge.crest_mm.begin();
-  for (auto i = ridge.crest_mm.begin(); i != ridge.crest_mm.end(); ++i)
-    if (flat_distance(*i, at) < flat_distance(*near, at)) near = i;
-  *near = at;
+  // the crest goes through its lowest place: the nearest of its points moves there, the others the less the nearer they are to its ends, the cusps
+  const auto& crest = ridge.crest_mm;
+  std::size_t near = 0;
+  for (std::size_t i = 1; i < crest.size(); ++i)
+    if (flat_distance(crest[i], at) < flat_distance(crest[near], at)) near = i;
+  const Vec3 way = at - crest[near];
+  const std::size_t last = crest.size() - 1;
+  for (std::size_t i = 0; i <= last; ++i) {
+    const double to_end = i <= near ? static_cast<double>(i) / static_cast<double>(std::max<std::size_t>(near, 1))
+                                    : static_cast<double>(last - i) / static_cast<double>(last - near);
+    ridge.crest_mm[i] = i == near ? at : crest[i] + way * to_end;
+  }
 }
 
 /// The central fissure ends at its pit: what lies beyond the place nearest to it goes, and the pit takes that place.

@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/import/fill_mesh.h"
+#include "engine/tooth/import/hollows.h"
 #include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/make/periodontium.h"
 #include "engine/tooth/mesh/read_mesh.h"
@@ -76,24 +77,28 @@ std::vector<std::uint8_t> outside_air(const TissueGrid& grid) {
 
 struct Layers {
   std::vector<float> enamel, dentin, pulp;
+  std::vector<std::uint8_t> chamber;  // left empty by the dentin's surface
 };
 
 /// Rule 1 of the header.
 Overlaps label_by_precedence(TissueGrid& grid, const Layers& f) {
   Overlaps overlaps;
-  std::uint64_t enamel = 0, pulp = 0, enamel_in_dentin = 0, pulp_in_dentin = 0;
+  std::uint64_t enamel = 0, pulp = 0, chamber = 0, enamel_in_dentin = 0, pulp_in_dentin = 0;
   for (std::size_t i = 0; i < grid.tissue.size(); ++i) {
-    const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0;
-    overlaps.leaves += e + d + p > 1;
+    const bool e = f.enamel[i] < 0, d = f.dentin[i] < 0, p = f.pulp[i] < 0, in_dentin = d && f.chamber[i] == 0;
+    overlaps.leaves += e + in_dentin + p > 1;
     const std::uint8_t t = p ? k_pulp : e ? k_enamel : d ? k_dentin : k_air;
     grid.tissue[i] = t;
+    chamber += f.chamber[i];
     enamel += t == k_enamel;
-    enamel_in_dentin += t == k_enamel && d;
+    enamel_in_dentin += t == k_enamel && in_dentin;
     pulp += p;
-    pulp_in_dentin += p && d;
+    pulp_in_dentin += p && in_dentin;
   }
-  if (enamel > 0) overlaps.of_the_enamel = static_cast<double>(enamel_in_dentin) / static_cast<double>(enamel);
-  if (pulp > 0) overlaps.of_the_pulp = static_cast<double>(pulp_in_dentin) / static_cast<double>(pulp);
+  const auto share = [](std::uint64_t part, std::uint64_t of) { return of > 0 ? static_cast<double>(part) / static_cast<double>(of) : 0.0; };
+  overlaps.of_the_enamel = share(enamel_in_dentin, enamel);
+  overlaps.of_the_pulp = share(pulp_in_dentin, pulp);
+  overlaps.chamber = share(chamber, pulp);
   return overlaps;
 }
 
@@ -175,11 +180,14 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
     check_triangle_work(grid, enamel.mesh, paths.enamel);
     check_triangle_work(grid, dentin.mesh, paths.dentin);
     check_triangle_work(grid, pulp.mesh, paths.pulp);
-    const Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid)};
+    Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid), {}};
+    fields.chamber = hollows(dentin.mesh, fields.dentin, grid);
     const Overlaps overlaps = label_by_precedence(grid, fields);
     out.overlap_leaves = overlaps.leaves;
     check_layers(grid, paths);
-    require_layers_that_fit(layers_apart(grid), overlaps, fmt::format("{}, {}", paths.enamel, paths.dentin));
+    const LayersApart apart = layers_apart(grid);
+    require_layers_that_fit(apart, overlaps, fmt::format("{}, {}", paths.enamel, paths.dentin));
+    tell_loose_layers(apart, overlaps, out.sense);
     out.gap_leaves = close_gaps(grid, fields);
     check_closed_pulp(open_pulp(grid), options.sense, paths.pulp, out.sense);
     require_pulp_in_root(pulp_below_dentin_mm(grid), paths.pulp);

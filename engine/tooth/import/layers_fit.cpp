@@ -10,7 +10,52 @@
 namespace cavum {
 namespace {
 constexpr IVec3 k_sides[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, 1}, {0, 0, -1}};
+
+/// Enamel that hangs together by its faces.
+struct Piece {
+  std::uint64_t leaves = 0;
+  bool on_dentin = false;
+  Vec3 sum;  // of its leaves' middles, mm
+};
+struct PiecesOfEnamel {
+  std::vector<std::uint32_t> of_cell;  // number of its piece, from 1; 0 = no enamel
+  std::vector<Piece> list;
+};
+PiecesOfEnamel pieces_of_enamel(const TissueGrid& grid) {
+  PiecesOfEnamel found;
+  found.of_cell.assign(grid.count(), 0);
+  const IVec3 n = grid.size;
+  std::vector<IVec3> open;
+  const auto take = [&](IVec3 cell) {
+    const std::size_t i = grid.index(cell);
+    if (grid.tissue[i] != k_enamel || found.of_cell[i] != 0) return false;
+    found.of_cell[i] = static_cast<std::uint32_t>(found.list.size() + 1);
+    open.push_back(cell);
+    return true;
+  };
+  for (std::int32_t z = 1; z + 1 < n.z; ++z)
+    for (std::int32_t y = 1; y + 1 < n.y; ++y)
+      for (std::int32_t x = 1; x + 1 < n.x; ++x) {
+        if (!take({x, y, z})) continue;
+        Piece piece;
+        while (!open.empty()) {
+          const IVec3 at = open.back();
+          open.pop_back();
+          ++piece.leaves;
+          piece.sum += grid.centre_mm(at);
+          for (const IVec3 step : k_sides) {
+            const IVec3 next = at + step;
+            if (next.x < 1 || next.y < 1 || next.z < 1 || next.x + 1 >= n.x || next.y + 1 >= n.y || next.z + 1 >= n.z) continue;
+            piece.on_dentin = piece.on_dentin || grid.tissue[grid.index(next)] == k_dentin;
+            take(next);
+          }
+        }
+        found.list.push_back(piece);
+      }
+  return found;
 }
+
+}  // namespace
 
 std::array<std::uint64_t, 256> pulp_faces(IVec3 size, const std::vector<std::uint8_t>& tissue) {
   std::array<std::uint64_t, 256> faces{};
@@ -110,7 +155,10 @@ OpenPulp open_pulp(const TissueGrid& grid) {
 
 BareDentin bare_dentin(const TissueGrid& grid) {
   constexpr double k_above_neck_mm = 1.0;
-  const NeckBySector neck(grid);
+  const PiecesOfEnamel pieces = pieces_of_enamel(grid);  // a pearl on a root is no part of the crown
+  const auto crown = std::max_element(pieces.list.begin(), pieces.list.end(), [](const Piece& a, const Piece& b) { return a.leaves < b.leaves; });
+  const auto number = static_cast<std::uint32_t>(crown - pieces.list.begin() + 1);
+  const NeckBySector neck(grid, [&](std::size_t cell) { return pieces.of_cell[cell] == number; });
   const auto above = static_cast<std::int32_t>(k_above_neck_mm / grid.leaf_mm);
   const IVec3 n = grid.size;
   std::vector<std::uint8_t> faces(grid.count());  // on air, of dentin that is bare and was not yet counted
@@ -170,7 +218,7 @@ void require_pulp_in_root(double below_mm, const std::string& where) {
 
 void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps, const std::string& where) {
   // thirteen human teeth: see docs/anatomy.md
-  constexpr double k_least_facing = 0.5, k_most_apart = 0.03, k_most_overlap = 0.1, k_pulp_in = 0.8;
+  constexpr double k_least_facing = 0.5, k_most_apart = 0.03, k_most_overlap = 0.1, k_pulp_in = 0.8, k_chamber = 0.3;
   constexpr const char* k_what_to_do =
       "check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown";
   if (apart.facing < k_least_facing)
@@ -181,54 +229,23 @@ void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps,
     throw Error(
         where,
         fmt::format("enamel and dentin do not fit: at {:.0f} % of the places where they face each other there is a void between them, half of "
-                    "them {:.1f} mm wide or more",
+                    "them {:.1f} mm wide or more along the lattice",
                     100 * apart.share, apart.usual_mm),
         k_what_to_do);
   if (overlaps.of_the_enamel > k_most_overlap)
     throw Error(where, fmt::format("enamel and dentin do not fit: {:.0f} % of the enamel lie in the dentin, too", 100 * overlaps.of_the_enamel),
                 k_what_to_do);
-  if (overlaps.of_the_pulp > k_most_overlap && overlaps.of_the_pulp < k_pulp_in)
+  const bool has_chamber = overlaps.chamber > k_chamber;
+  if (has_chamber ? overlaps.of_the_pulp > k_most_overlap : overlaps.of_the_pulp > k_most_overlap && overlaps.of_the_pulp < k_pulp_in)
     throw Error(where,
-                fmt::format("pulp and dentin do not fit: {:.0f} % of the pulp lie in the dentin, too, where all of it should, or none",
-                            100 * overlaps.of_the_pulp),
+                fmt::format("pulp and dentin do not fit: {:.0f} % of the pulp lie in the dentin, {}", 100 * overlaps.of_the_pulp,
+                            has_chamber ? "which has a chamber of its own for it" : "where all of it should, or none"),
                 "check that both surfaces are of one tooth and in one frame");
 }
 
 EnamelPieces enamel_pieces(const TissueGrid& grid) {
   constexpr double k_least_mm3 = 0.02;
-  struct Piece {
-    std::uint64_t leaves = 0;
-    bool on_dentin = false;
-    Vec3 sum;
-  };
-  std::vector<Piece> pieces;
-  std::vector<std::uint8_t> left(grid.count());
-  for (std::size_t i = 0; i < left.size(); ++i) left[i] = grid.tissue[i] == k_enamel;
-  const IVec3 n = grid.size;
-  std::vector<IVec3> open;
-  for (std::int32_t z = 1; z + 1 < n.z; ++z)
-    for (std::int32_t y = 1; y + 1 < n.y; ++y)
-      for (std::int32_t x = 1; x + 1 < n.x; ++x) {
-        if (left[grid.index({x, y, z})] == 0) continue;
-        Piece piece;
-        left[grid.index({x, y, z})] = 0;
-        open.push_back({x, y, z});
-        while (!open.empty()) {
-          const IVec3 at = open.back();
-          open.pop_back();
-          ++piece.leaves;
-          piece.sum += grid.centre_mm(at);
-          for (const IVec3 step : k_sides) {
-            const IVec3 next = at + step;
-            if (next.x < 1 || next.y < 1 || next.z < 1 || next.x + 1 >= n.x || next.y + 1 >= n.y || next.z + 1 >= n.z) continue;
-            piece.on_dentin = piece.on_dentin || grid.tissue[grid.index(next)] == k_dentin;
-            if (left[grid.index(next)] == 0) continue;
-            left[grid.index(next)] = 0;
-            open.push_back(next);
-          }
-        }
-        pieces.push_back(piece);
-      }
+  std::vector<Piece> pieces = pieces_of_enamel(grid).list;
   EnamelPieces found;
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaves > b.leaves; });
   for (std::size_t i = 1; i < pieces.size(); ++i) {

@@ -1,5 +1,5 @@
-// Are enamel, dentin and pulp what the user says they are, and of one tooth? Told from a lattice of leaves, so that meshes and label maps are judged by
-// the same rules: what the pulp touches and where it ends, voids between enamel and dentin, pieces that hang on nothing, dentin that lies bare.
+// Are enamel, dentin and pulp what the user says they are, and of one tooth? Told from a lattice of leaves, so that meshes and label maps are judged
+// by the same rules: what the pulp touches and where it ends, voids between enamel and dentin, pieces that hang on nothing, dentin that lies bare.
 #pragma once
 
 #include <array>
@@ -44,10 +44,11 @@ struct BareDentin {
 /// Of a lattice whose +z is occlusal.
 [[nodiscard]] BareDentin bare_dentin(const TissueGrid& grid);
 
-/// Shares of leaves that lie in the dentin's surface, too, 0 to 1.
+/// Shares of leaves that lie in the dentin, too, 0 to 1.
 struct Overlaps {
   std::uint64_t leaves = 0;  ///< in more than one surface
   double of_the_enamel = 0.0, of_the_pulp = 0.0;
+  double chamber = 0.0;  ///< what the dentin's surface leaves empty within itself, over the pulp's volume
 };
 
 /// How far the pulp hangs out of the lowest dentin, mm; negative: it ends above. Of a lattice whose +z is occlusal.
@@ -55,8 +56,9 @@ struct Overlaps {
 /// Throws Error when that is more than half a millimetre: an open apex is right, a pulp that hangs out of it is another tooth's.
 void require_pulp_in_root(double below_mm, const std::string& where);
 
-/// Throws Error when dentin and enamel do not meet, stand apart, or one lies in the other by more than a tenth of the enamel, and when only a part of
-/// the pulp lies in the dentin's surface, which has either room for it or none: they are not of one tooth, or not in one frame.
+/// Throws Error when dentin and enamel do not meet, stand apart, or one lies in the other by more than a tenth of the enamel; and when the dentin has
+/// a chamber and more than a tenth of the pulp lies in the dentin, or it has none and less than eight tenths do: they are not of one tooth, or not in
+/// one frame.
 void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps, const std::string& where);
 
 /// Enamel that does not hang together with the crown's.

@@ -165,7 +165,8 @@ void check_crown_size(Vec3 extent, const SenseOptions& options, const std::strin
   const std::string wide =
       fmt::format("the enamel is {:.4g} mm wide, and human crowns {:.1f} to {:.0f} mm", width, k_least_crown_width_mm, k_most_crown_width_mm);
   if (likely.empty())
-    object(options, "size", where, wide + "; no unit known here makes it one", "check file and unit", sense);
+    object(options, "size", where, wide + "; no unit known here makes it one",
+           "check file and unit, and that it is one tooth alone, without its neighbours", sense);
   else
     object(options, "size", where, fmt::format("{}; the file is probably in {}", wide, likely), of_volume ? "give --spacing-mm" : "say " + option,
            sense);
@@ -187,6 +188,17 @@ void tell_bare_dentin(const BareDentin& bare, ToothSense& sense) {
       fmt::format("dentin lies bare in the crown: {:.1f} mm2 of it, the largest place of {:.1f} mm2 about ({:.1f} {:.1f} {:.1f}) mm: worn, or the "
                   "enamel has a hole, a crack or a cavity; look at it (tooth show) before it is an exam's tooth",
                   bare.mm2, bare.largest_mm2, bare.at_mm.x, bare.at_mm.y, bare.at_mm.z));
+}
+
+void tell_loose_layers(const LayersApart& apart, const Overlaps& overlaps, ToothSense& sense) {
+  // thirteen human teeth: at most 0.4, 0.2 and 0.3 %
+  constexpr double k_apart = 0.01, k_enamel_in_dentin = 0.015, k_pulp_in_dentin = 0.03;
+  const bool pulp_apart = overlaps.of_the_pulp > k_pulp_in_dentin && overlaps.of_the_pulp < 0.5;  // more: the dentin has no chamber, and is meant so
+  if (apart.share <= k_apart && overlaps.of_the_enamel <= k_enamel_in_dentin && !pulp_apart) return;
+  sense.warnings.push_back(fmt::format(
+      "the surfaces fit loosely: void at {:.1f} % of the places where enamel and dentin face each other, {:.1f} % of the enamel and {:.1f} "
+      "% of the pulp in the dentin, too; see that all are of one tooth and in one frame",
+      100 * apart.share, 100 * overlaps.of_the_enamel, pulp_apart ? 100 * overlaps.of_the_pulp : 0.0));
 }
 
 void tell_pieces(const EnamelPieces& pieces, ToothSense& sense) {
@@ -239,9 +251,13 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
                        100 * *share),
            "check that the three layers belong together and which way is occlusal", sense);
   if (const double bay = deepest_bay_mm(l.height_of_contour_mm); bay > k_bay_mm && !is_front(l.tooth_class.kind))
-    object(options, "outline", where,
-           fmt::format("the crown's outline, seen from above, has a bay of {:.1f} mm, as no crown has: a piece of another tooth may hang on it", bay),
-           "look at the surfaces and cut off what is not of this tooth", sense);
+    object(
+        options, "outline", where,
+        fmt::format(
+            "the crown's outline, seen from above, has a bay of {:.1f} mm, as no crown has: a piece of another tooth may hang on it, or a piece of "
+            "it is missing (a cavity, a break)",
+            bay),
+        "look at the surfaces and cut off what is not of this tooth", sense);
   if (options.number && frame.mirror)
     sense.warnings.push_back(fmt::format("tooth {} is taken as its mirror image, so that +x is mesial and +y buccal in every task, picture and word",
                                          options.number->fdi));

@@ -56,6 +56,8 @@ void check_crown_size(Vec3 enamel_extent_mm, const SenseOptions& options, const 
 /// Throws Error(`where`, ...) when the pulp lies open in the crown (layers_fit.h).
 void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const std::string& where, ToothSense& sense);
 
+/// A warning where the layers overlap or stand apart more than those of human teeth do, and less than what is refused.
+void tell_loose_layers(const LayersApart& apart, const Overlaps& overlaps, ToothSense& sense);
 /// A warning where dentin lies bare in the crown (layers_fit.h): human teeth wear, but a hole or a crack looks the same.
 void tell_bare_dentin(const BareDentin& bare, ToothSense& sense);
 

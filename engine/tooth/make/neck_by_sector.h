@@ -14,14 +14,17 @@ namespace cavum {
 /// The lowest enamel in each of 72 directions from the enamel's middle: about the cemento-enamel junction.
 class NeckBySector {
  public:
-  explicit NeckBySector(const TissueGrid& grid) {
+  explicit NeckBySector(const TissueGrid& grid) : NeckBySector(grid, [&grid](std::size_t cell) { return grid.tissue[cell] == k_enamel; }) {}
+  /// Of the enamel of which `counts(index of a cell)` is true.
+  template <class Counts>
+  NeckBySector(const TissueGrid& grid, const Counts& counts) {
     std::uint64_t count = 0;
     Vec3 sum;
     const auto each = [&](const auto& visit) {
       for (std::int32_t z = 0; z < grid.size.z; ++z)
         for (std::int32_t y = 0; y < grid.size.y; ++y)
           for (std::int32_t x = 0; x < grid.size.x; ++x)
-            if (grid.tissue[grid.index({x, y, z})] == k_enamel) visit(IVec3{x, y, z});
+            if (counts(grid.index({x, y, z}))) visit(IVec3{x, y, z});
     };
     each([&](IVec3 c) {
       sum += Vec3{double(c.x), double(c.y), 0};

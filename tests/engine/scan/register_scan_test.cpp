@@ -9,6 +9,7 @@
 #include "engine/scan/holes.h"
 #include "engine/scan/scale_fit.h"
 #include "engine/scan/scan_fit.h"
+#include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/octree_edit.h"
 #include "tests/engine/support/basics.h"
@@ -205,6 +206,28 @@ TEST(Registration, AThinPieceApartIsNamedAndNotCountedAThickOneIs) {
   EXPECT_EQ(cut.cavities, 1);
   EXPECT_TRUE(cut.apart.empty());
   EXPECT_GT(gone, ball.size() * 8 / 10);
+}
+
+// A block with a hole, and a shallow hollow beside it: 0.09 mm deep, 1.9 mm wide.
+TEST(Registration, AShallowGrindingOfSomeSquareMillimetresIsNamed) {
+  const Tooth block = make_block({8, 5, 3}, {{"enamel", 1.0}, {"dentin", 2.0}}, 0.05);
+  const OuterSurface surface(block);
+  Tooth ground = block;
+  ground.octree.reserve_edits(40000);
+  std::vector<RemovedLeaf> removed;
+  removed.reserve(400000);
+  const double radius_mm = 5.0, deep_mm = 0.09;
+  const Vec3 centre{2.0, 0, radius_mm - deep_mm};
+  ASSERT_TRUE(ground.octree.carve(
+      {-3, -1.5, -1.5}, {-1, 1.5, 0.5}, [](Vec3 p) { return std::max(std::hypot(p.x + 2, p.y) - 0.7, -1.0 - p.z); }, removed));
+  ASSERT_TRUE(ground.octree.carve(
+      {0.5, -1.5, -0.5}, {3.5, 1.5, 0.5}, [&](Vec3 p) { return length(p - centre) - radius_mm; }, removed));
+  const TriangleMesh scan = outer_surface(ground, surface.outside());
+  const ScanCut cut = cut_by_scan(scan, caps_over(scan, rims_of(scan)), surface, 0.03, "scan.stl");
+  EXPECT_EQ(cut.cavities, 1);
+  ASSERT_EQ(cut.apart.size(), 1u);
+  EXPECT_NEAR(cut.apart[0].deep_mm, deep_mm, 0.03);
+  EXPECT_NEAR(cut.apart[0].at_mm.x, centre.x, 1.0);
 }
 
 // A crown with a cavity and 10 um of noise, measured too large or too small by a scanner.

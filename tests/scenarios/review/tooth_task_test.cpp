@@ -7,6 +7,7 @@
 #include "engine/tooth/make/make_premolar.h"
 #include "engine/tooth/tooth_notes.h"
 #include "scenarios/review/check.h"
+#include "scenarios/review/ridge_margins.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
@@ -49,6 +50,42 @@ TEST(ToothTask, PitsThatAPersonPutMakeAFissureWhereNoneWasFound) {
   ASSERT_GE(landmarks.central_fissure_mm.size(), 2u);
   for (const Vec3& p : landmarks.central_fissure_mm) EXPECT_NEAR(p.y, p.x / 3, 1e-9);
   EXPECT_TRUE(offered_tasks(tooth, landmarks)[0].why_not.empty());
+}
+
+/// A fissure along x, 8 mm long, with a ridge across each end.
+Landmarks straight_fissure() {
+  Landmarks l;
+  l.central_fissure_mm = {{4, 0, 0}, {2, 0, 0}, {0, 0, 0}, {-2, 0, 0}, {-4, 0, 0}};
+  l.mesial_ridge = {{{5, 2, 1}, {5, 0, 0.5}, {5, -2, 1}}, Vec3{5, 0, 0.5}};
+  l.distal_ridge = {{{-5, 2, 1}, {-5, 0, 0.5}, {-5, -2, 1}}, Vec3{-5, 0, 0.5}};
+  return l;
+}
+
+TEST(RidgeMargins, TakeInThePitsAndLeaveTheCrests) {
+  Landmarks l = straight_fissure();
+  auto margins = ridge_margins(l, 1.4, 0);
+  ASSERT_EQ(margins.may.size(), 4u);
+  EXPECT_NEAR(margins.may[0].ridge_mm, 1.6, 1e-9);
+  EXPECT_NEAR(margins.may[0].left_mm, 1.6, 1e-6);
+  l.mesial_pit_mm = Vec3{4.0, 0.1, 0};  // 1.0 mm from the crest: 1.2 mm of ridge would leave it
+  margins = ridge_margins(l, 1.4, 0);
+  ASSERT_EQ(margins.may.size(), 2u);
+  EXPECT_NEAR(margins.may[0].ridge_mm, 0.9, 1e-9);
+  EXPECT_EQ(margins.pits_left, "");
+  EXPECT_EQ(ridge_margins(l, 1.4, 1).may.size(), 4u);  // through that ridge the pit goes, too
+  l.mesial_pit_mm = Vec3{3.0, 0.9, 0};                 // beside the outline, however far it goes
+  margins = ridge_margins(l, 1.4, 0);
+  EXPECT_EQ(margins.may.size(), 4u);
+  EXPECT_NE(margins.pits_left.find("the mesial pit"), std::string::npos) << margins.pits_left;
+}
+
+TEST(RidgeMargins, ACrestThatRunsIntoTheFissureIsNoRidgeThatIsLeft) {
+  Landmarks l = straight_fissure();
+  l.mesial_ridge.crest_mm = {{5, 2, 1}, {5, 0, 0.5}, {3, 0.5, 0}, {2, 1.0, 0.5}};  // down a cusp, into the fossa
+  const auto margins = ridge_margins(l, 1.4, 0);
+  EXPECT_TRUE(margins.may.empty());
+  EXPECT_NE(margins.why_none.find("mesial ridge"), std::string::npos) << margins.why_none;
+  EXPECT_FALSE(ridge_margins(l, 1.4, 1).may.empty());
 }
 
 TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {

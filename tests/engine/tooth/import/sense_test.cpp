@@ -8,7 +8,9 @@
 #include <cmath>
 
 #include "engine/tooth/anatomy/landmarks.h"
+#include "engine/tooth/import/hollows.h"
 #include "engine/tooth/import/import_meshes.h"
+#include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/make_incisor.h"
 #include "engine/tooth/make/make_molar.h"
@@ -156,6 +158,46 @@ TEST(Sense, SurfacesOfAnotherToothAreRefused) {
   EXPECT_NO_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.02}, "x"));
   EXPECT_NO_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.97}, "x"));
   EXPECT_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.5}, "x"), Error);
+  // where the dentin has a chamber of its own, the pulp lies in that
+  EXPECT_NO_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.02, 1.0}, "x"));
+  EXPECT_THROW(require_layers_that_fit({0.8, 0.001, 0.5}, {0, 0.0, 0.97, 1.0}, "x"), Error);
+}
+
+void append(TriangleMesh& to, const TriangleMesh& part, bool inside_out) {
+  const auto first = static_cast<std::uint32_t>(to.vertices_mm.size());
+  to.vertices_mm.insert(to.vertices_mm.end(), part.vertices_mm.begin(), part.vertices_mm.end());
+  for (const auto& t : part.triangles) to.triangles.push_back({t[0] + first, t[inside_out ? 2 : 1] + first, t[inside_out ? 1 : 2] + first});
+}
+
+// A ball with a hollow ball in it, of which a filling knows nothing: the hollow has the inner ball's volume, whichever way its faces look.
+TEST(Sense, AHollowIsFoundByTheSurfacesAboveAndBelow) {
+  for (const bool inside_out : {false, true}) {
+    const double outer_mm = 3.0, inner_mm = 1.7;
+    TriangleMesh mesh = ball({0.1, -0.2, 0.3}, outer_mm, 96);
+    append(mesh, ball({0.3, 0.1, 0.0}, inner_mm, 96), inside_out);
+    TissueGrid lattice;
+    lattice.allocate({80, 80, 80}, 0.1, {-4, -4, -4});
+    std::vector<float> filled(lattice.count());
+    for (int z = 0; z < 80; ++z)
+      for (int y = 0; y < 80; ++y)
+        for (int x = 0; x < 80; ++x)
+          filled[lattice.index({x, y, z})] = static_cast<float>(length(lattice.centre_mm({x, y, z}) - Vec3{0.1, -0.2, 0.3}) - (outer_mm - 0.1));
+    const auto hollow = hollows(mesh, filled, lattice);
+    const auto leaves = static_cast<double>(std::count(hollow.begin(), hollow.end(), 1));
+    EXPECT_NEAR(leaves * 0.001, 4.0 / 3.0 * std::acos(-1.0) * inner_mm * inner_mm * inner_mm, 0.2) << inside_out;
+  }
+}
+
+TEST(Sense, LayersThatFitLooselyAreTold) {
+  ToothSense sense;
+  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.002, 0.003, 1.0}, sense);  // the worst of thirteen human teeth
+  EXPECT_TRUE(sense.warnings.empty());
+  tell_loose_layers({0.8, 0.019, 0.5}, {0, 0.002, 0.003, 1.0}, sense);
+  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.034, 0.003, 1.0}, sense);
+  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.002, 0.07, 1.0}, sense);
+  EXPECT_EQ(sense.warnings.size(), 3u);
+  tell_loose_layers({0.8, 0.004, 0.5}, {0, 0.002, 0.98, 0.0}, sense);  // dentin without a chamber
+  EXPECT_EQ(sense.warnings.size(), 3u);
 }
 
 TEST(Sense, EnamelThatFloatsIsRefusedAndAPearlIsTold) {
@@ -175,7 +217,9 @@ TEST(Sense, EnamelThatFloatsIsRefusedAndAPearlIsTold) {
   };
   EXPECT_TRUE(says(refusal(with(top + Vec3{0, 0, 2}), o), "touch neither the crown nor any dentin"));
   const Surfaces pearl = with(side + Vec3{0.2, 0, 0});
-  EXPECT_TRUE(says(import_meshes(pearl.write(fresh_folder()), o).sense.warnings, "apart from the crown"));
+  const auto warnings = import_meshes(pearl.write(fresh_folder()), o).sense.warnings;
+  EXPECT_TRUE(says(warnings, "apart from the crown"));
+  EXPECT_FALSE(says(warnings, "dentin lies bare"));  // the crown does not end where the pearl does
 }
 
 /// A crown of enamel 1 mm thick on dentin, and what is not enamel of it.
