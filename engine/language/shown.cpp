@@ -26,6 +26,7 @@ constexpr std::size_t k_mark_bytes = 3;
 struct Remembered {
   std::string text;
   bool known = false;  ///< some message said it; else it stays as it is
+  int depth = 0;       ///< at which nothing said it: with more room to the deepest, something may
 };
 std::unordered_map<std::string, Remembered>& memory() {
   thread_local std::unordered_map<std::string, Remembered> m;
@@ -236,7 +237,8 @@ std::string sentence(std::string_view text, int depth, bool& known) {
       return std::string(begin) + rest;
     }
   if (!has_letters(text)) return std::string(text);
-  if (const auto remembered = memory().find(std::string(text)); remembered != memory().end()) {
+  if (const auto remembered = memory().find(std::string(text));
+      remembered != memory().end() && (remembered->second.known || remembered->second.depth <= depth)) {
     known = known || remembered->second.known;
     return remembered->second.text;
   }
@@ -254,11 +256,11 @@ std::string sentence(std::string_view text, int depth, bool& known) {
   if (!found) found = whole(text, depth, out);  // "{} at the {}" fits much that is put together of parts
   if (!found) found = in_parts(text, depth, out, true);
   if (!found) {  // what nothing says is asked for again and again, in each way in which a sentence may be put together
-    memory()[std::string(text)] = {std::string(text), false};
+    memory()[std::string(text)] = {std::string(text), false, depth};
     return std::string(text);
   }
-  memory()[std::string(text)] = {out, true};
-  memory()[out] = {out, false};
+  memory()[std::string(text)] = {out, true, depth};
+  memory()[out] = {out, false, 0};
   known = true;
   return out;
 }
@@ -315,7 +317,7 @@ std::string shown(std::string_view english) {
 }
 
 std::string remembered(std::string translated) {
-  if (catalogue().kind() == Catalogue::Kind::translated) memory()[translated] = {translated, false};
+  if (catalogue().kind() == Catalogue::Kind::translated) memory()[translated] = {translated, false, 0};
   return translated;
 }
 

@@ -79,7 +79,7 @@ std::string to_text(const Why& w) {
       s += fmt::format("{} {}", amount, i.what);
     else
       s += i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
-    if (i.site_mm) s += ", at " + place(*i.site_mm);
+    if (i.site_mm) s += ", at " + kept(place(*i.site_mm));
     if (i.tick >= 0) s += fmt::format(", tick {}", i.tick);
     if (i.points_lost) s += fmt::format(", {} points", fixed(*i.points_lost, 2));
     s += "\n";

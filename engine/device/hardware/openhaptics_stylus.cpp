@@ -94,7 +94,7 @@ struct OpenHapticsStylus::Library {
 
   explicit Library(const std::string& path) : file(::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (file == nullptr)
-      throw Error(k_where, fmt::format("OpenHaptics is not there: {}", ::dlerror()),
+      throw Error(k_where, fmt::format("OpenHaptics is not there ({})", path),
                   "install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml");
     find(init_device, "hdInitDevice");
     find(disable_device, "hdDisableDevice");
