@@ -62,20 +62,18 @@ Heard Wire::hear() {
   return out;
 }
 
-std::string Wire::hear_for(std::chrono::milliseconds time) {
-  std::string out(1U << 20, '\0');
-  std::size_t n = 0;
+std::string Wire::hear_for(std::chrono::milliseconds time, const std::function<bool(const std::string&)>& enough) {
+  std::string out, piece(64U << 10, '\0');
   beast::get_lowest_layer(parts_->stream).expires_after(time);
-  for (bool ended = false; !ended;) {
+  for (bool ended = false; !ended && !(enough && enough(out));) {
     ended = true;
-    parts_->stream.async_read_some(asio::buffer(out.data() + n, out.size() - n), [&](beast::error_code error, std::size_t more) {
-      n += more;
+    parts_->stream.async_read_some(asio::buffer(piece), [&](beast::error_code error, std::size_t more) {
+      out.append(piece, 0, more);
       ended = error.failed();
     });
     parts_->context.restart();
     parts_->context.run();
   }
-  out.resize(n);
   return out;
 }
 

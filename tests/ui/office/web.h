@@ -2,6 +2,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <map>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -27,8 +28,8 @@ class Wire {
   bool send(const std::string& bytes);
   /// The next reply.
   [[nodiscard]] Heard hear();
-  /// As many bytes as come within the time.
-  [[nodiscard]] std::string hear_for(std::chrono::milliseconds time);
+  /// All bytes that come within the time, or until `enough` of them have. The connection is of no use afterwards.
+  [[nodiscard]] std::string hear_for(std::chrono::milliseconds time, const std::function<bool(const std::string&)>& enough = {});
 
  private:
   struct Parts;

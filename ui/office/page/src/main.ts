@@ -30,7 +30,7 @@ function put(next: View): void {
   view = next;
   const main = document.getElementById("main")!;
   main.replaceChildren(next.root);
-  main.focus();
+  (next.first ?? main).focus();
 }
 
 function head(mine: Place[], now: string): void {

@@ -4,6 +4,8 @@ import { tr } from "../report_src/words.ts";
 
 export interface View {
   root: HTMLElement;
+  /** Where typing begins. */
+  first?: HTMLElement;
   /** Ends what goes on: a stream of events. */
   leave?(): void;
 }
