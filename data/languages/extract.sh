@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # Brings the template cavum.pot, and the catalogues beside it, up to what the sources say. --check: changes nothing, and exits with 1 when something would change,
 # or when a message of a catalogue is missing or only guessed (fuzzy). Sources are those that sources.txt lists; what is not there stays English.
-#   ui/report        what stands in tr, trn, said and Error; of its figures, all sentences
+#   ui/report        what stands in tr, trn, said and Error, in ui/office also in error_reply; of its figures, all sentences
 #   other rooms      all their sentences: they are English, and are translated where they are shown; words.txt has the single words that are shown
 set -euo pipefail
 cd "$(dirname "$0")"
@@ -26,13 +26,13 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
     --force-po --add-comments=translators: --files-from=- --output="$out" 2>>"$new/warnings") || { cat "$new/warnings" >&2; exit 2; }
 }
 { sources engine; sources scenarios; sources grading; sources ui/station; sources ui/verbs; sources ui/report/figures; } >"$new/below"
-sources ui/report | grep -v "^ui/report/figures/" >"$new/above"
-(cd "$root" && ls ui/report/page/src/*.ts) >"$new/page"
+{ sources ui/report | grep -v "^ui/report/figures/"; sources ui/office; } >"$new/above"
+(cd "$root" && ls ui/report/page/src/*.ts ui/office/page/src/*.ts) >"$new/page"
 sed -n 's/^\([^#].*\)$/said("\1")/p' words.txt >"$new/words.cpp"
 extract "$new/all-below.pot" C++ --extract-all <"$new/below"
 awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || !/msgid ""\nmsgstr ""$/' "$new/all-below.pot" >"$new/once.pot" && mv "$new/once.pot" "$new/all-below.pot"  # empty texts
 extract "$new/words.pot" C++ --keyword --keyword=said:1 <<<"$new/words.cpp"
-extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=Error:2 --keyword=Error:3 <"$new/above"
+extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=Error:2 --keyword=Error:3 --keyword=error_reply:2 <"$new/above"
 extract "$new/page.pot" JavaScript --keyword '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
 # what makes pictures, files and names of its texts is no sentence: tags, assignments, one word without a capital, no word at all
 no_sentence='[<>]|[a-z_]=|^[a-z_.]+ = |^--[a-z-]+ ?$|'$'\r''|^##|^[#$]|^%[A-Z]|^0123|^(cavum|cavum [a-z]+( [a-z]+)?)$|^zones/|^\{\{|^#[0-9a-f]{6}$|^[a-z0-9_./:*{}-]+$|^[^a-z]+$|^([^a-zA-Z]+[a-zA-Z]?[^a-zA-Z]*|[a-zA-Z])$|^\[\"|uniform |^in vec3 |void main|^%[-.0-9]*[a-z]$|^student-|^[^ ]*\.(h|toml|cvt|json)$|^(measure_marking|moments_of_measure|measures): |^/|^\{\}/|^\{\}o\{\}ly$|^(SELECT|INSERT|UPDATE|DELETE|CREATE|PRAGMA|ALTER|DROP|ORDER BY|WHERE) |^[a-z]+[A-Z][A-Za-z]+$|^(unsigned|signed|short) (int|char|short)$|ATTRS?\{|^: [a-z_.]+$|^(entr\{\}|ies \{\}|y \{\}$|used \{\}|closed \{\}|not-begun |--ticket |session,candidate)|^%[0-9]d-|^cavum (begin|station request|ticket) [0-9]$|^libHD|"(commands|inverse3)":|^seq, |^&[a-z]+;$|^abcdef|^%x:|^\\\\u|^CMakeLists|^SQLite format|-XXXXXX$|^cavum \{\} key'

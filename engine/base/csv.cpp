@@ -20,9 +20,9 @@ std::string_view text_of_comment(std::string_view s) {
   return without_blanks(s);
 }
 
-/// Of comma, semicolon and tab the one that stands most often outside quotes; the earlier of equals.
+/// Of comma, semicolon, tab and bar the one that stands most often outside quotes; the earlier of equals.
 char separator_of(std::string_view heading, bool quotes) {
-  constexpr std::string_view k_separators = ",;\t";
+  constexpr std::string_view k_separators = ",;\t|";
   std::size_t times[k_separators.size()] = {};
   bool quoted = false;
   for (const char c : heading) {

@@ -1,5 +1,5 @@
-// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma, semicolon or tab, fields in quotes, any line ends, a
-// byte order mark, comments (#). Read row by row, so that a recording of millions of rows takes no more memory than its numbers.
+// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma, semicolon, tab or bar, fields in quotes, any line
+// ends, a byte order mark, comments (#). Read row by row, so that a recording of millions of rows takes no more memory than its numbers.
 #pragma once
 
 #include <deque>
@@ -22,8 +22,8 @@ struct CsvForm {
 /// Throws Error(where, ...) for a text that begins as UTF-16 does.
 void refuse_utf16(std::string_view text, const std::string& where);
 
-/// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon and tab parts the fields of
-/// all rows, and each row has as many fields.
+/// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon, tab and bar (|) parts the
+/// fields of all rows, and each row has as many fields.
 class CsvReader {
  public:
   enum class Line { row, comment, end };
@@ -45,6 +45,8 @@ class CsvReader {
   /// Where it begins, from 1.
   [[nodiscard]] int line() const noexcept { return line_; }
   [[nodiscard]] std::string at() const;
+  /// What parts the fields; known once the heading was read.
+  [[nodiscard]] char separator() const noexcept { return separator_; }
   /// Throws Error(where:line, what, what_to_do).
   [[noreturn]] void fail(const std::string& what, const std::string& what_to_do) const;
 

@@ -128,6 +128,14 @@ std::size_t remove_forgotten(const LedgerContent& c, Identities& identities) {
   return removed;
 }
 
+Identities sound_identities(const Ledger& ledger) {
+  Identities identities(ledger.places().identities());
+  if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
+    throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
+  remove_forgotten(ledger.content(), identities);
+  return identities;
+}
+
 std::set<std::string> erased_recordings(const LedgerContent& c) {
   std::set<std::string> gone, kept;  // the same file can be filed twice, the second time with findings
   for (const auto& e : c.entries)

@@ -36,6 +36,8 @@ nlohmann::json erase(Ledger& ledger, const ErasureWish& wish, const std::string&
 void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);
 /// Removes identities that an entry says are forgotten, after a crash, or in a file of before. Returns how many.
 std::size_t remove_forgotten(const LedgerContent& content, Identities& identities);
+/// The ledger's identities, without those that were forgotten. Throws Error when one of them was changed by hand.
+[[nodiscard]] Identities sound_identities(const Ledger& ledger);
 /// SHA-256 of recordings that an entry says are erased.
 [[nodiscard]] std::set<std::string> erased_recordings(const LedgerContent& content);
 /// Removes those that are still there, after a crash, or in a backup of before. Returns how many. Throws Error when one cannot be removed.

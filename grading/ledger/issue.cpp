@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
@@ -116,8 +115,17 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
 
 }  // namespace
 
+std::vector<std::string> people_columns() {
+  std::vector<std::string> names;
+  for (const Column& c : k_columns) names.emplace_back(c.name);
+  return names;
+}
+
 std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over) {
-  const auto rows = parse_csv(text, where);
+  return parse_people(parse_csv(text, where), where, passed_over);
+}
+
+std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where, const std::vector<std::string>& passed_over) {
   if (rows.empty()) throw Error(where + ":1", "is no heading of candidates", "begin with id,name");
   const auto columns = columns_of(rows[0].fields, fmt::format("{}:{}", where, rows[0].line), passed_over);
   std::vector<Person> people;

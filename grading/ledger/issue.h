@@ -4,6 +4,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/csv.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam/exam.h"
@@ -37,6 +38,11 @@ struct Person {
 /// nothing said). Nobody's accommodation is lost in silence: any other column is refused, but for those that `passed_over` names. Throws
 /// Error(where:line, ...) for that, for one without ids, with one twice, or with a value that no scenario could grant.
 [[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over = {});
+/// The same of rows that were read before, the heading first.
+[[nodiscard]] std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where,
+                                               const std::vector<std::string>& passed_over = {});
+/// Names of the columns that it knows, `id` first.
+[[nodiscard]] std::vector<std::string> people_columns();
 
 /// What `person` says, and what `all` says where he does not.
 [[nodiscard]] scenarios::Grant together(const scenarios::Grant& all, const scenarios::Grant& person);

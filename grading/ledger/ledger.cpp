@@ -112,7 +112,11 @@ const LedgerEntry& Ledger::append(const std::string& kind, const MakeBody& body,
       kind,
       [&](const LedgerContent& now) {
         require_key_in_time(now, read_clocks().utc_ns);
-        return body(now);
+        json made = body(now);
+        for (const auto& [name, text] :
+             {std::pair("account", actor_.account), std::pair("reason", actor_.reason), std::pair("station", actor_.station)})
+          if (!text.empty() && !made.contains(name)) made[name] = text;
+        return made;
       },
       documents, key_);
 }

@@ -6,6 +6,7 @@
 #include <functional>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grading/ledger/ledger_content.h"
@@ -20,6 +21,13 @@ namespace cavum::ledger {
 /// What a ledger is opened for: to add to it, to write of it what the school signs or knows by name, or to let it go on from a backup, which the
 /// witness is not asked about.
 enum class LedgerUse { add, tell, restore };
+
+/// On whose behalf entries are added: a person of the office by the name of his account, or an enrolled station that asked.
+struct Actor {
+  std::string account;  ///< empty: nobody who signed in
+  std::string reason;   ///< why, where an entry of that kind has no reason of its own; may be empty
+  std::string station;  ///< its public key, hexadecimal; empty: none
+};
 
 class Ledger {
  public:
@@ -41,6 +49,9 @@ class Ledger {
   /// nothing is added then. Throws DatabaseError when the disk refuses; the ledger then holds what it held. `documents` are kept with it, each once;
   /// the body names them (documents_of).
   const LedgerEntry& append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents = {});
+  /// Entries that are added from now on name this actor: members `account`, `reason`, `station` of their bodies, each where it is not empty and the
+  /// body has no such member.
+  void act_for(Actor actor) { actor_ = std::move(actor); }
   /// Enters that from now on `next` signs, good until `until_utc_ns` (0 = without end), or how long the present one is good (`next` is that one). The
   /// present key signs that, and `next` the entry and all that follow. Throws Error.
   void change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason);
@@ -61,6 +72,7 @@ class Ledger {
   Database database_;
   LedgerContent content_;
   GrowingRegistry registry_;
+  Actor actor_;
 };
 
 }  // namespace cavum::ledger

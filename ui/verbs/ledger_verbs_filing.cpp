@@ -7,7 +7,6 @@
 #include "engine/base/file.h"
 #include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
-#include "grading/ledger/erasure.h"
 #include "grading/ledger/filing.h"
 #include "ui/parts/print_json.h"
 #include "ui/verbs/ledger_verbs_parts.h"
@@ -32,14 +31,6 @@ void require_new(const LedgerOptions& o, const std::string& path) {
 
 void write_school_file(const LedgerOptions& o, const std::string& path, const std::string& text) {
   write_text_file(path, text, {.is_private = true, .may_replace = o.overwrite});
-}
-
-ledger::Identities sound_identities(const ledger::Ledger& ledger) {
-  ledger::Identities identities(ledger.places().identities());
-  if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
-    throw Error(ledger.places().identities(), wrong[0], "restore the file from its backup: marks would go to somebody else");
-  ledger::remove_forgotten(ledger.content(), identities);
-  return identities;
 }
 
 bool has_content(const std::string& path) {

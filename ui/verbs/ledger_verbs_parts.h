@@ -33,8 +33,6 @@ void require_new(const LedgerOptions& options, const std::string& path);
 void write_school_file(const LedgerOptions& options, const std::string& path, const std::string& text);
 /// Cosigners whose word counts: --cosigners, else those in their place. Throws Error when a file that was named is not there.
 [[nodiscard]] std::vector<ledger::NoteKey> cosigners_of(const LedgerOptions& options);
-/// The ledger's identities. Throws Error when one of them was changed by hand.
-[[nodiscard]] ledger::Identities sound_identities(const ledger::Ledger& ledger);
 
 // Each runs a verb; those that return a number give the exit code, 0 or 1. They throw Error.
 void ledger_init(const LedgerOptions& options);

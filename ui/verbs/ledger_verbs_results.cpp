@@ -9,6 +9,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/decision.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"

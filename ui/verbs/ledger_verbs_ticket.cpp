@@ -10,6 +10,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/issue.h"
 #include "grading/ledger/registry.h"
 #include "scenarios/exam/exam.h"

@@ -66,6 +66,7 @@ int main(int argc, char** argv) {
   cavum::ui::add_verify_verbs(app, exit_code);
   cavum::ui::add_device_verbs(app, exit_code);
   cavum::ui::add_station_verbs(app, exit_code);
+  cavum::ui::add_serve_verbs(app, exit_code);
   cavum::ui::add_manual_verbs(app, exit_code);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (!arguments.empty() && !arguments[0].starts_with('-') &&

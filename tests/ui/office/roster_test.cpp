@@ -1,0 +1,78 @@
+// A class list in any encoding and separator: what it holds arrives, and what nobody asked about is asked.
+#include "ui/office/roster.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+
+namespace cavum::office {
+namespace {
+
+std::string utf16(const std::u16string& text, bool big_endian) {
+  std::string out = big_endian ? "\xfe\xff" : "\xff\xfe";
+  for (const char16_t c : text) {
+    const char high = static_cast<char>(c >> 8), low = static_cast<char>(c);
+    out += big_endian ? high : low;
+    out += big_endian ? low : high;
+  }
+  return out;
+}
+
+TEST(Roster, ReadsTheSameInEveryEncodingAndWithEverySeparator) {
+  const std::string utf8 = "id,name\n1,M\u00fcller \u2013 \u20ac\n";
+  const std::pair<std::string, std::string> encoded[] = {{utf8, "UTF-8"},
+                                                         {"\xef\xbb\xbf" + utf8, "UTF-8"},
+                                                         {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", false), "UTF-16"},
+                                                         {utf16(u"id,name\n1,M\u00fcller \u2013 \u20ac\n", true), "UTF-16"},
+                                                         {"id,name\n1,M\xfcller \x96 \x80\n", "Windows-1252"}};
+  for (const auto& [bytes, name] : encoded) {
+    const Roster r = read_roster(bytes, {});
+    EXPECT_EQ(r.encoding, name);
+    ASSERT_EQ(r.people.size(), 1u) << name << ": " << r.problem;
+    EXPECT_EQ(r.people[0].name, "M\u00fcller \u2013 \u20ac");
+  }
+  for (const char separator : {',', ';', '\t', '|'}) {
+    std::string text = "id,name,extra_time_percent\r\n4711,B,25\r\n";
+    std::replace(text.begin(), text.end(), ',', separator);
+    const Roster r = read_roster(text, {});
+    EXPECT_EQ(r.separator, separator);
+    ASSERT_TRUE(r.ready()) << r.problem;
+    EXPECT_EQ(r.people[0].grant.extra_time_percent, 25.0);
+  }
+}
+
+TEST(Roster, AsksAboutEachColumnThatItDoesNotKnow) {
+  const std::string text = "Matrikel;Name;Mehr Zeit;Platz\n1;A;25;3\n2;B;;4\n";
+  const Roster asked = read_roster(text, {});
+  EXPECT_FALSE(asked.ready());
+  EXPECT_EQ(asked.problem, "");
+  ASSERT_EQ(asked.columns.size(), 4u);
+  EXPECT_EQ(asked.columns[1].use, "name") << "whatever its capitals";
+  for (const int c : {0, 2, 3}) EXPECT_EQ(asked.columns[static_cast<std::size_t>(c)].use, "");
+  EXPECT_EQ(asked.columns[3].samples, (std::vector<std::string>{"3", "4"}));
+  EXPECT_FALSE(read_roster(text, {"id", "", "extra_time_percent", ""}).ready()) << "one waits";
+  const Roster answered = read_roster(text, {"id", "", "extra_time_percent", k_pass_over});
+  ASSERT_TRUE(answered.ready()) << answered.problem;
+  EXPECT_EQ(answered.people[0].grant.extra_time_percent, 25.0);
+  EXPECT_EQ(answered.people[1].grant.extra_time_percent, std::nullopt);
+  EXPECT_FALSE(read_roster(text, {"something", "", "extra_time_percent", k_pass_over}).ready()) << "no such use";
+}
+
+TEST(Roster, SaysWhatIsWrong) {
+  const std::pair<std::string, std::string> wrong[] = {{"", "is empty"},
+                                                       {"id\n", "names no candidate"},
+                                                       {"id\n1\n1\n", "a second time"},
+                                                       {"id,extra_time_percent\n1,much\n", "is no number"},
+                                                       {"id,extra_time_percent\n1,9000\n", "use 0 to 400"},
+                                                       {"id,name\n1\n", "for 2 columns"},
+                                                       {"name\nA\n", "is no heading of candidates"}};
+  for (const auto& [text, why] : wrong) {
+    const Roster r = read_roster(text, {});
+    EXPECT_FALSE(r.ready()) << text;
+    EXPECT_NE(r.problem.find(why), std::string::npos) << text << ": " << r.problem;
+  }
+  EXPECT_NE(read_roster("id,Number\n1,2\n", {"id", "id"}).problem.find("twice"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum::office

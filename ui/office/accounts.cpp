@@ -1,0 +1,116 @@
+#include "ui/office/accounts.h"
+
+#include <fmt/core.h>
+#include <sodium.h>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+#include "grading/ledger/decision.h"
+#include "ui/office/one_time_code.h"
+
+namespace cavum::office {
+namespace {
+
+using nlohmann::json;
+
+constexpr char k_accounts_format[] = "cavum accounts 1";
+
+std::string hash_of(const std::string& password) {
+  std::array<char, crypto_pwhash_STRBYTES> hash{};
+  if (sodium_init() < 0 ||
+      crypto_pwhash_str(hash.data(), password.data(), password.size(), crypto_pwhash_OPSLIMIT_INTERACTIVE, crypto_pwhash_MEMLIMIT_INTERACTIVE) != 0)
+    throw Error("the password", "cannot be hashed: there is no memory for it", "close other programs");
+  return hash.data();
+}
+
+bool is_password(const std::string& hash, const std::string& password) {
+  std::array<char, crypto_pwhash_STRBYTES> kept{};
+  hash.copy(kept.data(), kept.size() - 1);
+  return sodium_init() >= 0 && crypto_pwhash_str_verify(kept.data(), password.data(), password.size()) == 0;
+}
+
+std::string in_address(const std::string& text) {
+  std::string out;
+  for (const char c : text)
+    if (std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '-' || c == '.')
+      out += c;
+    else
+      out += fmt::format("%{:02X}", static_cast<unsigned char>(c));
+  return out;
+}
+
+}  // namespace
+
+std::vector<Account> Accounts::all() const {
+  if (!std::filesystem::exists(path_)) return {};
+  const json file = parse_json(read_text_file(path_), path_);
+  const auto refuse = [&] { throw Error(path_, "is no file of accounts", "restore it, or remove it and add the accounts anew"); };
+  if (text_in(file, "format") != k_accounts_format || !member_of(file, "accounts").is_array()) refuse();
+  std::vector<Account> out;
+  for (const json& a : file["accounts"]) {
+    const auto role = role_named(text_in(a, "role"));
+    out.push_back({text_in(a, "name"), role.value_or(Role::reader), text_in(a, "password"), text_in(a, "code_secret")});
+    if (!role || out.back().name.empty() || !out.back().password_hash.starts_with("$argon2id$")) refuse();
+  }
+  return out;
+}
+
+std::optional<Account> Accounts::of(const std::string& name) const {
+  for (auto& a : all())
+    if (a.name == name) return a;
+  return std::nullopt;
+}
+
+void Accounts::write(const std::vector<Account>& accounts) const {
+  json list = json::array();
+  for (const auto& a : accounts)
+    list.push_back({{"name", a.name}, {"role", name_of(a.role)}, {"password", a.password_hash}, {"code_secret", a.code_secret}});
+  make_private_folder(std::filesystem::path(path_).parent_path().string());
+  write_private_text_file(path_, json{{"format", k_accounts_format}, {"accounts", list}}.dump(1) + "\n");
+}
+
+Account Accounts::set(const std::string& name, Role role, const std::string& password, bool second_factor) {
+  if (name.empty() || name.size() > ledger::k_longest_person || !is_plain_text(name))
+    throw Error("the account's name", "is no line of text of at most 200 bytes", "give the person's name: entries of the ledger will bear it");
+  if (password.size() < k_shortest_password || password.size() > k_longest_password)
+    throw Error("the password", fmt::format("has {} bytes", password.size()),
+                fmt::format("give {} to {}: four words that do not belong together", k_shortest_password, k_longest_password));
+  Account made{name, role, hash_of(password), second_factor ? base32(new_code_secret()) : ""};
+  std::vector<Account> accounts = all();
+  std::erase_if(accounts, [&](const Account& a) { return a.name == name; });
+  accounts.push_back(made);
+  write(accounts);
+  return made;
+}
+
+void Accounts::remove(const std::string& name) {
+  std::vector<Account> accounts = all();
+  if (std::erase_if(accounts, [&](const Account& a) { return a.name == name; }) == 0)
+    throw Error("account " + one_line(name), "is not there", "see `cavum serve --accounts`");
+  write(accounts);
+}
+
+std::optional<Account> Accounts::sign_in(const std::string& name, const std::string& password) const {
+  static std::mutex one_at_a_time;
+  static const std::string nobodys = hash_of("nobody has this password");
+  if (password.size() > k_longest_password) return std::nullopt;
+  const std::optional<Account> account = of(name);
+  const std::lock_guard lock(one_at_a_time);
+  const bool right = is_password(account ? account->password_hash : nobodys, password);
+  return account && right ? account : std::nullopt;
+}
+
+std::string code_address(const Account& account, const std::string& school) {
+  return fmt::format("otpauth://totp/Cavum:{}?secret={}&issuer={}", in_address(account.name), account.code_secret, in_address("Cavum " + school));
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,47 @@
+// What the stations say of themselves, as it is shown live: kept in memory alone, for it changes every second and proves nothing.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+
+namespace cavum::office {
+
+/// One report of a station.
+struct StationReport {
+  std::string state;         ///< one of k_station_states
+  std::string candidate;     ///< pseudonym; empty: nobody sits
+  std::string step;          ///< of the exam, for people
+  std::string alarm;         ///< what an invigilator should see to; empty: nothing
+  std::int64_t left_s = -1;  ///< on the exam's clock; -1: no clock runs
+};
+inline constexpr const char* k_station_states[] = {"free", "check", "briefing", "exam", "paused", "ended"};
+/// Throws Error for a state of another name, a text too long or no plain line, or a time beyond a day.
+[[nodiscard]] StationReport parse_report(const std::string& text);
+
+class Board {
+ public:
+  void report(const std::string& public_key, const StationReport& report, std::int64_t utc_ns);
+  /// Something else that the board shows has changed: entries, filings.
+  void touch();
+  /// By key: {"state","candidate","step","alarm","left_s","seen_utc_ns"}.
+  [[nodiscard]] std::map<std::string, nlohmann::json> stations() const;
+  [[nodiscard]] std::uint64_t version() const;
+  /// Waits until the version is another than `seen`, `patience_ms` at most; returns it.
+  [[nodiscard]] std::uint64_t wait(std::uint64_t seen, int patience_ms) const;
+
+ private:
+  struct Seen {
+    StationReport report;
+    std::int64_t utc_ns = 0;
+  };
+  mutable std::mutex lock_;
+  mutable std::condition_variable changed_;
+  std::map<std::string, Seen> seen_;
+  std::uint64_t version_ = 1;
+};
+
+}  // namespace cavum::office

@@ -1,0 +1,285 @@
+#include "ui/office/desk.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <filesystem>
+
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "grading/ledger/begin.h"
+#include "grading/ledger/decision.h"
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/issue.h"
+#include "grading/ledger/regrade.h"
+#include "grading/ledger/release.h"
+#include "ui/office/desk_parts.h"
+
+namespace cavum::office {
+
+using nlohmann::json;
+
+class Desk::Turn {
+ public:
+  explicit Turn(Desk& desk, ledger::Actor actor = {}) : guard_(desk.lock_), book(desk.ledger_) {
+    book.refresh();
+    book.act_for(std::move(actor));
+  }
+  ~Turn() { book.act_for({}); }
+  Turn(const Turn&) = delete;
+  Turn& operator=(const Turn&) = delete;
+
+ private:
+  std::lock_guard<std::mutex> guard_;
+
+ public:
+  ledger::Ledger& book;
+};
+
+namespace {
+
+/// Names by pseudonym.
+std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) {
+  std::map<std::string, ledger::Identity> out;
+  for (auto& one : ledger::sound_identities(ledger).all()) out[one.pseudonym] = one;
+  return out;
+}
+
+void name(json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym) {
+  const auto found = people.find(pseudonym);
+  row["id"] = found == people.end() ? "" : found->second.id;
+  row["name"] = found == people.end() ? "" : found->second.name;
+}
+
+}  // namespace
+
+Desk::Desk(const std::string& ledger_folder, const SigningKey& school, OfficePlaces places, std::vector<std::string> exams)
+    : ledger_(ledger_folder, school), places_(std::move(places)), exams_(std::move(exams)) {
+  id_ = ledger_.content().id;
+  school_ = ledger_.content().school;
+  public_key_ = ledger_.content().public_key;
+  places_.folder += "/" + id_;
+  make_private_folder(places_.folder + "/tickets");
+}
+
+json Desk::exams() const {
+  json out = json::array();
+  for (const auto& file : exams_) out.push_back(exam_facts(file));
+  return {{"exams", out}};
+}
+
+json Desk::preview(const json& asked) { return shown_roster(roster_of(asked)); }
+
+json Desk::issue(const json& asked, const Account& by) {
+  const Roster roster = roster_of(asked);
+  if (!roster.ready())
+    throw Error("the list", roster.problem.empty() ? "has columns that nobody answered for" : roster.problem,
+                "answer, and look at the preview again");
+  const IssueWish wish = issue_wish(asked, exams_);
+  const auto setup = scenarios::prepare_exam(wish.scenario, {});
+  Turn turn(*this, {by.name, wish.reason, ""});
+  ledger::Identities identities = ledger::sound_identities(turn.book);
+  ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
+  ticket.begun_at_ledger = wish.begun_at_ledger;
+  json issued = json::array(), refused = json::array();
+  for (const auto& person : roster.people) {
+    const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
+    ticket.grant = scenarios::notes_of(person.grant);
+    std::sort(ticket.grant.begin(), ticket.grant.end());
+    try {
+      const std::string text = ledger::issue(turn.book, ticket, candidate);
+      write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
+      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}});
+    } catch (const ledger::TicketIsLive& live) {  // the others get theirs
+      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(live.what())}});
+    }
+  }
+  return {{"issued", issued}, {"refused", refused}};
+}
+
+json Desk::tickets() {
+  Turn turn(*this);
+  const auto people = people_of(turn.book);
+  const std::int64_t now = read_clocks().utc_ns;
+  remove_dead_tickets(turn.book.registry(), now);
+  json out = json::array();
+  for (const auto& t : turn.book.registry().tickets) {
+    const TicketState state = state_of(t, now);
+    json row = {{"entry", t.seq},
+                {"candidate", t.ticket.candidate},
+                {"exam", t.ticket.exam},
+                {"not_before", utc_text(t.ticket.not_before_utc_ns)},
+                {"not_after", utc_text(t.ticket.not_after_utc_ns)},
+                {"state", state.word},
+                {"live", state.live},
+                {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))}};
+    name(row, people, t.ticket.candidate);
+    out.push_back(std::move(row));
+  }
+  return {{"tickets", out}};
+}
+
+json Desk::cancel(const json& asked, const Account& by) {
+  const auto entry = require_whole<std::uint64_t>(asked, "entry", "the ticket");
+  Turn turn(*this, {by.name, "", ""});
+  const auto seq = ledger::cancel_ticket(turn.book, entry, reason_in(asked)).seq;
+  remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
+  return {{"entry", seq}};
+}
+
+json Desk::board(const Board& board, const Inbox& inbox) {
+  Turn turn(*this);
+  const ledger::Registry& registry = turn.book.registry();
+  const std::int64_t now = read_clocks().utc_ns;
+  const auto said = board.stations();
+  json stations = json::array();
+  for (const auto& s : registry.stations.stations) {
+    if (!s.replaced_by.empty()) continue;
+    json row = {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"revoked", s.revoked_utc_ns.has_value()}};
+    const auto found = said.find(s.public_key);
+    row["said"] = found == said.end() ? json() : found->second;
+    stations.push_back(std::move(row));
+  }
+  json tickets = {{"live", 0}, {"begun", 0}, {"filed", 0}, {"cancelled", 0}, {"run out", 0}};
+  for (const auto& t : registry.tickets) {
+    json& n = tickets[state_of(t, now).group];
+    n = n.get<int>() + 1;
+  }
+  json refused = json::array();
+  for (const auto& [hash, findings] : inbox.refused()) refused.push_back({{"sha256", hash}, {"findings", findings}});
+  return {{"utc_ns", now},
+          {"stations", stations},
+          {"tickets", tickets},
+          {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", inbox.trouble()}}}};
+}
+
+json Desk::invite(const json& asked, const Account& by) {
+  constexpr std::int64_t k_week_of_ns = 7 * 86'400'000'000'000;
+  const std::int64_t until = read_clocks().utc_ns + k_week_of_ns;
+  Turn turn(*this, {by.name, "", ""});
+  const std::string code = ledger::invite_station(turn.book, text_in(asked, "name"), until);
+  return {{"code", code}, {"until", utc_text(until)}};
+}
+
+json Desk::revoke(const json& asked, const Account& by) {
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::revoke_station(turn.book, parse_public_key(text_in(asked, "public_key"), "the station's key"), reason_in(asked)).seq}};
+}
+
+json Desk::queue() {
+  Turn turn(*this);
+  json out = json::array();
+  for (const auto& d : ledger::review_queue(turn.book.registry()))
+    out.push_back(
+        {{"session", d.session}, {"candidate", d.candidate}, {"exam", d.scenario_id}, {"points", d.points}, {"max", d.max}, {"reasons", d.reasons}});
+  return {{"queue", out}};
+}
+
+json Desk::decide(const json& asked, const Account& by) {
+  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::enter_decision(turn.book, session, {text_in(asked, "verdict"), by.name, reason_in(asked)}).seq}};
+}
+
+json Desk::results(bool names) {
+  Turn turn(*this);
+  const ledger::Registry& registry = turn.book.registry();
+  const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
+  json out = json::array();
+  for (const auto& s : registry.sessions) {
+    json row = {{"session", s.seq},
+                {"candidate", s.candidate},
+                {"exam", s.scenario_id},
+                {"state", state_of(registry, s)},
+                {"findings", s.findings},
+                {"simulated", s.simulated},
+                {"verdict", text_in(s.result, "verdict")}};
+    const json& score = member_of(s.result, "score");
+    row["points"] = member_of(score, "points");
+    row["max"] = member_of(score, "max");
+    if (names) name(row, people, s.candidate);
+    out.push_back(std::move(row));
+  }
+  return {{"results", out}};
+}
+
+json Desk::release(const json& asked, const Account& by) {
+  ledger::ReleaseWish wish;
+  wish.all = member_of(asked, "all") == true;
+  if (const json& sessions = member_of(asked, "sessions"); sessions.is_array())
+    for (const json& s : sessions)
+      if (s.is_number_unsigned()) wish.sessions.push_back(s);
+  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or sessions");
+  Turn turn(*this, {by.name, reason_in(asked), ""});
+  const ledger::Release done = ledger::release_results(turn.book, wish);
+  return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
+}
+
+std::string Desk::gradebook() {
+  Turn turn(*this);
+  ledger::Identities identities = ledger::sound_identities(turn.book);
+  int left_out = 0;
+  return ledger::moodle_csv(turn.book.registry(), identities, left_out);
+}
+
+std::string Desk::criteria() {
+  Turn turn(*this);
+  return ledger::tidy_csv(turn.book.registry());
+}
+
+std::string Desk::station_problem(const std::string& public_key) {
+  Turn turn(*this);
+  const std::int64_t now = read_clocks().utc_ns;
+  return turn.book.registry().stations.problem(public_key, now, now);
+}
+
+json Desk::enrol(const std::string& request) {
+  Turn turn(*this);
+  const auto seq = ledger::enrol_station(turn.book, request, 0, "the station's request").seq;
+  return {{"entry", seq}, {"name", turn.book.registry().stations.stations.back().name}};
+}
+
+void Desk::remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const {
+  for (const auto& t : registry.tickets)
+    if (!state_of(t, now_utc_ns).live) std::filesystem::remove(places_.ticket(t.ticket.nonce));
+}
+
+json Desk::station_tickets() {
+  Turn turn(*this);
+  const std::int64_t now = read_clocks().utc_ns;
+  remove_dead_tickets(turn.book.registry(), now);
+  json out = json::array();
+  for (const auto& t : turn.book.registry().tickets)
+    if (const std::string file = places_.ticket(t.ticket.nonce); std::filesystem::exists(file))
+      out.push_back({{"candidate", t.ticket.candidate}, {"nonce", t.ticket.nonce}, {"text", read_text_file(file)}});
+  return {{"tickets", out}};
+}
+
+json Desk::begin(const json& asked, const std::string& station) {
+  const std::string nonce = text_in(asked, "ticket");
+  Turn turn(*this, {"", "", station});
+  for (const auto& t : turn.book.registry().tickets) {
+    if (t.ticket.nonce != nonce || t.begins.empty() || t.used_by || t.cancelled_by) continue;
+    const json& before = turn.book.content().entries.at(t.begins.back().seq).body;
+    if (text_in(before, "station") == station)  // its answer was lost on the way
+      return {{"begin", json{{"begin", before.at("begin")}, {"signature", before.at("signature")}}.dump()}};
+  }
+  return {{"begin", ledger::let_begin(turn.book, nonce, "")}};
+}
+
+std::optional<std::uint64_t> Desk::filed(const std::string& file_sha256) {
+  Turn turn(*this);
+  for (const auto& s : turn.book.registry().sessions)
+    if (s.file_sha256 == file_sha256) return s.seq;
+  return std::nullopt;
+}
+
+json Desk::receipt(std::uint64_t entry) {
+  Turn turn(*this);
+  return turn.book.receipt(entry);
+}
+
+}  // namespace cavum::office

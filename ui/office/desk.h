@@ -1,0 +1,75 @@
+// What people and stations do at the office, each as one call: it reads the ledger or adds to it, with who and why in the entry. One at a time; what
+// takes long (a tooth that is made, an exam that is verified) happens elsewhere.
+#pragma once
+
+#include <functional>
+#include <map>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/ledger.h"
+#include "ui/office/accounts.h"
+#include "ui/office/board.h"
+#include "ui/office/inbox.h"
+
+namespace cavum::office {
+
+/// Files that the office keeps beside the ledger, in the school's own folder: office/ID.
+struct OfficePlaces {
+  std::string folder;
+  /// A ticket's file with its accommodations, for the stations: there while the ticket is live.
+  [[nodiscard]] std::string ticket(const std::string& nonce) const { return folder + "/tickets/" + nonce + ".ticket"; }
+  [[nodiscard]] std::string inbox() const { return folder + "/inbox"; }
+};
+
+class Desk {
+ public:
+  /// `exams`: scenario files that tickets may be issued for.
+  Desk(const std::string& ledger_folder, const SigningKey& school, OfficePlaces places, std::vector<std::string> exams);
+
+  [[nodiscard]] const std::string& ledger_id() const noexcept { return id_; }
+  [[nodiscard]] const std::string& school() const noexcept { return school_; }
+  [[nodiscard]] const std::string& public_key() const noexcept { return public_key_; }
+
+  // Each takes and gives JSON (docs/office.md), and throws Error in the words of what is wrong.
+  [[nodiscard]] nlohmann::json exams() const;
+  [[nodiscard]] static nlohmann::json preview(const nlohmann::json& asked);
+  [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json tickets();
+  [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
+  [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json revoke(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json queue();
+  [[nodiscard]] nlohmann::json decide(const nlohmann::json& asked, const Account& by);
+  /// With names where `names`.
+  [[nodiscard]] nlohmann::json results(bool names);
+  [[nodiscard]] nlohmann::json release(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] std::string gradebook();
+  [[nodiscard]] std::string criteria();
+
+  /// Why requests of this key are not taken, in words; empty: it is an enrolled station's.
+  [[nodiscard]] std::string station_problem(const std::string& public_key);
+  [[nodiscard]] nlohmann::json enrol(const std::string& request);
+  [[nodiscard]] nlohmann::json station_tickets();
+  [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const std::string& station);
+  /// Entry of a recording; none when it is not filed.
+  [[nodiscard]] std::optional<std::uint64_t> filed(const std::string& file_sha256);
+  [[nodiscard]] nlohmann::json receipt(std::uint64_t entry);
+
+ private:
+  /// The ledger as it is now, for one call, in the name of an actor.
+  class Turn;
+  /// Removes the files of tickets that can no longer be used: their accommodations tell of health.
+  void remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const;
+
+  std::mutex lock_;
+  ledger::Ledger ledger_;
+  OfficePlaces places_;
+  std::vector<std::string> exams_;
+  std::string id_, school_, public_key_;
+};
+
+}  // namespace cavum::office

@@ -1,0 +1,91 @@
+#include "ui/office/desk_parts.h"
+
+#include <sodium.h>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/language/say.h"
+#include "grading/ledger/regrade.h"
+#include "scenarios/file/accommodations.h"
+#include "scenarios/file/parse.h"
+
+namespace cavum::office {
+
+using nlohmann::json;
+
+Roster roster_of(const json& asked) {
+  const std::string packed = text_in(asked, "base64");
+  std::string bytes(packed.size() / 4 * 3 + 3, '\0');
+  std::size_t size = 0;
+  if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), packed.data(), packed.size(), nullptr, &size, nullptr,
+                        sodium_base64_VARIANT_ORIGINAL) != 0)
+    throw Error("the list", "did not arrive whole", "send it again");
+  bytes.resize(size);
+  std::vector<std::string> answers;
+  if (const json& given = member_of(asked, "answers"); given.is_array())
+    for (const json& a : given) answers.push_back(a.is_string() ? a.get<std::string>() : "");
+  return read_roster(bytes, answers);
+}
+
+json shown_roster(const Roster& roster) {
+  json columns = json::array(), people = json::array();
+  for (const auto& c : roster.columns) columns.push_back({{"heading", c.heading}, {"use", c.use}, {"known", c.known}, {"samples", c.samples}});
+  for (const auto& p : roster.people)
+    people.push_back({{"id", p.id},
+                      {"name", p.name},
+                      {"accommodations", scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list"))}});
+  return {{"encoding", roster.encoding},
+          {"separator", std::string(1, roster.separator)},
+          {"rows", roster.rows},
+          {"columns", columns},
+          {"people", people},
+          {"problem", roster.problem},
+          {"uses", ledger::people_columns()}};
+}
+
+json exam_facts(const std::string& file) {
+  const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
+  return {{"id", s.id}, {"title", s.title}, {"file", file}};
+}
+
+IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
+  IssueWish wish;
+  const std::string exam = text_in(asked, "exam");
+  for (const auto& file : exams)
+    if (exam_facts(file)["id"] == exam) wish.scenario = file;
+  if (wish.scenario.empty()) throw Error("the exam", "is none that this office offers", "choose one of the list");
+  wish.from_utc_ns = ledger::parse_utc(text_in(asked, "from"), "the first moment");
+  wish.until_utc_ns = ledger::parse_utc(text_in(asked, "until"), "the last moment");
+  if (wish.until_utc_ns <= wish.from_utc_ns)
+    throw Error("the last moment", "is not after the first", "give the last moment at which the exam may begin");
+  wish.begun_at_ledger = member_of(asked, "begin_at_office") == true;
+  wish.reason = reason_in(asked);
+  return wish;
+}
+
+std::string reason_in(const json& asked) {
+  const std::string reason = text_in(asked, "reason");
+  if (reason.empty() || reason.size() > ledger::k_longest_reason || !is_plain_text(reason))
+    throw Error("the reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
+  return reason;
+}
+
+TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
+  if (t.used_by) return {tr("filed, entry {}", *t.used_by), "filed", false};
+  if (t.cancelled_by) return {tr("cancelled, entry {}", *t.cancelled_by), "cancelled", false};
+  if (!t.begins.empty()) return {tr("begun, entry {}", t.begins.back().seq), "begun", now <= t.ticket.not_after_utc_ns};
+  if (now > t.ticket.not_after_utc_ns) return {tr("run out"), "run out", false};
+  return {now < t.ticket.not_before_utc_ns ? tr("not yet") : tr("live"), "live", true};
+}
+
+std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s) {
+  if (s.result_erased_by) return "erased";
+  if (registry.chosen_instead_of(s) != nullptr) return "not chosen";
+  if (s.released) return "released";
+  if (s.doubtful()) return "questioned";
+  return s.undecided() ? "to decide" : "ready";
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,43 @@
+// What the desk reads out of requests, and how it names the states of tickets and results.
+#pragma once
+
+#include <cstdint>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/registry.h"
+#include "ui/office/roster.h"
+
+namespace cavum::office {
+
+/// The list of a request: {"base64","answers"}. Throws Error when it is none.
+[[nodiscard]] Roster roster_of(const nlohmann::json& asked);
+[[nodiscard]] nlohmann::json shown_roster(const Roster& roster);
+
+/// {"id","title","file"} of a scenario. Throws Error when it cannot be read.
+[[nodiscard]] nlohmann::json exam_facts(const std::string& scenario_file);
+
+/// What tickets are issued for.
+struct IssueWish {
+  std::string scenario;  ///< file
+  std::int64_t from_utc_ns = 0, until_utc_ns = 0;
+  bool begun_at_ledger = false;
+  std::string reason;
+};
+/// {"exam","from","until","begin_at_office","reason"}: the exam by its id, one of `exams`. Throws Error.
+[[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
+
+/// Why: one line, kept for ever. Throws Error when it is none.
+[[nodiscard]] std::string reason_in(const nlohmann::json& asked);
+
+struct TicketState {
+  std::string word;   ///< for people
+  std::string group;  ///< live, begun, filed, cancelled, run out
+  bool live = false;  ///< it may still be used
+};
+[[nodiscard]] TicketState state_of(const ledger::IssuedTicket& ticket, std::int64_t now_utc_ns);
+/// released, to decide, questioned, not chosen, erased, or ready: it waits for its release.
+[[nodiscard]] std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& session);
+
+}  // namespace cavum::office

@@ -1,0 +1,200 @@
+#include "ui/office/inbox.h"
+
+#include <fcntl.h>
+#include <fmt/core.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <chrono>
+#include <filesystem>
+
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/memory_reserve.h"
+
+namespace cavum::office {
+namespace {
+
+using nlohmann::json;
+
+constexpr char k_part[] = ".part";
+constexpr auto k_before_again = std::chrono::seconds(5);
+constexpr std::size_t k_hash_letters = 64;
+
+}  // namespace
+
+Arriving::Arriving(const std::string& folder, std::string sha256)
+    : folder_(folder), sha256_(std::move(sha256)), path_(temporary_name_beside(folder + "/" + sha256_ + ".cavum")) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (file_ < 0) throw Error(folder_, "takes no file", "make room on the disk");
+  crypto_hash_sha256_init(&hash_);
+}
+
+Arriving::~Arriving() {
+  if (file_ >= 0) ::close(file_);
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+void Arriving::take(std::string_view part) {
+  crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+  while (!part.empty() && !refused_) {
+    const ssize_t written = ::write(file_, part.data(), part.size());
+    if (written > 0)
+      part.remove_prefix(static_cast<std::size_t>(written));
+    else if (written == 0 || errno != EINTR)
+      refused_ = true;
+  }
+}
+
+void Arriving::keep() {
+  Sha256 hash{};
+  crypto_hash_sha256_final(&hash_, hash.data());
+  if (to_hex(hash) != sha256_) throw Error("the session", "is not the one whose hash was named", "send it again");
+  if (refused_ || ::fsync(file_) != 0) throw DatabaseError(folder_, "cannot be written", "make room on the disk, and send it again", 0);
+  ::close(file_);
+  file_ = -1;
+  // the same exam sent twice at once: either file is it
+  static_cast<void>(put_in_place(path_, folder_ + "/" + sha256_ + ".cavum"));
+}
+
+Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, ledger::FilingOptions options, std::function<void()> filed)
+    : folder_(std::move(folder)), ledger_folder_(std::move(ledger_folder)), school_(school), options_(options), filed_(std::move(filed)) {
+  make_private_folder(folder_ + "/refused");
+  for (const auto& file : std::filesystem::directory_iterator(folder_)) {  // of before: sent and not filed, or not sent whole
+    const std::string name = file.path().filename().string();
+    if (name.ends_with(k_part)) std::filesystem::remove(file.path());
+    if (name.size() != k_hash_letters + 6 || !name.ends_with(".cavum")) continue;
+    queue_.push_back(name.substr(0, k_hash_letters));
+    handed_[queue_.back()].state = Handed::State::waiting;
+  }
+  for (const auto& file : std::filesystem::directory_iterator(folder_ + "/refused")) {
+    if (file.path().extension() != ".json") continue;
+    const std::string hash = file.path().stem().string();
+    const json findings = parse_json_or_null(read_text_file(file.path().string()));
+    Handed& h = handed_[hash];
+    if (h.state == Handed::State::waiting) continue;
+    h.state = Handed::State::refused;
+    if (findings.is_array())
+      for (const auto& f : findings)
+        if (f.is_string()) h.findings.push_back(f);
+    refused_.push_back(hash);
+  }
+  worker_ = std::thread([this] { work(); });
+}
+
+Inbox::~Inbox() {
+  {
+    const std::lock_guard guard(lock_);
+    stopping_ = true;
+    come_.notify_all();
+  }
+  worker_.join();
+}
+
+std::unique_ptr<Arriving> Inbox::receive(const std::string& sha256) const { return std::make_unique<Arriving>(folder_, sha256); }
+
+void Inbox::add(const std::string& sha256) {
+  const std::lock_guard guard(lock_);
+  Handed& h = handed_[sha256];
+  if (h.state == Handed::State::waiting) return;
+  h = {Handed::State::waiting, 0, {}};
+  std::erase(refused_, sha256);
+  queue_.push_back(sha256);
+  come_.notify_all();
+}
+
+Handed Inbox::of(const std::string& sha256) const {
+  const std::lock_guard guard(lock_);
+  const auto found = handed_.find(sha256);
+  return found == handed_.end() ? Handed{} : found->second;
+}
+
+std::size_t Inbox::waiting() const {
+  const std::lock_guard guard(lock_);
+  return queue_.size();
+}
+
+std::vector<std::pair<std::string, std::vector<std::string>>> Inbox::refused() const {
+  const std::lock_guard guard(lock_);
+  std::vector<std::pair<std::string, std::vector<std::string>>> out;
+  for (const auto& hash : refused_) out.emplace_back(hash, handed_.at(hash).findings);
+  return out;
+}
+
+std::string Inbox::trouble() const {
+  const std::lock_guard guard(lock_);
+  return trouble_;
+}
+
+void Inbox::work() {
+  for (std::unique_lock guard(lock_);;) {
+    come_.wait(guard, [&] { return stopping_ || !queue_.empty(); });
+    if (stopping_) return;
+    const std::string hash = queue_.front();
+    guard.unlock();
+    const bool done = file(hash);
+    guard.lock();
+    if (done)
+      queue_.pop_front();
+    else
+      come_.wait_for(guard, k_before_again, [&] { return stopping_; });
+    guard.unlock();
+    filed_();
+    guard.lock();
+  }
+}
+
+bool Inbox::file(const std::string& hash) {
+  std::string trouble;
+  try {
+    keep_memory_reserve();
+    if (!ledger_) ledger_ = std::make_unique<ledger::Ledger>(ledger_folder_, school_);
+    ledger_->refresh();
+    const auto& sessions = ledger_->registry().sessions;
+    const auto before = std::find_if(sessions.begin(), sessions.end(), [&](const ledger::FiledSession& s) { return s.file_sha256 == hash; });
+    std::optional<std::uint64_t> entry;
+    if (before != sessions.end()) {  // killed between the entry and this
+      entry = before->seq;
+    } else {
+      ledger::Filing filing;
+      try {
+        filing = ledger::file_session(*ledger_, path_of(hash), options_, grounds_);
+      } catch (const DatabaseError&) {
+        throw;
+      } catch (const std::bad_alloc&) {
+        throw;
+      } catch (const std::exception& e) {  // no session that can be read
+        filing.findings.emplace_back(e.what());
+      }
+      entry = filing.seq;
+      if (!entry) {
+        refuse(hash, filing.findings);
+        return true;
+      }
+    }
+    std::filesystem::remove(path_of(hash));
+    const std::lock_guard guard(lock_);
+    handed_[hash] = {Handed::State::filed, *entry, {}};
+    trouble_.clear();
+    return true;
+  } catch (const std::exception& e) {  // the disk, the ledger, memory: the exam stays where it lies
+    trouble = e.what();
+    ledger_.reset();
+  }
+  const std::lock_guard guard(lock_);
+  trouble_ = trouble;
+  return false;
+}
+
+void Inbox::refuse(const std::string& hash, const std::vector<std::string>& findings) {
+  write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), json(findings).dump(1) + "\n");
+  std::filesystem::rename(path_of(hash), fmt::format("{}/refused/{}.cavum", folder_, hash));
+  const std::lock_guard guard(lock_);
+  handed_[hash] = {Handed::State::refused, 0, findings};
+  refused_.push_back(hash);
+  trouble_.clear();
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,246 @@
+#include "ui/office/office.h"
+
+#include <fmt/core.h>
+
+#include <chrono>
+#include <map>
+#include <mutex>
+#include <thread>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/language/language.h"
+#include "engine/language/shown.h"
+#include "engine/session/session.h"
+#include "ui/office/desk.h"
+#include "ui/office/one_time_code.h"
+#include "ui/office/page_files.h"
+#include "ui/office/site.h"
+
+namespace cavum::office {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_tries_of_a_name = 5, k_tries_of_an_address = 20, k_tries_of_a_code = 5, k_tries_of_enrolment = 10;
+constexpr int k_patience_ms = 1000, k_silence_s = 15;
+constexpr auto k_between_events = std::chrono::milliseconds(250);
+
+std::int64_t steady_s() { return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+std::int64_t utc_now_ns() { return read_clocks().utc_ns; }
+
+std::string cookie_field(const std::string& value, std::int64_t seconds) {
+  return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite=Strict", k_cookie, value, seconds);
+}
+
+json words_of_the_page() {
+  json words = json::object();
+  if (language() != "en")
+    for (const auto& m : page_messages()) words[m] = shown(m);
+  return {{"language", language()}, {"words", words}};
+}
+
+/// A recording that a station hands in.
+class TakesSession : public Taker {
+ public:
+  TakesSession(Inbox& inbox, const std::string& sha256) : inbox_(inbox), sha256_(sha256), file_(inbox.receive(sha256)) {}
+  void take(std::string_view part) override { file_->take(part); }
+  Reply done() override {
+    file_->keep();
+    inbox_.add(sha256_);
+    return json_reply({{"state", "waiting"}}, 202);
+  }
+
+ private:
+  Inbox& inbox_;
+  std::string sha256_;
+  std::unique_ptr<Arriving> file_;
+};
+
+}  // namespace
+
+struct Office::Parts {
+  explicit Parts(const OfficeOptions& o)
+      : accounts(o.home + "/accounts.json"),
+        desk(o.ledger_folder, o.school, {o.home}, o.exams),
+        inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
+        site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
+              steady_s, utc_now_ns, desk.ledger_id()}) {
+    serve_pages();
+    serve_people();
+    serve_desk();
+    serve_stations();
+    site.require_complete();
+    server = std::make_unique<HttpServer>(
+        o.address, o.port, o.certificate, [this](const Head& head) { return site.welcome(head); }, o.limits);
+  }
+
+  void serve_pages() {
+    const auto page = [this](const char* path, const char* type, std::string_view text) {
+      site.on("GET", path, [type, text](const Call&) { return Reply{200, type, std::string(text)}; });
+    };
+    page("/", "text/html; charset=utf-8", page_html());
+    page("/office.js", "text/javascript; charset=utf-8", page_script());
+    page("/office.css", "text/css; charset=utf-8", page_style());
+    site.on("GET", "/api/words", [](const Call&) { return json_reply(words_of_the_page()); });
+  }
+
+  void serve_people() {
+    site.on("POST", "/api/sign-in", [this](const Call& c) { return sign_in(c); });
+    site.on("POST", "/api/sign-out", [this](const Call& c) {
+      site.sign_ins().end(c.cookie);
+      Reply reply = json_reply(json::object());
+      reply.fields.emplace_back("Set-Cookie", cookie_field("", 0));
+      return reply;
+    });
+    site.on("GET", "/api/me", [this](const Call& c) { return me(*c.by); });
+  }
+
+  Reply me(const SignedIn& who) const {
+    json may = json::array();
+    for (const Door& d : doors())
+      if (d.asks == Asks::person && d.lets(who.account.role)) may.push_back(fmt::format("{} {}", d.method, d.path));
+    return json_reply({{"name", who.account.name},
+                       {"role", name_of(who.account.role)},
+                       {"token", who.token},
+                       {"may", may},
+                       {"school", desk.school()},
+                       {"second_factor", !who.account.code_secret.empty()}});
+  }
+
+  Reply sign_in(const Call& call) {
+    const json asked = call.json();
+    const std::string name = text_in(asked, "name"), key = call.head.address + " " + name;
+    const std::int64_t now = steady_s();
+    if (!tries.allow(call.head.address, k_tries_of_an_address, now) || !tries.allow(key, k_tries_of_a_name, now))
+      return error_reply(429, "too many tries: wait a minute");
+    const auto account = accounts.sign_in(name, text_in(asked, "password"));
+    if (!account) return error_reply(401, "name and password do not belong together");
+    tries.forget(key);
+    const std::string cookie = site.sign_ins().begin(*account, now);
+    Reply reply = me(*site.sign_ins().of(cookie, now));
+    reply.fields.emplace_back("Set-Cookie", cookie_field(cookie, k_absolute_end_s));
+    return reply;
+  }
+
+  void serve_desk() {
+    const auto get = [this](const char* path, auto say) { site.on("GET", path, [say](const Call& c) { return json_reply(say(c)); }); };
+    const auto post = [this](const char* path, auto act) {
+      site.on("POST", path, [this, act](const Call& c) {
+        Reply reply = json_reply(act(c.json(), c.by->account));
+        board.touch();
+        return reply;
+      });
+    };
+    get("/api/exams", [this](const Call&) { return desk.exams(); });
+    site.on("POST", "/api/roster/preview", [](const Call& c) { return json_reply(Desk::preview(c.json())); });
+    post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
+    get("/api/tickets", [this](const Call&) { return desk.tickets(); });
+    post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });
+    get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
+    site.on("GET", "/api/board/events", [this](const Call& c) {
+      Reply reply{200, "text/event-stream"};
+      reply.events = [this, c](const WriteEvent& write) { send_board(c, write); };
+      return reply;
+    });
+    post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
+    post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
+    get("/api/queue", [this](const Call&) { return desk.queue(); });
+    post("/api/decide", [this](const json& asked, const Account& by) { return desk.decide(asked, by); });
+    get("/api/results", [this](const Call& c) { return desk.results(c.by->account.role == Role::officer); });
+    post("/api/release", [this](const json& asked, const Account& by) {
+      require_code(text_in(asked, "code"), by);
+      return desk.release(asked, by);
+    });
+    const auto table = [this](const char* path, const char* file, auto make) {
+      site.on("GET", path, [file, make](const Call&) {
+        Reply reply{200, "text/csv; charset=utf-8", make()};
+        reply.fields.emplace_back("Content-Disposition", fmt::format("attachment; filename=\"{}\"", file));
+        return reply;
+      });
+    };
+    table("/api/gradebook.csv", "gradebook.csv", [this] { return desk.gradebook(); });
+    table("/api/criteria.csv", "criteria.csv", [this] { return desk.criteria(); });
+  }
+
+  /// The board whenever it changes, four times a second at most, and a comment in between, so that a line that is dead is noticed.
+  void send_board(const Call& call, const WriteEvent& write) {
+    std::uint64_t seen = 0;
+    std::int64_t spoken_s = steady_s();
+    while (site.still(call)) {
+      const std::uint64_t now = board.wait(seen, k_patience_ms);
+      if (now != seen) {
+        seen = now;
+        spoken_s = steady_s();
+        if (!write("data: " + json_reply(desk.board(board, inbox)).body + "\n\n")) return;
+        std::this_thread::sleep_for(k_between_events);
+      } else if (steady_s() - spoken_s >= k_silence_s) {
+        spoken_s = steady_s();
+        if (!write(":\n\n")) return;
+      } else if (!write("")) {
+        return;
+      }
+    }
+  }
+
+  /// A release asks for a code of the second factor, each good once.
+  void require_code(const std::string& code, const Account& by) {
+    if (by.code_secret.empty())
+      throw Error("the release", "needs a second factor, and this account has none", "cavum serve --add-account NAME --role officer --second-factor");
+    if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
+    const std::lock_guard guard(codes_lock);
+    std::uint64_t& used = used_codes[by.name];
+    const auto counter = counter_of_code(from_base32(by.code_secret).value_or(Bytes()), code, utc_now_ns() / 1'000'000'000, used);
+    if (!counter) throw Error("the code", "is not good, or was used before", "type the one that the app shows now");
+    used = *counter;
+  }
+
+  void serve_stations() {
+    site.on("GET", "/station/hello", [this](const Call&) {
+      return json_reply({{"ledger", desk.ledger_id()}, {"public_key", desk.public_key()}, {"utc_ns", utc_now_ns()}});
+    });
+    site.on("POST", "/station/enrol", [this](const Call& c) {
+      if (!tries.allow("enrol " + c.head.address, k_tries_of_enrolment, steady_s())) return error_reply(429, "too many tries: wait a minute");
+      Reply reply = json_reply(desk.enrol(c.body));
+      tries.forget("enrol " + c.head.address);
+      board.touch();
+      return reply;
+    });
+    site.on("GET", "/station/tickets", [this](const Call&) { return json_reply(desk.station_tickets()); });
+    site.on("POST", "/station/begin", [this](const Call& c) {
+      Reply reply = json_reply(desk.begin(c.json(), c.station));
+      board.touch();
+      return reply;
+    });
+    site.on("POST", "/station/report", [this](const Call& c) {
+      board.report(c.station, parse_report(c.body), utc_now_ns());
+      return json_reply({{"utc_ns", utc_now_ns()}});
+    });
+    site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail); });
+    site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });
+  }
+
+  Reply handed(const std::string& sha256) {
+    if (const auto entry = desk.filed(sha256)) return json_reply({{"state", "filed"}, {"entry", *entry}, {"receipt", desk.receipt(*entry)}});
+    const Handed h = inbox.of(sha256);
+    if (h.state == Handed::State::refused) return json_reply({{"state", "refused"}, {"findings", h.findings}});
+    return json_reply({{"state", h.state == Handed::State::unknown ? "unknown" : "waiting"}});
+  }
+
+  Accounts accounts;
+  Desk desk;
+  Board board;
+  Inbox inbox;
+  Site site;
+  Tries tries;
+  std::mutex codes_lock;
+  std::map<std::string, std::uint64_t> used_codes;
+  std::unique_ptr<HttpServer> server;  // ends first: handlers use the rest
+};
+
+Office::Office(const OfficeOptions& options) : parts_(std::make_unique<Parts>(options)) {}
+Office::~Office() = default;
+std::uint16_t Office::port() const noexcept { return parts_->server->port(); }
+const std::string& Office::school() const noexcept { return parts_->desk.school(); }
+
+}  // namespace cavum::office

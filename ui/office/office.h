@@ -1,0 +1,42 @@
+// The exam office's server, put together: accounts, ledger, board, inbox, and a handler behind each door.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/filing.h"
+#include "ui/office/http_server.h"
+
+namespace cavum::office {
+
+struct OfficeOptions {
+  std::string ledger_folder;
+  SigningKey school;
+  std::string home;                ///< folder of the office's own files, mode 0700: accounts.json, certificate, ID/tickets, ID/inbox
+  std::vector<std::string> exams;  ///< scenario files
+  std::string address = "127.0.0.1";
+  std::uint16_t port = 8443;  ///< 0: any that is free
+  CertificateFiles certificate;
+  ledger::FilingOptions filing;
+  HttpLimits limits;
+};
+
+class Office {
+ public:
+  /// Serves from now on, in threads of its own. Throws Error when a part cannot be had.
+  explicit Office(const OfficeOptions& options);
+  /// Ends connections, and the exam that is being verified first.
+  ~Office();
+  Office(const Office&) = delete;
+  Office& operator=(const Office&) = delete;
+  [[nodiscard]] std::uint16_t port() const noexcept;
+  [[nodiscard]] const std::string& school() const noexcept;
+
+ private:
+  struct Parts;
+  std::unique_ptr<Parts> parts_;
+};
+
+}  // namespace cavum::office

@@ -1,0 +1,128 @@
+// The live board: every station as it speaks, what waits to be filed, and the stations' register.
+import { make } from "../report_src/dom.ts";
+import { tr } from "../report_src/words.ts";
+import { post } from "./api.ts";
+import { field, form, input, say, table, with_reason, type View } from "./parts.ts";
+
+interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; seen_utc_ns: number }
+interface Station { name: string; public_key: string; revoked: boolean; said: Said | null }
+interface Shown {
+  utc_ns: number;
+  stations: Station[];
+  tickets: { [group: string]: number };
+  inbox: { waiting: number; trouble: string; refused: { sha256: string; findings: string[] }[] };
+}
+
+const silent_s = 15;
+const states = (): { [state: string]: string } => ({
+  free: tr("free"), check: tr("self-check"), briefing: tr("briefing"), exam: tr("exam under way"), paused: tr("paused"), ended: tr("exam ended"),
+});
+const groups = (): { [group: string]: string } => ({
+  live: tr("live"), begun: tr("begun"), filed: tr("filed"), cancelled: tr("cancelled"), "run out": tr("run out"),
+});
+
+function clock(s: number): string {
+  return `${Math.floor(s / 60)}:${String(Math.floor(s % 60)).padStart(2, "0")}`;
+}
+
+function card(s: Station, now_ns: number): HTMLElement {
+  const lines = make("div");
+  const element = make("li", { class: "card" }, make("h3", {}, s.name), lines);
+  if (s.revoked) {
+    element.classList.add("silent");
+    lines.append(make("p", {}, tr("Key revoked")));
+    return element;
+  }
+  if (s.said === null) {
+    element.classList.add("silent");
+    lines.append(make("p", {}, tr("Has not spoken yet")));
+    return element;
+  }
+  const ago_s = Math.max(0, Math.round((now_ns - s.said.seen_utc_ns) / 1e9));
+  lines.append(make("p", {}, states()[s.said.state] ?? s.said.state));
+  if (s.said.candidate !== "") lines.append(make("p", {}, make("code", {}, s.said.candidate)));
+  if (s.said.step !== "") lines.append(make("p", {}, s.said.step));
+  if (s.said.left_s >= 0) lines.append(make("p", {}, tr("{} left", clock(s.said.left_s))));
+  if (s.said.alarm !== "") {
+    element.classList.add("alarm");
+    lines.append(make("p", { class: "wrong" }, tr("Alarm: {}", s.said.alarm)));
+  }
+  if (ago_s > silent_s) {
+    element.classList.add("silent");
+    lines.append(make("p", { class: "wrong" }, tr("Silent for {}", clock(ago_s))));
+  }
+  return element;
+}
+
+export async function board(may: (door: string) => boolean): Promise<View> {
+  const counts = make("ul", { class: "counts" });
+  const cards = make("ul", { class: "cards" });
+  const inbox = make("div");
+  const line = make("p", { class: "hint" }, tr("Connecting …"));
+  const root = make("div", {}, make("h1", {}, tr("Exam day")), line, make("h2", {}, tr("Tickets")), counts, make("h2", {}, tr("Stations")), cards, make("h2", {}, tr("Exams that were handed in")), inbox);
+  const revocation = may("POST /api/stations/revoke") ? new Revocation() : null;
+  let shown: Shown | null = null;
+  let came_ms = 0;
+  const draw = (): void => {
+    if (shown === null) return;
+    const now_ns = shown.utc_ns + (performance.now() - came_ms) * 1e6;  // by the office's clock
+    cards.replaceChildren(...(shown.stations.length > 0 ? shown.stations.map((s) => card(s, now_ns)) : [make("li", {}, tr("No station is enrolled yet."))]));
+  };
+  const take = (what: Shown): void => {
+    shown = what;
+    came_ms = performance.now();
+    const names = groups();
+    counts.replaceChildren(...Object.keys(names).map((g) => make("li", {}, make("b", {}, String(what.tickets[g] ?? 0)), ` ${names[g]}`)));
+    inbox.replaceChildren(make("p", {}, tr("Waiting to be verified and filed: {}", what.inbox.waiting)));
+    if (what.inbox.trouble !== "") inbox.append(make("p", { class: "wrong" }, what.inbox.trouble));
+    if (what.inbox.refused.length > 0)
+      inbox.append(table(tr("Refused"), [tr("Recording"), tr("Why")], what.inbox.refused.map((r) => [make("code", {}, r.sha256.slice(0, 16)), r.findings.join("; ")])));
+    revocation?.take(what.stations);
+    draw();
+  };
+  const source = new EventSource("/api/board/events");
+  source.onmessage = (event: MessageEvent<string>) => {
+    line.textContent = tr("Live");
+    take(JSON.parse(event.data) as Shown);
+  };
+  source.onerror = () => {
+    line.textContent = tr("The office does not answer; trying again …");
+    if (source.readyState === EventSource.CLOSED) window.dispatchEvent(new Event("signed-out"));
+  };
+  const timer = setInterval(draw, 1000);
+  if (may("POST /api/stations/invite")) root.append(invite());
+  if (revocation !== null) root.append(revocation.root);
+  return { root, leave: () => { source.close(); clearInterval(timer); } };
+}
+
+function invite(): HTMLElement {
+  const name = input(tr("Name of the station"), { required: "", maxlength: "100", autocomplete: "off" }, tr("As people call it: Seat 3."));
+  const out = make("p");
+  return make("section", {}, make("h2", {}, tr("Invite a station")), form(tr("Make a code"), async () => {
+    const made = await post<{ code: string; until: string }>("/api/stations/invite", { name: name.value });
+    out.replaceChildren(tr("One-time code, shown only now:"), " ", make("code", {}, made.code));
+    say(tr("Type the code at the station."));
+  }, name.block), out);
+}
+
+class Revocation {
+  private readonly list = field(tr("Station"), make("select"));
+  readonly root = make("section", {}, make("h2", {}, tr("Revoke a station's key")), this.list.block);
+  private held = "";
+
+  constructor() {
+    this.root.append(with_reason(tr("Revoke"), { class: "bad" }, async (reason) => {
+      await post("/api/stations/revoke", { public_key: this.list.value, reason });
+      say(tr("What this station sends from now on does not count."));
+    }));
+  }
+
+  /** Touches the list only when the stations are others: somebody may be choosing. */
+  take(stations: Station[]): void {
+    const good = stations.filter((s) => !s.revoked);
+    const now = good.map((s) => s.public_key).join();
+    if (now === this.held) return;
+    this.held = now;
+    this.list.replaceChildren(...good.map((s) => make("option", { value: s.public_key }, s.name)));
+  }
+}

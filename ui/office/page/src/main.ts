@@ -1,0 +1,96 @@
+// The exam office in a browser: who is signed in sees the views that his role has, by the address after #.
+import { make } from "../report_src/dom.ts";
+import { set_words, tr } from "../report_src/words.ts";
+import { get, post, Refused, set_token, type Me } from "./api.ts";
+import { board } from "./board.ts";
+import { act, say, type View } from "./parts.ts";
+import { queue } from "./queue.ts";
+import { results } from "./results.ts";
+import { roster } from "./roster.ts";
+import { sign_in } from "./sign_in.ts";
+import { tickets } from "./tickets.ts";
+
+let me: Me | null = null;
+let view: View | null = null;
+const may = (door: string): boolean => me?.may.includes(door) ?? false;
+
+const roles = (): { [role: string]: string } => ({ officer: tr("exam officer"), examiner: tr("examiner"), invigilator: tr("invigilator"), reader: tr("reader") });
+
+interface Place { name: string; title: string; door: string; open(): Promise<View> }
+const places = (): Place[] => [
+  { name: "day", title: tr("Exam day"), door: "GET /api/board/events", open: () => board(may) },
+  { name: "list", title: tr("Class list"), door: "POST /api/roster/issue", open: roster },
+  { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may("POST /api/tickets/cancel")) },
+  { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
+  { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
+];
+
+function put(next: View): void {
+  view?.leave?.();
+  view = next;
+  const main = document.getElementById("main")!;
+  main.replaceChildren(next.root);
+  (next.first ?? main).focus();
+}
+
+function head(mine: Place[], now: string): void {
+  const bar = document.getElementById("head")!;
+  bar.replaceChildren(make("strong", {}, me?.school ?? tr("Exam office")));
+  if (me === null) return;
+  const list = make("ul");
+  for (const p of mine) list.append(make("li", {}, make("a", { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) }, p.title)));
+  bar.append(make("nav", { "aria-label": tr("Views") }, list), make("span", {}, `${me.name}, ${roles()[me.role] ?? me.role}`),
+    act(tr("Sign out"), {}, async () => {
+      await post("/api/sign-out", {});
+      signed_out();
+    }));
+}
+
+function signed_out(): void {
+  me = null;
+  set_token("");
+  void show();
+}
+
+let asked = 0;
+async function show(): Promise<void> {
+  const mine = places().filter((p) => may(p.door));
+  const place = mine.find((p) => `#${p.name}` === location.hash) ?? mine[0];
+  head(mine, place?.name ?? "");
+  document.title = `${place?.title ?? tr("Sign in")} · ${me?.school ?? "Cavum"}`;
+  if (place === undefined) return put(sign_in(signed_in));
+  const this_time = ++asked;
+  try {
+    const next = await place.open();
+    if (this_time === asked) put(next);
+    else next.leave?.();
+  } catch (wrong) {
+    if (wrong instanceof Refused && wrong.status === 401) signed_out();
+    else say(wrong instanceof Error ? wrong.message : tr("This did not work."), true);
+  }
+}
+
+function signed_in(who: Me): void {
+  me = who;
+  set_token(who.token);
+  void show();
+}
+
+async function begin(): Promise<void> {
+  const { language, words } = await get<{ language: string; words: { [english: string]: string } }>("/api/words");
+  set_words(words, language === "de" ? "," : ".");
+  document.documentElement.lang = language;
+  document.getElementById("skip")!.textContent = tr("To the content");
+  window.addEventListener("hashchange", () => {
+    say("");
+    void show();
+  });
+  window.addEventListener("signed-out", signed_out);
+  try {
+    signed_in(await get<Me>("/api/me"));
+  } catch (wrong) {
+    if (!(wrong instanceof Refused && wrong.status === 401)) say(wrong instanceof Error ? wrong.message : "", true);
+    void show();
+  }
+}
+void begin();

@@ -1,0 +1,117 @@
+// What the views are made of: fields with labels, tables that become cards on a narrow screen, and one line that says what happened.
+import { button, make } from "../report_src/dom.ts";
+import { tr } from "../report_src/words.ts";
+
+export interface View {
+  root: HTMLElement;
+  /** Where typing begins. */
+  first?: HTMLElement;
+  /** Ends what goes on: a stream of events. */
+  leave?(): void;
+}
+
+let last = 0;
+function id(): string {
+  return `field-${++last}`;
+}
+
+/** A control below its label, and a hint below that. */
+export function field<T extends HTMLElement>(label: string, control: T, hint = ""): T & { block: HTMLElement } {
+  control.id ||= id();
+  const block = make("div", {}, make("label", { for: control.id }, label), control);
+  if (hint !== "") {
+    const text = make("p", { class: "hint", id: id() }, hint);
+    control.setAttribute("aria-describedby", text.id);
+    block.append(text);
+  }
+  return Object.assign(control, { block });
+}
+
+export function input(label: string, attributes: { [name: string]: string } = {}, hint = ""): HTMLInputElement & { block: HTMLElement } {
+  return field(label, make("input", { type: "text", ...attributes }), hint);
+}
+
+export function select(label: string, choices: [string, string][], chosen = ""): HTMLSelectElement & { block: HTMLElement } {
+  const list = make("select");
+  for (const [value, text] of choices) list.append(Object.assign(make("option", { value }, text), { selected: value === chosen }));
+  return field(label, list);
+}
+
+/** One line for each row; on a narrow screen a card, each cell with its heading. */
+export function table(caption: string, headings: string[], rows: (Node | string)[][]): HTMLTableElement {
+  const body = make("tbody");
+  for (const row of rows) {
+    const line = make("tr");
+    row.forEach((cell, i) => line.append(i === 0 ? make("th", { scope: "row" }, cell) : make("td", { "data-label": headings[i] }, cell)));
+    body.append(line);
+  }
+  const head = make("tr", {}, ...headings.map((h) => make("th", { scope: "col" }, h)));
+  return make("table", { class: "stack" }, make("caption", {}, caption), make("thead", {}, head), body);
+}
+
+/** Says what happened, for eyes and screen readers. */
+export function say(text: string, wrong = false): void {
+  const line = document.getElementById("said")!;
+  line.textContent = text;
+  line.classList.toggle("wrong-said", wrong);
+}
+
+/** A button that does something once at a time, and says what went wrong. */
+export function act(text: string, attributes: { [name: string]: string }, does: () => Promise<void>): HTMLButtonElement {
+  const control: HTMLButtonElement = button(text, attributes, () => void run(control, does));
+  return control;
+}
+
+/** A form whose Enter key and button do the same. */
+export function form(text: string, does: () => Promise<void>, ...children: Node[]): HTMLFormElement {
+  const send = make("button", { type: "submit", class: "main" }, text);
+  const element = make("form", {}, ...children, make("div", { class: "row" }, send));
+  element.addEventListener("submit", (event) => {
+    event.preventDefault();
+    void run(send, does);
+  });
+  return element;
+}
+
+async function run(control: HTMLButtonElement, does: () => Promise<void>): Promise<void> {
+  if (control.disabled) return;
+  control.disabled = true;
+  say("");
+  try {
+    await does();
+  } catch (wrong) {
+    say(wrong instanceof Error ? wrong.message : tr("This did not work."), true);
+    if (wrong instanceof Error && "status" in wrong && wrong.status === 401) window.dispatchEvent(new Event("signed-out"));
+  } finally {
+    control.disabled = false;
+  }
+}
+
+/** Asks why in a form below a button, and does it then. */
+export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>): HTMLElement {
+  const block = make("div");
+  const open = button(text, { "aria-expanded": "false", ...attributes }, () => {
+    const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+    const asked = form(text, async () => does(reason.value), reason.block);
+    asked.querySelector(".row")!.append(button(tr("Back"), {}, () => {
+      asked.remove();
+      open.hidden = false;
+      open.setAttribute("aria-expanded", "false");
+      open.focus();
+    }));
+    open.hidden = true;
+    open.setAttribute("aria-expanded", "true");
+    block.append(asked);
+    reason.focus();
+  });
+  block.append(open);
+  return block;
+}
+
+/** "2026-11-21T09:00:00Z" in the reader's own time zone. */
+export function local_time(utc: string): string {
+  return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+}
+export function time_zone(): string {
+  return Intl.DateTimeFormat().resolvedOptions().timeZone;
+}

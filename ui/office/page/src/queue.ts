@@ -1,0 +1,34 @@
+// What the program leaves to a person: each result with its reasons, and the decision with its own.
+import { make } from "../report_src/dom.ts";
+import { fixed, tr } from "../report_src/words.ts";
+import { get, post } from "./api.ts";
+import { act, form, input, say, select, type View } from "./parts.ts";
+
+interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[] }
+
+export async function queue(may_decide: boolean): Promise<View> {
+  const list = make("div");
+  const show = async (): Promise<void> => {
+    const { queue } = await get<{ queue: Waiting[] }>("/api/queue");
+    list.replaceChildren(...(queue.length > 0 ? queue.map((w) => decision(w, may_decide, show)) : [make("p", {}, tr("Nothing waits for a decision."))]));
+  };
+  await show();
+  return { root: make("div", {}, make("h1", {}, tr("Left to a person")), act(tr("Look again"), {}, show), list) };
+}
+
+function decision(w: Waiting, may_decide: boolean, show: () => Promise<void>): HTMLElement {
+  const element = make("section", { class: "card", "aria-label": tr("Result of {}", w.candidate) },
+    make("h2", {}, w.candidate),
+    make("p", {}, tr("{0}, entry {1}: {2} of {3} points", w.exam, w.session, fixed(w.points, 1), w.max)),
+    make("ul", {}, ...w.reasons.map((r) => make("li", {}, r))));
+  if (!may_decide) return element;
+  const verdict = select(tr("Verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
+  verdict.required = true;
+  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  element.append(form(tr("Decide"), async () => {
+    const { entry } = await post<{ entry: number }>("/api/decide", { session: w.session, verdict: verdict.value, reason: reason.value });
+    await show();
+    say(tr("Decided: entry {}.", entry));
+  }, verdict.block, reason.block));
+  return element;
+}

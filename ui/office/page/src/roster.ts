@@ -1,0 +1,118 @@
+// From a class list to tickets: paste or file, what was found in it, an answer for each column, a preview, and then the tickets.
+import { make } from "../report_src/dom.ts";
+import { tr } from "../report_src/words.ts";
+import { get, post } from "./api.ts";
+import { field, form, input, say, select, table, time_zone, type View } from "./parts.ts";
+
+interface Column { heading: string; use: string; known: boolean; samples: string[] }
+interface Preview {
+  encoding: string;
+  separator: string;
+  rows: number;
+  columns: Column[];
+  people: { id: string; name: string; accommodations: string }[];
+  problem: string;
+  uses: string[];
+}
+interface Issued {
+  issued: { candidate: string; id: string; name: string }[];
+  refused: { id: string; name: string; why: string }[];
+}
+
+function base64(bytes: Uint8Array): string {
+  let binary = "";
+  for (let i = 0; i < bytes.length; i += 8192) binary += String.fromCharCode(...bytes.subarray(i, i + 8192));
+  return btoa(binary);
+}
+
+const separators = (): { [sign: string]: string } => ({ ",": tr("comma"), ";": tr("semicolon"), "\t": tr("tab"), "|": tr("bar") });
+const uses = (): { [name: string]: string } => ({
+  id: tr("Candidate's number (id)"),
+  name: tr("Name"),
+  extra_time_percent: tr("Extra time, per cent"),
+  extra_time_s: tr("Extra time, seconds"),
+  left_handed: tr("Left-handed (yes or no)"),
+  high_contrast: tr("High contrast (yes or no)"),
+});
+
+class Roster {
+  readonly root = make("div", {}, make("h1", {}, tr("Class list")));
+  private bytes = new Uint8Array();
+  private answers: string[] = [];
+  private readonly found = make("div");
+
+  constructor() {
+    const text = field(tr("Paste the list, with its line of column names"), make("textarea", { spellcheck: "false" }));
+    const file = field(tr("or choose a file (CSV)"), make("input", { type: "file", accept: ".csv,.txt,.tsv,text/csv,text/plain" }));
+    const read = form(tr("Read the list"), async () => {
+      this.bytes = file.files?.length ? new Uint8Array(await file.files[0].arrayBuffer()) : new TextEncoder().encode(text.value);
+      this.answers = [];
+      await this.look();
+    }, text.block, file.block);
+    this.root.append(read, this.found);
+  }
+
+  private asked(): { base64: string; answers: string[] } {
+    return { base64: base64(this.bytes), answers: this.answers };
+  }
+
+  private async look(): Promise<void> {
+    const preview = await post<Preview>("/api/roster/preview", this.asked());
+    this.answers = preview.columns.map((c) => c.use);
+    this.found.replaceChildren(make("h2", { tabindex: "-1" }, tr("What was found")));
+    if (preview.columns.length > 0) {
+      this.found.append(make("p", {}, tr("Candidates: {0}; encoding: {1}; fields parted by: {2}", preview.rows, preview.encoding, separators()[preview.separator] ?? "?")));
+      this.found.append(this.columns(preview));
+    }
+    const open = preview.columns.filter((c) => c.use === "").length;
+    if (preview.problem !== "") this.found.append(make("p", { class: "wrong" }, preview.problem));
+    if (open > 0) this.found.append(make("p", { class: "wrong", id: "open-columns" }, tr("Columns that wait for your answer: {}. Use each, or pass it over.", open)));
+    if (preview.people.length > 0) this.found.append(this.people(preview), await this.issue());
+    this.found.querySelector("h2")!.focus();
+  }
+
+  private columns(preview: Preview): HTMLElement {
+    const names = uses();
+    const rows = preview.columns.map((c, i) => {
+      const choices: [string, string][] = [["", tr("choose …")], ...preview.uses.map((u): [string, string] => [u, names[u] ?? u]), ["pass over", tr("Pass over: not needed")]];
+      const list = select(tr("Use of column {}", c.heading), choices, c.use);
+      list.block.querySelector("label")!.remove();
+      list.setAttribute("aria-label", tr("Use of column {}", c.heading));
+      list.addEventListener("change", () => {
+        this.answers[i] = list.value;
+        this.look().catch((wrong: Error) => say(wrong.message, true));
+      });
+      return [c.heading, c.samples.filter((s) => s !== "").join(", "), list.block];
+    });
+    return table(tr("Columns of the list"), [tr("Column"), tr("First values"), tr("Use")], rows);
+  }
+
+  private people(preview: Preview): HTMLElement {
+    return table(tr("Who gets a ticket"), [tr("Number"), tr("Name"), tr("Accommodations")], preview.people.map((p) => [p.id, p.name, p.accommodations]));
+  }
+
+  private async issue(): Promise<HTMLElement> {
+    const { exams } = await get<{ exams: { id: string; title: string }[] }>("/api/exams");
+    const exam = select(tr("Exam"), exams.map((e) => [e.id, `${e.title} (${e.id})`]));
+    const zone = tr("In your computer's time zone, {}.", time_zone());
+    const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
+    const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);
+    const word = make("input", { type: "checkbox", id: "begin-at-office" });
+    const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+    const out = make("div");
+    const utc = (local: string): string => new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
+    const asked = form(tr("Issue the tickets"), async () => {
+      const done = await post<Issued>("/api/roster/issue", {
+        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, reason: reason.value,
+      });
+      say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
+      out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym")], done.issued.map((p) => [p.id, p.name, p.candidate])));
+      if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
+    }, exam.block, from.block, until.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")), reason.block);
+    return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);
+  }
+}
+
+export async function roster(): Promise<View> {
+  return { root: new Roster().root };
+}

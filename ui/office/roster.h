@@ -1,0 +1,34 @@
+// A class list as somebody pastes it or a spreadsheet saves it: encoding and separator are found, each column is either known, used as one that is
+// known, or passed over because a person said so. Nothing is dropped in silence.
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "grading/ledger/issue.h"
+
+namespace cavum::office {
+
+/// The answer for a column that is not needed.
+inline constexpr char k_pass_over[] = "pass over";
+
+struct RosterColumn {
+  std::string heading;
+  std::string use;                   ///< a name of ledger::people_columns(), k_pass_over, or empty: nobody has answered yet
+  bool known = false;                ///< by its heading
+  std::vector<std::string> samples;  ///< of its first rows
+};
+struct Roster {
+  std::string encoding;  ///< UTF-8, UTF-16 or Windows-1252
+  char separator = ',';  ///< comma, semicolon, tab or bar
+  std::size_t rows = 0;  ///< below the heading
+  std::vector<RosterColumn> columns;
+  std::vector<ledger::Person> people;  ///< when every column is answered, and nothing is wrong
+  std::string problem;                 ///< why there are none, in words; empty: a column waits for its answer, or all is well
+  [[nodiscard]] bool ready() const noexcept { return !people.empty(); }
+};
+/// `bytes` as they were sent; `answers` by the columns' places, an empty text for none. Throws nothing of what is wrong with the list: it says so.
+[[nodiscard]] Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers);
+
+}  // namespace cavum::office

@@ -1,0 +1,194 @@
+#include "ui/office/site.h"
+
+#include <sodium.h>
+
+#include <algorithm>
+#include <stdexcept>
+
+#include "engine/base/csv.h"
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+#include "engine/language/shown.h"
+#include "engine/session/sqlite.h"
+
+namespace cavum::office {
+namespace {
+
+constexpr std::size_t k_cookie_digits = 64;
+
+/// Of `name=value; name=value`; empty when it is not there, or twice.
+std::string cookie_in(const std::string& field) {
+  std::string found;
+  bool twice = false;
+  for (std::size_t at = 0; at < field.size();) {
+    const auto end = std::min(field.find(';', at), field.size());
+    const std::string_view one = without_blanks(std::string_view(field).substr(at, end - at));
+    if (one.starts_with(std::string(k_cookie) + "=")) {
+      twice = twice || !found.empty();
+      found = std::string(one.substr(sizeof k_cookie));
+    }
+    at = end + 1;
+  }
+  return twice || found.size() != k_cookie_digits ? "" : found;
+}
+
+bool equal(const std::string& a, const std::string& b) { return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0; }
+
+}  // namespace
+
+nlohmann::json Call::json() const { return parse_json(body, "the request", {8U << 20, 100'000, 16}); }
+
+Reply error_reply(int status, const std::string& english) { return json_reply({{"error", shown(one_line(english))}}, status); }
+Reply json_reply(const nlohmann::json& body, int status) {
+  return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
+}
+
+/// A request on its way through a door.
+class Site::Visit : public Exchange {
+ public:
+  Visit(Site& site, const Head& head) {
+    call_.head = head;
+    const Door* door = door_for(head.method, head.path);
+    if (door == nullptr) {
+      refusal_ = error_reply(404, "there is nothing here");
+      return;
+    }
+    largest_ = door->largest_bytes;
+    call_.tail = tail_of(*door, head.path);
+    guarded([&] {
+      refusal_ = site.refuse(*door, call_, body_sha256_);
+      served_ = &site.served_.at(door);
+      if (!refusal_ && served_->parts) taker_ = served_->parts(call_);
+    });
+    if (!body_sha256_.empty()) crypto_hash_sha256_init(&hash_);
+  }
+
+  [[nodiscard]] const Reply* refusal() const override { return refusal_ ? &*refusal_ : nullptr; }
+  [[nodiscard]] std::uint64_t largest_bytes() const override { return largest_; }
+  void take(std::string_view part) override {
+    if (!body_sha256_.empty()) crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+    if (taker_)
+      taker_->take(part);
+    else
+      call_.body += part;
+  }
+  [[nodiscard]] Reply answer() override {
+    Reply reply;
+    guarded([&] {
+      if (!body_sha256_.empty()) {
+        Sha256 hash{};
+        crypto_hash_sha256_final(&hash_, hash.data());
+        if (to_hex(hash) != body_sha256_) {
+          reply = error_reply(401, "the body is not the one that was signed");
+          return;
+        }
+      }
+      reply = taker_ ? taker_->done() : served_->whole(call_);
+    });
+    return refusal_ ? *refusal_ : reply;
+  }
+
+ private:
+  template <class Do>
+  void guarded(const Do& what) {
+    try {
+      what();
+    } catch (const DatabaseError& e) {
+      refusal_ = error_reply(507, e.what());
+    } catch (const Error& e) {
+      refusal_ = error_reply(400, e.what());
+    } catch (const std::bad_alloc&) {
+      refusal_ = Reply{503, "application/json", R"({"error":"there is not enough memory"})"};
+    } catch (const std::exception&) {  // its words may tell of our insides
+      refusal_ = error_reply(500, "this did not work; nothing is said to have been done");
+    }
+  }
+
+  Call call_;
+  std::optional<Reply> refusal_;
+  std::uint64_t largest_ = 0;
+  std::string body_sha256_;  // that a station signed
+  crypto_hash_sha256_state hash_{};
+  const Served* served_ = nullptr;
+  std::unique_ptr<Taker> taker_;
+};
+
+Site::Site(Knows knows) : knows_(std::move(knows)), heard_(knows_.utc_ns()) {}
+
+void Site::put(const std::string& method, const std::string& path, Served served) {
+  for (const Door& d : doors())
+    if (d.method == method && d.path == path) {
+      if (!served_.emplace(&d, std::move(served)).second) throw std::logic_error("two handlers for " + method + " " + path);
+      return;
+    }
+  throw std::logic_error("no row in the table of doors for " + method + " " + path);
+}
+void Site::on(const std::string& method, const std::string& path, Handler handler) { put(method, path, {std::move(handler), {}}); }
+void Site::on_parts(const std::string& method, const std::string& path, MakeTaker taker) { put(method, path, {{}, std::move(taker)}); }
+
+void Site::require_complete() const {
+  for (const Door& d : doors())
+    if (!served_.contains(&d)) throw std::logic_error("no handler for " + std::string(d.method) + " " + std::string(d.path));
+}
+
+std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_unique<Visit>(*this, head); }
+
+std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& body_sha256) {
+  // a page of another place cannot send this type without asking first, and is refused then
+  if (door.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
+  if (const std::string origin = call.head.field("origin"); !origin.empty() && door.changes() && origin != "https://" + call.head.field("host"))
+    return error_reply(403, "another page asks this");
+  switch (door.asks) {
+    case Asks::nobody:
+      return std::nullopt;
+    case Asks::person:
+      return refuse_person(door, call);
+    case Asks::station:
+      return refuse_station(call, body_sha256);
+  }
+  return error_reply(404, "there is nothing here");
+}
+
+std::optional<Reply> Site::refuse_person(const Door& door, Call& call) {
+  call.cookie = cookie_in(call.head.field("cookie"));
+  call.by = sign_ins_.of(call.cookie, knows_.now_s());
+  if (call.by && knows_.account(call.by->account.name) != call.by->account) {  // removed, or given another password or role
+    sign_ins_.end(call.cookie);
+    call.by.reset();
+  }
+  if (!call.by) return error_reply(401, "nobody is signed in");
+  if (!door.lets(call.by->account.role)) return error_reply(403, "this account may not do that");
+  if (door.changes() && !equal(call.head.field(k_token_field), call.by->token)) return error_reply(403, "the page's token is missing; load it again");
+  return std::nullopt;
+}
+
+bool Site::still(const Call& call) {
+  return call.by && sign_ins_.lasts(call.cookie, knows_.now_s()) && knows_.account(call.by->account.name) == call.by->account;
+}
+
+std::optional<Reply> Site::refuse_station(Call& call, std::string& body_sha256) {
+  const std::string line = call.head.field(k_station_field);
+  if (line.empty()) return error_reply(401, "no station has signed this request");
+  const auto said = [&](const std::string& why) {
+    Reply reply = error_reply(401, why);
+    reply.fields.emplace_back("X-Cavum-Time", std::to_string(knows_.utc_ns()));
+    return reply;
+  };
+  StationRequest request;
+  try {
+    request = parse_request(line);
+  } catch (const Error& wrong) {
+    return said(wrong.what());
+  }
+  const std::string target = call.head.path + (call.head.query.empty() ? "" : "?" + call.head.query);
+  if (request.ledger != knows_.ledger || request.method != call.head.method || request.path != target) return said("another request was signed");
+  if (const std::string problem = knows_.station_problem(request.public_key); !problem.empty()) return said(problem);
+  if (const std::string problem = heard_.hear(request, knows_.utc_ns()); !problem.empty()) return said(problem);
+  body_sha256 = request.body_sha256.empty() ? "none" : request.body_sha256;
+  call.station = request.public_key;
+  return std::nullopt;
+}
+
+}  // namespace cavum::office

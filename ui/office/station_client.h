@@ -1,0 +1,61 @@
+// A station's side of the office's server: fetches tickets, asks to begin, reports, and hands in what was sat, each request signed by the station's
+// key.
+#pragma once
+
+#include <cstdint>
+#include <memory>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <utility>
+
+#include "engine/base/bytes.h"
+#include "engine/session/station_key.h"
+
+namespace cavum::office {
+
+/// What came back.
+struct Answer {
+  int status = 0;
+  nlohmann::json body;
+};
+
+class StationClient {
+ public:
+  /// `address`: "https://office.example:8443". `certificate`: the server's own certificate (PEM), which must then be exactly that one; empty: one
+  /// that this computer trusts, of that name. `school`: public key of the station's school, hexadecimal. Connects when it asks first. Throws Error
+  /// for an address that is none.
+  StationClient(const std::string& address, const std::string& certificate, std::string school, const SigningKey& key);
+  ~StationClient();
+  StationClient(const StationClient&) = delete;
+  StationClient& operator=(const StationClient&) = delete;
+
+  // Each throws Error when the office cannot be reached, is another school's, or refuses, in its words.
+  [[nodiscard]] nlohmann::json enrol(const std::string& request);
+  /// A list of {"candidate","nonce","text"}.
+  [[nodiscard]] nlohmann::json tickets();
+  /// The ledger's word to begin.
+  [[nodiscard]] std::string begin(const std::string& nonce);
+  void report(const nlohmann::json& state);
+  /// Sends the bytes of a recording; {"state": ...}. Sent twice is no harm.
+  nlohmann::json hand_in(const Bytes& image);
+  /// What became of it: {"state": unknown, waiting, filed or refused, …}.
+  [[nodiscard]] nlohmann::json handed(const std::string& sha256);
+
+  /// One signed request, whatever comes back; for tests also one whose signed line is `line`.
+  [[nodiscard]] Answer ask(const std::string& method, const std::string& path, const std::string& body, const std::string& line = "");
+  /// The line that signs such a request now, by the office's clock.
+  [[nodiscard]] std::string sign(const std::string& method, const std::string& path, const std::string& body);
+
+ private:
+  struct Line;
+  void meet();
+  [[nodiscard]] Answer send(const std::string& method, const std::string& path, const std::string& body, const std::string& line);
+  [[nodiscard]] nlohmann::json require(Answer answer) const;
+
+  std::string host_, port_, certificate_, school_, ledger_;
+  SigningKey key_;
+  std::int64_t ahead_ns_ = 0;  // the office's clock before ours
+  std::unique_ptr<Line> line_;
+};
+
+}  // namespace cavum::office

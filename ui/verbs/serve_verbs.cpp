@@ -1,0 +1,273 @@
+// `serve`: the exam office over HTTPS. `office`: a station's side of it.
+#include <fmt/core.h>
+#include <termios.h>
+#include <unistd.h>
+
+#include <chrono>
+#include <filesystem>
+#include <iostream>
+#include <memory>
+#include <thread>
+
+#include "engine/base/file.h"
+#include "engine/base/file_name.h"
+#include "engine/base/text.h"
+#include "engine/session/session_image.h"
+#include "grading/ledger/begin.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/station_ticket.h"
+#include "grading/ledger/stations.h"
+#include "scenarios/exam/exam.h"
+#include "ui/office/accounts.h"
+#include "ui/office/board.h"
+#include "ui/office/office.h"
+#include "ui/office/station_client.h"
+#include "ui/parts/interrupt.h"
+#include "ui/parts/print_json.h"
+#include "ui/verbs/session_files.h"
+#include "ui/verbs/verbs.h"
+
+namespace cavum::ui {
+namespace {
+
+using nlohmann::json;
+
+struct ServeArguments {
+  std::string ledger, key, listen = "127.0.0.1:8443", certificate, certificate_key, add_account, remove_account, role;
+  std::vector<std::string> exams, names;
+  bool accounts = false, second_factor = false, simulated = false;
+};
+
+std::string office_home() { return station_path("office"); }
+
+/// Typed twice at a terminal, where it does not show; the first line of anything else.
+std::string typed_password() {
+  const bool asks = ::isatty(STDIN_FILENO) == 1;
+  termios before{};
+  if (asks) ::tcgetattr(STDIN_FILENO, &before);
+  const auto typed = [&](const char* what) {
+    if (asks) {
+      std::cerr << what << std::flush;
+      termios hidden = before;
+      hidden.c_lflag &= ~static_cast<tcflag_t>(ECHO);
+      ::tcsetattr(STDIN_FILENO, TCSANOW, &hidden);
+    }
+    std::string line;
+    std::getline(std::cin, line);
+    if (asks) {
+      ::tcsetattr(STDIN_FILENO, TCSANOW, &before);
+      std::cerr << "\n";
+    }
+    return line;
+  };
+  std::string password = typed("the account's new password: ");
+  if (asks && typed("once more: ") != password) throw Error("the password", "was typed differently the second time", "begin again");
+  return password;
+}
+
+void add_account(const ServeArguments& o) {
+  const auto role = office::role_named(o.role);
+  if (!role) throw Error("--role " + one_line(o.role), "is none", "say officer, examiner, invigilator or reader");
+  office::Accounts accounts(office_home() + "/accounts.json");
+  const office::Account made = accounts.set(o.add_account, *role, typed_password(), o.second_factor);
+  std::cout << "written: " << accounts.path() << "\n";
+  if (o.second_factor) std::cout << "for the app, shown only now: " << office::code_address(made, "exam office") << "\n";
+}
+
+void list_accounts() {
+  for (const auto& a : office::Accounts(office_home() + "/accounts.json").all())
+    std::cout << one_line(a.name) << ", " << office::name_of(a.role) << (a.code_secret.empty() ? "" : ", second factor") << "\n";
+}
+
+std::vector<std::string> exams_of(const ServeArguments& o) {
+  if (!o.exams.empty()) return o.exams;
+  std::vector<std::string> out;
+  for (const auto& name : scenarios::data_names("scenarios", "")) out.push_back(scenarios::find_data_file("scenarios", name + ".toml", ""));
+  return out;
+}
+
+void serve(const ServeArguments& o) {
+  if (o.ledger.empty()) throw Error("cavum serve", "needs to know which ledger", "name its folder; `cavum ledger init` makes one");
+  if (o.certificate.empty() != o.certificate_key.empty())
+    throw Error("--certificate", "and --certificate-key belong together", "give both, or neither: one is made then");
+  const auto colon = o.listen.rfind(':');
+  const std::string port = colon == std::string::npos ? "" : o.listen.substr(colon + 1);
+  if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65'535)
+    throw Error("--listen " + one_line(o.listen), "is no address and port", "give one such as 127.0.0.1:8443");
+  office::OfficeOptions options;
+  options.ledger_folder = o.ledger;
+  options.school = ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key);
+  options.home = office_home();
+  options.exams = exams_of(o);
+  options.address = o.listen.substr(0, colon);
+  if (options.address.starts_with('[') && options.address.ends_with(']')) options.address = options.address.substr(1, options.address.size() - 2);
+  options.port = static_cast<std::uint16_t>(std::stoi(port));
+  options.certificate = {o.certificate, o.certificate_key};
+  if (o.certificate.empty()) {
+    options.certificate = {options.home + "/certificate.pem", options.home + "/certificate.key"};
+    std::vector<std::string> names{"localhost", "127.0.0.1", "::1"};
+    names.insert(names.end(), o.names.begin(), o.names.end());
+    office::make_certificate(options.certificate, names);
+  }
+  options.filing.simulated = o.simulated;
+  const Interrupt interrupt;
+  const office::Office office(options);
+  std::cout << "the office of " << one_line(office.school()) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
+            << "\ncertificate: " << options.certificate.certificate << "\nits SHA-256: " << office::fingerprint_of(options.certificate.certificate)
+            << "\nit ends with Ctrl-C" << std::endl;
+  while (!Interrupt::asked()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
+}
+
+struct OfficeArguments {
+  std::string server, certificate, code, out = ".", ticket, state, candidate, step, alarm, receipts;
+  std::int64_t left_s = -1;
+  std::vector<std::string> sessions;
+};
+
+office::StationClient client_of(const OfficeArguments& o) {
+  const std::string school = ledger::station_school_key();
+  if (school.empty())
+    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
+                "copy the school's public key there: `cavum ledger init` writes it");
+  return {o.server, o.certificate, school, load_station_key(station_key_path())};
+}
+
+void office_enrol(const OfficeArguments& o) {
+  const std::string path = station_key_path();
+  const SigningKey key = load_station_key(path);
+  auto client = client_of(o);
+  const json done = client.enrol(ledger::station_request(key, ledger::station_school_key(), {}, o.code));
+  remember_enrolled(path, key);
+  std::cout << "enrolled as '" << one_line(done.value("name", "")) << "'\n";
+}
+
+void office_tickets(const OfficeArguments& o) {
+  auto client = client_of(o);
+  make_private_folder(o.out);
+  const json tickets = client.tickets();
+  for (const auto& t : tickets) {
+    const std::string text = t.at("text");
+    const ledger::Ticket ticket = ledger::parse_ticket(text, ledger::station_school_key(), "the office's ticket");
+    const std::string file = fmt::format("{}/{}.ticket", o.out, file_name_of(ticket.candidate));
+    write_private_text_file(file, text);
+    std::cout << "written: " << one_line(file) << "\n";
+  }
+}
+
+void office_begin(const OfficeArguments& o) {
+  auto client = client_of(o);
+  const std::string out = ledger::begin_path(o.ticket);
+  require_writable(out);
+  write_private_text_file(out, client.begin(ledger::read_ticket(o.ticket).ticket.nonce) + "\n");
+  std::cout << "written: " << one_line(out) << "\n";
+}
+
+void office_report(const OfficeArguments& o) {
+  auto client = client_of(o);
+  client.report({{"state", o.state}, {"candidate", o.candidate}, {"step", o.step}, {"alarm", o.alarm}, {"left_s", o.left_s}});
+}
+
+int office_file(const OfficeArguments& o) {
+  constexpr auto k_between_questions = std::chrono::milliseconds(500);
+  auto client = client_of(o);
+  if (!o.receipts.empty()) make_private_folder(o.receipts);
+  bool all = true;
+  for (const auto& path : session_files(o.sessions)) {
+    std::vector<std::string> findings;
+    const Bytes image = read_session_image(path, findings);
+    const std::string hash = to_hex(sha256(image));
+    json state = client.handed(hash);
+    if (state.value("state", "") != "filed") state = client.hand_in(image);
+    while (state.value("state", "") == "waiting") {
+      std::this_thread::sleep_for(k_between_questions);
+      state = client.handed(hash);
+      if (state.value("state", "") == "unknown") state = client.hand_in(image);  // it was lost on the way
+    }
+    const bool filed = state.value("state", "") == "filed";
+    all = all && filed;
+    std::cout << one_line(path) << ": " << (filed ? fmt::format("entry {}", state.at("entry").get<std::uint64_t>()) : std::string("NOT FILED"))
+              << "\n";
+    if (!filed)
+      for (const auto& f : state.value("findings", std::vector<std::string>())) std::cout << "  - " << one_line(f) << "\n";
+    if (filed && !o.receipts.empty())
+      write_private_text_file(fmt::format("{}/receipt-{}.json", o.receipts, state.at("entry").get<std::uint64_t>()),
+                              state.at("receipt").dump(2) + "\n");
+  }
+  return all ? 0 : 1;
+}
+
+void add_serve_verb(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<ServeArguments>();
+  auto* serve_verb = app.add_subcommand("serve", "The exam office: a ledger over HTTPS, for people in a browser and for stations");
+  serve_verb->add_option("ledger", o->ledger, "the ledger's folder");
+  serve_verb->add_option("--listen", o->listen, "address and port")->capture_default_str();
+  serve_verb->add_option("--certificate", o->certificate, "certificate chain (PEM); without it, one of its own that is made at the first start");
+  serve_verb->add_option("--certificate-key", o->certificate_key, "the certificate's key (PEM)");
+  serve_verb->add_option("--name", o->names, "name or address that the certificate of its own is for, too; may be repeated");
+  serve_verb->add_option("--exam", o->exams, "scenario that tickets may be issued for; may be repeated; without it, all that ship");
+  serve_verb->add_option("--key", o->key, "the school's key, instead of the one in its place");
+  serve_verb->add_flag("--simulated", o->simulated, "rehearsal: files what no candidate's hand moved, too, marked as such");
+  serve_verb->add_option("--add-account", o->add_account,
+                         "add an account, or give it another password: the person's name; the password is asked for");
+  serve_verb->add_option("--role", o->role, "of the account: officer, examiner, invigilator or reader");
+  serve_verb->add_flag("--second-factor", o->second_factor, "with --add-account: a secret for an authenticator app, which a release asks for");
+  serve_verb->add_option("--remove-account", o->remove_account, "remove an account: who is signed in with it is out at once");
+  serve_verb->add_flag("--accounts", o->accounts, "list the accounts");
+  serve_verb->callback([o, &exit_code] {
+    if (!o->add_account.empty())
+      add_account(*o);
+    else if (!o->remove_account.empty())
+      office::Accounts(office_home() + "/accounts.json").remove(o->remove_account);
+    else if (o->accounts)
+      list_accounts();
+    else
+      serve(*o);
+    exit_code = 0;
+  });
+}
+
+void add_office_verb(CLI::App& app, int& exit_code) {
+  const auto o = std::make_shared<OfficeArguments>();
+  auto* verb = app.add_subcommand("office", "A station's side of `cavum serve`: tickets, the word to begin, reports, exams that are handed in");
+  verb->require_subcommand(1);
+  const auto add = [&](const char* name, const char* what, auto run) {
+    auto* one = verb->add_subcommand(name, what);
+    one->add_option("--server", o->server, "address of the office, such as https://office:8443")->required();
+    one->add_option("--certificate", o->certificate, "the office's own certificate (PEM), where it is not one that this computer trusts")
+        ->check(CLI::ExistingFile);
+    one->callback([o, run, &exit_code] { exit_code = run(*o); });
+    return one;
+  };
+  const auto done = [](auto act) {
+    return [act](const OfficeArguments& a) {
+      act(a);
+      return 0;
+    };
+  };
+  add("enrol", "enrol this station with the one-time code that the office gave", done(office_enrol))
+      ->add_option("--code", o->code, "S-…")
+      ->required();
+  add("tickets", "fetch all tickets that may be used", done(office_tickets))->add_option("--out", o->out, "folder for them")->capture_default_str();
+  add("begin", "ask whether the exam of a ticket may begin; the word is written beside it", done(office_begin))
+      ->add_option("ticket", o->ticket, "the ticket's file")
+      ->required()
+      ->check(CLI::ExistingFile);
+  auto* report = add("report", "tell the live board what this station does", done(office_report));
+  report->add_option("--state", o->state, "free, check, briefing, exam, paused or ended")->required();
+  report->add_option("--candidate", o->candidate, "pseudonym of who sits");
+  report->add_option("--step", o->step, "of the exam");
+  report->add_option("--alarm", o->alarm, "what an invigilator should see to");
+  report->add_option("--left-s", o->left_s, "on the exam's clock, s");
+  auto* file = add("file", "hand in exams that were sat, and wait until they are filed", office_file);
+  file->add_option("sessions", o->sessions, "session files, or folders of them")->required();
+  file->add_option("--receipts", o->receipts, "folder for the receipts");
+}
+
+}  // namespace
+
+void add_serve_verbs(CLI::App& app, int& exit_code) {
+  add_serve_verb(app, exit_code);
+  add_office_verb(app, exit_code);
+}
+
+}  // namespace cavum::ui
