@@ -8,11 +8,14 @@
 #include <cerrno>
 #include <chrono>
 #include <filesystem>
+#include <optional>
 
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/session/session_image.h"
+#include "engine/session/session_reader.h"
 
 namespace cavum::office {
 namespace {
@@ -22,6 +25,21 @@ using nlohmann::json;
 constexpr char k_part[] = ".part";
 constexpr auto k_before_again = std::chrono::seconds(5);
 constexpr std::size_t k_hash_letters = 64;
+
+/// Why a file is no exam that was closed, in words; none: it is one.
+std::optional<std::string> unreadable(const std::string& path) {
+  try {
+    std::vector<std::string> findings;
+    const Bytes image = read_session_image(path, findings);
+    const SessionReader session(image, path);
+    if (session.closed()) return std::nullopt;
+    return session.findings().empty() ? "was never closed" : "is damaged: " + session.findings().front();
+  } catch (const std::bad_alloc&) {
+    throw;
+  } catch (const std::exception& e) {
+    return e.what();
+  }
+}
 
 }  // namespace
 
@@ -136,10 +154,11 @@ void Inbox::work() {
     guard.unlock();
     const bool done = file(hash);
     guard.lock();
-    if (done)
-      queue_.pop_front();
-    else
+    queue_.pop_front();
+    if (!done) {  // the others have their turn first
+      queue_.push_back(hash);
       come_.wait_for(guard, k_before_again, [&] { return stopping_; });
+    }
     guard.unlock();
     filed_();
     guard.lock();
@@ -150,36 +169,31 @@ bool Inbox::file(const std::string& hash) {
   std::string trouble;
   try {
     keep_memory_reserve();
+    if (const auto why = unreadable(path_of(hash))) {
+      refuse(hash, {*why});
+      return true;
+    }
     if (!ledger_) ledger_ = std::make_unique<ledger::Ledger>(ledger_folder_, school_);
     ledger_->refresh();
     const auto& sessions = ledger_->registry().sessions;
     const auto before = std::find_if(sessions.begin(), sessions.end(), [&](const ledger::FiledSession& s) { return s.file_sha256 == hash; });
     std::optional<std::uint64_t> entry;
-    if (before != sessions.end()) {  // killed between the entry and this
+    if (before != sessions.end()) {  // killed, or without room for the witness, between the entry and this
       entry = before->seq;
     } else {
-      ledger::Filing filing;
-      try {
-        filing = ledger::file_session(*ledger_, path_of(hash), options_, grounds_);
-      } catch (const DatabaseError&) {
-        throw;
-      } catch (const std::bad_alloc&) {
-        throw;
-      } catch (const std::exception& e) {  // no session that can be read
-        filing.findings.emplace_back(e.what());
-      }
-      entry = filing.seq;
-      if (!entry) {
+      const ledger::Filing filing = ledger::file_session(*ledger_, path_of(hash), options_, grounds_);
+      if (!filing.seq) {
         refuse(hash, filing.findings);
         return true;
       }
+      entry = filing.seq;
     }
     std::filesystem::remove(path_of(hash));
     const std::lock_guard guard(lock_);
     handed_[hash] = {Handed::State::filed, *entry, {}};
     trouble_.clear();
     return true;
-  } catch (const std::exception& e) {  // the disk, the ledger, memory: the exam stays where it lies
+  } catch (const std::exception& e) {  // the disk, the ledger, memory: nothing that the exam is to blame for, and it stays where it lies
     trouble = e.what();
     ledger_.reset();
   }

@@ -1,4 +1,5 @@
 // Stations over the network: who is let in, what is heard once only, tickets, the word to begin, and exams that are handed in.
+#include "engine/base/json_fields.h"
 #include "grading/ledger/begin.h"
 #include "tests/grading/ledger/short_exam.h"
 #include "tests/ui/office/opened.h"
@@ -201,6 +202,31 @@ TEST_F(OverTheNetwork, WhatIsNoExamIsRefusedAndSaidSoAlsoAfterARestart) {
   EXPECT_EQ(again.handed(hash)["state"], "refused");
   std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + ".json");
   std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + ".cavum");
+}
+
+TEST_F(OverTheNetwork, NoExamIsRefusedForADiskThatTakesNothingAndAllAreFiledAfterwards) {
+  auto station = opened_->station();
+  const std::string sessions = opened_->school().ledger_folder() + "/sessions";
+  std::filesystem::rename(sessions, sessions + ".away");
+  write_text_file(sessions, "no folder can be made here");
+  std::vector<std::string> hashes;
+  for (const char* number : {"disk-1", "disk-2"}) {
+    const Bytes image = short_exam(one_ticket(number)["text"]);
+    hashes.push_back(to_hex(sha256(image)));
+    station.hand_in(image);
+  }
+  json inbox;
+  for (int i = 0; i < 200 && text_in(inbox, "trouble").empty(); ++i) {
+    std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    inbox = officer_.get("/api/board").json()["inbox"];
+  }
+  EXPECT_NE(text_in(inbox, "trouble"), "");
+  EXPECT_EQ(inbox["waiting"], 2);
+  for (const auto& hash : hashes) EXPECT_EQ(station.handed(hash)["state"], "waiting");
+  std::filesystem::remove(sessions);
+  std::filesystem::rename(sessions + ".away", sessions);
+  for (const auto& hash : hashes) EXPECT_EQ(Opened::outcome(station, hash)["state"], "filed");
+  EXPECT_EQ(officer_.get("/api/board").json()["inbox"]["trouble"], "");
 }
 
 TEST_F(OverTheNetwork, ALargeRecordingArrivesWholeAndOneThatIsTooLargeIsNotRead) {

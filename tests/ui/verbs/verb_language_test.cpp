@@ -13,7 +13,8 @@ using testing_ui::k_data;
 
 /// What stays as it is typed or written: names of verbs and options, of candidates and operators, of files' own texts.
 const char* const k_names =
-    "tooth scenario exam replay session grade scan rig explain ledger report cohort verify devices station manual simulated falcon touch inverse3 "
+    "tooth scenario exam replay serve office session grade scan rig explain ledger report cohort verify devices station manual simulated falcon "
+    "touch inverse3 "
     "novice expert nobody none Seat Ann Lee Dentistry walls removed upright depth elsewhere school out enrol help why cavum";
 /// The task's own English texts, which its file brings in German as well.
 const char* const k_own_texts = "Straight slot in a block Block cavity";
