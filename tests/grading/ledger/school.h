@@ -44,7 +44,7 @@ class School {
   /// With its first station enrolled, which takes two entries.
   explicit School(bool with_station = true) {
     ledger::Ledger::create(ledger_folder(), "School of Dentistry", key());
-    ledger::Identities(places().identities(), true);
+    const ledger::Identities made(places().identities(), true);
     write_text_file(ledger::school_public_key_path(), to_hex(key().public_key) + "\n");
     if (with_station) enrol("Seat 1");
   }
@@ -80,7 +80,7 @@ class School {
   std::string sit(const std::string& ticket, const std::string& skill = "expert",
                   const std::function<void(scenarios::ExamOptions&)>& change = {}) const {
     static int number = 0;
-    const std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
+    std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
     scenarios::ExamOptions options;
     options.candidate = ticket.empty() ? "nobody" : ledger::parse_ticket(ticket, "", "ticket").candidate;
     options.device = "emulated stylus";

@@ -89,7 +89,7 @@ class Opened {
   /// Waits until a recording is filed or refused.
   [[nodiscard]] static nlohmann::json outcome(office::StationClient& station, const std::string& sha256) {
     for (int i = 0; i < 1200; ++i) {
-      const nlohmann::json state = station.handed(sha256);
+      nlohmann::json state = station.handed(sha256);
       if (state["state"] != "waiting") return state;
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
     }
