@@ -211,7 +211,7 @@ std::string sentence(std::string_view text, int depth, bool& known) {
     return sentence(text.substr(0, text.size() - 1), depth, known) + " ";
   }
   if (is_number(text)) {
-    const std::string number = with_decimal_sign(text);
+    std::string number = with_decimal_sign(text);
     known = known || number != text;
     return number;
   }
@@ -387,13 +387,14 @@ std::string with_isolates(std::string_view text, std::string (*safe)(std::string
 namespace language_detail {
 
 std::string translated(std::string_view english) {
-  const std::string text(english);
+  std::string text(english);
   if (catalogue().kind() == Catalogue::Kind::english) return text;
   return catalogue().find(text).value_or(text);
 }
 
 std::string translated(std::string_view one, std::string_view many, long long count) {
-  const std::string a(one), b(many), text = count == 1 ? a : b;
+  const std::string a(one), b(many);
+  std::string text = count == 1 ? a : b;
   if (catalogue().kind() == Catalogue::Kind::english) return text;
   return catalogue().find(a, b, count).value_or(text);
 }

@@ -102,7 +102,7 @@ std::string fingerprint_of(const std::string& file) {
   unsigned char* der = nullptr;
   const int size = read ? i2d_X509(read.get(), &der) : -1;
   if (size <= 0) throw Error(file, "holds no certificate in PEM", "name the file that `cavum serve` made, or the school's own");
-  const std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
+  std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
   OPENSSL_free(der);
   return out;
 }

@@ -66,7 +66,7 @@ IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
 }
 
 std::string reason_in(const json& asked) {
-  const std::string reason = text_in(asked, "reason");
+  std::string reason = text_in(asked, "reason");
   if (reason.empty() || reason.size() > ledger::k_longest_reason || !is_plain_text(reason))
     throw Error("the reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
   return reason;

@@ -15,7 +15,7 @@ bool over(const SignedIn& s, std::int64_t now_s) { return now_s - s.seen_s > k_i
 }  // namespace
 
 std::string SignIns::begin(const Account& account, std::int64_t now_s) {
-  const std::string cookie = ledger::random_hex(k_sign_in_bytes);
+  std::string cookie = ledger::random_hex(k_sign_in_bytes);
   const std::lock_guard lock(lock_);
   std::erase_if(by_hash_, [&](const auto& one) { return over(one.second, now_s); });
   if (by_hash_.size() >= k_most_sign_ins)

@@ -12,7 +12,7 @@
 
 namespace cavum::office {
 
-inline constexpr std::int64_t k_idle_end_s = 60 * 60, k_absolute_end_s = 12 * 3600;
+inline constexpr std::int64_t k_idle_end_s = 3600, k_absolute_end_s = 43'200;
 inline constexpr std::size_t k_most_sign_ins = 1000;
 
 struct SignedIn {

@@ -39,7 +39,7 @@ std::string fingerprint_in(asio::ssl::verify_context& context) {
   unsigned char* der = nullptr;
   const int size = shown == nullptr ? -1 : i2d_X509(shown, &der);
   if (size <= 0) return "";
-  const std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
+  std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
   OPENSSL_free(der);
   return out;
 }

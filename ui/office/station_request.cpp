@@ -41,13 +41,13 @@ StationRequest parse_request(const std::string& text) {
   const json& facts = member_of(j, "request");
   const auto refuse = [](const char* why) { throw Error("the station's request", why, "sign it anew, by the key that was enrolled"); };
   if (text_in(facts, "format") != k_request_format) refuse("is not signed as the office knows it");
-  const StationRequest r{text_in(facts, "ledger"),
-                         text_in(facts, "method"),
-                         text_in(facts, "path"),
-                         text_in(facts, "body_sha256"),
-                         text_in(facts, "nonce"),
-                         text_in(facts, "public_key"),
-                         require_whole<std::int64_t>(facts, "utc_ns", "the station's request")};
+  StationRequest r{text_in(facts, "ledger"),
+                   text_in(facts, "method"),
+                   text_in(facts, "path"),
+                   text_in(facts, "body_sha256"),
+                   text_in(facts, "nonce"),
+                   text_in(facts, "public_key"),
+                   require_whole<std::int64_t>(facts, "utc_ns", "the station's request")};
   if (r.nonce.size() != 2 * k_nonce_bytes || r.public_key.size() != 64) refuse("has no number of its own");
   if (!is_signed_by(r.public_key, message_of_request(facts), text_in(j, "signature"))) refuse("was changed after it was signed");
   return r;

@@ -93,7 +93,7 @@ Heard Visitor::ask(const std::string& method, const std::string& path, const std
 }
 
 Heard Visitor::sign_in(const std::string& name, const std::string& password) {
-  const Heard heard = ask("POST", "/api/sign-in", nlohmann::json{{"name", name}, {"password", password}}.dump());
+  Heard heard = ask("POST", "/api/sign-in", nlohmann::json{{"name", name}, {"password", password}}.dump());
   if (heard.status != 200) return heard;
   token = heard.json()["token"];
   const std::string set = heard.fields.at("set-cookie");

@@ -99,7 +99,7 @@ Seen Person::look() const {
   constexpr double k_patience_s = 20.0;
   const auto began = std::chrono::steady_clock::now();
   for (;;) {
-    const Seen now = eye_();
+    Seen now = eye_();
     if (now.picture >= first.picture + 2) return now;  // the running one may have begun before
     if (std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count() > k_patience_s)
       throw std::runtime_error("no picture came for 20 s");
