@@ -20,14 +20,14 @@ std::string_view text_of_comment(std::string_view s) {
   return without_blanks(s);
 }
 
-/// Of comma, semicolon, tab and bar the one that stands most often outside quotes; the earlier of equals.
-char separator_of(std::string_view heading, bool quotes) {
+/// Of comma, semicolon, tab and, where a form has them, bar the one that stands most often outside quotes; the earlier of equals.
+char separator_of(std::string_view heading, const CsvForm& form) {
   constexpr std::string_view k_separators = ",;\t|";
   std::size_t times[k_separators.size()] = {};
   bool quoted = false;
   for (const char c : heading) {
-    if (quotes && c == '"') quoted = !quoted;
-    if (const auto i = k_separators.find(c); !quoted && i != std::string_view::npos) ++times[i];
+    if (form.quotes && c == '"') quoted = !quoted;
+    if (const auto i = k_separators.find(c); !quoted && (c != '|' || form.bars) && i != std::string_view::npos) ++times[i];
   }
   return k_separators[static_cast<std::size_t>(std::max_element(times, times + k_separators.size()) - times)];
 }
@@ -67,7 +67,7 @@ CsvReader::Line CsvReader::next() {
       comment_ = text_of_comment(content);
       return Line::comment;
     }
-    if (separator_ == 0) separator_ = separator_of(line, form_.quotes);
+    if (separator_ == 0) separator_ = separator_of(line, form_);
     read_row();
     if (fields_.front().starts_with('#')) {  // as a spreadsheet saves a comment with a comma in it
       comment_ = text_of_comment(fields_.front());

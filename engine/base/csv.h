@@ -1,5 +1,6 @@
-// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma, semicolon, tab or bar, fields in quotes, any line
-// ends, a byte order mark, comments (#). Read row by row, so that a recording of millions of rows takes no more memory than its numbers.
+// Tables as spreadsheets and rigs write them (CSV): one row on a line, fields parted by comma, semicolon or tab (where asked for, a bar), fields in
+// quotes, any line ends, a byte order mark, comments (#). Read row by row, so that a recording of millions of rows takes no more memory than its
+// numbers.
 #pragma once
 
 #include <deque>
@@ -17,13 +18,14 @@ struct CsvForm {
   const char* field_word = "fields";  ///< what messages call them
   bool quotes = true;                 ///< false: a quote is a character like any other
   bool plain_text = true;             ///< refuses fields that are no UTF-8, or hold a control character
+  bool bars = false;                  ///< a bar (|) may part the fields, too
 };
 
 /// Throws Error(where, ...) for a text that begins as UTF-16 does.
 void refuse_utf16(std::string_view text, const std::string& where);
 
-/// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon, tab and bar (|) parts the
-/// fields of all rows, and each row has as many fields.
+/// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon and tab (`bars`: or bar)
+/// parts the fields of all rows, and each row has as many fields.
 class CsvReader {
  public:
   enum class Line { row, comment, end };

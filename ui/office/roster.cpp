@@ -113,7 +113,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
   Roster roster;
   try {
     const std::string text = decoded(bytes, roster.encoding);
-    CsvReader in(text, "the list");
+    CsvReader in(text, "the list", {.bars = true});
     std::vector<CsvRow> rows;
     while (in.next_row()) rows.push_back({in.line(), {in.fields().begin(), in.fields().end()}});
     if (rows.empty()) throw Error("the list", "is empty", "paste a line of column names, and a line for each candidate below");
