@@ -108,8 +108,8 @@ test("a button that jumps sets the time, marks the place, and brings the tooth o
   await page.click(".jump");
   assert.equal(await scrubber_s(page), 12.5);
   await until(() => page.evaluate(() => Math.abs(document.getElementById("tooth-3d")!.getBoundingClientRect().top) < 20), "the tooth is on screen");
-  const marked = await pixels(page);
-  assert.ok(different(marked, unmarked) > 300, "the place is marked");
+  let marked = unmarked; // a busy computer draws it when it can
+  await until(async () => different((marked = await pixels(page)), unmarked) > 300, "the place is marked");
   const magenta = marked.data.filter((_, i) => i % 4 === 0 && Math.abs(marked.data[i] - 0x8a) < 12 && marked.data[i + 1] < 12 && Math.abs(marked.data[i + 2] - 0x64) < 12).length;
   assert.ok(magenta > 100, `${magenta} pixels of the mark`);
   await page.screenshot({ path: "report_session_jump.png" });
@@ -148,7 +148,7 @@ test("playing moves the time at the chosen speed, and nothing plays by itself", 
   const { page } = opened;
   await new Promise((done) => setTimeout(done, 400));
   assert.equal(await scrubber_s(page), 1);
-  await page.select(".player select", "4");
+  await page.select(".player select", "1"); // 19 s of playing: a busy computer, too, presses Pause before it ends
   await press(page, "Play");
   await until(async () => (await scrubber_s(page)) > 2, "it plays");
   await press(page, "Pause");
