@@ -208,7 +208,7 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
         "than "
         "in the exam; a person must look at it, and the sealed result is the exam's");
   if (r.progress.finish != "running" && r.progress.steps_completed < r.progress.steps)
-    r.notes.push_back(fmt::format("{} of {} steps were not completed", r.progress.steps - r.progress.steps_completed, r.progress.steps));
+    r.notes.push_back(fmt::format("steps not completed: {} of {}", r.progress.steps - r.progress.steps_completed, r.progress.steps));
   note_steps(input, r);
   note_time(input, r);
   compare_with_final_tooth(input, input.beside != nullptr ? RemovedMap(input.all_removed(), last_tick).count() : removed.count(), r);

@@ -14,7 +14,9 @@ std::string when(const Trace& t) { return fmt::format("{} s (tick {})", fixed(t.
 std::string at_when(const Trace& t) { return t.timed() ? " at " + when(t) : std::string(); }
 std::string place(Vec3 p) { return fmt::format("[{}, {}, {}] mm", fixed(p.x, 2), fixed(p.y, 2), fixed(p.z, 2)); }
 std::string wall_text(std::size_t wall, scenarios::Facing facing) {
-  return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? (facing.lateral() ? "the opening" : "the occlusal side")
+  return wall == static_cast<std::size_t>(scenarios::Wall::opening) ? (facing.lateral()  ? "the opening"
+                                                                       : facing.anterior ? "the incisal side"
+                                                                                         : "the occlusal side")
          : wall == static_cast<std::size_t>(scenarios::Wall::floor)
              ? (facing.lateral() ? "the axial wall" : "the floor")
              : fmt::format("the {} wall", scenarios::wall_name(static_cast<scenarios::Wall>(wall), facing));
@@ -25,7 +27,7 @@ std::string amount_text(double value, double bound, int digits, const std::strin
 }
 
 std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
-  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return value == 1 ? "yes" : "no";
+  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return value == 1 ? measure.yes : measure.no;
   if (measure.reads == scenarios::Reads::count && bound == 0) return plain_number(value);
   return amount_text(value, bound, digits, measure.unit);
 }
@@ -39,7 +41,7 @@ std::size_t largest(const std::array<double, scenarios::k_walls + 1>& by_wall) {
 Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
-  return {fmt::format("{} of the target left standing, most of it towards {} ({} mm3), where {}",
+  return {fmt::format("{} of the target left standing, the largest part towards {} ({} mm3), where {}",
                       amount_text(r.volumes.missed.mm3, r.volumes.missed.bound_mm3, 2, "mm3"), wall_text(w, r.shape.facing),
                       fixed(r.volumes.missed_by_wall_mm3[w], 2),
                       last.tick < 0  ? "nothing of it was cut"
@@ -63,7 +65,7 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
     }
     if (v.first.tick >= 0 && (loss.first.tick < 0 || v.first.tick < loss.first.tick)) loss.first = v.first;
   }
-  loss.text = fmt::format("most of it {} at {} ({} mm3)",
+  loss.text = fmt::format("the largest part {} at {} ({} mm3)",
                           worst == scenarios::Zone::none ? "outside all zones" : fmt::format("in {}", scenarios::zone_name(worst)),
                           wall_text(wall, r.shape.facing), fixed(most, 2));
   if (loss.first.tick >= 0) loss.text += fmt::format(", beginning{} at {}", at_when(loss.first), place(loss.first.site_mm));
@@ -72,11 +74,11 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
 
 /// "0.68 mm at the mesial end (0.68 mm too far), 0.57 mm at the distal end (0.57 mm short)"
 std::string ends_text(const Result& r, std::size_t first) {
-  constexpr const char* k_ends[] = {"mesial", "distal", "buccal", "lingual"};
   std::string text;
   for (std::size_t i = first; i < first + 2; ++i) {
     const auto& e = r.shape.end_error[i];
-    text += fmt::format("{}{} mm at the {} end ({}{}", text.empty() ? "" : ", ", fixed(e.part_mm, 2), k_ends[i], fixed(std::fabs(e.beyond_mm), 2),
+    text += fmt::format("{}{} mm at the {} end ({}{}", text.empty() ? "" : ", ", fixed(e.part_mm, 2),
+                        scenarios::wall_name(static_cast<scenarios::Wall>(i), r.shape.facing), fixed(std::fabs(e.beyond_mm), 2),
                         e.beyond_mm >= 0 ? " mm too far)" : " mm short)");
   }
   return text;

@@ -18,7 +18,7 @@ struct Loss {
 /// What the rows of grading/result/measure_marking.h choose from. Each says it of the measure that was asked for.
 namespace reason {
 [[nodiscard]] Loss figure_alone(const Result& measured, const Asked& asked);      ///< nothing: the figure says all there is
-[[nodiscard]] Loss missed_target(const Result& measured, const Asked& asked);     ///< what of the target was left, and where most of it
+[[nodiscard]] Loss missed_target(const Result& measured, const Asked& asked);     ///< what of the target was left, and where the largest part of it
 [[nodiscard]] Loss removed_in_zones(const Result& measured, const Asked& asked);  ///< of the row's zones the worst, and its wall
 [[nodiscard]] Loss missed_and_beyond(const Result& measured, const Asked& asked);
 [[nodiscard]] Loss at_walls(const Result& measured, const Asked& asked);  ///< the wall of them that has the largest of the figure
@@ -45,7 +45,7 @@ namespace reason {
 
 /// "0.30 ± 0.04 mm3"; a figure that is known exactly has no bound.
 [[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);
-/// The same of a measure's value, as people read it: "yes", "no", "3", "0.25 ± 0.05 mm".
+/// The same of a measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
 [[nodiscard]] std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits);
 /// " at 12.34 s (tick 12340)"; nothing where nobody knows when.
 [[nodiscard]] std::string at_when(const Trace& t);

@@ -35,7 +35,7 @@ std::string text_of(const Moment& m, scenarios::Facing facing) {
                                  : fmt::format("in {}", scenarios::zone_name(static_cast<scenarios::Zone>(zones[i])));
     text += (i == 0 ? " " : ", ") + (zones.size() > 1 ? fixed(m.by_zone[zones[i]], 3) + " mm3 " : "") + name;
   }
-  text += ", most of it at " + wall_text(wall, facing);
+  text += ", the largest part at " + wall_text(wall, facing);
   if (m.furthest_mm > 0) text += fmt::format(", at the furthest {} mm beyond the target", fixed(m.furthest_mm, 2));
   return text;
 }

@@ -7,7 +7,8 @@
 namespace cavum::scenarios {
 
 struct Facing {
-  int side = 0;  ///< 0: from occlusal; +1: from buccal, -1: from lingual
+  int side = 0;           ///< 0: from occlusal; +1: from buccal, -1: from lingual
+  bool anterior = false;  ///< of an incisor or canine: people say labial and incisal for buccal and occlusal
 
   [[nodiscard]] constexpr bool lateral() const noexcept { return side != 0; }
   /// Of a way in the tooth frame: its parts along mesial, along buccal (from a side: along occlusal) and out of the tooth. From occlusal, as it is.
@@ -21,8 +22,9 @@ struct Facing {
 /// Name of a wall for people. From a side, the two walls that are called buccal and lingual in measures and in the JSON are those towards occlusal
 /// and towards the gingiva.
 [[nodiscard]] constexpr const char* wall_name(Wall wall, Facing facing) noexcept {
-  if (facing.lateral() && wall == Wall::buccal) return "occlusal";
+  if (facing.lateral() && wall == Wall::buccal) return facing.anterior ? "incisal" : "occlusal";
   if (facing.lateral() && wall == Wall::lingual) return "gingival";
+  if (facing.anterior && wall == Wall::buccal) return "labial";
   return wall_name(wall);
 }
 

@@ -79,6 +79,7 @@ struct Measure {
   bool of_floor = false;               ///< it speaks of the cavity's floor alone
   bool of_exam = false;                ///< it speaks of how the work was done: a preparation alone, without its recording, says nothing of it
   Reads reads = Reads::figure;
+  const char *yes = "yes", *no = "no";  ///< how 1 and 0 of a yes_no read
 
   // Members of a family
   const char* family = nullptr;           ///< its key; null: a measure by itself

@@ -36,11 +36,13 @@ std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
   std::vector<std::string> lines;
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
-    const std::string by = fixed(std::fabs(off), 1), pass = fixed(mark, 1), percent = plain_number(r.pass_percent);
-    lines.push_back(
-        (off < 0 ? tr("{} points below the pass mark of {} points ({} %)", by, pass, percent)
-                 : tr("{} points above the pass mark of {} points ({} %)", by, pass, percent)) +
-        (r.borderline_percent > 0 ? tr("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1)) : ""));
+    const std::string by = fixed(std::fabs(off), std::fabs(off) < 0.05 ? 3 : 1), pass = fixed(mark, 1), percent = plain_number(r.pass_percent);
+    const bool failed_alone = std::any_of(r.criteria.begin(), r.criteria.end(), [](const auto& c) { return c.critical_failed; });
+    lines.push_back((off < 0 ? tr("{} points below the pass mark of {} points ({} %)", by, pass, percent)
+                             : tr("{} points above the pass mark of {} points ({} %)", by, pass, percent)) +
+                    (r.borderline_percent > 0 && !failed_alone
+                         ? tr("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1))
+                         : ""));
   } else {
     const grading::CriterionResult* lowest = nullptr;
     const auto percent = [](const grading::CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
@@ -55,8 +57,8 @@ std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
 
 /// What gives full marks and what none, and beyond what the exam is failed.
 std::string limits_text(const scenarios::CriterionSpec& c, const std::string& unit) {
-  if (scenarios::known_measure(c.metric).reads == scenarios::Reads::yes_no)
-    return (c.full == 0 ? tr("full for no") : tr("full for yes")) + (c.critical_above || c.critical_below ? tr("; failed else") : "");
+  if (const scenarios::Measure measure = scenarios::known_measure(c.metric); measure.reads == scenarios::Reads::yes_no)
+    return tr("full marks if {}", c.full == 0 ? measure.no : measure.yes) + (c.critical_above || c.critical_below ? tr("; failed else") : "");
   const std::string full = with_unit(plain_number(c.full), unit), zero = with_unit(plain_number(c.zero), unit);
   std::string s = c.full <= c.zero ? tr("full up to {}, none from {}", full, zero) : tr("full from {}, none up to {}", full, zero);
   if (c.critical_above) s += tr("; failed above {}", with_unit(plain_number(*c.critical_above), unit));
@@ -106,6 +108,13 @@ void add_criteria(Document& d, const ReportSource& s) {
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
 }
 
+/// What is asked of a criterion, and why care gives fewer points than its value would.
+std::string asked_text(const grading::CriterionResult& c, const scenarios::CriterionSpec& spec) {
+  std::string text = limits_text(spec, c.unit);
+  if (c.work_share < 1) text += tr("; counts {} %, because too little of the cavity was cut there", fixed(100 * c.work_share, 0));
+  return text;
+}
+
 /// What a student reads first of the criteria: no bounds, places and ticks.
 void add_marks(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Marks")});
@@ -115,7 +124,7 @@ void add_marks(Document& d, const ReportSource& s) {
     const grading::CriterionResult& c = s.result.criteria[i];
     t.rows.push_back({{{c.title},
                        {shown_value(c, false)},
-                       {i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : ""},
+                       {i < s.rubric.criteria.size() ? asked_text(c, s.rubric.criteria[i]) : ""},
                        {c.judged ? fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)) : tr("not judged")}},
                       c.judged && c.max - c.points > 1e-9});
   }

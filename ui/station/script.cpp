@@ -26,9 +26,10 @@ namespace {
 constexpr std::array<const char*, 19> k_words{"mouse", "wait", "go",      "until", "type", "key",  "hold",   "release", "sleep", "stall",
                                               "hide",  "show", "picture", "words", "pace", "tell", "memory", "fail",    "close"};
 
-std::string all_words() {
+template <class Words>
+std::string listed(const Words& words) {
   std::string list;
-  for (const char* word : k_words) list += (list.empty() ? "" : ", ") + std::string(word);
+  for (const auto word : words) list += (list.empty() ? "" : ", ") + std::string(word);
   return list;
 }
 
@@ -88,12 +89,15 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     if (!(words >> c.word) || c.word[0] == '#') continue;
     const std::string where = fmt::format("{}:{}", path, number);
     if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
-      throw Error(where, fmt::format("'{}' is no command of a script", c.word), "use one of: " + all_words());
+      throw Error(where, fmt::format("'{}' is no command of a script", c.word), "use one of: " + listed(k_words));
     words >> c.text;
     if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 0) throw Error(where, fmt::format("'{}' needs seconds", c.word), "write a number of 0 or more");
     }
+    if (const auto screens = screen_names();
+        (c.word == "wait" || c.word == "go") && std::find(screens.begin(), screens.end(), c.text) == screens.end())
+      throw Error(where, fmt::format("'{}' is no screen", c.text), "use one of: " + listed(screens));
     if (c.word == "pace") {
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 1) throw Error(where, "'pace' needs pictures a second", "write a number of 1 or more");

@@ -4,6 +4,8 @@
 #include <array>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "ui/station/scene.h"
 #include "ui/station/tutorial.h"
@@ -12,6 +14,8 @@ namespace cavum::station {
 
 enum class Screen { sign_in, self_check, preparing, device_check, briefing, exam, grading, result, replay, trouble, save, author, author_busy };
 [[nodiscard]] const char* screen_name(Screen screen) noexcept;
+/// Of all of them, in their order.
+[[nodiscard]] std::vector<std::string_view> screen_names();
 
 /// What a button or a key asked for; the station does it after the frame.
 enum class Wish { none, sign_in, check, check_go_on, to_briefing, to_check, begin, end, save, rescue, abandon, report, next_candidate, leave, quit };

@@ -67,4 +67,10 @@ std::optional<bool> upper_in(const std::string& name) {
   return std::nullopt;
 }
 
+bool anterior_in(const std::string& name) {
+  if (const auto n = number_in(name)) return n->place() <= 3;
+  const std::string kind = name.substr(0, name.find('('));
+  return kind.find("incisor") != std::string::npos || kind.find("canine") != std::string::npos;
+}
+
 }  // namespace cavum

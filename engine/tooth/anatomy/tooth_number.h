@@ -35,5 +35,7 @@ struct ToothNumber {
 [[nodiscard]] std::optional<ToothNumber> number_in(const std::string& tooth_name);
 /// Whether the name says "upper" or "lower"; none where it says neither.
 [[nodiscard]] std::optional<bool> upper_in(const std::string& tooth_name);
+/// Whether the name says that it is an incisor or a canine.
+[[nodiscard]] bool anterior_in(const std::string& tooth_name);
 
 }  // namespace cavum

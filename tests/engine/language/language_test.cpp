@@ -60,8 +60,8 @@ TEST_F(Language, ASentenceThatWasMadeElsewhereIsTranslatedWithWhatStandsInItsGap
             "Sie drückten im Mittel mit 1,5 N und höchstens mit 3,0 N bei 0:12.");
   EXPECT_EQ(shown("full marks; critical"), "volle Punktzahl; kritisch");
   EXPECT_EQ(shown("Pause  (P), 1 left"), "Pause  (P), noch 1") << "no part takes a sentence that begins with a gap";
-  EXPECT_EQ(shown("3.1 mm³ of the cavity was left standing, most of it at the floor, up to 0.62 mm thick."),
-            "3,1 mm³ der Kavität blieben stehen, am meisten hier: Boden, bis zu 0,62 mm dick.");
+  EXPECT_EQ(shown("3.1 mm³ of the cavity was left standing, the largest part (61 %) at the floor, up to 0.62 mm thick."),
+            "3,1 mm³ der Kavität blieben stehen, der größte Teil (61 %) hier: Boden, bis zu 0,62 mm dick.");
   EXPECT_EQ(shown("nothing like this is in any catalogue"), "nothing like this is in any catalogue");
   EXPECT_EQ(shown(shown("full marks")), "volle Punktzahl") << "a translation is not translated again";
 }

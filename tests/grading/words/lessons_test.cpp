@@ -4,8 +4,11 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
+#include "engine/tooth/anatomy/tooth_number.h"
+#include "grading/result/loss.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
 
@@ -133,6 +136,61 @@ TEST(LessonsOfAChamber, WhatWasOpenedThroughTheFloorIsOneMistakeAndNotACutElsewh
   for (const char* part : {"The pulp was opened ", " at 1:01: the floor is up to 0.9"})
     EXPECT_NE(all[0].what.find(part), std::string::npos) << all[0].what;
   for (const auto& l : all) EXPECT_TRUE(l.topic != Topic::elsewhere && l.topic != Topic::opened) << l.what;
+}
+
+/// The chamber's roof is cut away all over, down to the floor of the hole; the chamber lies from 2.8 to 4.5 mm deep.
+std::vector<Lesson> of_chamber(double down_to_z, double open_x) {
+  Carved work(testing::opening_pulp(testing::k_chamber_target), testing::chambered_block(0.1));
+  work.carve(box_hole(-1.5, open_x, -1, 1, down_to_z), 95'000);
+  Result r = work.graded();
+  scenarios::RubricSpec rubric = box_rubric();
+  scenarios::CriterionSpec roof = rubric.criteria[0];
+  roof.id = roof.title = roof.metric = "overhang_mm3";
+  roof.full = 0.1, roof.zero = 3;
+  rubric.criteria.push_back(roof);
+  mark(r, rubric);
+  return lessons(work.input(), r);
+}
+const Lesson* of_topic(const std::vector<Lesson>& all, Topic topic) {
+  const auto found = std::find_if(all.begin(), all.end(), [topic](const Lesson& l) { return l.topic == topic; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+TEST(LessonsOfAChamber, WhoOpenedItIsNotToldToGoDeeper) {
+  const auto all = of_chamber(-3.3, 1.5);  // the pulp below stays
+  const Lesson* left = of_topic(all, Topic::left_standing);
+  ASSERT_NE(left, nullptr);
+  EXPECT_NE(left->what.find("pulp that was not cleared out"), std::string::npos) << left->what;
+  for (const auto& l : all) EXPECT_EQ(l.instead.find("Go on down"), std::string::npos) << l.instead;
+}
+
+TEST(LessonsOfAChamber, WhoDidNotOpenItIsToldToGoOnUntilItGivesWay) {
+  const auto all = of_chamber(-1.5, 1.5);
+  const Lesson* left = of_topic(all, Topic::left_standing);
+  ASSERT_NE(left, nullptr);
+  EXPECT_EQ(left->instead.find("to the depth that is asked"), std::string::npos) << left->instead;
+}
+
+TEST(LessonsOfAChamber, ARoofHasItsPlaceAndAMomentToLookAt) {
+  const auto all = of_chamber(-4.4, 0.5);  // the mesial millimetre of the roof stays
+  const Lesson* roof = of_topic(all, Topic::roof);
+  ASSERT_NE(roof, nullptr);
+  ASSERT_TRUE(roof->look_mm);
+  EXPECT_NEAR(roof->look_mm->x, 1.0, 0.3);
+  EXPECT_TRUE(roof->where.timed());
+}
+
+TEST(WallsOfPeople, FrontTeethHaveLabialAndIncisal) {
+  using scenarios::Facing;
+  constexpr auto k_buccal = static_cast<std::size_t>(scenarios::Wall::buccal);
+  EXPECT_EQ(wall_text(k_buccal, Facing{}), "the buccal wall");
+  EXPECT_EQ(wall_text(k_buccal, Facing{0, true}), "the labial wall");
+  EXPECT_EQ(wall_text(k_buccal, Facing{1, true}), "the incisal wall");
+  for (const char* front : {"upper central incisor (seed 7, one canal)", "tooth 13 (universal 6), upper right canine; tooth from a"})
+    EXPECT_TRUE(anterior_in(front)) << front;
+  for (const char* back :
+       {"lower first molar (seed 7, 3 canals)", "tooth 14 (universal 5), upper right first premolar; tooth from my-canine", "tooth from x (incisor)"})
+    EXPECT_FALSE(anterior_in(back)) << back;
 }
 
 TEST_F(Lessons, OfTwoMistakesTheDearerComesFirst) {

@@ -117,7 +117,7 @@ test("verdict, points and every criterion in the page are those of grade --json"
       const { cells, lost } = shown.rows[i];
       assert.equal(cells[0], c.title);
       // A measure that is true or false is told in words; grade --json has 1 and 0 for it.
-      if (["yes", "no"].includes(cells[1])) assert.equal(c.value, cells[1] === "yes" ? 1 : 0, c.title);
+      if (["opened", "not opened"].includes(cells[1])) assert.equal(c.value, cells[1] === "opened" ? 1 : 0, c.title);
       else if (c.value !== null) assert.ok(Math.abs(parseFloat(cells[1].replace("−", "-")) - c.value) < 0.0051, `${cells[1]} for ${c.value}`);
       assert.ok(Math.abs(parseFloat(cells[3]) - c.points) < 0.051, `${cells[3]} for ${c.points}`);
       assert.match(cells[3], new RegExp(`/ ${c.max.toFixed(1).replace(".", "\\.")}$`));

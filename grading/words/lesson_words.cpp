@@ -1,0 +1,326 @@
+#include "grading/words/lesson_words.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "engine/base/pose.h"
+#include "engine/base/text.h"
+#include "grading/result/loss.h"
+#include "grading/words/moments.h"
+#include "scenarios/file/measures.h"
+
+namespace cavum::grading {
+namespace {
+
+using scenarios::Zone;
+
+constexpr double k_shown_points = 0.005, k_least_lean_deg = 6.0, k_degrees_of = 57.29577951308232, k_least_covered_percent = 5.0;
+
+std::string mm(double v) { return fixed(v, 2) + " mm"; }
+std::string mm3(double v) { return fixed(v, 2) + " mm³"; }
+std::string percent_of(double part, double all) { return fixed(all > 0 ? 100 * part / all : 0, 0); }
+std::string clock_text(double s) {
+  const auto whole = static_cast<std::int64_t>(s);
+  return fmt::format("{}:{:02}", whole / 60, whole % 60);
+}
+
+template <class Row>
+std::size_t largest(const Row& row, std::size_t count) {
+  return static_cast<std::size_t>(std::max_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count)) - row.begin());
+}
+
+/// Says a topic's sentences.
+class Teller {
+ public:
+  Teller(const GradeInput& input, const Result& result) : in_(input), r_(result) {}
+
+  void tell(Lesson& l) const {
+    switch (l.topic) {
+      case Topic::left_standing:
+        return left_standing(l);
+      case Topic::roof:
+        return roof(l);
+      case Topic::canals:
+        return canals(l);
+      case Topic::beside:
+        return beside(l);
+      case Topic::too_deep:
+        return too_deep(l);
+      case Topic::elsewhere:
+        return elsewhere(l);
+      case Topic::opened:
+        return opened(l);
+      case Topic::taper:
+        return taper(l);
+      case Topic::neighbour:
+        return neighbour(l);
+      case Topic::contact:
+        return contact(l);
+      case Topic::gum:
+        return gum(l);
+      case Topic::force:
+        return force(l);
+      case Topic::time:
+        return time(l);
+      case Topic::steps:
+        return steps(l);
+      case Topic::other:
+        return other(l);
+    }
+  }
+
+ private:
+  [[nodiscard]] std::string there(Vec3 p) const { return side_words(p, in_.zones); }
+  [[nodiscard]] std::string wall(std::size_t w) const { return wall_text(w, r_.shape.facing); }
+  /// "from 0:49 on"; nothing where nobody knows when.
+  static std::string from(const Trace& t) {
+    return !t.timed() ? "" : t.t_s() < 1 ? ", from the beginning" : fmt::format(", from {} on", clock_text(t.t_s()));
+  }
+  static std::string when_at(const Trace& t) { return t.timed() ? fmt::format(" at {}", clock_text(t.t_s())) : ""; }
+
+  void left_standing(Lesson& l) const {
+    if (!(r_.volumes.target_removed_percent > 0)) {
+      l.what = "Nothing of the cavity was cut.";
+      l.instead = "Open the outline first, then take the cavity away layer by layer.";
+      return;
+    }
+    const Left left = what_is_left();
+    const std::size_t w = largest(left.hard_by_wall, scenarios::k_walls);
+    const double roof = r_.access.overhang ? r_.access.overhang->mm3 : 0;
+    const std::string amount = mm3(std::max(0.0, r_.volumes.missed.mm3 - roof));
+    l.where = r_.volumes.target_last[w];
+    if (left.aim > left.hard_by_wall[w]) {
+      l.look_mm = left.aim_middle_mm;
+      l.what =
+          fmt::format("{} of the cavity was left, {} % of it {} that was not cleared out.", amount, percent_of(left.aim, left.all), left.aim_tissue);
+      l.instead = "Clear it out from wall to wall with light strokes, and do not press on the floor below.";
+      return;
+    }
+    const double thick = r_.shape.wall[w].max_under_mm;
+    if (thick > 0) l.look_mm = r_.shape.wall[w].worst_under.site_mm;
+    l.what = fmt::format("{} of the cavity was left standing, the largest part ({} %) at {}{}.", amount, percent_of(left.hard_by_wall[w], left.all),
+                         wall(w), thick > 0 ? fmt::format(", up to {} thick", mm(thick)) : "");
+    if (static_cast<scenarios::Wall>(w) != scenarios::Wall::floor)
+      l.instead = fmt::format("Go round the outline once more before you hand in, and take {} back until the outline is reached.", wall(w));
+    else if (!r_.perforation.has_aims)
+      l.instead = "Go on down to the depth that is asked, and feel for an even floor before you hand in.";
+    else if (r_.perforation.aim.perforated)
+      l.instead = "Cut on the way out only, from below what still stands; do not press on the floor of the chamber.";
+    else
+      l.instead = "Go on down in the middle of the outline until the resistance gives way, then stop pressing.";
+  }
+  void roof(Lesson& l) const {
+    const double all = r_.access.overhang ? r_.access.overhang->mm3 : 0;
+    const Piece whole{r_.access.overhang_middle_mm, all, all};
+    const Piece& piece = r_.access.overhang_pieces.empty() ? whole : r_.access.overhang_pieces[0];
+    const Vec3 p = piece.middle_mm;
+    show_hard_tissue(l, p);
+    constexpr double k_nearly_all = 0.95;
+    l.what = piece.part < k_nearly_all * all ? fmt::format("{} of roof was left over the pulp chamber, the largest part ({} %) {}.", mm3(all),
+                                                           percent_of(piece.part, all), there(p))
+                                             : fmt::format("{} of roof was left over the pulp chamber, {}.", mm3(all), there(p));
+    if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_least_covered_percent)
+      l.what += one_canal() ? fmt::format(" Hard tissue stands over {} % of the canal's mouth.", fixed(covered, 0))
+                            : fmt::format(" Hard tissue stands over {} % of the canals' mouths.", fixed(covered, 0));
+    l.instead = fmt::format("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
+  }
+  void canals(Lesson& l) const {
+    const Vec3 p = r_.access.canals_covered_mm;
+    show_hard_tissue(l, p);
+    const std::string covered = fixed(r_.access.canals_covered_percent.value_or(0), 0);
+    l.what = one_canal() ? fmt::format("Hard tissue stands over {} % of the canal's mouth, {}.", covered, there(p))
+                         : fmt::format("Hard tissue stands over {} % of the canals' mouths, {}.", covered, there(p));
+    l.instead = fmt::format("Take the shelf of dentin away {}, until an instrument goes straight in without bending at the entrance.", there(p));
+  }
+  void beside(Lesson& l) const {
+    const ZoneVolume &out = r_.volumes.zone[row_of(Zone::container_sides)], &near = r_.volumes.zone[row_of(Zone::leeway_sides)];
+    std::size_t w = largest(out.removed.mm3 > 0 ? out.by_wall_mm3 : near.by_wall_mm3, scenarios::k_walls);
+    if (w == row_of(scenarios::Wall::floor)) w = worst_side();
+    const WallMeasures& m = r_.shape.wall[w];
+    l.where = m.worst_over;
+    if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
+    const Trace& first = out.removed.mm3 > 0 ? out.first : near.first;
+    l.what = fmt::format("The cavity became too wide: {} was cut by up to {} beyond its outline{}.", wall(w), mm(std::max(0.0, m.max_over_mm)),
+                         from(first));
+    l.instead = "Stop at the outline, with the side of the point on the wall and not its tip.";
+    if (const std::string lean = lean_at(w); !lean.empty()) l.instead += " " + lean;
+  }
+  void too_deep(Lesson& l) const {
+    const WallMeasures& m = r_.shape.wall[row_of(scenarios::Wall::floor)];
+    if (opened_through_floor(in_, r_)) {
+      opened(l);
+      const PerforationTruth& p = r_.perforation.fault;
+      const std::string where = there(p.first.site_mm), depth = mm(std::max(0.0, m.max_over_mm));
+      l.what = is_outside(p) ? fmt::format("The tooth was perforated into the {} {}{}: the floor is up to {} too deep.", p.tissue, where,
+                                           when_at(p.first), depth)
+                             : fmt::format("The {} was opened {}{}: the floor is up to {} too deep.", p.tissue, where, when_at(p.first), depth);
+      return;
+    }
+    l.where = m.worst_over;
+    if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
+    l.what = fmt::format("The floor is up to {} too deep{}{}.", mm(std::max(0.0, m.max_over_mm)),
+                         m.worst_over.tick >= 0 ? ", deepest " + there(m.worst_over.site_mm) : "", when_at(m.worst_over));
+    l.instead = "Slow down for the last half millimetre, press lightly, and measure the depth before each further layer.";
+  }
+  void elsewhere(Lesson& l) const {
+    const ZoneVolume &none = r_.volumes.zone[row_of(Zone::none)], &guarded = r_.volumes.zone[row_of(Zone::protected_)];
+    const bool is_guarded = guarded.removed.mm3 > none.removed.mm3;
+    l.where = is_guarded ? guarded.first : none.first;
+    if (l.where.tick >= 0 && in_.zones.wall(in_.before.octree.leaf_at(l.where.site_mm)) == scenarios::Wall::floor) l.where = {};
+    if (l.where.tick >= 0) l.look_mm = l.where.site_mm;
+    const double below = none.by_wall_mm3[row_of(scenarios::Wall::floor)] + guarded.by_wall_mm3[row_of(scenarios::Wall::floor)];
+    l.what = fmt::format("{} was cut {}{}.", mm3(std::max(0.0, r_.volumes.outside().mm3 - below)),
+                         is_guarded ? "of what must stay" : "far from the cavity", from(l.where));
+    l.instead = "Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.";
+  }
+  void opened(Lesson& l) const {
+    const PerforationTruth& p = r_.perforation.fault;
+    l.where = p.first;
+    if (p.perforated) l.look_mm = p.first.site_mm;
+    const std::string where = there(p.first.site_mm);
+    l.what = is_outside(p) ? fmt::format("The tooth was perforated into the {} {}{}.", p.tissue, where, when_at(p.first))
+                           : fmt::format("The {} was opened {}{}.", p.tissue, where, when_at(p.first));
+    l.instead = "Near it press lightly and look after each stroke; when the resistance gives way, stop at once.";
+  }
+  void taper(Lesson& l) const {
+    const double is = r_.shape.taper_deg.value_or(0), wanted = r_.access.target_taper_deg.value_or(is);
+    l.what = fmt::format("The walls open by {}°, and {}° are asked.", fixed(is, 0), fixed(wanted, 0));
+    l.instead = is > wanted ? "Keep the handpiece along the way in while you cut the walls; do not let it swing."
+                            : "Lean the point outwards a little along the walls, or take a tapered one.";
+  }
+  void neighbour(Lesson& l) const {
+    l.where = r_.beside.first_nick;
+    if (r_.beside.nick_depth_mm > 0) l.look_mm = r_.beside.deepest.site_mm;
+    l.what = fmt::format("The neighbouring tooth was cut, {} deep{}.", mm(r_.beside.nick_depth_mm), when_at(l.where));
+    l.instead = "Leave a thin shell of enamel in front of the neighbour until the box is finished, and break it out last.";
+  }
+  void contact(Lesson& l) const {
+    l.where.site_mm = r_.beside.clearance_from_mm;
+    l.look_mm = r_.beside.clearance_from_mm;
+    l.what = fmt::format("The box comes clear of the neighbour by {} only.", mm(r_.beside.clearance_mm.value_or(0)));
+    l.instead = "Carry the margins of the box on until the neighbour can be passed all round, at its floor as well.";
+  }
+  void gum(Lesson& l) const {
+    l.where = r_.beside.first_gum;
+    l.what = fmt::format("{} of gum was cut{}.", mm3(r_.beside.gum_removed.mm3), from(l.where));
+    l.instead = "Keep the point above the margin of the gum, and come from above and not along it.";
+  }
+  void force(Lesson& l) const {
+    l.where = r_.motion.force_peak;
+    l.what = fmt::format("You pressed with {} N on average and up to {} N{}.", fixed(r_.motion.force_mean_n, 1), fixed(r_.motion.force_peak_n, 1),
+                         when_at(l.where));
+    l.instead = "Let the diamond do the cutting: press less, and keep the point moving.";
+  }
+  void time(Lesson& l) const {
+    l.what = fmt::format("The work took {}; for {} the point neither moved nor cut.", clock_text(r_.motion.time_s), clock_text(r_.motion.idle_s));
+    l.instead = r_.motion.idle_s > 0.2 * r_.motion.time_s ? "Plan the order of your cuts before you begin, so that the point seldom rests."
+                                                          : "Take the bulk away in broad, even layers, and keep the fine strokes for the end.";
+  }
+  void steps(Lesson& l) const {
+    l.where = r_.progress.first_violation;
+    const int times = r_.progress.violations;
+    l.what = times == 1  ? std::string("A rule of the task was broken once.")
+             : times > 1 ? fmt::format("A rule of the task was broken {} times.", times)
+                         : fmt::format("Steps completed: {} of {}.", r_.progress.steps_completed, r_.progress.steps);
+    l.instead = r_.progress.violations > 0 ? "Use the points and the speed that the task allows." : "Follow the steps on the screen to the last one.";
+  }
+  void other(Lesson& l) const {
+    for (const auto& c : r_.criteria)
+      if (c.judged && c.max - c.points > k_shown_points && scenarios::known_measure(c.metric).counts == scenarios::k_counts_nothing) {
+        l.where = c.first;
+        l.what = fmt::format("{}: not as asked.", c.title);
+        l.instead = "Look at its row in the table of criteria.";
+        return;
+      }
+  }
+
+  /// What of the target still stands at the end, mm³ of whole leaves: hard tissue by wall, and tissue that the task opens.
+  struct Left {
+    std::array<double, scenarios::k_walls + 1> hard_by_wall{};
+    double aim = 0, all = 0;
+    Vec3 aim_middle_mm;
+    std::string aim_tissue;
+  };
+  [[nodiscard]] Left what_is_left() const {
+    std::array<bool, 256> aim{};
+    Left left;
+    for (const auto& t : in_.before.tissues)
+      for (const auto& name : in_.scenario.perforation.aims)
+        if (t.name == name) aim[t.id] = true, left.aim_tissue = name;
+    Vec3 sum;
+    Octree::Cursor cursor;
+    in_.zones.for_each_target_leaf([&](IVec3 leaf) {
+      const std::uint8_t tissue = in_.after.tissue(leaf, cursor);
+      if (tissue == k_air) return;
+      const double mm3 = in_.zones.leaf_volume_mm3();
+      left.all += mm3;
+      if (aim[tissue]) {
+        left.aim += mm3;
+        sum += in_.zones.centre_mm(leaf) * mm3;
+      } else {
+        left.hard_by_wall[row_of(in_.zones.wall(leaf))] += mm3;
+      }
+    });
+    if (left.aim > 0) left.aim_middle_mm = sum / left.aim;
+    return left;
+  }
+
+  /// What stands at the end, and the moment in which something was cut beside it last; where nothing was, the end.
+  void show_hard_tissue(Lesson& l, Vec3 at_mm) const {
+    const std::int64_t end = counted_ticks(static_cast<std::int64_t>(in_.inputs.size()), in_.events);
+    l.where = last_cut_near(in_, end, at_mm);
+    if (l.where.tick < 0) l.where = {r_.end.tick, at_mm};
+    l.look_mm = at_mm;
+  }
+
+  /// What surrounds the root was opened: nobody says of that that it was opened.
+  static bool is_outside(const PerforationTruth& p) { return p.tissue == "periodontium"; }
+  [[nodiscard]] bool one_canal() const { return r_.access.canal_mouths.size() == 1; }
+
+  [[nodiscard]] std::size_t worst_side() const {
+    std::size_t worst = 0;
+    for (std::size_t w = 0; w < 4; ++w)
+      if (r_.shape.wall[w].max_over_mm > r_.shape.wall[worst].max_over_mm) worst = w;
+    return worst;
+  }
+
+  /// How the handpiece leaned while a wall was cut beyond its outline; empty when it stood along the way in, or nobody knows.
+  [[nodiscard]] std::string lean_at(std::size_t w) const {
+    Vec3 sum;
+    std::int64_t last = -1;
+    for (const auto& cut : in_.removed) {
+      if (cut.tick == last || cut.tick < 0 || cut.tick >= static_cast<std::int64_t>(in_.inputs.size())) continue;
+      const IVec3 leaf = cut.leaf.leaf();
+      if (in_.zones.zone(leaf) != Zone::container_sides || row_of(in_.zones.wall(leaf)) != w) continue;
+      last = cut.tick;
+      sum += rotation(in_.inputs[static_cast<std::size_t>(cut.tick)].pose().rotation) * Vec3{0, 0, 1};
+    }
+    if (last < 0) return "";
+    const scenarios::Facing facing = in_.zones.facing();
+    const Vec3 is = facing.local(normalized(sum)), way = facing.local(in_.zones.approach());
+    const double x = is.x - way.x, y = is.y - way.y, deg = k_degrees_of * std::sqrt(x * x + y * y);
+    if (deg < k_least_lean_deg) return "";
+    const scenarios::Wall to = std::fabs(x) > std::fabs(y) ? (x > 0 ? scenarios::Wall::mesial : scenarios::Wall::distal)
+                                                           : (y > 0 ? scenarios::Wall::buccal : scenarios::Wall::lingual);
+    return fmt::format("The handpiece leaned {}° towards {} there: hold it along the way in.", fixed(deg, 0), scenarios::wall_name(to, facing));
+  }
+
+  const GradeInput& in_;
+  const Result& r_;
+};
+
+}  // namespace
+
+/// What must not be opened was reached through the floor: the same mistake as a floor that is too deep.
+bool opened_through_floor(const GradeInput& in, const Result& r) {
+  const PerforationTruth& p = r.perforation.fault;
+  return p.perforated && p.first.tick >= 0 && in.zones.wall(in.before.octree.leaf_at(p.first.site_mm)) == scenarios::Wall::floor &&
+         r.shape.wall[row_of(scenarios::Wall::floor)].max_over_mm > 0;
+}
+
+void tell_lesson(Lesson& lesson, const GradeInput& input, const Result& result) { Teller(input, result).tell(lesson); }
+
+}  // namespace cavum::grading
