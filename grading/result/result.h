@@ -14,8 +14,8 @@
 
 namespace cavum::grading {
 
-/// Raised whenever the same recording may get another verdict, other points, another criterion or other words than before: sealed results are compared
-/// as a whole. It stands in every result.
+/// Raised whenever the same recording may get another verdict, other points, another criterion or other words than before: sealed results are
+/// compared as a whole. It stands in every result.
 inline constexpr int k_grading_version = 8;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.

@@ -163,7 +163,9 @@ void add_device(CLI::App* station, station::StationOptions& s) {
   station->add_option("--device", s.sitting.device.name,
                       "what is in the candidate's hand: " + stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}) +
                           "; with --practice mouse unless another is named");
-  station->add_option("--operator", s.sitting.device.operator_name, "of the simulated device: expert, novice, perforator, student-0 to student-100, careless")
+  station
+      ->add_option("--operator", s.sitting.device.operator_name,
+                   "of the simulated device: expert, novice, perforator, student-0 to student-100, careless")
       ->capture_default_str();
   station->add_option("--seed", s.sitting.device.seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
 }
