@@ -13,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-void require_line(const std::string& option, const std::string& text, std::size_t longest, const char* what) {
-  if (text.empty() || text.size() > longest || !is_plain_text(text))
-    throw Error(option, text.size() > longest ? fmt::format("is longer than {} bytes", longest) : "is no line of text",
-                fmt::format("say in one line of UTF-8 {}: it is kept for ever", what));
+void require_person(const std::string& text) {
+  if (text.empty() || text.size() > k_longest_person || !is_plain_text(text))
+    throw Error("--person", text.size() > k_longest_person ? fmt::format("is longer than {} bytes", k_longest_person) : "is no line of text",
+                "say in one line of UTF-8 who decides: it is kept for ever");
 }
 
 /// The result of a session that a person has to decide. Throws Error.
@@ -24,14 +24,14 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   const std::string where = fmt::format("--session {}", session);
   const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
   if (found == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
-  if (found->undecided()) return *found;
+  if (found->undecided() || (found->open_appeal() != nullptr && found->result.is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
     throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result.value("verdict", "")),
-                "an appeal is a regrade, with its reason: `cavum ledger regrade`");
+                "after an appeal a person may: `cavum ledger appeal`");
   throw Error(where,
               found->result.is_object() ? fmt::format("its verdict is {}: the program leaves nothing to a person", found->result.value("verdict", ""))
                                         : "has no result",
-              "an appeal is a regrade, with its reason: `cavum ledger regrade`");
+              "after an appeal a person may: `cavum ledger appeal`");
 }
 
 }  // namespace
@@ -51,8 +51,8 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
 
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision) {
   if (decision.verdict != "pass" && decision.verdict != "fail") throw Error("--verdict " + decision.verdict, "is none", "say pass or fail");
-  require_line("--person", decision.person, k_longest_person, "who decides");
-  require_line("--reason", decision.reason, k_longest_reason, "why, without names");
+  require_person(decision.person);
+  require_reason(decision.reason);
   return ledger.append("regrade", [&](const LedgerContent& now) {
     const Registry registry = read_registry(now);
     const FiledSession& s = undecided_session(registry, session);

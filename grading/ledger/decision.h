@@ -27,8 +27,8 @@ struct Decision {
   std::string person;   ///< who decides: one line, kept for ever
   std::string reason;   ///< why: one line, kept for ever
 };
-/// Enters the decision on the result that counts of the session of entry `session`. Throws Error when that is not `review` (any more), a text is
-/// empty, too long or no plain line, or the verdict is another word.
+/// Enters the decision on the result that counts of the session of entry `session`. Throws Error when that is not `review` (any more) and no appeal
+/// against it is open, a text is empty, too long or no plain line, or the verdict is another word.
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision);
 
 }  // namespace cavum::ledger

@@ -60,6 +60,7 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
     for (auto& o : r.sessions)  // released before anybody knew of this ending
       if (contest_each_other(s, o)) o.released = false, o.shown = json(), o.shown_seq = 0, o.released_utc_ns = 0;
     s.released = true;
+    s.retracted_by.reset();
     s.shown = s.result;
     s.shown_seq = s.result_seq;
     s.released_utc_ns = utc_ns;
@@ -97,7 +98,8 @@ class RegistryReader {
         {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
         {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
         {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
-        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing}};
+        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing},
+        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal}};
     const auto kind = k_kinds.find(e.kind);
     try {
       if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));
@@ -209,6 +211,34 @@ class RegistryReader {
       if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
         say(e, "releases a result that does not count");
     release(r_, e.seq, e.utc_ns, results);
+  }
+
+  void retract(const LedgerEntry& e) {
+    for (const auto seq : e.body.at("results").get<std::set<std::uint64_t>>()) {
+      const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& one) { return one.shown_seq == seq; });
+      if (s == r_.sessions.end() || seq == 0) {
+        say(e, "takes back a result that is not released");
+        continue;
+      }
+      s->released = false, s->shown = json(), s->shown_seq = 0, s->released_utc_ns = 0;
+      s->retracted_by = e.seq;
+    }
+  }
+
+  void appeal(const LedgerEntry& e) {
+    FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "appeal")));
+    if (!e.body.contains("answers")) {
+      if (s.open_appeal() != nullptr) say(e, "an appeal beside one that is open");
+      s.appeals.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), {}, {}, {}});
+      return;
+    }
+    const auto answered = require_whole<std::uint64_t>(e.body, "answers", "appeal");
+    for (auto& a : s.appeals) {
+      if (a.seq != answered || a.closed_by) continue;
+      a.closed_by = e.seq, a.outcome = text_in(e.body, "outcome"), a.answer = text_in(e.body, "reason");
+      return;
+    }
+    say(e, "answers an appeal that is not open");
   }
 
   void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_->key_of(e.seq + 1)); }

@@ -23,6 +23,15 @@ struct Regrade {
   nlohmann::json result;
 };
 
+/// A candidate's objection to a result, from its entry to the one that answers it.
+struct Appeal {
+  std::uint64_t seq = 0;
+  std::int64_t utc_ns = 0;
+  std::string reason;
+  std::optional<std::uint64_t> closed_by;  ///< entry of the answer
+  std::string outcome, answer;             ///< `stands` or `changed`, and why; empty while it is open
+};
+
 /// What the entries say together.
 struct FiledSession {
   std::uint64_t seq = 0;  ///< of its entry
@@ -39,6 +48,8 @@ struct FiledSession {
   nlohmann::json shown;              ///< the last one that was released: it stands until another is; null before
   std::uint64_t shown_seq = 0;       ///< of the entry that holds it
   std::int64_t released_utc_ns = 0;  ///< when that was released
+  std::optional<std::uint64_t> retracted_by;  ///< entry that took the last one that was released back; none after a new release
+  std::vector<Appeal> appeals;                ///< the oldest first
   std::int64_t received_utc_ns = 0;
   std::optional<std::uint64_t> motion_erased_by, result_erased_by;  ///< entries that say so
   std::vector<Regrade> regrades;                                    ///< the oldest first
@@ -47,6 +58,12 @@ struct FiledSession {
   [[nodiscard]] const Regrade* regrade(std::uint64_t entry) const {
     for (const auto& r : regrades)
       if (r.seq == entry) return &r;
+    return nullptr;
+  }
+  /// The appeal that nobody answered yet; null: none.
+  [[nodiscard]] const Appeal* open_appeal() const {
+    for (const auto& a : appeals)
+      if (!a.closed_by) return &a;
     return nullptr;
   }
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts

@@ -55,11 +55,15 @@ std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const 
   return scenarios::parse_rubric(basis.rubric_toml, where);
 }
 
-const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
-                                 const std::string& reason) {
+void require_reason(const std::string& reason) {
   if (reason.empty() || reason.size() > k_longest_reason || !is_plain_text(reason))
     throw Error("--reason", reason.size() > k_longest_reason ? fmt::format("is longer than {} bytes", k_longest_reason) : "is no line of text",
-                "say in one line of UTF-8 why the result changes, without names: it is kept for ever");
+                "say in one line of UTF-8 why, without names: it is kept for ever");
+}
+
+const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
+                                 const std::string& reason) {
+  require_reason(reason);
   std::vector<Bytes> documents;
   nlohmann::json by = nlohmann::json::object();
   const auto keep = [&](const std::string& name, Bytes bytes) {

@@ -26,6 +26,8 @@ struct RegradeBasis {
 
 /// The most bytes of a reason.
 inline constexpr std::size_t k_longest_reason = 2000;
+/// Throws Error for a reason that is empty, longer than that or no plain line.
+void require_reason(const std::string& reason);
 /// Enters the result of marking the session of entry `session` by `basis`, and keeps that. Throws Error when `reason` is empty, too long or no plain
 /// text.
 const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "grading/ledger/regrade.h"
+
 namespace cavum::ledger {
 namespace {
 
@@ -83,6 +85,23 @@ Release release_results(Ledger& ledger, const ReleaseWish& wish) {
   } catch (const Nothing&) {
   }
   return out;
+}
+
+const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64_t>& sessions, const std::string& reason) {
+  if (sessions.empty()) throw Error("--session", "is missing", "name the entries of the sessions whose results are taken back");
+  require_reason(reason);
+  return ledger.append("retract", [&](const LedgerContent& now) {
+    const Registry registry = read_registry(now);
+    std::vector<std::uint64_t> results;
+    for (const auto seq : sessions) {
+      const auto s = std::find_if(registry.sessions.begin(), registry.sessions.end(), [seq](const FiledSession& one) { return one.seq == seq; });
+      const std::string where = fmt::format("--session {}", seq);
+      if (s == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger show`");
+      if (s->shown_seq == 0) throw Error(where, "has no released result", "there is nothing to take back");
+      results.push_back(s->shown_seq);
+    }
+    return nlohmann::json{{"results", results}, {"reason", reason}};
+  });
 }
 
 }  // namespace cavum::ledger

@@ -24,5 +24,8 @@ struct Release {
 [[nodiscard]] Release select_results(const Registry& registry, const ReleaseWish& wish);
 /// Enters their release; nothing when there are none.
 Release release_results(Ledger& ledger, const ReleaseWish& wish);
+/// Enters that the released results of these sessions, by their entries, are taken back: they stand in no export until something is released again.
+/// `reason`: one line, kept for ever. Throws Error when one is not released, or nothing is named.
+const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64_t>& sessions, const std::string& reason);
 
 }  // namespace cavum::ledger

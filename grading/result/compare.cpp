@@ -92,6 +92,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
   rule("pass mark, %", plain_number(old_rubric.pass_percent), plain_number(new_rubric.pass_percent));
   rule("an exam whose last step is open", old_rubric.open_step_passes ? "may pass" : "is reviewed",
        new_rubric.open_step_passes ? "may pass" : "is reviewed");
+  rule("a verdict that bounds leave open", old_rubric.review_within_bound ? "is reviewed" : "stands",
+       new_rubric.review_within_bound ? "is reviewed" : "stands");
   rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
   rule("rule", old_rubric.compensatory ? "compensatory" : "non-compensatory", new_rubric.compensatory ? "compensatory" : "non-compensatory");
   const auto bands = [](const scenarios::RubricSpec& of) {

@@ -102,6 +102,7 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
                              value_text(a.measure, c.full, 0, digits), loss.text.empty() ? "" : ": " + loss.text);
   }
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
+  out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
@@ -109,7 +110,7 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     if (a.measure.reads != scenarios::Reads::yes_no) out.reason += fmt::format(" {}{}", above ? "above " : "below ", fixed(*limit, 2));
     if (near(limit)) out.reason += ", which lies within the bound of the figure";
     out.reason += "; this alone fails the exam";
-  } else if (near(c.critical_above) || near(c.critical_below)) {
+  } else if (out.limit_in_bound) {
     out.reason += fmt::format("; the critical limit of {} lies within the bound of the figure",
                               fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2));
   }
@@ -207,26 +208,28 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     r.points_bound += r.criteria.back().points_bound;
     (r.criteria.back().judged ? r.max_points : r.unjudged_points) += r.criteria.back().max;
   }
-  bool critical = false;
+  bool critical = false, certain = false, limit_open = false;
   for (const auto& c : r.criteria) {
+    limit_open = limit_open || c.limit_in_bound;
     if (!c.critical_failed) continue;
     critical = true;
+    certain = certain || !c.limit_in_bound;
     r.verdict_reasons.push_back(fmt::format("{}{}: {}", k_critical_reason, c.id, c.reason));
   }
   for (auto& text : count_bands(r)) {
-    critical = true;
+    critical = certain = true;
     r.verdict_reasons.push_back(std::move(text));
   }
   const Standing standing = standing_of(r);
   const double beyond = standing.percent - rubric.pass_percent;
   const bool band = std::fabs(beyond) < rubric.borderline_percent;
   r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
-  const bool open = !critical && !band && std::fabs(beyond) < standing.bound_percent;
+  const bool open = !certain && !band && std::fabs(beyond) < standing.bound_percent;
   if (!critical && band) r.verdict = Verdict::review;
   std::string text = fmt::format("{} reaches {} %, {}the pass mark is {} %", standing.which, fixed(standing.percent, 1),
                                  critical && beyond >= 0 ? "which alone would be enough: " : "", fixed(rubric.pass_percent, 1));
   if (!critical && band) text += fmt::format(", which is within the borderline band of {} %", fixed(rubric.borderline_percent, 1));
-  if (open)
+  if (open && !critical)
     text += fmt::format("; the score's bound of ± {} % reaches across it (every figure off by all of its bound, each to the same side)",
                         fixed(standing.bound_percent, 1));
   r.verdict_reasons.push_back(text);
@@ -236,6 +239,12 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
           percent < rubric.pass_percent && standing.which != "criterion " + c.id)
         r.verdict_reasons.push_back(fmt::format("criterion {} reaches {} %, below the pass mark, too", c.id, fixed(percent, 1)));
   weigh_unjudged(r, rubric, standing, critical);
+  // What fails by points whatever a limit's figure is, or the other way round, is not open.
+  const bool fails_by_points = beyond < 0 && !band && !open;
+  if (rubric.review_within_bound && !certain && !fails_by_points && (open || limit_open)) {
+    r.verdict = Verdict::review;
+    r.verdict_reasons.emplace_back("the bounds of the figures leave the verdict open: a person decides, as the rubric asks");
+  }
   if (!r.perforation.agree())
     r.verdict_reasons.emplace_back(r.perforation.detected()
                                        ? "the force shows a faulty breakthrough and the tissue none, which costs nothing: the tissue decides"

@@ -236,6 +236,7 @@ struct CriterionResult {
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
   std::string work_text;      ///< that in words; empty when all of them count
   bool critical_failed = false;
+  bool limit_in_bound = false;      ///< the value lies no further from a critical limit than its bound
   std::optional<std::size_t> band;  ///< that it lies in, of Result::bands
   Trace first;                      ///< where the loss began
 };

@@ -135,6 +135,7 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
   r.pass_percent = t.number("pass_percent", 0, 100, 60, true);
   r.borderline_percent = t.number("borderline_percent", 0, 50, 0);
   r.open_step_passes = t.truth("open_step_passes", false);
+  r.review_within_bound = t.truth("review_within_bound", false);
   r.bands = read_bands(t, problems);
   double sum = 0;
   for (const auto* c : t.tables("criteria", true)) {

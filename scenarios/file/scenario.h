@@ -137,6 +137,7 @@ struct RubricSpec {
   double pass_percent = 60.0;        ///< of all points (non-compensatory: of each criterion's)
   double borderline_percent = 0.0;   ///< this close to the pass mark a person decides
   bool open_step_passes = false;     ///< an exam whose last step is open may pass by its points; else a person decides
+  bool review_within_bound = false;  ///< a person decides where the bounds of the figures leave the verdict open
   std::vector<BandSpec> bands = {};  ///< best first, two at least; empty: points alone decide
   std::vector<CriterionSpec> criteria;
   std::string path;  ///< file it was read from

@@ -273,6 +273,42 @@ TEST(Verdict, AnOpenLastStepIsNoPassUnlessTheRubricSaysSo) {
   EXPECT_EQ(r.verdict, Verdict::fail);
 }
 
+TEST(Verdict, WhatBoundsLeaveOpenIsReviewedWhereTheRubricSaysSo) {
+  scenarios::RubricSpec rubric;
+  rubric.criteria = {k_half_time};  // half its points, its bound that of the clock
+  Result r = with_perforation(false, false);
+  r.motion.time_bound_s = 10;
+  mark(r, rubric);
+  const double percent = 100 * r.points / r.max_points, bound = 100 * r.points_bound / r.max_points;
+  ASSERT_GT(bound, 2);
+  for (const bool asked : {false, true})
+    for (const auto& [mark_at, otherwise] : {std::pair{percent - bound / 2, Verdict::pass}, {percent + bound / 2, Verdict::fail}}) {
+      rubric.review_within_bound = asked;
+      rubric.pass_percent = mark_at;
+      mark(r, rubric);
+      EXPECT_EQ(r.verdict, asked ? Verdict::review : otherwise);
+    }
+  rubric.pass_percent = percent + 2 * bound;  // certain
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::fail);
+  rubric.pass_percent = percent - 2 * bound;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::pass);
+  const double time_s = *r.criteria[0].value;
+  for (const double limit : {time_s - 5, time_s + 5}) {  // a limit within the figure's bound, on either side
+    rubric.criteria[0].critical_above = limit;
+    mark(r, rubric);
+    EXPECT_EQ(r.verdict, Verdict::review) << limit;
+  }
+  rubric.criteria[0].critical_above = time_s - 15;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::fail) << "failed for certain";
+  rubric.criteria[0].critical_above = time_s - 5;
+  rubric.pass_percent = percent + 2 * bound;
+  mark(r, rubric);
+  EXPECT_EQ(r.verdict, Verdict::fail) << "by its points, whatever the limit says";
+}
+
 TEST(Grade, TheLastStepIsOpenWhereItsEventIsMissing) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);

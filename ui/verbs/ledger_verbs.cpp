@@ -165,6 +165,25 @@ void add_decide(LedgerCommand& ledger) {
   ledger.json_flag(v);
 }
 
+void add_retract(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v = ledger.verb("retract", "Take released results back: they stand in no export until something is released again", done(ledger_retract));
+  v->add_option("--session", o->chosen_sessions, "its entry; may be repeated")->required();
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal")->required();
+  ledger.json_flag(v);
+}
+
+void add_appeal(LedgerCommand& ledger) {
+  const auto& o = ledger.options;
+  auto* v =
+      ledger.verb("appeal", "Appeals against results: the list, and with --session a new one, or with --outcome its answer", done(ledger_appeal));
+  v->add_option("--session", o->session_seq, "its entry");
+  v->add_option("--outcome", o->outcome, "answers the open appeal: stands, or changed when another result was entered since")
+      ->check(CLI::IsMember({"stands", "changed"}));
+  v->add_option("--reason", o->reason, "what is objected to, or the answer, in one line; it is kept for ever, so no names and nothing personal");
+  ledger.json_flag(v);
+}
+
 void add_verify(LedgerCommand& ledger) {
   const auto& o = ledger.options;
   auto* v = ledger.verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
@@ -291,9 +310,9 @@ void add_show(LedgerCommand& ledger) {
 
 void add_ledger_verbs(CLI::App& app, int& exit_code) {
   LedgerCommand ledger(app, exit_code);
-  for (auto* add : {add_init,    add_station,    add_ticket, add_tickets,         add_cancel,  add_begin,      add_add,    add_release,
-                    add_regrade, add_decide,     add_verify, add_export,          add_receipt, add_candidates, add_forget, add_erase,
-                    add_key,     add_checkpoint, add_cosign, add_add_cosignature, add_backup,  add_restore,    add_show})
+  for (auto* add : {add_init,   add_station,    add_ticket, add_tickets,         add_cancel, add_begin,   add_add,        add_release, add_regrade,
+                    add_decide, add_retract,    add_appeal, add_verify,          add_export, add_receipt, add_candidates, add_forget,  add_erase,
+                    add_key,    add_checkpoint, add_cosign, add_add_cosignature, add_backup, add_restore, add_show})
     add(ledger);
 }
 

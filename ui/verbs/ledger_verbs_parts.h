@@ -1,6 +1,6 @@
 // What the verbs of `cavum ledger` share: their options, and the functions behind them, by file: _filing (init, add, receipt), _ticket (ticket,
-// tickets, cancel, begin), _results (release, regrade, decide, export, candidates), _keeping (forget, erase, key), _check (verify, show), _station
-// (station), _cosign (checkpoint, cosign, add-cosignature), _backup (backup, restore).
+// tickets, cancel, begin), _results (release, regrade, decide, retract, appeal, export, candidates), _keeping (forget, erase, key), _check (verify,
+// show), _station (station), _cosign (checkpoint, cosign, add-cosignature), _backup (backup, restore).
 #pragma once
 
 #include <string>
@@ -15,7 +15,7 @@ namespace cavum::ui {
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
                            results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss, again, before,
-                           verdict, person;
+                           verdict, person, outcome;
   std::vector<std::string> sessions, chosen, receipts, cosigned, passed_over;
   scenarios::Grant grant;
   std::vector<std::uint64_t> chosen_sessions;
@@ -45,6 +45,8 @@ void ledger_receipt(const LedgerOptions& options);
 void ledger_release(const LedgerOptions& options);
 void ledger_regrade(const LedgerOptions& options);
 void ledger_decide(const LedgerOptions& options);
+void ledger_retract(const LedgerOptions& options);
+void ledger_appeal(const LedgerOptions& options);
 void ledger_export(const LedgerOptions& options);
 void ledger_candidates(const LedgerOptions& options);
 void ledger_forget(const LedgerOptions& options);

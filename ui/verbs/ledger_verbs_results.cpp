@@ -7,6 +7,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "grading/ledger/appeal.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
@@ -128,6 +129,62 @@ void ledger_decide(const LedgerOptions& o) {
     print_json(json{{"seq", entry.seq}, {"session", o.session_seq}, {"verdict", o.verdict}, {"person", o.person}});
   else
     std::cout << fmt::format("entry {}: {}, decided by {}; it waits for its release", entry.seq, o.verdict, one_line(o.person)) << "\n";
+}
+
+void ledger_retract(const LedgerOptions& o) {
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const auto& entry = ledger::retract_results(ledger, o.chosen_sessions, o.reason);
+  const std::size_t taken = o.chosen_sessions.size();
+  if (o.as_json)
+    print_json(json{{"seq", entry.seq}, {"retracted", taken}});
+  else
+    std::cout << fmt::format("entry {}: {} taken back; what was exported or handed out before is still there\n", entry.seq,
+                             taken == 1 ? "1 result" : fmt::format("{} results", taken));
+}
+
+namespace {
+
+/// The list of all appeals.
+void print_appeals(const LedgerOptions& o) {
+  const ledger::LedgerContent content = ledger::read_ledger({o.folder});
+  if (!content.findings.empty())
+    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+  json list = json::array();
+  std::size_t open = 0;
+  for (const auto& s : ledger::read_registry(content).sessions)
+    for (const auto& a : s.appeals) {
+      open += a.closed_by ? 0 : 1;
+      list.push_back({{"entry", a.seq},
+                      {"session", s.seq},
+                      {"candidate", s.candidate},
+                      {"reason", a.reason},
+                      {"outcome", a.closed_by ? json(a.outcome) : json()},
+                      {"answer", a.closed_by ? json(a.answer) : json()}});
+      if (o.as_json) continue;
+      std::cout << fmt::format("{:>6}  {:<16} {}\n", s.seq, one_line(s.candidate), one_line(a.reason));
+      std::cout << "          " << (a.closed_by ? fmt::format("{}: {}", one_line(a.outcome), one_line(a.answer)) : std::string("open")) << "\n";
+    }
+  if (o.as_json)
+    print_json(json{{"appeals", list}});
+  else
+    std::cout << (open == 1 ? "1 appeal is open" : fmt::format("{} appeals are open", open)) << "\n";
+}
+
+}  // namespace
+
+void ledger_appeal(const LedgerOptions& o) {
+  if (o.session_seq < 0) return print_appeals(o);
+  if (o.reason.empty()) throw Error("cavum ledger appeal --session", "needs a reason", "give --reason");
+  ledger::Ledger ledger(o.folder, key_of(o));
+  const auto session = static_cast<std::uint64_t>(o.session_seq);
+  const auto& entry =
+      o.outcome.empty() ? ledger::open_appeal(ledger, session, o.reason) : ledger::answer_appeal(ledger, session, o.outcome, o.reason);
+  if (o.as_json)
+    print_json(json{{"seq", entry.seq}, {"session", session}, {"outcome", o.outcome.empty() ? json() : json(o.outcome)}});
+  else
+    std::cout << (o.outcome.empty() ? fmt::format("entry {}: the appeal is open", entry.seq)
+                                    : fmt::format("entry {}: the appeal is answered: {}", entry.seq, o.outcome))
+              << "\n";
 }
 
 void ledger_export(const LedgerOptions& o) {

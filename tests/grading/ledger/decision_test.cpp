@@ -1,6 +1,7 @@
 // A result that the program leaves to a person waits until one has decided; what he decided is an entry, a result of its own, and what goes out.
 #include "grading/ledger/decision.h"
 
+#include "grading/ledger/appeal.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
@@ -108,6 +109,58 @@ TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
   EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u) << "mark, regrade, decision";
   EXPECT_TRUE(session().result.is_null());
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
+}
+
+/// Throws what `act` throws, as text; empty when it throws nothing.
+template <class Act>
+std::string refusal(const Act& act) {
+  try {
+    act();
+  } catch (const Error& e) {
+    return e.what();
+  }
+  return "";
+}
+bool holds_text(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+
+TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
+  Ledger ledger = school_.ledger();
+  enter_decision(ledger, entry_, {"fail", "Dr. One", "the floor"});
+  const auto again = [&] { enter_decision(ledger, entry_, {"pass", "Dr. Two", "the probe slipped"}); };
+  EXPECT_TRUE(holds_text(refusal(again), "was decided by Dr. One"));
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_stands, "no"); }), "no appeal is open"));
+  open_appeal(ledger, entry_, "the floor was probed twice");
+  EXPECT_TRUE(holds_text(refusal([&] { open_appeal(ledger, entry_, "again"); }), "an appeal is open"));
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
+  EXPECT_EQ(refusal(again), "");
+  answer_appeal(ledger, entry_, k_changed, "a second examiner measured");
+  EXPECT_TRUE(holds_text(refusal(again), "was decided by Dr. Two")) << "the appeal is answered";
+  const FiledSession s = session();
+  ASSERT_EQ(s.appeals.size(), 1u);
+  EXPECT_EQ(s.appeals[0].reason, "the floor was probed twice");
+  EXPECT_EQ(s.appeals[0].outcome, "changed");
+  EXPECT_EQ(s.appeals[0].answer, "a second examiner measured");
+  EXPECT_EQ(s.open_appeal(), nullptr);
+  EXPECT_EQ(s.result["verdict"], "pass");
+  EXPECT_TRUE(read_registry(read_ledger(school_.places())).findings.empty());
+}
+
+TEST_F(LeftToAPerson, WhatIsTakenBackStandsInNoExportUntilItIsReleasedAgain) {
+  Ledger ledger = school_.ledger();
+  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, "too early"); }), "has no released result"));
+  enter_decision(ledger, entry_, {"pass", "Dr. One", "good"});
+  ASSERT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
+  ASSERT_TRUE(holds_text(moodle(), "4711,")) << moodle();
+  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, ""); }), "--reason"));
+  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {}, "x"); }), "is missing"));
+  retract_results(ledger, {entry_}, "the wrong tooth was mounted");
+  EXPECT_FALSE(holds_text(moodle(), "4711,")) << moodle();
+  EXPECT_TRUE(session().retracted_by);
+  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, "again"); }), "has no released result"));
+  EXPECT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
+  EXPECT_TRUE(holds_text(moodle(), "4711,"));
+  EXPECT_FALSE(session().retracted_by);
+  EXPECT_TRUE(read_registry(read_ledger(school_.places())).findings.empty());
 }
 
 }  // namespace

@@ -1,0 +1,23 @@
+// A candidate's appeal against a result: an entry when it is made, the marks and decisions that follow, and an entry that answers it. While it is
+// open a person may decide the verdict, whatever the program said (decision.h).
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include "grading/ledger/ledger.h"
+#include "grading/ledger/registry.h"
+
+namespace cavum::ledger {
+
+/// How an appeal ends: the result is as it was, or another one was entered since.
+inline constexpr char k_stands[] = "stands", k_changed[] = "changed";
+
+/// Enters an appeal against the result of the session of entry `session`. `reason`: what the candidate objects to, one line without names, kept for
+/// ever. Throws Error when the session has no result, or an appeal is open already.
+const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason);
+/// Enters the answer to the open appeal of that session. Throws Error when there is none, the outcome is another word, or it is `changed` and no
+/// result was entered since the appeal.
+const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, const std::string& outcome, const std::string& reason);
+
+}  // namespace cavum::ledger
