@@ -118,8 +118,11 @@ export async function press(page: Page, text: string): Promise<void> {
   await found!.click();
 }
 export async function go(page: Page, title: string): Promise<void> {
+  if (await page.$(`::-p-xpath(//nav//a[normalize-space()="${title}" and @aria-current="page"])`)) return;
+  const before = await page.$eval("h1", (h) => h.textContent);
   await (await page.waitForSelector(`::-p-xpath(//nav//a[normalize-space()="${title}"])`))!.click();
   await page.waitForSelector(`::-p-xpath(//nav//a[normalize-space()="${title}" and @aria-current="page"])`);
+  await page.waitForFunction((old) => document.querySelector("h1")?.textContent !== old, {}, before);
 }
 export async function said(page: Page, words: string): Promise<void> {
   await until(async () => (await page.$eval("body", (b) => b.innerText)).includes(words), `'${words}' on the page: ${await page.$eval("body", (b) => b.innerText)}`);

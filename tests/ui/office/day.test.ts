@@ -23,9 +23,11 @@ async function codes(page: Page): Promise<Map<string, string>> {
 }
 async function invite(page: Page, home: string, name: string): Promise<void> {
   await type(page, "Name of the station", name);
+  const before = /S(-\w{4}){5}/.exec(await text(page))?.[0] ?? "";
   await press(page, "Make a code");
-  await until(async () => /S-\w{4}-/.test(await text(page)), "a code");
-  station(home, "enrol", "--code", /S(-\w{4}){5}/.exec(await text(page))![0]);
+  let code = before;
+  await until(async () => (code = /S(-\w{4}){5}/.exec(await text(page))?.[0] ?? before) !== before, "a code");
+  station(home, "enrol", "--code", code);
   await said(page, name);
 }
 async function issue(page: Page, list: string): Promise<void> {

@@ -15,8 +15,7 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
   const list = make("div");
   const sittings = make("div");
   const show = async (): Promise<void> => {
-    const { tickets } = await get<{ tickets: Ticket[] }>("/api/tickets");
-    const { stations } = await get<{ stations: Station[] }>("/api/board");
+    const [{ tickets }, { stations }] = await Promise.all([get<{ tickets: Ticket[] }>("/api/tickets"), get<{ stations: Station[] }>("/api/board")]);
     if (tickets.length === 0) return void list.replaceChildren(make("p", {}, tr("There is no ticket yet. Begin with the class list.")));
     const names = new Map(stations.map((s) => [s.public_key, s.name]));
     const rows = tickets.map((t) => {
