@@ -51,8 +51,10 @@ ProgressMeasures measure_progress(const GradeInput& input) {
 std::vector<PauseMeasure> find_pauses(const GradeInput& input, std::int64_t ticks) {
   std::vector<PauseMeasure> list;
   for (const auto& e : input.events) {
-    if (is_kind(e, scenarios::ExamEventKind::pause_started)) list.push_back({e.tick, ticks});
-    if (is_kind(e, scenarios::ExamEventKind::pause_ended) && !list.empty()) list.back().end = std::min(e.tick, ticks);
+    const bool held = is_kind(e, scenarios::ExamEventKind::hold_started);
+    if (held || is_kind(e, scenarios::ExamEventKind::pause_started)) list.push_back({e.tick, ticks, held});
+    if ((is_kind(e, scenarios::ExamEventKind::pause_ended) || is_kind(e, scenarios::ExamEventKind::hold_ended)) && !list.empty())
+      list.back().end = std::min(e.tick, ticks);
   }
   return list;
 }
@@ -124,7 +126,7 @@ void note_time(const GradeInput& input, Result& r) {
     std::string list;
     std::int64_t sum = 0;
     for (const auto& p : r.pauses) {
-      list += fmt::format("{}{} from tick {}", list.empty() ? "" : ", ", seconds(p.end - p.begin), p.begin);
+      list += fmt::format("{}{} from tick {}{}", list.empty() ? "" : ", ", seconds(p.end - p.begin), p.begin, p.by_office ? " by the office" : "");
       sum += p.end - p.begin;
     }
     r.notes.push_back(fmt::format("pauses: {}, {} in all, which do not count ({})", r.pauses.size(), seconds(sum), list));

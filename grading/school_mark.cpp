@@ -24,8 +24,7 @@ constexpr std::size_t k_most_named = 12;  // differences: more of them say nothi
 bool is_runners(const std::string& kind) {
   static const std::set<std::string> k_kinds = [] {
     std::set<std::string> kinds;
-    for (int k = 0; k <= static_cast<int>(scenarios::ExamEventKind::pause_refused); ++k)
-      kinds.insert(scenarios::event_name(static_cast<scenarios::ExamEventKind>(k)));
+    for (int k = 0; k < scenarios::k_event_kinds; ++k) kinds.insert(scenarios::event_name(static_cast<scenarios::ExamEventKind>(k)));
     return kinds;
   }();
   return k_kinds.contains(kind);

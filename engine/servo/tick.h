@@ -22,6 +22,7 @@ enum TickFlag : std::uint16_t {
   k_button_1 = 4,
   k_button_2 = 8,
   k_stylus_fault = 16,  ///< the device gave NaN, an error, or nothing: the pose repeats the last good one
+  k_hold = 32,          ///< the exam office has paused this exam
 };
 
 /// The recorded input of one tick, exactly as the step consumes it.

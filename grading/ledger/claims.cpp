@@ -13,6 +13,7 @@
 #include "engine/session/station_check.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/candidate_id.h"
+#include "scenarios/exam/runner.h"
 
 namespace cavum::ledger {
 namespace {
@@ -86,6 +87,23 @@ std::vector<std::string> check_begin(const LedgerContent& content, const Session
     findings.push_back(fmt::format("by the station's clock the exam began on {}, and the ledger let it begin on {}: the station's clock was set back",
                                    utc_text(session.created().utc_ns), utc_text(b.utc_ns)));
   return findings;
+}
+
+/// When the recording's clock stood still because of the office, by the clocks of its seconds.
+std::vector<HeldTime> held_times(const SessionReader& session) {
+  const auto utc_at = [&](std::int64_t tick) {
+    std::int64_t utc_ns = session.created().utc_ns;
+    for (const auto& chunk : session.chunks())
+      if (chunk.first_tick + chunk.ticks <= tick) utc_ns = chunk.clocks.utc_ns;
+    return utc_ns;
+  };
+  std::vector<HeldTime> held;
+  for (const auto& e : session.events()) {
+    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::hold_started)) held.emplace_back(utc_at(e.tick), 0);
+    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::hold_ended) && !held.empty()) held.back().second = utc_at(e.tick);
+  }
+  if (!held.empty() && held.back().second == 0) held.back().second = session.seal()->clocks.utc_ns;
+  return held;
 }
 
 /// What moved the stylus, at which station, and what the clocks say of it. What no hand moved is nobody's exam: no station has to answer for it.
@@ -179,6 +197,8 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
     if (s.chain_sha256 == chain_sha256) findings.push_back(fmt::format("this session was submitted before: entry {}", s.seq));
   const std::string text = ticket_text_in(setup);
   for (auto& f : check_hand(registry, session, setup, received_utc_ns, options)) findings.push_back(std::move(f));
+  for (auto& f : unexplained_holds(registry.day, to_hex(session.seal()->public_key), held_times(session), received_utc_ns))
+    findings.push_back(std::move(f));
   if (text.empty()) {
     if (!options.without_ticket) findings.emplace_back("the session holds no ticket: nobody promised this exam");
     if (is_pseudonym(setup.candidate)) findings.emplace_back("the session bears a pseudonym, and no ticket that it was given by");

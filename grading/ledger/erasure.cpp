@@ -18,8 +18,8 @@ using nlohmann::json;
 std::set<std::string> erasable_of(const LedgerEntry& e) {
   std::set<std::string> out;
   if (e.kind == "session") out.insert(k_motion);
-  if (e.kind != "session" && e.kind != "regrade") return out;
-  for (const char* name : {k_result, k_sealed})
+  if (e.kind != "session" && e.kind != "regrade" && e.kind != "incident") return out;
+  for (const char* name : {k_result, k_sealed, k_words})
     if (member_of(e.body, "opens").contains(name)) out.insert(name);
   if (!text_in(e.body, "result_sha256").empty()) out.insert(k_result);
   return out;
@@ -116,7 +116,10 @@ void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const Er
       of.sessions.clear();
       for (const auto& e : now.entries)
         if (e.kind == "session" && text_in(e.body, "candidate") == pseudonym) of.sessions.push_back(e.seq);
-      return {{"candidate", pseudonym}, {"erased", select_erasures(now, of)}};
+      json erased = select_erasures(now, of);
+      for (const auto& e : now.entries)  // what was said of him is about a person whom nobody knows any more
+        if (e.kind == "incident" && text_in(e.body, "candidate") == pseudonym) add(erased, now, e, k_words);
+      return {{"candidate", pseudonym}, {"erased", erased}};
     });
   remove_erased_recordings(ledger.content(), ledger.places());
 }

@@ -32,7 +32,7 @@ struct ErasureWish {
 /// Throws Error when `reason` is no line of text.
 nlohmann::json erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason);
 /// Enters that these pseudonyms' identities are removed, one entry for each, and erases of their sessions what `wish` says; its own list of sessions
-/// is not asked.
+/// is not asked. What incidents say of them is erased.
 void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);
 /// Removes identities that an entry says are forgotten, after a crash, or in a file of before. Returns how many.
 std::size_t remove_forgotten(const LedgerContent& content, Identities& identities);

@@ -58,6 +58,24 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
   });
 }
 
+const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats) {
+  if (seats.empty()) throw Error("the seats", "are none", "choose who is to sit where");
+  return ledger.append("seats", [&](const LedgerContent&) -> nlohmann::json {
+    const Registry& registry = ledger.registry();
+    nlohmann::json list = nlohmann::json::array();
+    for (const Seat& s : seats) {
+      const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == s.ticket; });
+      if (t == registry.tickets.end() || t->used_by || t->cancelled_by)
+        throw Error(fmt::format("entry {}", s.ticket), "is no ticket that is good", "look at the list of tickets again");
+      const Station* at = registry.stations.of(s.station);
+      if (!s.station.empty() && (at == nullptr || at->revoked_utc_ns))
+        throw Error("station " + one_line(s.station), "is none that is enrolled", "choose one of the list");
+      list.push_back({{"ticket", s.ticket}, {"station", s.station}});
+    }
+    return {{"seats", list}};
+  });
+}
+
 namespace {
 
 std::string small_letters(std::string text) {

@@ -29,6 +29,14 @@ enum class Another { refuse, allow };
 /// line of text.
 const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason);
 
+/// Where the candidate of a ticket's entry is to sit: a station's public key, or nothing for any.
+struct Seat {
+  std::uint64_t ticket = 0;
+  std::string station;
+};
+/// Enters seats, all in one entry. Throws Error when one is of no ticket that is good, or at no station that is enrolled.
+const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats);
+
 struct Person {
   std::string id;               ///< how the school's other systems name the candidate
   std::string name = {};        ///< for people; may be empty

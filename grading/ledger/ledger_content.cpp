@@ -76,7 +76,7 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
     };
     if (!e.body.is_object()) continue;
     const json opens = member_of(e.body, "opens");
-    for (const char* what : {k_result, k_sealed}) {
+    for (const char* what : {k_result, k_sealed, k_words}) {
       const std::string hash = text_in(opens, what);
       if (hash.empty()) continue;
       named.insert(hash);
@@ -173,7 +173,7 @@ LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
   e.utc_ns = read_clocks().utc_ns;
   e.body = std::move(body);
   json told = e.body;
-  for (const char* what : {k_result, k_sealed}) {
+  for (const char* what : {k_result, k_sealed, k_words}) {
     const auto value = told.find(what);
     if (value == told.end()) continue;
     e.openings.push_back(make_opening(*value));

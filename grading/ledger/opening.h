@@ -20,8 +20,9 @@ struct Opening {
 /// The value in an opening's text. Throws Error(`where`, ...) when the text is none, or its hash is not `sha256` (hexadecimal).
 [[nodiscard]] nlohmann::json opened_value(const std::string& text, const std::string& sha256, const std::string& where);
 
-/// What can be erased of a filed session or a regrade: its recording (a file), its result, and the result that its station sealed instead.
-inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] = "sealed";
+/// What can be erased: of a filed session or a regrade its recording (a file), its result, and the result that its station sealed instead; of an
+/// incident what was said.
+inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] = "sealed", k_words[] = "words";
 /// Of an entry, by its number: what was erased of it, and the entry that says so.
 using Erased = std::map<std::uint64_t, std::map<std::string, std::uint64_t>>;
 

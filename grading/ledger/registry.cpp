@@ -99,7 +99,9 @@ class RegistryReader {
         {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
         {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
         {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing},
-        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal}};
+        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},   {"announce", &RegistryReader::day},
+        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},       {"incident", &RegistryReader::day},
+        {"seats", &RegistryReader::seats}};
     const auto kind = k_kinds.find(e.kind);
     try {
       if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));
@@ -125,6 +127,14 @@ class RegistryReader {
     r_.tickets.push_back(std::move(t));
   }
 
+  void seats(const LedgerEntry& e) {
+    for (const json& one : e.body.at("seats")) {
+      const std::string key = text_in(one, "station");
+      if (!key.empty() && r_.stations.of(key) == nullptr) say(e, "seats a candidate at a station that is not enrolled");
+      r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(one, "ticket", "seats"))).seat = key;
+    }
+  }
+
   void cancel(const LedgerEntry& e) {
     IssuedTicket& t = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "ticket", "cancel")));
     if (t.used_by || t.cancelled_by) say(e, "cancels a ticket that was used or cancelled before");
@@ -146,6 +156,8 @@ class RegistryReader {
       s.result_erased_by = erased_by(content_->erased, s.result_seq, k_result);
       if (s.result_erased_by) s.result = json();
     }
+    for (auto& i : r_.day.incidents)
+      if ((i.erased_by = erased_by(content_->erased, i.seq, k_words))) i.words.clear();
   }
 
   void begin(const LedgerEntry& e) {
@@ -241,6 +253,7 @@ class RegistryReader {
     say(e, "answers an appeal that is not open");
   }
 
+  void day(const LedgerEntry& e) { apply_day_entry(r_.day, e, *content_); }
   void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_->key_of(e.seq + 1)); }
 
   const LedgerContent* content_ = nullptr;  // of the entry that is applied

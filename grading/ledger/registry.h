@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/ledger/exam_day.h"
 #include "grading/ledger/ledger_content.h"
 #include "grading/ledger/stations.h"
 #include "grading/ledger/ticket.h"
@@ -86,9 +87,11 @@ struct IssuedTicket {
   std::optional<std::uint64_t> used_by;       ///< entry of the session
   std::optional<std::uint64_t> cancelled_by;  ///< entry that says so
   std::vector<LetBegin> begins;               ///< the last one counts
+  std::string seat = {};                      ///< public key of the station where the candidate is to sit; empty: any
 };
 struct Registry {
   StationRegister stations;
+  ExamDay day;
   std::vector<IssuedTicket> tickets;
   std::vector<FiledSession> sessions;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.

@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr char k_request_format[] = "cavum station request 1";
 constexpr char k_code_alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";  // Crockford's base 32
-constexpr std::size_t k_code_digits = 20, k_most_devices = 8;
+constexpr std::size_t k_code_digits = 20, k_most_devices = 8, k_longest_name = 80;
 constexpr std::int64_t k_late_ns = 86'400'000'000'000;  // a station that ran out may hand in for a day
 
 Bytes request_message(const json& facts) {
@@ -94,6 +94,7 @@ Station enrolled(StationRegister& r, const Request& request, std::int64_t now_ut
     if (old == nullptr || old->revoked_utc_ns || !old->replaced_by.empty())
       throw Error(where, "the key that it replaces is not, or no longer, enrolled", "invite the station anew");
     s.name = old->name;
+    s.room = old->room;
     if (s.devices.empty()) s.devices = old->devices;
     old->replaced_by = s.public_key;
     old->revoked_utc_ns = now_utc_ns + k_late_ns;  // what was sat under it may still come in
@@ -146,6 +147,10 @@ void apply_station_entry(StationRegister& r, const LedgerEntry& e, const std::st
     if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty())) throw Error(where, "revokes a key that is not enrolled", "use an intact copy");
     s->revoked_utc_ns = e.utc_ns;
     s->replaced_by.clear();
+  } else if (action == "room") {
+    Station* s = station_in(r, text_in(e.body, "public_key"));
+    if (s == nullptr) throw Error(where, "places a station that is not enrolled", "use an intact copy");
+    s->room = text_in(e.body, "room");
   } else {
     throw Error(where, fmt::format("'{}' is nothing that happens to a station", one_line(action)), "use the version of Cavum that entered it");
   }
@@ -170,10 +175,9 @@ std::string station_request(const SigningKey& key, const std::string& school, co
 }
 
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
-  constexpr std::size_t k_longest = 80;
-  if (name.empty() || name.size() > k_longest || !is_plain_text(name))
-    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest))),
-                fmt::format("give one line of at most {} bytes", k_longest));
+  if (name.empty() || name.size() > k_longest_name || !is_plain_text(name))
+    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_name))),
+                fmt::format("give one line of at most {} bytes", k_longest_name));
   const std::string code = new_station_code(), code_key = to_hex(key_of_code(code).public_key);
   ledger.append("station", [&](const LedgerContent&) -> json {
     return {{"action", "invite"}, {"name", name}, {"code_key", code_key}, {"until_utc_ns", until_utc_ns}};
@@ -190,6 +194,16 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::i
     StationRegister stations = read_registry(now).stations;
     static_cast<void>(enrolled(stations, request, read_clocks().utc_ns, where));
     return {{"action", "enrol"}, {"asked", asked}, {"until_utc_ns", until_utc_ns}};
+  });
+}
+
+const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room) {
+  if (room.size() > k_longest_name || !is_plain_text(room))
+    throw Error("the room", "is no line of text", fmt::format("give one line of at most {} bytes", k_longest_name));
+  return ledger.append("station", [&](const LedgerContent&) -> json {
+    const Station* s = ledger.registry().stations.of(public_key);
+    if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(public_key), "is none that is enrolled", "choose one of the list");
+    return {{"action", "room"}, {"public_key", public_key}, {"room", room}};
   });
 }
 

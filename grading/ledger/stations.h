@@ -26,6 +26,7 @@ struct Station {
   std::optional<std::int64_t> revoked_utc_ns;  ///< what comes in later does not count, whenever it says to have been sat
   std::string replaced_by;                     ///< key that took its place; empty: none
   std::vector<MotionSource> devices;           ///< styluses it was enrolled with; empty: any
+  std::string room = {};                       ///< where it stands, for people; empty: nobody said
 };
 /// A one-time code that was given out. The ledger keeps the public half of a key made from it, so that anybody can check later who held the code.
 struct StationInvitation {
@@ -59,6 +60,8 @@ void apply_station_entry(StationRegister& stations, const LedgerEntry& entry, co
 /// Enters the station that a request is of, known until `until_utc_ns` (0 = without end). Throws Error(`where`, ...) when the code is unknown, used
 /// or run out, or a signature does not hold.
 const LedgerEntry& enrol_station(Ledger& ledger, const std::string& request, std::int64_t until_utc_ns, const std::string& where);
+/// Enters in which room a station stands; an empty one: in none. Throws Error when it is not enrolled, or `room` is no line of at most 80 bytes.
+const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room);
 /// Enters that nothing counts any more that this key signs and that comes in from now on. Throws Error when it is not enrolled, or was revoked
 /// before.
 const LedgerEntry& revoke_station(Ledger& ledger, const std::string& public_key, const std::string& reason);

@@ -212,6 +212,7 @@ struct MotionMeasures {
 /// A pause, in ticks of the recording: the exam's clock stood still from `begin` up to `end`, which counts again.
 struct PauseMeasure {
   std::int64_t begin = 0, end = 0;
+  bool by_office = false;  ///< the exam office has paused the exam: a fire alarm
 };
 
 /// What a candidate went on to do when time was up: not simulated, and nothing of it counts.

@@ -201,6 +201,7 @@ Json pauses_json(const Result& r) {
   std::int64_t sum = 0;
   for (const auto& p : r.pauses) {
     list.push_back({{"from_tick", p.begin}, {"to_tick", p.end}});
+    if (p.by_office) list.back()["by_office"] = true;
     sum += p.end - p.begin;
   }
   return {{"count", r.pauses.size()}, {"ticks", sum}, {"refused", r.pauses_refused}, {"list", list}};

@@ -58,6 +58,10 @@ std::string event_detail(const ExamEvent& event, const Scenario& scenario, const
     case ExamEventKind::pause_ended:
       detail["pause"] = event.index;
       break;
+    case ExamEventKind::hold_started:
+    case ExamEventKind::hold_ended:
+      detail["hold"] = event.index;
+      break;
     case ExamEventKind::pause_refused:
       detail["pauses"] = event.index;
       break;

@@ -57,6 +57,7 @@ void LiveExam::take(const ServoTick& tick) {
   view_.depth_mm = runner.depth_mm;
   view_.target_removed_percent = 100.0 * static_cast<double>(runner.target_shares) / target_shares_;
   view_.paused = Runner::paused(runner);
+  view_.held = Runner::held(runner);
   view_.over = exam_->over();
   view_.input = tick.input;
   view_.output = tick.output;

@@ -28,6 +28,7 @@ struct LiveView {
   double depth_mm = 0.0;          ///< deepest so far below the opening
   double target_removed_percent = 0.0;
   bool paused = false, over = false;
+  bool held = false;  ///< paused by the exam office
   TickInput input;
   TickOutput output;
   double enamel_share = 0.0, dentin_share = 0.0;  ///< of the leaves removed in the last tick that removed any, 0..1

@@ -16,9 +16,10 @@ std::int64_t clock(const RunnerState& s) noexcept { return s.ticks - s.paused_ti
 }  // namespace
 
 const char* event_name(ExamEventKind kind) noexcept {
-  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed",  "step_time_limit", "time_limit",
-                                     "point_not_allowed", "over_speed",     "aim_reached",  "perforation",     "finished",
-                                     "pause_started",     "pause_ended",    "pause_refused"};
+  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed",   "step_time_limit", "time_limit",
+                                     "point_not_allowed", "over_speed",     "aim_reached",   "perforation",     "finished",
+                                     "pause_started",     "pause_ended",    "pause_refused", "hold_started",    "hold_ended"};
+  static_assert(std::size(k_names) == k_event_kinds);
   return k_names[static_cast<std::size_t>(kind)];
 }
 
@@ -165,6 +166,18 @@ void Runner::next_step(RunnerState& state) const noexcept {
   if (static_cast<std::size_t>(state.step) < steps_.size()) emit(state, ExamEventKind::step_started, state.step);
 }
 
+bool Runner::hold(RunnerState& state, const TickInput& input) const noexcept {
+  const bool held = (input.flags & k_hold) != 0 && input.pedal_q16 == 0;
+  if (held == state.held) return held;
+  state.held = held;
+  if (held && state.pause_start >= 0) {
+    state.pause_start = -1;
+    emit(state, ExamEventKind::pause_ended, state.pauses - 1);
+  }
+  emit(state, held ? ExamEventKind::hold_started : ExamEventKind::hold_ended, held ? state.holds++ : state.holds - 1);
+  return held;
+}
+
 bool Runner::pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept {
   const PauseSpec& spec = scenario_.pauses;
   if (spec.count == 0) return false;
@@ -190,7 +203,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   if (state.finish != Finish::running) return;
   if (state.ticks == 0) emit(state, ExamEventKind::step_started, 0);
   count(state, removed);
-  if (pause(state, input, output)) {
+  if (hold(state, input) || pause(state, input, output)) {
     ++state.paused_ticks;
     ++state.ticks;
     return;

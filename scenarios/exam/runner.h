@@ -32,7 +32,10 @@ enum class ExamEventKind : std::uint8_t {
   pause_started,      ///< its tick is the first that does not count; index = which pause, from 0
   pause_ended,        ///< its tick counts again; index = which pause
   pause_refused,      ///< the button was pressed when none was left or the handpiece turned; index = pauses taken so far
+  hold_started,       ///< the exam office has paused the exam; its tick is the first that does not count; index = which time, from 0
+  hold_ended,         ///< its tick counts again; index = which time
 };
+inline constexpr int k_event_kinds = static_cast<int>(ExamEventKind::hold_ended) + 1;
 [[nodiscard]] const char* event_name(ExamEventKind kind) noexcept;
 
 struct ExamEvent {
@@ -59,6 +62,8 @@ struct RunnerState {
   std::int64_t pause_start = -1;  ///< tick in which the running pause began, -1 outside
   std::int32_t pauses = 0;        ///< begun so far
   bool pause_button = false;      ///< was held in the last tick
+  bool held = false;              ///< by the exam office, in the last tick
+  std::int32_t holds = 0;         ///< begun so far
   std::int32_t step = 0;
   Finish finish = Finish::running;
   std::array<std::uint64_t, k_zones> removed_in_zone{};  ///< leaves
@@ -87,6 +92,8 @@ class Runner {
 
   /// True when the next tick falls into a pause, if the button is not pressed in it: the handpiece must be off.
   [[nodiscard]] static bool paused(const RunnerState& state) noexcept { return state.finish == Finish::running && state.pause_start >= 0; }
+  /// True when the last tick was one of a pause by the exam office.
+  [[nodiscard]] static bool held(const RunnerState& state) noexcept { return state.finish == Finish::running && state.held; }
   /// Ticks of the exam's clock until time is up, extra time included.
   [[nodiscard]] std::int64_t limit_ticks() const noexcept { return limit_ticks_; }
   /// What the candidate is asked to do now: the step, or to hand in when all are done; empty when the exam is over.
@@ -104,6 +111,9 @@ class Runner {
   void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) const noexcept;
   void count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept;
   void fill_values(const RunnerState& state, const TickInput& input, const TickOutput& output) noexcept;
+  /// Begins and ends pauses by the exam office; true when this tick is one of them. It ends a pause of the candidate's. The clock stands still only
+  /// while the pedal is released.
+  [[nodiscard]] bool hold(RunnerState& state, const TickInput& input) const noexcept;
   /// Begins and ends pauses; true when this tick is one of a pause.
   [[nodiscard]] bool pause(RunnerState& state, const TickInput& input, const TickOutput& output) const noexcept;
   void next_step(RunnerState& state) const noexcept;

@@ -16,8 +16,9 @@ StationReport parse_report(const std::string& text) {
   constexpr std::size_t k_longest = 200;
   constexpr std::int64_t k_day_s = 86'400;
   const json j = parse_json_or_null(text, {16U << 10, 100, 4});
-  StationReport r{text_in(j, "state"), text_in(j, "candidate"), text_in(j, "step"), text_in(j, "alarm"), -1};
+  StationReport r{text_in(j, "state"), text_in(j, "candidate"), text_in(j, "step"), text_in(j, "alarm"), -1, member_of(j, "held") == true, 0};
   if (j.is_object() && j.contains("left_s")) r.left_s = require_whole<std::int64_t>(j, "left_s", "the station's report");
+  if (j.is_object() && j.contains("heard")) r.heard = require_whole<std::uint64_t>(j, "heard", "the station's report");
   const auto refuse = [](const char* why) { throw Error("the station's report", why, "see docs/office.md"); };
   if (std::none_of(std::begin(k_station_states), std::end(k_station_states), [&](const char* s) { return r.state == s; }))
     refuse("names no state that the board knows");
@@ -30,6 +31,8 @@ StationReport parse_report(const std::string& text) {
 void Board::report(const std::string& public_key, const StationReport& report, std::int64_t utc_ns) {
   const std::lock_guard guard(lock_);
   seen_[public_key] = {report, utc_ns};
+  if (!report.candidate.empty()) candidates_.insert(report.candidate);
+  if (!report.candidate.empty() && report.state != "free") refused_.erase(public_key);
   ++version_;
   changed_.notify_all();
 }
@@ -40,12 +43,27 @@ void Board::touch() {
   changed_.notify_all();
 }
 
+void Board::refused(const std::string& public_key, const std::string& candidate) {
+  const std::lock_guard guard(lock_);
+  refused_[public_key] = candidate;
+  ++version_;
+  changed_.notify_all();
+}
+
+std::set<std::string> Board::candidates() const {
+  const std::lock_guard guard(lock_);
+  return candidates_;
+}
+
 std::map<std::string, json> Board::stations() const {
   const std::lock_guard guard(lock_);
   std::map<std::string, json> out;
-  for (const auto& [key, seen] : seen_)
+  for (const auto& [key, seen] : seen_) {
+    const auto refused = refused_.find(key);
     out[key] = {{"state", seen.report.state}, {"candidate", seen.report.candidate}, {"step", seen.report.step},
-                {"alarm", seen.report.alarm}, {"left_s", seen.report.left_s},       {"seen_utc_ns", seen.utc_ns}};
+                {"alarm", seen.report.alarm}, {"left_s", seen.report.left_s},       {"seen_utc_ns", seen.utc_ns},
+                {"held", seen.report.held},   {"heard", seen.report.heard},         {"refused", refused == refused_.end() ? "" : refused->second}};
+  }
   return out;
 }
 

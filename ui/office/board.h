@@ -6,6 +6,7 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
 
 namespace cavum::office {
@@ -17,6 +18,8 @@ struct StationReport {
   std::string step;          ///< of the exam, for people
   std::string alarm;         ///< what an invigilator should see to; empty: nothing
   std::int64_t left_s = -1;  ///< on the exam's clock; -1: no clock runs
+  bool held = false;         ///< the exam stands still because the office paused it
+  std::uint64_t heard = 0;   ///< entry of the last announcement that was read
 };
 inline constexpr const char* k_station_states[] = {"free", "check", "briefing", "exam", "paused", "ended"};
 /// Throws Error for a state of another name, a text too long or no plain line, or a time beyond a day.
@@ -27,7 +30,11 @@ class Board {
   void report(const std::string& public_key, const StationReport& report, std::int64_t utc_ns);
   /// Something else that the board shows has changed: entries, filings.
   void touch();
-  /// By key: {"state","candidate","step","alarm","left_s","seen_utc_ns"}.
+  /// A station asked to begin an exam that another one has begun: shown until it reports that candidate no more.
+  void refused(const std::string& public_key, const std::string& candidate);
+  /// Candidates that some station has said it has, since this program began.
+  [[nodiscard]] std::set<std::string> candidates() const;
+  /// By key: {"state","candidate","step","alarm","left_s","held","heard","seen_utc_ns","refused"}; `refused`: the candidate whom it may not begin.
   [[nodiscard]] std::map<std::string, nlohmann::json> stations() const;
   [[nodiscard]] std::uint64_t version() const;
   /// Waits until the version is another than `seen`, `patience_ms` at most; returns it.
@@ -41,6 +48,8 @@ class Board {
   mutable std::mutex lock_;
   mutable std::condition_variable changed_;
   std::map<std::string, Seen> seen_;
+  std::map<std::string, std::string> refused_;  // candidate, by station
+  std::set<std::string> candidates_;
   std::uint64_t version_ = 1;
 };
 

@@ -16,45 +16,13 @@
 #include "grading/ledger/issue.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
+#include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
+#include "ui/office/desk_turn.h"
 
 namespace cavum::office {
 
 using nlohmann::json;
-
-class Desk::Turn {
- public:
-  explicit Turn(Desk& desk, ledger::Actor actor = {}) : guard_(desk.lock_), book(desk.ledger_) {
-    book.refresh();
-    book.act_for(std::move(actor));
-  }
-  ~Turn() { book.act_for({}); }
-  Turn(const Turn&) = delete;
-  Turn& operator=(const Turn&) = delete;
-
- private:
-  std::lock_guard<std::mutex> guard_;
-
- public:
-  ledger::Ledger& book;
-};
-
-namespace {
-
-/// Names by pseudonym.
-std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) {
-  std::map<std::string, ledger::Identity> out;
-  for (auto& one : ledger::sound_identities(ledger).all()) out[one.pseudonym] = one;
-  return out;
-}
-
-void name(json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym) {
-  const auto found = people.find(pseudonym);
-  row["id"] = found == people.end() ? "" : found->second.id;
-  row["name"] = found == people.end() ? "" : found->second.name;
-}
-
-}  // namespace
 
 Desk::Desk(const std::string& ledger_folder, const SigningKey& school, OfficePlaces places, std::vector<std::string> exams)
     : ledger_(ledger_folder, school), places_(std::move(places)), exams_(std::move(exams)) {
@@ -115,8 +83,9 @@ json Desk::tickets() {
                 {"not_after", utc_text(t.ticket.not_after_utc_ns)},
                 {"state", state.word},
                 {"live", state.live},
-                {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))}};
-    name(row, people, t.ticket.candidate);
+                {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))},
+                {"seat", t.seat}};
+    put_name(row, people, t.ticket.candidate);
     out.push_back(std::move(row));
   }
   return {{"tickets", out}};
@@ -138,7 +107,15 @@ json Desk::board(const Board& board, const Inbox& inbox) {
   json stations = json::array();
   for (const auto& s : registry.stations.stations) {
     if (!s.replaced_by.empty()) continue;
-    json row = {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"revoked", s.revoked_utc_ns.has_value()}};
+    const ledger::Hold* hold = registry.day.hold_of(s.public_key);
+    json row = {{"name", s.name},
+                {"public_key", s.public_key},
+                {"entry", s.seq},
+                {"revoked", s.revoked_utc_ns.has_value()},
+                {"room", s.room},
+                {"hold", hold == nullptr ? 0 : hold->seq},
+                {"unread", unread_by(registry.day, s.public_key, said, now)},
+                {"twins", twins_of(registry.stations, s.public_key, said, now)}};
     const auto found = said.find(s.public_key);
     row["said"] = found == said.end() ? json() : found->second;
     stations.push_back(std::move(row));
@@ -153,6 +130,8 @@ json Desk::board(const Board& board, const Inbox& inbox) {
   return {{"utc_ns", now},
           {"stations", stations},
           {"tickets", tickets},
+          {"holds", shown_holds(registry.day)},
+          {"announcements", shown_announcements(registry.day, now)},
           {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", inbox.trouble()}}}};
 }
 
@@ -200,7 +179,7 @@ json Desk::results(bool names) {
     const json& score = member_of(s.result, "score");
     row["points"] = member_of(score, "points");
     row["max"] = member_of(score, "max");
-    if (names) name(row, people, s.candidate);
+    if (names) put_name(row, people, s.candidate);
     out.push_back(std::move(row));
   }
   return {{"results", out}};
@@ -268,6 +247,13 @@ json Desk::begin(const json& asked, const std::string& station) {
       return {{"begin", json{{"begin", before.at("begin")}, {"signature", before.at("signature")}}.dump()}};
   }
   return {{"begin", ledger::let_begin(turn.book, nonce, "")}};
+}
+
+std::string Desk::candidate_of(const std::string& nonce) {
+  Turn turn(*this);
+  for (const auto& t : turn.book.registry().tickets)
+    if (t.ticket.nonce == nonce) return t.ticket.candidate;
+  return {};
 }
 
 std::optional<std::uint64_t> Desk::filed(const std::string& file_sha256) {

@@ -13,6 +13,7 @@
 #include "ui/office/accounts.h"
 #include "ui/office/board.h"
 #include "ui/office/inbox.h"
+#include "ui/office/papers.h"
 
 namespace cavum::office {
 
@@ -42,6 +43,19 @@ class Desk {
   [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
   [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json revoke(const nlohmann::json& asked, const Account& by);
+  // The day: what candidates are told, pauses, incidents, who is not here, rooms and seats (desk_day.cpp).
+  [[nodiscard]] nlohmann::json announce(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json hold(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json go_on(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json note_incident(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json incidents();
+  /// Who has a ticket whose time has come, and no station has seen.
+  [[nodiscard]] nlohmann::json attendance(const Board& board);
+  [[nodiscard]] nlohmann::json place(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json seat(const nlohmann::json& asked, const Account& by);
+  /// Candidate cards, or the sign-in sheet: PDF of all tickets that are good.
+  [[nodiscard]] std::string cards();
+  [[nodiscard]] std::string sign_in_sheet();
   [[nodiscard]] nlohmann::json queue();
   [[nodiscard]] nlohmann::json decide(const nlohmann::json& asked, const Account& by);
   /// With names where `names`.
@@ -55,6 +69,10 @@ class Desk {
   [[nodiscard]] nlohmann::json enrol(const std::string& request);
   [[nodiscard]] nlohmann::json station_tickets();
   [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const std::string& station);
+  /// What the office has to say to a station that has read announcements up to entry `heard`.
+  [[nodiscard]] nlohmann::json word_for(const std::string& station, std::uint64_t heard);
+  /// Whose ticket it is; empty: nobody's.
+  [[nodiscard]] std::string candidate_of(const std::string& ticket_nonce);
   /// Entry of a recording; none when it is not filed.
   [[nodiscard]] std::optional<std::uint64_t> filed(const std::string& file_sha256);
   [[nodiscard]] nlohmann::json receipt(std::uint64_t entry);
@@ -65,7 +83,9 @@ class Desk {
   /// Removes the files of tickets that can no longer be used: their accommodations tell of health.
   void remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const;
 
-  std::mutex lock_;
+  [[nodiscard]] std::vector<Invited> invited_now();
+
+  std::mutex lock_, printing_;
   ledger::Ledger ledger_;
   OfficePlaces places_;
   std::vector<std::string> exams_;

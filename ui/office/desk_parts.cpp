@@ -7,6 +7,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/language/say.h"
+#include "grading/ledger/erasure.h"
 #include "grading/ledger/regrade.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
@@ -14,6 +15,18 @@
 namespace cavum::office {
 
 using nlohmann::json;
+
+std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) {
+  std::map<std::string, ledger::Identity> out;
+  for (auto& one : ledger::sound_identities(ledger).all()) out[one.pseudonym] = one;
+  return out;
+}
+
+void put_name(json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym) {
+  const auto found = people.find(pseudonym);
+  row["id"] = found == people.end() ? "" : found->second.id;
+  row["name"] = found == people.end() ? "" : found->second.name;
+}
 
 Roster roster_of(const json& asked) {
   const std::string packed = text_in(asked, "base64");

@@ -2,14 +2,21 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
 #include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
-#include "grading/ledger/registry.h"
+#include "grading/ledger/identities.h"
+#include "grading/ledger/ledger.h"
 #include "ui/office/roster.h"
 
 namespace cavum::office {
+
+/// Names by pseudonym.
+[[nodiscard]] std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger);
+/// {"id","name"} of a pseudonym, empty when nobody is behind it any more.
+void put_name(nlohmann::json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym);
 
 /// The list of a request: {"base64","answers"}. Throws Error when it is none.
 [[nodiscard]] Roster roster_of(const nlohmann::json& asked);

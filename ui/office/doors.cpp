@@ -8,7 +8,7 @@ namespace cavum::office {
 namespace {
 
 constexpr std::size_t k_hash_digits = 64;
-constexpr std::uint64_t k_small = 16U << 10, k_roster = 4U << 20, k_session = 256U << 20;
+constexpr std::uint64_t k_small = 16U << 10, k_seats = 1U << 20, k_roster = 4U << 20, k_session = 256U << 20;
 
 constexpr unsigned bits(auto... roles) { return (0U | ... | static_cast<unsigned>(roles)); }
 constexpr unsigned k_officer = bits(Role::officer), k_examiner = bits(Role::examiner), k_staff = bits(Role::officer, Role::examiner),
@@ -32,6 +32,16 @@ constexpr Door k_doors[] = {
     {"GET", "/api/board/events", Asks::person, k_hall, 0},
     {"POST", "/api/stations/invite", Asks::person, k_officer, k_small},
     {"POST", "/api/stations/revoke", Asks::person, k_officer, k_small},
+    {"POST", "/api/stations/room", Asks::person, k_officer, k_small},
+    {"POST", "/api/seats", Asks::person, k_officer, k_seats},
+    {"GET", "/api/attendance", Asks::person, k_hall, 0},
+    {"GET", "/api/cards.pdf", Asks::person, k_officer, 0},
+    {"GET", "/api/sign-in-sheet.pdf", Asks::person, k_hall, 0},
+    {"POST", "/api/announce", Asks::person, k_hall, k_small},
+    {"POST", "/api/hold", Asks::person, k_hall, k_small},
+    {"POST", "/api/go-on", Asks::person, k_hall, k_small},
+    {"GET", "/api/incidents", Asks::person, k_hall, 0},
+    {"POST", "/api/incidents", Asks::person, k_hall, k_small},
     {"GET", "/api/queue", Asks::person, k_staff, 0},
     {"POST", "/api/decide", Asks::person, k_examiner, k_small},
     {"GET", "/api/results", Asks::person, k_results, 0},

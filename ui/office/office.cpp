@@ -145,6 +145,14 @@ struct Office::Parts {
     });
     post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
     post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
+    post("/api/stations/room", [this](const json& asked, const Account& by) { return desk.place(asked, by); });
+    post("/api/seats", [this](const json& asked, const Account& by) { return desk.seat(asked, by); });
+    get("/api/attendance", [this](const Call&) { return desk.attendance(board); });
+    post("/api/announce", [this](const json& asked, const Account& by) { return desk.announce(asked, by); });
+    post("/api/hold", [this](const json& asked, const Account& by) { return desk.hold(asked, by); });
+    post("/api/go-on", [this](const json& asked, const Account& by) { return desk.go_on(asked, by); });
+    get("/api/incidents", [this](const Call&) { return desk.incidents(); });
+    post("/api/incidents", [this](const json& asked, const Account& by) { return desk.note_incident(asked, by); });
     get("/api/queue", [this](const Call&) { return desk.queue(); });
     post("/api/decide", [this](const json& asked, const Account& by) { return desk.decide(asked, by); });
     get("/api/results", [this](const Call& c) { return desk.results(c.by->account.role == Role::officer); });
@@ -152,15 +160,18 @@ struct Office::Parts {
       require_code(text_in(asked, "code"), by);
       return desk.release(asked, by);
     });
-    const auto table = [this](const char* path, const char* file, auto make) {
-      site.on("GET", path, [file, make](const Call&) {
-        Reply reply{200, "text/csv; charset=utf-8", make()};
+    const auto paper = [this](const char* path, const char* file, const char* type, auto make) {
+      site.on("GET", path, [file, type, make](const Call&) {
+        Reply reply{200, type, make()};
         reply.fields.emplace_back("Content-Disposition", fmt::format("attachment; filename=\"{}\"", file));
         return reply;
       });
     };
-    table("/api/gradebook.csv", "gradebook.csv", [this] { return desk.gradebook(); });
-    table("/api/criteria.csv", "criteria.csv", [this] { return desk.criteria(); });
+    static constexpr char k_csv[] = "text/csv; charset=utf-8", k_pdf[] = "application/pdf";
+    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(); });
+    paper("/api/criteria.csv", "criteria.csv", k_csv, [this] { return desk.criteria(); });
+    paper("/api/cards.pdf", "cards.pdf", k_pdf, [this] { return desk.cards(); });
+    paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
   }
 
   /// The board whenever it changes, four times a second at most, and a comment in between, so that a line that is dead is noticed.
@@ -208,13 +219,20 @@ struct Office::Parts {
     });
     site.on("GET", "/station/tickets", [this](const Call&) { return json_reply(desk.station_tickets()); });
     site.on("POST", "/station/begin", [this](const Call& c) {
-      Reply reply = json_reply(desk.begin(c.json(), c.station));
-      board.touch();
-      return reply;
+      const json asked = c.json();
+      try {
+        Reply reply = json_reply(desk.begin(asked, c.station));
+        board.touch();
+        return reply;
+      } catch (const Error&) {
+        if (const std::string candidate = desk.candidate_of(text_in(asked, "ticket")); !candidate.empty()) board.refused(c.station, candidate);
+        throw;
+      }
     });
     site.on("POST", "/station/report", [this](const Call& c) {
-      board.report(c.station, parse_report(c.body), utc_now_ns());
-      return json_reply({{"utc_ns", utc_now_ns()}});
+      const StationReport report = parse_report(c.body);
+      board.report(c.station, report, utc_now_ns());
+      return json_reply(desk.word_for(c.station, report.heard));
     });
     site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail); });
     site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });

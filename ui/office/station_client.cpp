@@ -30,7 +30,8 @@ namespace http = beast::http;
 using nlohmann::json;
 using Tcp = asio::ip::tcp;
 
-constexpr auto k_patience = std::chrono::seconds(20), k_patience_of_bodies = std::chrono::seconds(300);
+constexpr std::uint64_t k_slowest_bytes_s = 64U << 10;
+constexpr auto k_slice = std::chrono::milliseconds(100);
 constexpr std::uint64_t k_largest_answer = 64U << 20;
 constexpr unsigned k_http = 11;
 
@@ -48,7 +49,8 @@ std::string fingerprint_in(asio::ssl::verify_context& context) {
 
 /// A connection that stands.
 struct StationClient::Line {
-  Line(const std::string& host, const std::string& port, const std::string& certificate) : stream(context, tls) {
+  Line(const std::string& host, const std::string& port, const std::string& certificate, std::chrono::seconds patience, const std::atomic<bool>& stop)
+      : stopped(stop), stream(context, tls) {
     if (certificate.empty()) {
       tls.set_default_verify_paths();
       stream.set_verify_mode(asio::ssl::verify_peer);
@@ -63,11 +65,11 @@ struct StationClient::Line {
     Tcp::resolver resolver(context);
     beast::error_code wrong;
     const auto ends = resolver.resolve(host, port, wrong);
-    if (!wrong) wrong = wait(k_patience, [&](auto done) { beast::get_lowest_layer(stream).async_connect(ends, done); });
-    if (!wrong) wrong = wait(k_patience, [&](auto done) { stream.async_handshake(asio::ssl::stream_base::client, done); });
+    if (!wrong) wrong = wait(patience, [&](auto done) { beast::get_lowest_layer(stream).async_connect(ends, done); });
+    if (!wrong) wrong = wait(patience, [&](auto done) { stream.async_handshake(asio::ssl::stream_base::client, done); });
     if (wrong)
-      throw Error(fmt::format("https://{}:{}", host, port), "the office cannot be reached: " + wrong.message(),
-                  "look at network and address; a certificate of its own is named with --certificate");
+      throw OfficeUnreachable(fmt::format("https://{}:{}", host, port), "the office cannot be reached: " + wrong.message(),
+                              "look at network and address; a certificate of its own is named with --certificate");
   }
 
   /// The outcome of what `begin` starts; timed out after `patience`.
@@ -77,10 +79,16 @@ struct StationClient::Line {
     beast::get_lowest_layer(stream).expires_after(patience);
     begin([&outcome](beast::error_code error, auto&&...) { outcome = error; });
     context.restart();
-    context.run();
+    while (!outcome && !stopped.load() && !context.stopped()) context.run_for(k_slice);
+    if (!outcome) {
+      beast::get_lowest_layer(stream).cancel();
+      context.restart();
+      context.run();
+    }
     return outcome.value_or(beast::error::timeout);
   }
 
+  const std::atomic<bool>& stopped;
   asio::io_context context;
   asio::ssl::context tls{asio::ssl::context::tls_client};
   beast::ssl_stream<beast::tcp_stream> stream;
@@ -101,7 +109,9 @@ StationClient::~StationClient() = default;
 
 Answer StationClient::send(const std::string& method, const std::string& path, const std::string& body, const std::string& line) {
   const bool fresh = !line_;
-  if (!line_) line_ = std::make_unique<Line>(host_, port_, certificate_);
+  if (stopped_.load()) throw OfficeUnreachable(fmt::format("https://{}:{}", host_, port_), "is not asked any more: this station ends", "begin again");
+  if (!line_) line_ = std::make_unique<Line>(host_, port_, certificate_, patience_, stopped_);
+  const auto patience = patience_ + std::chrono::seconds(body.size() / k_slowest_bytes_s);
   http::request<http::string_body> request(http::string_to_verb(method), path, k_http, body);
   request.set(http::field::host, fmt::format("{}:{}", host_, port_));
   if (!line.empty()) request.set(k_station_field, line);
@@ -109,14 +119,15 @@ Answer StationClient::send(const std::string& method, const std::string& path, c
   request.prepare_payload();
   http::response_parser<http::string_body> parser;
   parser.body_limit(k_largest_answer);
-  beast::error_code wrong = line_->wait(k_patience_of_bodies, [&](auto done) { http::async_write(line_->stream, request, done); });
+  beast::error_code wrong = line_->wait(patience, [&](auto done) { http::async_write(line_->stream, request, done); });
   // an office that refuses before it has read all says why, and closes
   const beast::error_code unsent = wrong;
-  wrong = line_->wait(k_patience_of_bodies, [&](auto done) { http::async_read(line_->stream, line_->heard, parser, done); });
+  wrong = line_->wait(patience, [&](auto done) { http::async_read(line_->stream, line_->heard, parser, done); });
   if (wrong) {
     line_.reset();
     if (!fresh && wrong != beast::error::timeout) return send(method, path, body, line);  // the office had closed a line that was idle
-    throw Error(fmt::format("https://{}:{}", host_, port_), "the office does not answer: " + (unsent ? unsent : wrong).message(), "try again");
+    throw OfficeUnreachable(fmt::format("https://{}:{}", host_, port_), "the office does not answer: " + (unsent ? unsent : wrong).message(),
+                            "try again");
   }
   Answer answer{static_cast<int>(parser.get().result_int()), parse_json_or_null(parser.get().body())};
   if (const auto time = parser.get().find("X-Cavum-Time"); time != parser.get().end() && answer.body.is_object())
@@ -165,7 +176,7 @@ json StationClient::tickets() { return require(ask("GET", "/station/tickets", ""
 std::string StationClient::begin(const std::string& nonce) {
   return text_in(require(ask("POST", "/station/begin", json{{"ticket", nonce}}.dump())), "begin");
 }
-void StationClient::report(const json& state) { static_cast<void>(require(ask("POST", "/station/report", state.dump()))); }
+json StationClient::report(const json& state) { return require(ask("POST", "/station/report", state.dump())); }
 json StationClient::hand_in(const Bytes& image) {
   return require(ask("PUT", "/station/sessions/" + to_hex(sha256(image)), {image.begin(), image.end()}));
 }

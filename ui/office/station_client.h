@@ -2,6 +2,8 @@
 // key.
 #pragma once
 
+#include <atomic>
+#include <chrono>
 #include <cstdint>
 #include <memory>
 #include <nlohmann/json.hpp>
@@ -9,6 +11,7 @@
 #include <utility>
 
 #include "engine/base/bytes.h"
+#include "engine/base/error.h"
 #include "engine/session/station_key.h"
 
 namespace cavum::office {
@@ -17,6 +20,12 @@ namespace cavum::office {
 struct Answer {
   int status = 0;
   nlohmann::json body;
+};
+
+/// The network, not a refusal: whoever can do without the office goes on.
+class OfficeUnreachable : public Error {
+ public:
+  using Error::Error;
 };
 
 class StationClient {
@@ -29,17 +38,23 @@ class StationClient {
   StationClient(const StationClient&) = delete;
   StationClient& operator=(const StationClient&) = delete;
 
-  // Each throws Error when the office cannot be reached, is another school's, or refuses, in its words.
+  // Each throws OfficeUnreachable when the office does not answer, and Error when it is another school's, or refuses, in its words.
   [[nodiscard]] nlohmann::json enrol(const std::string& request);
   /// A list of {"candidate","nonce","text"}.
   [[nodiscard]] nlohmann::json tickets();
   /// The ledger's word to begin.
   [[nodiscard]] std::string begin(const std::string& nonce);
-  void report(const nlohmann::json& state);
+  /// What the office has to say to that: {"utc_ns","tickets","hold","announcements"}, as docs/office.md says.
+  nlohmann::json report(const nlohmann::json& state);
   /// Sends the bytes of a recording; {"state": ...}. Sent twice is no harm.
   nlohmann::json hand_in(const Bytes& image);
   /// What became of it: {"state": unknown, waiting, filed or refused, …}.
   [[nodiscard]] nlohmann::json handed(const std::string& sha256);
+
+  /// For the connection, and for each answer; bodies have longer.
+  void set_patience(std::chrono::seconds patience) noexcept { patience_ = patience; }
+  /// Ends what runs, within a tenth of a second but for a name that is being looked up; whatever is asked from then on throws. Any thread.
+  void stop() noexcept { stopped_.store(true); }
 
   /// One signed request, whatever comes back; for tests also one whose signed line is `line`.
   [[nodiscard]] Answer ask(const std::string& method, const std::string& path, const std::string& body, const std::string& line = "");
@@ -55,6 +70,8 @@ class StationClient {
   std::string host_, port_, certificate_, school_, ledger_;
   SigningKey key_;
   std::int64_t ahead_ns_ = 0;  // the office's clock before ours
+  std::chrono::seconds patience_{20};
+  std::atomic<bool> stopped_{false};
   std::unique_ptr<Line> line_;
 };
 

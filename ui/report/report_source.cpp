@@ -57,6 +57,8 @@ ReportEvent event_of(const SessionEvent& e, const grading::GradeInput& input, co
   if (is(scenarios::ExamEventKind::finished)) say(said("finish"), tr("the exam ended: {}", finish_words(text_of(detail, "how"))));
   if (is(scenarios::ExamEventKind::pause_started)) say(said("pause"), tr("pause begins"));
   if (is(scenarios::ExamEventKind::pause_ended)) say(said("pause"), tr("pause ends"));
+  if (is(scenarios::ExamEventKind::hold_started)) say(said("pause"), tr("the exam office pauses the exam"));
+  if (is(scenarios::ExamEventKind::hold_ended)) say(said("pause"), tr("the exam office lets the exam go on"));
   if (is(scenarios::ExamEventKind::pause_refused)) say(said("pause"), tr("pause refused"));
   if (e.kind == "moved") say(said("gap"), tr("the disk refused: recorded at another place from here on"));
   if (e.kind == "gap") say(said("gap"), tr("the recording was interrupted here and taken up again"));

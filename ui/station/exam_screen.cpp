@@ -6,10 +6,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/language/say.h"
 #include "engine/language/shown.h"
 #include "ui/station/coach.h"
 #include "ui/station/colour_key.h"
 #include "ui/station/gauges.h"
+#include "ui/station/office_line.h"
 #include "ui/station/pointer_hand.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
@@ -55,7 +57,8 @@ void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layo
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
-  exam_clock(t, static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s, static_cast<double>(view.limit_ticks) * k_tick_s, view.paused);
+  exam_clock(t, static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s, static_cast<double>(view.limit_ticks) * k_tick_s,
+             view.paused || view.held);
   ImGui::EndChild();
   end_area();
 }
@@ -158,7 +161,7 @@ void pointer_keys(const Theme& t, bool mouse_free, ImVec2 at, ImVec2 size) {
   pop_font();
 }
 
-bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave; }
+bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave || s.confirm_go_on; }
 
 /// Mouse and keyboard say where the hand wants the tip: across the picture along the surface; seen from the side, up and down is depth.
 void move_pointer(const ScreenContext& c, const scenarios::LiveView& now, PointerStylus& pointer, float picture_height) {
@@ -244,6 +247,12 @@ void exam_screen(const ScreenContext& c) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
   } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + problem, t.bad);
+  } else if (view.held) {
+    std::string words = tr("{}. The clock stands still and the handpiece stays off.", as_is(s.office ? s.office->hold_reason : ""));
+    if (may_go_on_without(s)) words += " " + tr("The office does not answer. Supervisor: press Home to go on.");
+    words_in_picture(t, l.tooth_at, l.tooth, "PAUSED BY THE EXAM OFFICE", words, t.warn);
+  } else if (s.office && !s.office->told.empty()) {
+    words_in_picture(t, l.tooth_at, l.tooth, "FROM THE EXAM OFFICE", s.office->told.front().text + "  (Home)", t.accent);
   } else if (s.attempt_shown_s > 0) {
     s.attempt_shown_s -= c.frame_s;
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDED",

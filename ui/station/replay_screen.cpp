@@ -21,6 +21,7 @@ const char* mark_of(const std::string& kind) {
   if (kind == "step_completed") return "step completed";
   if (kind == "step_failed" || kind == "step_time_limit") return "step failed";
   if (kind == "pause_started") return "pause";
+  if (kind == "hold_started") return "paused by the office";
   if (kind == "gap") return "recording interrupted";
   if (kind == "time_limit") return "time is up";
   if (kind == "finished") return "finished";

@@ -60,6 +60,7 @@ void held_result_screen(const ScreenContext& c) {
   begin_card(c.theme, "Your exam is recorded and sealed", 640);
   wrapped_text("The result is held until the school releases it.");
   quiet_text(c.theme, tr("{},  candidate {}", as_is(shown(c.sitting->setup().scenario.title)), as_is(c.sitting->candidate())));
+  if (c.state.office) quiet_text(c.theme, c.state.office_outcome);
   ImGui::Dummy({0, c.theme.px(8)});
   if (main_button(c.theme, "Done  (Enter)", true)) c.state.wish = Wish::next_candidate;
   end_area();
@@ -96,7 +97,7 @@ void result_screen(const ScreenContext& c) {
   const grading::Result& r = c.sitting->closed().result;
   const float words = std::min(t.px(820), screen.x * 0.66F);
   begin_area(t, "result", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
-  ImGui::BeginChild("words", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 126)}, false);
+  ImGui::BeginChild("words", {0, ImGui::GetContentRegionAvail().y - t.px((s.message.empty() ? 96.0F : 126.0F) + (s.office ? 30.0F : 0.0F))}, false);
   const ImVec4 colour = r.verdict == grading::Verdict::pass ? t.good : r.verdict == grading::Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
@@ -116,6 +117,7 @@ void result_screen(const ScreenContext& c) {
     wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");
   ImGui::EndChild();
   quiet_text(t, "Recorded and sealed: " + c.sitting->path());
+  if (s.office) quiet_text(t, s.office_outcome);
   if (!s.message.empty()) quiet_text(t, s.message);
   if (main_button(t, "Done  (Enter)", true)) s.wish = Wish::next_candidate;
   ImGui::SameLine();

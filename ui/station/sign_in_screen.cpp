@@ -1,6 +1,7 @@
 #include <imgui.h>
 
 #include "engine/base/text.h"
+#include "ui/station/office_line.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -47,6 +48,7 @@ void sign_in_screen(const ScreenContext& c) {
     s.message = "Type your candidate code first.";
   }
   bad_text(t, s.message);
+  if (const std::string office = office_status(s); !office.empty()) quiet_text(t, office);
   end_area();
 }
 

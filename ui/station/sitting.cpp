@@ -9,7 +9,9 @@
 #include "engine/base/error.h"
 #include "engine/base/file_name.h"
 #include "engine/base/text.h"
+#include "engine/base/write_file.h"
 #include "engine/session/session_reader.h"
+#include "grading/ledger/begin.h"
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
 
@@ -29,6 +31,15 @@ ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code)
   if (!std::filesystem::exists(path))
     throw Error(fmt::format("candidate '{}'", one_line(code)), "has no ticket here", "check the code, or ask the school");
   return ledger::read_ticket(path);
+}
+
+/// The exam bears the office's word. Without one it begins when its ticket lets it (require_promised).
+void ask_for_word(ledger::HeldTicket& held, const std::function<std::string(const std::string&)>& word) {
+  const std::string said = word(held.ticket.nonce);
+  if (said.empty()) return;
+  static_cast<void>(ledger::parse_begin(said, held.ticket.public_key, "the office's word"));
+  write_private_text_file(ledger::begin_path(held.path), said + "\n");
+  held.begin = said;
 }
 
 /// Enough on its disk for the end of any exam.
@@ -73,7 +84,6 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   if (!options_.tickets.empty()) {
     held = ticket_of(options_.tickets, candidate_);
     candidate_ = exam.candidate = held->ticket.candidate;
-    ledger::use_ticket(*held, exam);
     if (options_.resume.empty() && !options_.practice) {
       ledger::require_unused(*held);
       ticket_ = held;
@@ -83,7 +93,9 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     require_resumable(options_.resume, candidate_, *device_);
     options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
   }
-  preparing_ = std::async(std::launch::async, [this, exam, held] {
+  preparing_ = std::async(std::launch::async, [this, exam, held]() mutable {
+    if (held && ticket_ && options_.word) ask_for_word(*held, options_.word);
+    if (held) ledger::use_ticket(*held, exam);
     auto setup =
         options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
     if (held) ledger::require_promised(*held, setup->session);

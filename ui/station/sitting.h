@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <functional>
 #include <future>
 #include <memory>
 #include <optional>
@@ -28,6 +29,8 @@ struct SittingOptions {
   bool practice = false;
   bool locked = false;  ///< the station fills the screen, and only the supervisor closes it; the session says so
   DeviceChoice device;
+  /// The exam office's word to begin the exam of this ticket's number; empty when the office does not answer. Waits, of the thread that prepares.
+  std::function<std::string(const std::string& ticket_nonce)> word = {};
 };
 
 enum class Stage {

@@ -7,6 +7,7 @@
 #include <string_view>
 #include <vector>
 
+#include "ui/office/station_link.h"
 #include "ui/station/scene.h"
 #include "ui/station/tutorial.h"
 
@@ -18,7 +19,25 @@ enum class Screen { sign_in, self_check, preparing, device_check, briefing, exam
 [[nodiscard]] std::vector<std::string_view> screen_names();
 
 /// What a button or a key asked for; the station does it after the frame.
-enum class Wish { none, sign_in, check, check_go_on, to_briefing, to_check, begin, end, save, rescue, abandon, report, next_candidate, leave, quit };
+enum class Wish {
+  none,
+  sign_in,
+  check,
+  check_go_on,
+  to_briefing,
+  to_check,
+  begin,
+  end,
+  save,
+  rescue,
+  abandon,
+  report,
+  next_candidate,
+  leave,
+  read,
+  go_on,
+  quit
+};
 
 struct StationState {
   Screen screen = Screen::sign_in;
@@ -38,6 +57,9 @@ struct StationState {
   std::array<char, 48> supervisor_code{};  ///< typed then
   bool focus_supervisor = false;           ///< its field waits for letters again
   std::string leave_message;               ///< shown with that question
+  std::optional<office::LinkView> office;  ///< what the exam office says; none: the station knows no office
+  std::string office_outcome;              ///< what became of the recording at the office, in words
+  bool confirm_go_on = false;              ///< somebody wants to go on although the office has paused the exam
   std::string attempt;                     ///< the last try to leave the exam, in words
   double attempt_shown_s = 0.0;            ///< so long it is still shown
   int attempts = 0;                        ///< in this exam

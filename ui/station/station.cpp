@@ -20,6 +20,7 @@
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
+#include "ui/station/office_line.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
 #include "ui/station/station_lock.h"
@@ -77,6 +78,7 @@ class Station {
       state_.view.clear = false;
       state_.screen = Screen::replay;
     }
+    if (options_.office) office_ = std::make_unique<OfficeLine>(*options_.office);
     options_.candidate.copy(state_.code.data(), state_.code.size() - 1);
     state_.tutorial_wanted = options_.tutorial;
   }
@@ -159,6 +161,7 @@ class Station {
     sound();
     note_tutorial();
     lock_.watch(window_, state_, sitting_.get());
+    if (office_) office_->exchange(state_, sitting_.get());
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
     // no more pictures than eyes need, fewer when the processor draws: the servo shares it
@@ -215,7 +218,9 @@ class Station {
                                 &check_,
                                 lock_.locked()};
     show_screen(context);
+    office_notice(context);
     ask_whether_to_leave(context, lock_.locked());
+    ask_whether_to_go_on(context, lock_.locked());
   }
   static void show_screen(const ScreenContext& context) {
     switch (context.state.screen) {
@@ -289,6 +294,7 @@ class Station {
           go_to(Screen::briefing);
           break;
         case Wish::begin:
+          OfficeLine::require_free(state_);
           sitting_->begin();
           state_.attempts = 0;
           state_.tutorial.reset();
@@ -318,6 +324,12 @@ class Station {
           break;
         case Wish::leave:
           lock_.leave(window_, state_, sitting_.get());
+          break;
+        case Wish::read:
+          office_->read(state_, sitting_.get());
+          break;
+        case Wish::go_on:
+          go_on_without_office();
           break;
         case Wish::report:
           write_report();
@@ -352,13 +364,26 @@ class Station {
     sign_in();
   }
 
+  void go_on_without_office() {
+    if (lock_.locked()) {
+      const bool right = is_supervisor_code(options_.supervisor_hash, state_.supervisor_code.data());
+      state_.supervisor_code = {};
+      state_.leave_message = right ? "" : "This is not the supervisor's code.";
+      if (!right) return;
+    }
+    state_.confirm_go_on = false;
+    office_->release(state_, sitting_.get());
+  }
+
   void sign_in() {
+    OfficeLine::require_free(state_);
     if (options_.self_check_hours && !(state_.screen == Screen::self_check && check_.found()) && check_.due(options_.sitting)) {
       check_.forget();
       return go_to(Screen::self_check);
     }
     SittingOptions o = options_.sitting;
     o.locked = lock_.locked();
+    if (office_) o.word = [this](const std::string& nonce) { return office_->begin(nonce); };
     lock_.begin_sitting();
     seen_ = Stage::preparing;
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
@@ -472,6 +497,7 @@ class Station {
   Theme theme_;
   double dressed_scale_ = 0.0;
   bool dressed_contrast_ = false;
+  std::unique_ptr<OfficeLine> office_;  // outlives the sitting, which may ask it for its word
   std::unique_ptr<Sitting> sitting_;
   std::unique_ptr<Scene> scene_;
   Stage seen_ = Stage::preparing;  // of the sitting, by the screens

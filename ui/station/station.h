@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "ui/office/station_link.h"
 #include "ui/station/sitting.h"
 
 namespace cavum::station {
@@ -20,8 +21,9 @@ struct StationOptions {
   std::string monitor;          ///< number from 1 or name; empty: where the desktop puts the window
   double text_scale = 1.0;
   bool left_handed = false, high_contrast = false;
-  std::optional<double> self_check_hours;  ///< a check of the stylus that is older is made anew before an exam; empty: none is made
-  std::optional<std::size_t> effects;      ///< of the picture, 0 (richest) to 5; else as the computer keeps up with
+  std::optional<double> self_check_hours;     ///< a check of the stylus that is older is made anew before an exam; empty: none is made
+  std::optional<office::LinkOptions> office;  ///< the exam office that the station speaks with by itself
+  std::optional<std::size_t> effects;         ///< of the picture, 0 (richest) to 5; else as the computer keeps up with
 };
 
 /// Opens the window and returns when it is closed: 0, or 1 when an exam is left open, which a line on standard error names. Throws Error when there

@@ -121,6 +121,7 @@ void serve(const ServeArguments& o) {
 struct OfficeArguments {
   std::string server, certificate, code, out = ".", ticket, state, candidate, step, alarm, receipts;
   std::int64_t left_s = -1;
+  std::uint64_t heard = 0;
   std::vector<std::string> sessions;
 };
 
@@ -164,7 +165,11 @@ void office_begin(const OfficeArguments& o) {
 
 void office_report(const OfficeArguments& o) {
   auto client = client_of(o);
-  client.report({{"state", o.state}, {"candidate", o.candidate}, {"step", o.step}, {"alarm", o.alarm}, {"left_s", o.left_s}});
+  const json word =
+      client.report({{"state", o.state}, {"candidate", o.candidate}, {"step", o.step}, {"alarm", o.alarm}, {"left_s", o.left_s}, {"heard", o.heard}});
+  if (const json& hold = word.at("hold"); !hold.is_null()) std::cout << "paused: " << one_line(hold.at("reason").get<std::string>()) << "\n";
+  for (const json& a : word.at("announcements"))
+    std::cout << "announcement " << a.at("entry") << ": " << one_line(a.at("text").get<std::string>()) << "\n";
 }
 
 int office_file(const OfficeArguments& o) {
@@ -252,12 +257,13 @@ void add_office_verb(CLI::App& app, int& exit_code) {
       ->add_option("ticket", o->ticket, "the ticket's file")
       ->required()
       ->check(CLI::ExistingFile);
-  auto* report = add("report", "tell the live board what this station does", done(office_report));
+  auto* report = add("report", "tell the live board what this station does; prints what the office has to say", done(office_report));
   report->add_option("--state", o->state, "free, check, briefing, exam, paused or ended")->required();
   report->add_option("--candidate", o->candidate, "pseudonym of who sits");
   report->add_option("--step", o->step, "of the exam");
   report->add_option("--alarm", o->alarm, "what an invigilator should see to");
   report->add_option("--left-s", o->left_s, "on the exam's clock, s");
+  report->add_option("--heard", o->heard, "number of the last announcement that was read");
   auto* file = add("file", "hand in exams that were sat, and wait until they are filed", office_file);
   file->add_option("sessions", o->sessions, "session files, or folders of them")->required();
   file->add_option("--receipts", o->receipts, "folder for the receipts");

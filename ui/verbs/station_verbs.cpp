@@ -9,7 +9,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/write_file.h"
 #include "engine/session/session_reader.h"
+#include "grading/ledger/ledger_key.h"
+#include "grading/ledger/station_ticket.h"
+#include "ui/office/station_link.h"
 #include "ui/parts/number_check.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/seed_check.h"
@@ -30,6 +34,7 @@ struct StationArguments {
   station::StationOptions station;
   std::string author;
   EnrolOptions enrol;
+  std::string server, certificate;  ///< of the exam office
   int frame_times = 0;
   bool kiosk = false, set_code = false, no_self_check = false;
   double self_check_hours = 12.0;
@@ -122,6 +127,27 @@ int set_code(const std::string& path) {
   return 0;
 }
 
+/// What a station that speaks with an office needs, and the folder of its tickets.
+office::LinkOptions office_of(const StationArguments& o, station::SittingOptions& sitting) {
+  if (sitting.practice || !o.station.replay.empty() || !o.author.empty())
+    throw Error("--server", "was asked for with something that is no exam", "leave one of them out");
+  office::LinkOptions link;
+  link.server = o.server;
+  link.certificate = o.certificate;
+  link.school = ledger::station_school_key();
+  if (link.school.empty())
+    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
+                "copy the school's public key there: `cavum ledger init` writes it");
+  if (sitting.resume.empty()) {
+    if (sitting.tickets.empty()) sitting.tickets = station_path("tickets");
+    make_private_folder(sitting.tickets);
+  }
+  link.tickets = sitting.tickets.empty() ? station_path("tickets") : sitting.tickets;
+  for (const auto& place : {sitting.resume.empty() ? sitting.out : sitting.resume, sitting.out_if_full})
+    if (!place.empty()) link.recordings.push_back(place);
+  return link;
+}
+
 int run(const StationArguments& o) {
   if (!o.enrol.code.empty() || o.enrol.replace_key) {
     EnrolOptions enrol = o.enrol;
@@ -143,6 +169,7 @@ int run(const StationArguments& o) {
       throw Error("--kiosk", "was asked for with something that is no exam", "leave one of them out");
     s.supervisor_hash = station::read_supervisor_code(o.code_file.empty() ? station::supervisor_code_path() : o.code_file);
   }
+  if (!o.server.empty()) s.office = office_of(o, s.sitting);
   if (!o.no_self_check && s.replay.empty()) s.self_check_hours = o.self_check_hours;
   require_sound(s, o.author);
   if (!o.author.empty()) return station::run_author(s, o.author);
@@ -182,6 +209,15 @@ void add_candidate(CLI::App* station, station::StationOptions& s) {
   station->add_option("--rubric", s.sitting.rubric, "mark by this rubric (TOML) instead of the scenario's own");
   station->add_option("--extra-time-percent", s.sitting.grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
   station->add_option("--extra-time-s", s.sitting.grant.extra_time_s, "the same in seconds; both add up");
+}
+
+void add_office(CLI::App* station, StationArguments& o) {
+  auto* server = station->add_option("--server", o.server,
+                                     "address of the exam office, such as https://office:8443: tickets come from there, the board there shows this "
+                                     "station, and exams are handed in by themselves");
+  station->add_option("--certificate", o.certificate, "the office's own certificate (PEM), where it is not one that this computer trusts")
+      ->check(CLI::ExistingFile)
+      ->needs(server);
 }
 
 void add_window(CLI::App* station, station::StationOptions& s) {
@@ -234,6 +270,7 @@ void add_station_verbs(CLI::App& app, int& exit_code) {
   add_candidate(station, s);
   add_window(station, s);
   add_lock(station, *o);
+  add_office(station, *o);
   add_script(station, s, o->frame_times);
   add_enrolment(station, o->enrol);
   station->callback([o, &exit_code] { exit_code = run(*o); });

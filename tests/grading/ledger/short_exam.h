@@ -37,8 +37,9 @@ struct StationClock {
   std::int64_t ahead_ns = 0, set_in_the_middle_ns = 0, drift_ns_per_s = 0;
 };
 
-/// Sits it with a ticket, as a hand would, and seals it.
-inline void sit_shortly(const std::string& scenario, const std::string& path, const std::string& ticket, const StationClock& clock = {}) {
+/// Sits it with a ticket, as a hand would, and seals it. `change` may alter what each tick reads.
+inline void sit_shortly(const std::string& scenario, const std::string& path, const std::string& ticket, const StationClock& clock = {},
+                        const std::function<void(std::int64_t tick, TickInput& input)>& change = {}) {
   scenarios::ExamOptions options;
   options.candidate = ledger::parse_ticket(ticket, "", "ticket").candidate;
   options.device = "emulated stylus";
@@ -52,7 +53,8 @@ inline void sit_shortly(const std::string& scenario, const std::string& path, co
     return Clocks{begun.monotonic_ns + ns, begun.boot_ns + ns, begun.utc_ns + clock.ahead_ns + ns + set + ticks * clock.drift_ns_per_s / 1000};
   };
   const auto exam = scenarios::Exam::start(*setup, path, short_motion(*setup).start_mm, now);
-  for (const TickInput& input : short_motion(*setup).inputs) {
+  for (TickInput input : short_motion(*setup).inputs) {
+    if (change) change(ticks, input);
     static_cast<void>(exam->tick(input));
     ++ticks;
   }

@@ -105,6 +105,34 @@ TEST(Runner, APauseStopsTheClockToTheTick) {
   EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick, 150);
 }
 
+TEST(Runner, TheOfficesPauseStopsTheClockToTheTickAndTakesNoneOfTheCandidates) {
+  Exam exam(pausing("1"));
+  const auto step = [&](std::uint16_t flags, std::uint16_t pedal = 0) {
+    TickInput in;
+    in.flags = flags;
+    in.pedal_q16 = pedal;
+    exam.runner.advance(exam.state, in, {}, {});
+  };
+  for (int i = 0; i < 100; ++i) step(0);
+  step(k_button_2);  // the candidate's own pause, which the office's ends
+  for (int i = 0; i < 9; ++i) step(0);
+  for (int i = 0; i < 400; ++i) step(k_hold);  // longer than any pause of the candidate's
+  EXPECT_TRUE(Runner::held(exam.state));
+  EXPECT_FALSE(Runner::paused(exam.state));
+  step(0);
+  EXPECT_FALSE(Runner::held(exam.state));
+  EXPECT_EQ(exam.state.paused_ticks, 410);
+  for (int i = 0; i < 50; ++i) step(k_hold, 1);  // no clock stands still while the pedal is pressed
+  EXPECT_EQ(exam.state.paused_ticks, 410);
+  while (exam.state.finish == Finish::running) step(0);
+  EXPECT_EQ(exam.state.ticks, 1410);
+  EXPECT_EQ(exam.state.pauses, 1) << "one is left";
+  EXPECT_EQ(exam.events(ExamEventKind::pause_ended).at(0).tick, 110);
+  ASSERT_EQ(exam.events(ExamEventKind::hold_started).size(), 1u);
+  EXPECT_EQ(exam.events(ExamEventKind::hold_started).at(0).tick, 110);
+  EXPECT_EQ(exam.events(ExamEventKind::hold_ended).at(0).tick, 510);
+}
+
 /// Whoever presses the button three hundred times does not push the end out of the list.
 TEST(Runner, TheEndHasItsPlaceInAFullListOfEvents) {
   Exam exam(pausing("10"));

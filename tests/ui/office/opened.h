@@ -28,7 +28,8 @@ class Opened {
   [[nodiscard]] std::string home() const { return school_.file("office"); }
   [[nodiscard]] office::Accounts accounts() const { return office::Accounts(home() + "/accounts.json"); }
   [[nodiscard]] const testing_ledger::School& school() const { return school_; }
-  [[nodiscard]] std::uint16_t port() const { return office_->port(); }
+  [[nodiscard]] std::uint16_t port() const { return port_; }
+  [[nodiscard]] std::string address() const { return "https://127.0.0.1:" + std::to_string(port_); }
   [[nodiscard]] std::string certificate() const { return home() + "/certificate.pem"; }
   [[nodiscard]] std::string id() const { return ledger::read_ledger(school_.places()).id; }
   [[nodiscard]] ledger::LedgerContent content() const { return ledger::read_ledger(school_.places()); }
@@ -42,9 +43,14 @@ class Opened {
     o.port = 0;
     o.certificate = {certificate(), home() + "/certificate.key"};
     o.limits = limits_;
+    o.filing.simulated = rehearsal_;
+    if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
     office_ = std::make_unique<office::Office>(o);
+    port_ = office_->port();
   }
+  /// From the next open() on what no hand moved is filed, too.
+  void rehearse() { rehearsal_ = true; }
   void close() { office_.reset(); }
 
   [[nodiscard]] Visitor visitor() const { return {port()}; }
@@ -99,6 +105,8 @@ class Opened {
  private:
   testing_ledger::School school_;
   office::HttpLimits limits_;
+  std::uint16_t port_ = 0;
+  bool rehearsal_ = false;
   std::unique_ptr<office::Office> office_;
 };
 

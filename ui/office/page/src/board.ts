@@ -2,14 +2,17 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
+import { Announcements, Attendance, Pauses, type Announcement, type Hold } from "./day.ts";
 import { field, form, input, say, table, with_reason, type View } from "./parts.ts";
 
-interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; seen_utc_ns: number }
-interface Station { name: string; public_key: string; revoked: boolean; said: Said | null }
+interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; held: boolean; refused: string; seen_utc_ns: number }
+interface Station { name: string; public_key: string; room: string; revoked: boolean; hold: number; unread: number; twins: string[]; said: Said | null }
 interface Shown {
   utc_ns: number;
   stations: Station[];
   tickets: { [group: string]: number };
+  holds: Hold[];
+  announcements: Announcement[];
   inbox: { waiting: number; trouble: string; refused: { sha256: string; findings: string[] }[] };
 }
 
@@ -28,6 +31,7 @@ function clock(s: number): string {
 function card(s: Station, now_ns: number): HTMLElement {
   const lines = make("div");
   const element = make("li", { class: "card" }, make("h3", {}, s.name), lines);
+  if (s.room !== "") lines.append(make("p", { class: "hint" }, tr("room {}", s.room)));
   if (s.revoked) {
     element.classList.add("silent");
     lines.append(make("p", {}, tr("Key revoked")));
@@ -43,6 +47,13 @@ function card(s: Station, now_ns: number): HTMLElement {
   if (s.said.candidate !== "") lines.append(make("p", {}, make("code", {}, s.said.candidate)));
   if (s.said.step !== "") lines.append(make("p", {}, s.said.step));
   if (s.said.left_s >= 0) lines.append(make("p", {}, tr("{} left", clock(s.said.left_s))));
+  if (s.hold !== 0) lines.append(make("p", { class: s.said.held || s.said.state !== "exam" ? "" : "wrong" }, s.said.held ? tr("Stands still: paused by the office") : tr("Paused by the office")));
+  if (s.unread > 0) lines.append(make("p", {}, tr("Announcements not read yet: {}", s.unread)));
+  if (s.twins.length > 0) {
+    element.classList.add("alarm");
+    const who = s.said.refused !== "" ? s.said.refused : s.said.candidate;
+    lines.append(make("p", { class: "wrong" }, tr("{0} is at {1}, too: one ticket at two stations", who, s.twins.join(", "))));
+  }
   if (s.said.alarm !== "") {
     element.classList.add("alarm");
     lines.append(make("p", { class: "wrong" }, tr("Alarm: {}", s.said.alarm)));
@@ -59,10 +70,16 @@ export async function board(may: (door: string) => boolean): Promise<View> {
   const cards = make("ul", { class: "cards" });
   const inbox = make("div");
   const line = make("p", { class: "hint" }, tr("Connecting …"));
-  const root = make("div", {}, make("h1", {}, tr("Exam day")), line, make("h2", {}, tr("Tickets")), counts, make("h2", {}, tr("Stations")), cards, make("h2", {}, tr("Exams that were handed in")), inbox);
+  const pauses = new Pauses();
+  const announcements = new Announcements();
+  const attendance = new Attendance();
+  const root = make("div", {}, make("h1", {}, tr("Exam day")), line, pauses.root, make("h2", {}, tr("Tickets")), counts, make("h2", {}, tr("Stations")), cards,
+    attendance.root, announcements.root, make("h2", {}, tr("Exams that were handed in")), inbox);
   const revocation = may("POST /api/stations/revoke") ? new Revocation() : null;
+  const placing = may("POST /api/stations/room") ? new Placing() : null;
   let shown: Shown | null = null;
   let came_ms = 0;
+  let counted = "";
   const draw = (): void => {
     if (shown === null) return;
     const now_ns = shown.utc_ns + (performance.now() - came_ms) * 1e6;  // by the office's clock
@@ -78,6 +95,12 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     if (what.inbox.refused.length > 0)
       inbox.append(table(tr("Refused"), [tr("Recording"), tr("Why")], what.inbox.refused.map((r) => [make("code", {}, r.sha256.slice(0, 16)), r.findings.join("; ")])));
     revocation?.take(what.stations);
+    placing?.take(what.stations);
+    pauses.take(what.holds, what.stations);
+    announcements.take(what.announcements, what.stations);
+    const now = JSON.stringify([what.tickets, what.stations.map((s) => s.said?.candidate ?? "")]);
+    if (now !== counted) attendance.look().catch((wrong: Error) => say(wrong.message, true));
+    counted = now;
     draw();
   };
   const source = new EventSource("/api/board/events");
@@ -91,6 +114,7 @@ export async function board(may: (door: string) => boolean): Promise<View> {
   };
   const timer = setInterval(draw, 1000);
   if (may("POST /api/stations/invite")) root.append(invite());
+  if (placing !== null) root.append(placing.root);
   if (revocation !== null) root.append(revocation.root);
   return { root, leave: () => { source.close(); clearInterval(timer); } };
 }
@@ -105,24 +129,49 @@ function invite(): HTMLElement {
   }, name.block), out);
 }
 
-class Revocation {
-  private readonly list = field(tr("Station"), make("select"));
-  readonly root = make("section", {}, make("h2", {}, tr("Revoke a station's key")), this.list.block);
+/** Stations by name in a list, touched only when they are others: somebody may be choosing. */
+class StationList {
+  readonly list = field(tr("Station"), make("select"));
   private held = "";
 
-  constructor() {
-    this.root.append(with_reason(tr("Revoke"), { class: "bad" }, async (reason) => {
-      await post("/api/stations/revoke", { public_key: this.list.value, reason });
-      say(tr("What this station sends from now on does not count."));
-    }));
-  }
-
-  /** Touches the list only when the stations are others: somebody may be choosing. */
   take(stations: Station[]): void {
     const good = stations.filter((s) => !s.revoked);
     const now = good.map((s) => s.public_key).join();
     if (now === this.held) return;
     this.held = now;
     this.list.replaceChildren(...good.map((s) => make("option", { value: s.public_key }, s.name)));
+  }
+}
+
+class Placing {
+  private readonly stations = new StationList();
+  readonly root = make("section", {}, make("h2", {}, tr("Room of a station")));
+
+  constructor() {
+    const room = input(tr("Room"), { maxlength: "80", autocomplete: "off" }, tr("Empty: in none."));
+    this.root.append(form(tr("It stands there"), async () => {
+      await post("/api/stations/room", { public_key: this.stations.list.value, room: room.value });
+      say(tr("The board shows it."));
+    }, this.stations.list.block, room.block));
+  }
+
+  take(stations: Station[]): void {
+    this.stations.take(stations);
+  }
+}
+
+class Revocation {
+  private readonly stations = new StationList();
+  readonly root = make("section", {}, make("h2", {}, tr("Revoke a station's key")), this.stations.list.block);
+
+  constructor() {
+    this.root.append(with_reason(tr("Revoke"), { class: "bad" }, async (reason) => {
+      await post("/api/stations/revoke", { public_key: this.stations.list.value, reason });
+      say(tr("What this station sends from now on does not count."));
+    }));
+  }
+
+  take(stations: Station[]): void {
+    this.stations.take(stations);
   }
 }

@@ -3,6 +3,7 @@ import { make } from "../report_src/dom.ts";
 import { set_words, tr } from "../report_src/words.ts";
 import { get, post, Refused, set_token, type Me } from "./api.ts";
 import { board } from "./board.ts";
+import { incidents } from "./incidents.ts";
 import { act, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
 import { results } from "./results.ts";
@@ -20,7 +21,8 @@ interface Place { name: string; title: string; door: string; open(): Promise<Vie
 const places = (): Place[] => [
   { name: "day", title: tr("Exam day"), door: "GET /api/board/events", open: () => board(may) },
   { name: "list", title: tr("Class list"), door: "POST /api/roster/issue", open: roster },
-  { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may("POST /api/tickets/cancel")) },
+  { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may) },
+  { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
 ];

@@ -1,28 +1,46 @@
-// All tickets with their state; one that lives can be cancelled, with a reason.
+// All tickets with their state and seat; one that lives can be cancelled, with a reason. Sittings are seated at once, and papers printed.
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, local_time as local, say, table, time_zone, with_reason, type View } from "./parts.ts";
+import { act, form, local_time as local, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
 
-interface Ticket { entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean; id: string; name: string }
+interface Ticket {
+  entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean;
+  seat: string; id: string; name: string;
+}
+interface Station { name: string; public_key: string; room: string; revoked: boolean }
 
-export async function tickets(may_cancel: boolean): Promise<View> {
+export async function tickets(may: (door: string) => boolean): Promise<View> {
   const root = make("div", {}, make("h1", {}, tr("Tickets")));
   const list = make("div");
+  const sittings = make("div");
   const show = async (): Promise<void> => {
-    const { tickets } = await get<{ tickets: Ticket[] }>("/api/tickets");
+    const [{ tickets }, { stations }] = await Promise.all([get<{ tickets: Ticket[] }>("/api/tickets"), get<{ stations: Station[] }>("/api/board")]);
     if (tickets.length === 0) return void list.replaceChildren(make("p", {}, tr("There is no ticket yet. Begin with the class list.")));
+    const names = new Map(stations.map((s) => [s.public_key, s.name]));
     const rows = tickets.map((t) => {
-      const cancel = t.live && may_cancel ? with_cancel(t, show) : "";
+      const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
       const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.state;
-      return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), state, cancel];
+      const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
+      return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, cancel];
     });
-    const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), tr("State"), tr("Action")];
+    const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), tr("Station"), tr("State"), tr("Action")];
     list.replaceChildren(table(tr("Tickets: {0}; times in {1}", tickets.length, time_zone()), headings, rows));
+    sittings.replaceChildren(...(may("POST /api/seats") ? seatings(tickets.filter((t) => t.live), stations, show) : []));
   };
   await show();
-  root.append(act(tr("Look again"), {}, show), list);
+  root.append(act(tr("Look again"), {}, show), papers(may), sittings, list);
   return { root };
+}
+
+function papers(may: (door: string) => boolean): HTMLElement {
+  const links = make("ul");
+  for (const [door, href, text] of [
+    ["GET /api/cards.pdf", "cards.pdf", tr("Candidate cards (PDF)")],
+    ["GET /api/sign-in-sheet.pdf", "sign-in-sheet.pdf", tr("Sign-in sheet (PDF)")],
+  ] as [string, string, string][])
+    if (may(door)) links.append(make("li", {}, make("a", { href: `/api/${href}`, download: href }, text)));
+  return links;
 }
 
 function with_cancel(t: Ticket, show: () => Promise<void>): HTMLElement {
@@ -30,5 +48,37 @@ function with_cancel(t: Ticket, show: () => Promise<void>): HTMLElement {
     await post("/api/tickets/cancel", { entry: t.entry, reason });
     await show();
     say(tr("The ticket of {} does not count any more.", t.candidate));
+  });
+}
+
+function seat_of(t: Ticket, stations: Station[]): HTMLElement {
+  const list = select(tr("Station"), [["", tr("any")], ...stations.filter((s) => !s.revoked).map((s): [string, string] => [s.public_key, s.name])], t.seat);
+  list.block.querySelector("label")!.remove();
+  list.setAttribute("aria-label", tr("Station of {}", t.candidate));
+  list.addEventListener("change", () => {
+    post("/api/seats", { ticket: t.entry, station: list.value })
+      .then(() => say(tr("{} has another station.", t.candidate)))
+      .catch((wrong: Error) => say(wrong.message, true));
+  });
+  return list.block;
+}
+
+/** A sitting is all tickets of one exam and time; each is seated with one press. */
+function seatings(live: Ticket[], stations: Station[], show: () => Promise<void>): HTMLElement[] {
+  const key = (t: Ticket): string => JSON.stringify([t.exam, t.not_before, t.not_after]);
+  const open = live.filter((t) => t.seat === "");
+  const rooms = [...new Set(stations.filter((s) => !s.revoked && s.room !== "").map((s) => s.room))].sort();
+  return [...new Set(open.map(key))].map((k) => {
+    const [exam, not_before, not_after] = JSON.parse(k) as [string, string, string];
+    const room = select(tr("Room"), [["", tr("any")], ...rooms.map((r): [string, string] => [r, r])]);
+    const without = open.filter((t) => key(t) === k).length;
+    return make("section", { class: "card", "aria-label": tr("Seats of {}", exam) },
+      make("h2", {}, tr("{0}, {1} to {2}", exam, local(not_before), local(not_after))),
+      make("p", {}, tr("Without a station: {0} of {1}", without, live.filter((t) => key(t) === k).length)),
+      form(tr("Seat them"), async () => {
+        const done = await post<{ seated: number; left: number }>("/api/seats", { sitting: { exam, not_before, not_after }, room: room.value });
+        await show();
+        say(tr("Seated: {0}. Without a station still: {1}.", done.seated, done.left), done.left > 0);
+      }, room.block));
   });
 }

@@ -1,0 +1,137 @@
+#include "grading/ledger/exam_day.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "grading/ledger/candidate_id.h"
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/ledger.h"
+
+namespace cavum::ledger {
+namespace {
+
+using nlohmann::json;
+
+void require_words(const std::string& what, const std::string& text) {
+  if (text.empty() || text.size() > k_longest_words || !is_plain_text(text))
+    throw Error(what, fmt::format("is no line of text of at most {} bytes", k_longest_words), "say it in one line, without names: it is kept");
+}
+
+Audience audience_in(const json& body) {
+  Audience a{text_in(body, "room"), {}};
+  if (const json& list = member_of(body, "stations"); list.is_array()) a.stations = list.get<std::vector<std::string>>();
+  return a;
+}
+
+void require_station(const Registry& registry, const std::string& key) {
+  const Station* s = registry.stations.of(key);
+  if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(key), "is none that is enrolled", "choose one of the list");
+}
+
+void put_audience(json& body, const Registry& registry, const Audience& audience) {
+  for (const auto& key : audience.stations) require_station(registry, key);
+  if (audience.stations.empty() && !audience.room.empty()) throw Error("room " + one_line(audience.room), "has no station", "choose another, or all");
+  if (!audience.room.empty()) body["room"] = audience.room;
+  if (!audience.stations.empty()) body["stations"] = audience.stations;
+}
+
+Hold* lasting(ExamDay& day, std::uint64_t seq) {
+  const auto found = std::find_if(day.holds.begin(), day.holds.end(), [&](const Hold& h) { return h.seq == seq && !h.ended_by; });
+  return found == day.holds.end() ? nullptr : &*found;
+}
+
+}  // namespace
+
+bool Audience::holds(const std::string& station) const {
+  return stations.empty() || std::find(stations.begin(), stations.end(), station) != stations.end();
+}
+
+const Hold* ExamDay::hold_of(const std::string& station) const {
+  const auto found = std::find_if(holds.begin(), holds.end(), [&](const Hold& h) { return !h.ended_by && h.audience.holds(station); });
+  return found == holds.end() ? nullptr : &*found;
+}
+
+void apply_day_entry(ExamDay& day, const LedgerEntry& e, const LedgerContent& content) {
+  if (e.kind == "announce") {
+    day.announcements.push_back({e.seq, e.utc_ns, text_in(e.body, "text"), audience_in(e.body)});
+  } else if (e.kind == "hold") {
+    day.holds.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), audience_in(e.body), {}, 0});
+  } else if (e.kind == "go_on") {
+    Hold* hold = lasting(day, require_whole<std::uint64_t>(e.body, "hold", "go_on"));
+    if (hold == nullptr) throw Error("go_on", "lets exams go on that were not held", "use an intact copy");
+    hold->ended_by = e.seq;
+    hold->ended_utc_ns = e.utc_ns;
+  } else {
+    day.incidents.push_back({e.seq, e.utc_ns, text_in(e.body, "account"), text_in(e.body, "about_station"), text_in(e.body, "candidate"),
+                             text_in(e.body, k_words), erased_by(content.erased, e.seq, k_words)});
+  }
+}
+
+const LedgerEntry& announce(Ledger& ledger, const std::string& words, const Audience& audience) {
+  require_words("the announcement", words);
+  return ledger.append("announce", [&](const LedgerContent&) -> json {
+    json body = {{"text", words}};
+    put_audience(body, ledger.registry(), audience);
+    return body;
+  });
+}
+
+const LedgerEntry& hold_exams(Ledger& ledger, const std::string& reason, const Audience& audience) {
+  require_words("the reason", reason);
+  return ledger.append("hold", [&](const LedgerContent&) -> json {
+    json body = {{"reason", reason}};
+    put_audience(body, ledger.registry(), audience);
+    return body;
+  });
+}
+
+const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::string& reason) {
+  require_words("the reason", reason);
+  return ledger.append("go_on", [&](const LedgerContent&) -> json {
+    ExamDay day = ledger.registry().day;
+    if (lasting(day, hold) == nullptr) throw Error(fmt::format("entry {}", hold), "holds no exam, or not any more", "look at the board again");
+    return {{"hold", hold}, {"reason", reason}};
+  });
+}
+
+const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, const std::string& candidate, const std::string& words) {
+  require_words("the incident", words);
+  if (!candidate.empty() && !is_pseudonym(candidate)) throw Error("the candidate", "is no pseudonym", "choose one of the list");
+  return ledger.append("incident", [&](const LedgerContent&) -> json {
+    json body = {{k_words, words}};
+    const Registry& registry = ledger.registry();
+    if (!station.empty()) {
+      require_station(registry, station);
+      body["about_station"] = station;
+    }
+    const auto& tickets = registry.tickets;
+    if (!candidate.empty()) {
+      if (std::none_of(tickets.begin(), tickets.end(), [&](const IssuedTicket& t) { return t.ticket.candidate == candidate; }))
+        throw Error("candidate " + candidate, "has no ticket here", "choose one of the list");
+      body["candidate"] = candidate;
+    }
+    return body;
+  });
+}
+
+std::vector<std::string> unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held,
+                                           std::int64_t received_utc_ns) {
+  constexpr std::int64_t k_clocks_ns = 300'000'000'000;  // by which the clocks of station and ledger may differ
+  constexpr std::int64_t k_network_ns = 60'000'000'000;  // for word of the end to come
+  std::vector<std::string> findings;
+  for (const auto& [from, to] : held) {
+    const bool known = std::any_of(day.holds.begin(), day.holds.end(), [&](const Hold& h) {
+      const std::int64_t until = h.ended_by ? h.ended_utc_ns : received_utc_ns;
+      return h.audience.holds(station) && from >= h.utc_ns - k_clocks_ns && to <= until + k_clocks_ns && to - from <= until - h.utc_ns + k_network_ns;
+    });
+    if (!known)
+      findings.push_back(
+          fmt::format("its clock was held for the office from {} to {}, and the ledger knows of no such pause", utc_text(from), utc_text(to)));
+  }
+  return findings;
+}
+
+}  // namespace cavum::ledger

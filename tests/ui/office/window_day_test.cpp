@@ -1,0 +1,174 @@
+// The exam window itself at an exam office: the real program on a virtual screen, with a server that a test pauses, and takes away.
+#include <signal.h>
+#include <spawn.h>
+#include <sys/wait.h>
+
+#include <array>
+#include <map>
+#include <utility>
+
+#include "engine/base/json_fields.h"
+#include "engine/session/session_reader.h"
+#include "grading/ledger/begin.h"
+#include "tests/ui/office/opened.h"
+#include "tests/ui/station/virtual_screen.h"
+#include "ui/office/station_link.h"
+
+extern char** environ;
+
+namespace cavum::office {
+namespace {
+
+using namespace testing_office;
+using namespace testing_ledger;
+using nlohmann::json;
+namespace fs = std::filesystem;
+
+/// The window of this school's station, with a simulated hand: its exams are filed as a rehearsal.
+class AWindow : public testing::Test {
+ protected:
+  void SetUp() override {
+    if (!screen_.there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
+    ::setenv("LANGUAGE", "en", 1);
+    opened_.rehearse();
+    opened_.close();
+    opened_.open();
+    officer_ = opened_.signed_in(Role::officer);
+    fs::create_directories(exams());
+    fs::create_directories(pictures());
+  }
+  ~AWindow() override {
+    if (child_ > 0) {
+      ::kill(child_, SIGTERM);
+      ::waitpid(child_, nullptr, 0);
+    }
+  }
+  [[nodiscard]] std::string exams() const { return opened_.school().file("exams"); }
+  static std::string pictures() { return CAVUM_PICTURES "/office"; }
+  /// Opens it; the script's `%` stands for the candidate's code.
+  void start(const std::string& candidate, std::string script) {
+    for (std::size_t at = script.find('%'); at != script.npos; at = script.find('%', at)) script.replace(at, 1, candidate);
+    const std::string file = opened_.school().file("script"), said = opened_.school().file("said");
+    write_text_file(file, script);
+    const std::string command = "exec " CAVUM_BINARY " station " + k_scenario + " --device simulated --width 800 --height 500 --out " + exams() +
+                                " --server " + opened_.address() + " --certificate " + opened_.certificate() + " --script " + file + " --pictures " +
+                                pictures() + " >" + said + " 2>&1";
+    std::array<char*, 4> arguments{const_cast<char*>("sh"), const_cast<char*>("-c"), const_cast<char*>(command.c_str()), nullptr};
+    ASSERT_EQ(::posix_spawn(&child_, "/bin/sh", nullptr, nullptr, arguments.data(), environ), 0);
+  }
+  /// Its exit code.
+  int end() {
+    int status = 0;
+    ::waitpid(std::exchange(child_, 0), &status, 0);
+    return WIFEXITED(status) ? WEXITSTATUS(status) : -WTERMSIG(status);
+  }
+  [[nodiscard]] std::string said() const { return read_text_file(opened_.school().file("said")); }
+  template <class Holds>
+  [[nodiscard]] bool within(double seconds, const Holds& holds) const {
+    for (int i = 0; i < static_cast<int>(20 * seconds); ++i) {
+      if (holds()) return true;
+      std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    return holds();
+  }
+  [[nodiscard]] json board() const {
+    const json all = officer_.get("/api/board").json();
+    return all["stations"][0];
+  }
+  [[nodiscard]] std::string ticket(bool begin_at_office) const {
+    const json issued = opened_.issue(officer_, "4711\n", begin_at_office).json();
+    return issued["issued"][0]["candidate"];
+  }
+  /// The one recording that there is.
+  [[nodiscard]] std::string recording() const {
+    for (const auto& f : fs::directory_iterator(exams()))
+      if (f.path().extension() == ".cavum") return f.path().string();
+    return {};
+  }
+
+  testing_station::VirtualScreen screen_;
+  Opened opened_;
+  Visitor officer_;
+  pid_t child_ = 0;
+};
+
+constexpr char k_sit[] = "wait sign-in\nsleep 3\npicture sign-in\ntype %\ngo device-check\ngo briefing\nkey enter\nwait exam\n";
+
+TEST_F(AWindow, SitsAnExamWithTheOfficesWordAPauseAnAnnouncementAndFilesIt) {
+  const std::string candidate = ticket(true);
+  start(candidate, std::string(k_sit) +
+                       "until 1.5\nsleep 4\npicture paused\nuntil 4\nsleep 1\npicture announcement\nkey home\nwait result\nsleep 2\npicture result\n"
+                       "sleep 600\n");
+  ASSERT_TRUE(within(120, [&] { return text_in(board()["said"], "state") == "exam"; })) << said();
+  EXPECT_EQ(board()["said"]["candidate"], candidate);
+  EXPECT_GT(board()["said"]["left_s"], 0);
+  EXPECT_FALSE(text_in(board()["said"], "step").empty());
+  const json hold = officer_.post("/api/hold", {{"reason", "Fire alarm: leave the room"}, {"to", {{"all", true}}}}).json();
+  ASSERT_TRUE(within(20, [&] { return board()["said"]["held"] == true; })) << board();
+  const json left = board()["said"]["left_s"];
+  std::this_thread::sleep_for(std::chrono::seconds(4));
+  EXPECT_EQ(board()["said"]["left_s"], left) << "the clock stands";
+  const json told = officer_.post("/api/announce", {{"text", "Lunch is at one."}, {"to", {{"all", true}}}}).json();
+  ASSERT_EQ(officer_.post("/api/go-on", {{"hold", hold["entry"]}, {"reason", "a false alarm"}}).status, 200);
+  EXPECT_TRUE(within(20, [&] { return board()["said"]["held"] == false; }));
+  ASSERT_TRUE(within(240, [&] { return !recording().empty() && StationLink::outcome(recording()).has_value(); })) << said();
+  const HandedIn done = *StationLink::outcome(recording());
+  ASSERT_TRUE(done.filed) << done.findings.front();
+  EXPECT_TRUE(within(20, [&] { return text_in(board()["said"], "state") == "ended"; }));
+  ::kill(child_, SIGTERM);
+  EXPECT_EQ(end(), 0) << said();
+
+  const SessionReader session(recording());
+  std::map<std::string, std::int64_t> ticks;
+  std::map<std::string, json> details;
+  for (const SessionEvent& e : session.events()) ticks[e.kind] = e.tick, details[e.kind] = json::parse(e.detail_json);
+  EXPECT_GE(ticks.at("hold_ended") - ticks.at("hold_started"), 4000);
+  EXPECT_EQ(details.at("office_hold")["entry"], hold["entry"]);
+  EXPECT_EQ(details.at("announcement")["text"], "Lunch is at one.");
+  EXPECT_EQ(details.at("announcement_read")["entry"], told["entry"]);
+  const std::string word = session.fact(std::string("note.") + ledger::k_begin_note);
+  EXPECT_EQ(ledger::parse_begin(word, opened_.content().public_key, "word").ledger, opened_.id());
+  const json result = json::parse(session.result_json());
+  const std::int64_t stood = result["pauses"]["ticks"];
+  EXPECT_EQ(stood, ticks.at("hold_ended") - ticks.at("hold_started"));
+  EXPECT_EQ(result["pauses"]["list"][0]["by_office"], true);
+  EXPECT_NEAR(result["time_s"].get<double>(), static_cast<double>(session.ticks() - stood) * 0.001, 0.0015) << "the time is given back";
+  const ledger::Registry registry = ledger::read_registry(opened_.content());
+  ASSERT_EQ(registry.sessions.size(), 1u);
+  EXPECT_TRUE(registry.sessions[0].findings.empty());
+  EXPECT_EQ(registry.sessions[0].seq, done.entry);
+}
+
+TEST_F(AWindow, SitsOnWhenTheNetworkGoesAndFilesWhenItIsBack) {
+  const std::string candidate = ticket(false);
+  start(candidate, std::string(k_sit) + "wait result\nsleep 2\npicture not-handed-in\nsleep 600\n");
+  ASSERT_TRUE(within(120, [&] { return text_in(board()["said"], "state") == "exam"; })) << said();
+  opened_.close();
+  ASSERT_TRUE(within(240, [&] { return !recording().empty() && SessionReader(recording()).closed(); })) << said();
+  std::this_thread::sleep_for(std::chrono::seconds(3));
+  EXPECT_FALSE(StationLink::outcome(recording()));
+  opened_.open();
+  ASSERT_TRUE(within(90, [&] { return StationLink::outcome(recording()).has_value(); })) << said();
+  EXPECT_TRUE(StationLink::outcome(recording())->filed);
+  ::kill(child_, SIGTERM);
+  EXPECT_EQ(end(), 0) << said();
+}
+
+TEST_F(AWindow, ATicketThatTheOfficeCancelledOrAnotherStationHasBeginsNoExam) {
+  const std::string candidate = ticket(true);
+  const SigningKey other = load_signing_key(opened_.school().file("seat2.key"), "station");
+  const std::string code = officer_.post("/api/stations/invite", {{"name", "Seat 2"}}).json()["code"];
+  StationClient second(opened_.address(), opened_.certificate(), opened_.content().public_key, other);
+  static_cast<void>(second.enrol(ledger::station_request(other, opened_.content().public_key, {}, code)));
+  static_cast<void>(second.begin(second.tickets()[0]["nonce"]));
+  start(candidate, "wait sign-in\nsleep 3\ntype %\nkey enter\nsleep 6\npicture refused\nwords refused\nsleep 600\n");
+  const std::string words = pictures() + "/refused.txt";
+  fs::remove(words);
+  ASSERT_TRUE(within(90, [&] { return fs::exists(words) && !read_text_file(words).empty(); })) << said();
+  EXPECT_NE(read_text_file(words).find("was let begin before"), std::string::npos) << read_text_file(words);
+  EXPECT_EQ(board()["twins"], json{"Seat 2"}) << "noticed at once";
+  EXPECT_TRUE(recording().empty());
+}
+
+}  // namespace
+}  // namespace cavum::office

@@ -1,0 +1,62 @@
+#include "ui/office/day_parts.h"
+
+#include "engine/base/error.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+
+namespace cavum::office {
+
+using nlohmann::json;
+
+std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::string& key, const Said& said, std::int64_t now) {
+  const auto candidate_at = [&](const std::string& station) -> std::string {
+    const auto found = said.find(station);
+    if (found == said.end() || now - whole_in(found->second, "seen_utc_ns") > k_silent_ns) return {};
+    if (const std::string asked_for = text_in(found->second, "refused"); !asked_for.empty()) return asked_for;
+    return text_in(found->second, "state") == "ended" ? "" : text_in(found->second, "candidate");
+  };
+  std::vector<std::string> twins;
+  const std::string candidate = candidate_at(key);
+  if (candidate.empty()) return twins;
+  for (const auto& other : stations.stations)
+    if (other.public_key != key && candidate_at(other.public_key) == candidate) twins.push_back(other.name);
+  return twins;
+}
+
+std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now) {
+  const auto found = said.find(key);
+  if (found == said.end()) return 0;
+  std::size_t unread = 0;
+  for (const auto& a : day.announcements)
+    unread += a.audience.holds(key) && now - a.utc_ns<k_announced_ns&& static_cast<std::int64_t>(a.seq)> whole_in(found->second, "heard") ? 1 : 0;
+  return unread;
+}
+
+json shown_holds(const ledger::ExamDay& day) {
+  json out = json::array();
+  for (const auto& h : day.holds)
+    if (!h.ended_by)
+      out.push_back({{"entry", h.seq}, {"utc_ns", h.utc_ns}, {"reason", h.reason}, {"room", h.audience.room}, {"stations", h.audience.stations}});
+  return out;
+}
+
+json shown_announcements(const ledger::ExamDay& day, std::int64_t now) {
+  json out = json::array();
+  for (auto a = day.announcements.rbegin(); a != day.announcements.rend(); ++a)
+    if (now - a->utc_ns < k_announced_ns)
+      out.push_back({{"entry", a->seq}, {"utc_ns", a->utc_ns}, {"text", a->words}, {"room", a->audience.room}, {"stations", a->audience.stations}});
+  return out;
+}
+
+ledger::Audience audience_of(const json& asked, const ledger::StationRegister& stations) {
+  const json& to = member_of(asked, "to");
+  if (member_of(to, "all") == true) return {};
+  if (const std::string key = text_in(to, "station"); !key.empty()) return {"", {key}};
+  ledger::Audience a{text_in(to, "room"), {}};
+  for (const auto& s : stations.stations)
+    if (!a.room.empty() && s.room == a.room && !s.revoked_utc_ns && s.replaced_by.empty()) a.stations.push_back(s.public_key);
+  if (a.stations.empty()) throw Error("for whom", "names no station that is enrolled", "choose all, a room, or a station");
+  return a;
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,33 @@
+// What the board shows of a day: who has one candidate twice, who has not read what was announced, and what is paused.
+#pragma once
+
+#include <cstdint>
+#include <map>
+#include <nlohmann/json.hpp>
+#include <string>
+
+#include "grading/ledger/registry.h"
+
+namespace cavum::office {
+
+/// For how long an announcement is shown to stations that have not read it.
+inline constexpr std::int64_t k_announced_ns = 3'600'000'000'000;
+/// A station that has said nothing for so long is taken for gone.
+inline constexpr std::int64_t k_silent_ns = 15'000'000'000;
+
+/// What stations said, by key (Board::stations()).
+using Said = std::map<std::string, nlohmann::json>;
+
+/// Names of other stations that have the candidate whom this one has.
+[[nodiscard]] std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::string& key, const Said& said,
+                                                std::int64_t now_utc_ns);
+/// How many announcements for this station nobody there has read; 0 for one that says nothing.
+[[nodiscard]] std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now_utc_ns);
+/// {"entry","reason","room","stations"} of each that lasts; `stations`: keys, none for all.
+[[nodiscard]] nlohmann::json shown_holds(const ledger::ExamDay& day);
+/// {"entry","utc_ns","text","room","stations"} of each that is still shown, the newest first.
+[[nodiscard]] nlohmann::json shown_announcements(const ledger::ExamDay& day, std::int64_t now_utc_ns);
+/// {"all":true}, {"room":NAME} or {"station":KEY} under `to`. Throws Error when it names nobody.
+[[nodiscard]] ledger::Audience audience_of(const nlohmann::json& asked, const ledger::StationRegister& stations);
+
+}  // namespace cavum::office

@@ -1,0 +1,116 @@
+// What people do on an exam day: pause exams and let them go on, announce, and see who is not here.
+import { make } from "../report_src/dom.ts";
+import { tr } from "../report_src/words.ts";
+import { get, post } from "./api.ts";
+import { act, form, input, local_time, say, select, table, with_reason } from "./parts.ts";
+
+export interface Place { name: string; public_key: string; room: string; revoked: boolean }
+export interface Hold { entry: number; utc_ns: number; reason: string; room: string; stations: string[] }
+export interface Announcement { entry: number; utc_ns: number; text: string; room: string; stations: string[] }
+
+export type Audience = { all: true } | { room: string } | { station: string };
+
+/** For whom something is: all, a room, a station. Touched only when these are others: somebody may be choosing. */
+export class Choice {
+  readonly list = select(tr("For"), [["all", tr("all stations")]]);
+  private held = "";
+
+  take(stations: Place[]): void {
+    const good = stations.filter((s) => !s.revoked);
+    const now = JSON.stringify(good.map((s) => [s.public_key, s.name, s.room]));
+    if (now === this.held) return;
+    this.held = now;
+    const chosen = this.list.value;
+    const rooms = [...new Set(good.map((s) => s.room).filter((r) => r !== ""))].sort();
+    const choices: [string, string][] = [["all", tr("all stations")], ...rooms.map((r): [string, string] => [`room ${r}`, tr("room {}", r)]),
+      ...good.map((s): [string, string] => [`station ${s.public_key}`, s.name])];
+    this.list.replaceChildren(...choices.map(([value, text]) => make("option", { value }, text)));
+    if (choices.some(([value]) => value === chosen)) this.list.value = chosen;
+  }
+
+  get audience(): Audience {
+    const value = this.list.value;
+    if (value.startsWith("room ")) return { room: value.slice(5) };
+    return value.startsWith("station ") ? { station: value.slice(8) } : { all: true };
+  }
+}
+
+export function whom(of: { room: string; stations: string[] }, stations: Place[]): string {
+  if (of.stations.length === 0) return tr("all stations");
+  if (of.room !== "") return tr("room {}", of.room);
+  return of.stations.map((key) => stations.find((s) => s.public_key === key)?.name ?? key.slice(0, 8)).join(", ");
+}
+
+/** Pauses: what stands still now, and a form for the next. */
+export class Pauses {
+  readonly root = make("section", { "aria-label": tr("Pauses") });
+  private readonly now = make("div", { role: "status" });
+  private readonly choice = new Choice();
+  private held = "";
+
+  constructor() {
+    const reason = input(tr("Why"), { required: "", maxlength: "500", autocomplete: "off", value: tr("Fire alarm") }, tr("Candidates read it."));
+    const pause = form(tr("Pause the exams"), async () => {
+      await post("/api/hold", { reason: reason.value, to: this.choice.audience });
+      say(tr("The exams stand still; each candidate keeps his time."));
+    }, this.choice.list.block, reason.block);
+    const more = make("details", { class: "pause" }, make("summary", {}, tr("Pause: fire alarm, power cut")), pause);
+    this.root.append(this.now, more);
+  }
+
+  take(holds: Hold[], stations: Place[]): void {
+    this.choice.take(stations);
+    const now = JSON.stringify(holds);
+    if (now === this.held) return;  // somebody may be typing why they go on
+    this.held = now;
+    this.now.replaceChildren(...holds.map((h) => make("div", { class: "card held" },
+      make("h2", {}, tr("Paused: {0} ({1})", h.reason, whom(h, stations))),
+      make("p", {}, tr("Since {}", local_time(new Date(h.utc_ns / 1e6).toISOString()))),
+      with_reason(tr("Let them go on"), { class: "main" }, async (reason) => {
+        await post("/api/go-on", { hold: h.entry, reason });
+        say(tr("The exams go on."));
+      }))));
+  }
+}
+
+/** What candidates are told. */
+export class Announcements {
+  readonly root = make("section", {}, make("h2", {}, tr("Announce")));
+  private readonly choice = new Choice();
+  private readonly list = make("ul");
+
+  constructor() {
+    const text = input(tr("What candidates read"), { required: "", maxlength: "500", autocomplete: "off" });
+    this.root.append(form(tr("Announce it"), async () => {
+      await post("/api/announce", { text: text.value, to: this.choice.audience });
+      text.value = "";
+      say(tr("Announced. A station's card says when it was not read yet."));
+    }, this.choice.list.block, text.block), this.list);
+  }
+
+  take(announcements: Announcement[], stations: Place[]): void {
+    this.choice.take(stations);
+    this.list.replaceChildren(...announcements.slice(0, 5).map((a) =>
+      make("li", {}, `${local_time(new Date(a.utc_ns / 1e6).toISOString())}, ${whom(a, stations)}: ${a.text}`)));
+  }
+}
+
+interface Missing { candidate: string; exam: string; not_before: string; not_after: string; seat: string; no_show: boolean; id: string; name: string }
+
+/** Who should be here and is not, by name. */
+export class Attendance {
+  readonly root = make("section", {}, make("h2", {}, tr("Not here")));
+  private readonly list = make("div");
+
+  constructor() {
+    this.root.append(this.list, act(tr("Look again"), {}, () => this.look()));
+  }
+
+  async look(): Promise<void> {
+    const { missing } = await get<{ missing: Missing[] }>("/api/attendance");
+    if (missing.length === 0) return void this.list.replaceChildren(make("p", {}, tr("Everybody whose time has come is here.")));
+    const rows = missing.map((m) => [m.id, m.name, m.candidate, m.seat,
+      m.no_show ? make("span", { class: "wrong" }, tr("no-show: could begin until {}", local_time(m.not_after))) : tr("may begin until {}", local_time(m.not_after))]);
+    this.list.replaceChildren(table(tr("Not here: {}", missing.length), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Station"), tr("State")], rows));
+  }
+}

@@ -1,0 +1,105 @@
+#include "ui/office/papers.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <ctime>
+#include <tuple>
+
+#include "engine/base/error.h"
+#include "engine/language/language.h"
+#include "engine/language/say.h"
+#include "engine/session/session.h"
+#include "ui/office/desk_parts.h"
+#include "ui/report/print/pdf_writer.h"
+
+namespace cavum::office {
+namespace {
+
+struct Local {
+  std::string day, time, zone;
+};
+
+Local local_of(std::int64_t utc_ns) {
+  const std::time_t seconds = static_cast<std::time_t>(utc_ns / 1'000'000'000);
+  std::tm t{};
+  ::localtime_r(&seconds, &t);
+  const long minutes = t.tm_gmtoff / 60;
+  return {fmt::format("{:04}-{:02}-{:02}", t.tm_year + 1900, t.tm_mon + 1, t.tm_mday), fmt::format("{:02}:{:02}", t.tm_hour, t.tm_min),
+          fmt::format("{} (UTC{}{:02}:{:02})", t.tm_zone, minutes < 0 ? '-' : '+', std::labs(minutes) / 60, std::labs(minutes) % 60)};
+}
+
+/// "2026-11-21 09:00 to 12:00 CET (UTC+01:00)"
+std::string span_text(std::int64_t from_utc_ns, std::int64_t until_utc_ns) {
+  const Local from = local_of(from_utc_ns), until = local_of(until_utc_ns);
+  return tr("{0} {1} to {2} {3}", from.day, from.time, from.day == until.day ? until.time : until.day + " " + until.time, until.zone);
+}
+
+report::Document paper(const std::string& title, const std::string& school, const std::vector<Invited>& people) {
+  if (people.empty()) throw Error("the paper", "would be empty: no ticket is good", "issue tickets first");
+  report::Document d;
+  d.title = title;
+  d.language = language();
+  const std::int64_t now = read_clocks().utc_ns;
+  d.created = utc_text(now);
+  d.subtitle = tr("{0}; printed {1}", school, local_text(now));
+  d.footer = {d.subtitle};
+  return d;
+}
+
+}  // namespace
+
+std::string local_text(std::int64_t utc_ns) {
+  const Local l = local_of(utc_ns);
+  return fmt::format("{} {} {}", l.day, l.time, l.zone);
+}
+
+std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
+  const ledger::Registry& registry = ledger.registry();
+  const auto people = people_of(ledger);
+  std::vector<Invited> out;
+  for (const auto& t : registry.tickets) {
+    if (!state_of(t, now).live) continue;
+    Invited i{t.ticket.candidate, "", "", t.ticket.exam, t.ticket.not_before_utc_ns, t.ticket.not_after_utc_ns, "", ""};
+    if (const auto who = people.find(t.ticket.candidate); who != people.end()) i.id = who->second.id, i.name = who->second.name;
+    if (const ledger::Station* s = registry.stations.of(t.seat); s != nullptr) i.room = s->room, i.station = s->name;
+    out.push_back(std::move(i));
+  }
+  const auto order = [](const Invited& i) { return std::tie(i.from_utc_ns, i.until_utc_ns, i.exam, i.room, i.station, i.id); };
+  std::sort(out.begin(), out.end(), [&](const Invited& a, const Invited& b) { return order(a) < order(b); });
+  return out;
+}
+
+std::string candidate_cards(const std::string& school, const std::vector<Invited>& people) {
+  report::Document d = paper(tr("Candidate cards"), school, people);
+  for (const auto& i : people) {
+    d.blocks.push_back(report::Heading{i.code});
+    d.blocks.push_back(report::Paragraph{fmt::format("{}{}", i.name, i.name.empty() ? i.id : fmt::format(" ({})", i.id)), tr("For")});
+    d.blocks.push_back(report::Paragraph{span_text(i.from_utc_ns, i.until_utc_ns), tr("May begin")});
+    if (!i.station.empty()) d.blocks.push_back(report::Paragraph{i.room.empty() ? i.station : fmt::format("{}, {}", i.room, i.station), tr("Place")});
+    d.blocks.push_back(report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", i.exam), "", report::Paragraph::Kind::small});
+  }
+  return report::pdf_of(d);
+}
+
+std::string sheet_to_sign(const std::string& school, const std::vector<Invited>& people) {
+  report::Document d = paper(tr("Sign-in sheet"), school, people);
+  for (std::size_t at = 0; at < people.size();) {
+    const Invited& first = people[at];
+    d.blocks.push_back(report::Heading{
+        fmt::format("{}: {}{}", first.exam, span_text(first.from_utc_ns, first.until_utc_ns), first.room.empty() ? "" : ", " + first.room)});
+    report::ReportTable table{
+        {{tr("Number"), false, 2}, {tr("Name"), false, 4}, {tr("Code"), false, 4}, {tr("Station"), false, 2}, {tr("Signature"), false, 4.5}},
+        {},
+        tr("Sign-in sheet")};
+    for (; at < people.size() && people[at].exam == first.exam && people[at].from_utc_ns == first.from_utc_ns &&
+           people[at].until_utc_ns == first.until_utc_ns && people[at].room == first.room;
+         ++at)
+      table.rows.push_back({{{people[at].id}, {people[at].name}, {people[at].code}, {people[at].station}, {"\n\n"}}});
+    d.blocks.push_back(std::move(table));
+  }
+  return report::pdf_of(d);
+}
+
+}  // namespace cavum::office
