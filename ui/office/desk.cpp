@@ -148,67 +148,6 @@ json Desk::revoke(const json& asked, const Account& by) {
   return {{"entry", ledger::revoke_station(turn.book, parse_public_key(text_in(asked, "public_key"), "the station's key"), reason_in(asked)).seq}};
 }
 
-json Desk::queue() {
-  Turn turn(*this);
-  json out = json::array();
-  for (const auto& d : ledger::review_queue(turn.book.registry()))
-    out.push_back(
-        {{"session", d.session}, {"candidate", d.candidate}, {"exam", d.scenario_id}, {"points", d.points}, {"max", d.max}, {"reasons", d.reasons}});
-  return {{"queue", out}};
-}
-
-json Desk::decide(const json& asked, const Account& by) {
-  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
-  Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::enter_decision(turn.book, session, {text_in(asked, "verdict"), by.name, reason_in(asked)}).seq}};
-}
-
-json Desk::results(bool names) {
-  Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
-  const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
-  json out = json::array();
-  for (const auto& s : registry.sessions) {
-    json row = {{"session", s.seq},
-                {"candidate", s.candidate},
-                {"exam", s.scenario_id},
-                {"state", state_of(registry, s)},
-                {"findings", s.findings},
-                {"simulated", s.simulated},
-                {"verdict", text_in(s.result, "verdict")}};
-    const json& score = member_of(s.result, "score");
-    row["points"] = member_of(score, "points");
-    row["max"] = member_of(score, "max");
-    if (names) put_name(row, people, s.candidate);
-    out.push_back(std::move(row));
-  }
-  return {{"results", out}};
-}
-
-json Desk::release(const json& asked, const Account& by) {
-  ledger::ReleaseWish wish;
-  wish.all = member_of(asked, "all") == true;
-  if (const json& sessions = member_of(asked, "sessions"); sessions.is_array())
-    for (const json& s : sessions)
-      if (s.is_number_unsigned()) wish.sessions.push_back(s);
-  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or sessions");
-  Turn turn(*this, {by.name, reason_in(asked), ""});
-  const ledger::Release done = ledger::release_results(turn.book, wish);
-  return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
-}
-
-std::string Desk::gradebook() {
-  Turn turn(*this);
-  ledger::Identities identities = ledger::sound_identities(turn.book);
-  int left_out = 0;
-  return ledger::moodle_csv(turn.book.registry(), identities, left_out);
-}
-
-std::string Desk::criteria() {
-  Turn turn(*this);
-  return ledger::tidy_csv(turn.book.registry());
-}
-
 std::string Desk::station_problem(const std::string& public_key) {
   Turn turn(*this);
   const std::int64_t now = read_clocks().utc_ns;

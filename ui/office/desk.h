@@ -25,6 +25,12 @@ struct OfficePlaces {
   [[nodiscard]] std::string inbox() const { return folder + "/inbox"; }
 };
 
+/// A recording that is filed, as of so many entries of the ledger.
+struct Recording {
+  std::string path;
+  std::size_t entries = 0;
+};
+
 class Desk {
  public:
   /// `exams`: scenario files that tickets may be issued for.
@@ -61,6 +67,12 @@ class Desk {
   /// With names where `names`.
   [[nodiscard]] nlohmann::json results(bool names);
   [[nodiscard]] nlohmann::json release(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json retract(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json appeals();
+  [[nodiscard]] nlohmann::json open_appeal(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] nlohmann::json answer_appeal(const nlohmann::json& asked, const Account& by);
+  /// A filed recording. Throws Error when there is none, or it was erased.
+  [[nodiscard]] Recording recording(const std::string& file_sha256);
   [[nodiscard]] std::string gradebook();
   [[nodiscard]] std::string criteria();
 

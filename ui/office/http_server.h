@@ -34,7 +34,7 @@ using WriteEvent = std::function<bool(std::string_view event)>;
 struct Reply {
   int status = 200;
   std::string type = "application/json", body = {};
-  std::vector<std::pair<std::string, std::string>> fields = {};  ///< beside those that every reply has
+  std::vector<std::pair<std::string, std::string>> fields = {};  ///< beside those that every reply has, or in their place
   std::function<void(const WriteEvent&)> events = {};            ///< server-sent events in the place of a body
 };
 

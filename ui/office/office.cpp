@@ -15,6 +15,7 @@
 #include "ui/office/desk.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
+#include "ui/office/reports.h"
 #include "ui/office/site.h"
 
 namespace cavum::office {
@@ -65,7 +66,8 @@ struct Office::Parts {
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
         site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id()}) {
+              steady_s, utc_now_ns, desk.ledger_id()}),
+        reports(o.report) {
     serve_pages();
     serve_people();
     serve_desk();
@@ -160,6 +162,14 @@ struct Office::Parts {
       require_code(text_in(asked, "code"), by);
       return desk.release(asked, by);
     });
+    post("/api/retract", [this](const json& asked, const Account& by) {
+      require_code(text_in(asked, "code"), by);
+      return desk.retract(asked, by);
+    });
+    get("/api/appeals", [this](const Call&) { return desk.appeals(); });
+    post("/api/appeals/open", [this](const json& asked, const Account& by) { return desk.open_appeal(asked, by); });
+    post("/api/appeals/answer", [this](const json& asked, const Account& by) { return desk.answer_appeal(asked, by); });
+    site.on("GET", "/api/report/*", [this](const Call& c) { return reports.of(desk.recording(c.tail)); });
     const auto paper = [this](const char* path, const char* file, const char* type, auto make) {
       site.on("GET", path, [file, type, make](const Call&) {
         Reply reply{200, type, make()};
@@ -197,7 +207,7 @@ struct Office::Parts {
   /// A release asks for a code of the second factor, each good once.
   void require_code(const std::string& code, const Account& by) {
     if (by.code_secret.empty())
-      throw Error("the release", "needs a second factor, and this account has none", "cavum serve --add-account NAME --role officer --second-factor");
+      throw Error("this", "needs a second factor, and this account has none", "cavum serve --add-account NAME --role officer --second-factor");
     if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
     const std::lock_guard guard(codes_lock);
     std::uint64_t& used = used_codes[by.name];
@@ -250,6 +260,7 @@ struct Office::Parts {
   Board board;
   Inbox inbox;
   Site site;
+  Reports reports;
   Tries tries;
   std::mutex codes_lock;
   std::map<std::string, std::uint64_t> used_codes;

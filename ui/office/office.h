@@ -2,6 +2,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <memory>
 #include <string>
 #include <vector>
@@ -20,6 +21,8 @@ struct OfficeOptions {
   std::uint16_t port = 8443;  ///< 0: any that is free
   CertificateFiles certificate;
   ledger::FilingOptions filing;
+  /// The instructor's report (HTML) of the recording at a path, which the ledger holds; it may take seconds. Throws Error.
+  std::function<std::string(const std::string& recording)> report;
   HttpLimits limits;
 };
 

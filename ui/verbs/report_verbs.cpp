@@ -108,14 +108,21 @@ std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession&
   return b;
 }
 
-/// Writes the report of one session; `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
-void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
-                  const ledger::FiledSession* filed, grading::ExamGrounds& grounds) {
+/// The report of one session, as a file of that name holds it.
+struct MadeReport {
+  std::string text;
+  grading::Verdict verdict = grading::Verdict::fail;
+  std::string finding;  ///< the first of what does not hold; empty: nothing
+};
+
+/// `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
+MadeReport made_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
+                       const ledger::FiledSession* filed, grading::ExamGrounds& grounds) {
   const ledger::Regrade* regrade = filed != nullptr && !o.marking.anew() ? report::regrade_for(*filed, o.for_whom()) : nullptr;
   const MarkedSession m =
       regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade), grounds) : marked_session(session, o.marking, grounds);
   const grading::GradeInput input = m.session->input();
-  if (out.ends_with(".svg")) return write_text_file(out, report::sections_svg(m.result, input));
+  if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), m.result.verdict, {}};
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
   report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
@@ -131,11 +138,18 @@ void write_report(const std::string& session, const std::string& out, const Repo
     if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
   }
   source.integrity = integrity_of(session, o, filed, grounds);
-  write_text_file(out, out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source));
-  const bool holds = source.integrity.findings.empty();
-  if (!holds) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(source.integrity.findings.front()) << "\n";
-  std::cout << "written: " << one_line(out) << " (" << grading::verdict_name(m.result.verdict) << (holds ? "" : ", of a session that does not hold")
-            << ")\n";
+  return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source), m.result.verdict,
+          source.integrity.findings.empty() ? "" : source.integrity.findings.front()};
+}
+
+void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
+                  const ledger::FiledSession* filed, grading::ExamGrounds& grounds) {
+  const MadeReport made = made_report(session, out, o, ledger, filed, grounds);
+  write_text_file(out, made.text);
+  if (out.ends_with(".svg")) return;
+  if (!made.finding.empty()) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(made.finding) << "\n";
+  std::cout << "written: " << one_line(out) << " (" << grading::verdict_name(made.verdict)
+            << (made.finding.empty() ? "" : ", of a session that does not hold") << ")\n";
 }
 
 void run_report(const ReportArguments& o) {
@@ -184,6 +198,16 @@ int run_all(const ReportArguments& o) {
 }
 
 }  // namespace
+
+std::string filed_report(const std::string& ledger_folder, const std::string& recording) {
+  ReportArguments o;
+  o.session = recording;
+  o.ledger = ledger_folder;
+  const report::ReportLedger ledger(ledger_folder);
+  const ledger::FiledSession& filed = ledger.session(to_hex(sha256(read_file(recording))), recording);
+  grading::ExamGrounds grounds;
+  return made_report(recording, ".html", o, &ledger, &filed, grounds).text;
+}
 
 void add_report_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<ReportArguments>();

@@ -110,6 +110,7 @@ void serve(const ServeArguments& o) {
     office::make_certificate(options.certificate, names);
   }
   options.filing.simulated = o.simulated;
+  options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
   const Interrupt interrupt;
   const office::Office office(options);
   std::cout << "the office of " << one_line(office.school()) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <CLI/CLI.hpp>
+#include <string>
 
 namespace cavum::ui {
 
@@ -14,6 +15,8 @@ void add_session_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 /// After the ledger's: `ledger report` is one of them.
 void add_report_verbs(CLI::App& app, int& exit_code);
+/// The instructor's report (HTML) of a recording that a ledger holds. Throws Error.
+[[nodiscard]] std::string filed_report(const std::string& ledger_folder, const std::string& recording);
 void add_scan_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);

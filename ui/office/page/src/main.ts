@@ -2,6 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { set_words, tr } from "../report_src/words.ts";
 import { get, post, Refused, set_token, type Me } from "./api.ts";
+import { appeals } from "./appeals.ts";
 import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
 import { act, say, type View } from "./parts.ts";
@@ -24,6 +25,7 @@ const places = (): Place[] => [
   { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may) },
   { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
+  { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(may) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
 ];
 

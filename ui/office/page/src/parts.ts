@@ -108,6 +108,12 @@ export function with_reason(text: string, attributes: { [name: string]: string }
   return block;
 }
 
+/** To the tooth in three dimensions and the replay of a recording, in a window of its own. */
+export function report_link(sha256: string): HTMLAnchorElement {
+  return make("a", { href: `/api/report/${sha256}`, target: "_blank", rel: "noopener" }, tr("Tooth, replay and every figure"));
+}
+export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("pass"), fail: tr("fail"), review: tr("review") });
+
 /** "2026-11-21T09:00:00Z" in the reader's own time zone. */
 export function local_time(utc: string): string {
   return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });

@@ -2,9 +2,9 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, form, input, say, select, type View } from "./parts.ts";
+import { act, form, input, report_link, say, select, type View } from "./parts.ts";
 
-interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[] }
+interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[]; sha256: string }
 
 export async function queue(may_decide: boolean): Promise<View> {
   const list = make("div");
@@ -21,6 +21,7 @@ function decision(w: Waiting, may_decide: boolean, show: () => Promise<void>): H
     make("h2", {}, w.candidate),
     make("p", {}, tr("{0}, entry {1}: {2} of {3} points", w.exam, w.session, fixed(w.points, 1), w.max)),
     make("ul", {}, ...w.reasons.map((r) => make("li", {}, r))));
+  if (w.sha256 !== "") element.append(report_link(w.sha256));
   if (!may_decide) return element;
   const verdict = select(tr("Verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
   verdict.required = true;

@@ -2,42 +2,62 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { form, input, say, table, type View } from "./parts.ts";
+import { form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
 
 interface Result {
   session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; verdict: string;
-  points: number | null; max: number | null; id?: string; name?: string;
+  points: number | null; max: number | null; sha256: string; shown: boolean; appeal: boolean; id?: string; name?: string;
 }
 
-const verdicts = (): { [verdict: string]: string } => ({ pass: tr("pass"), fail: tr("fail"), review: tr("review") });
 const states = (): { [state: string]: string } => ({
   released: tr("released"), "to decide": tr("waits for a decision"), questioned: tr("questioned: released by name only"), "not chosen": tr("another ending was chosen"),
   erased: tr("erased"), ready: tr("ready for release"),
 });
 
 export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
-  const list = make("div");
+  const list = make("div"), taking = make("div"), reports = may("GET /api/report/*");
   const show = async (): Promise<void> => {
     const { results } = await get<{ results: Result[] }>("/api/results");
+    if (may("POST /api/retract") && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
     if (results.length === 0) return void list.replaceChildren(make("p", {}, tr("Nothing is filed yet.")));
     const named = results.some((r) => r.id !== undefined);
     const words = states();
     const rows = results.map((r) => [
-      String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdicts()[r.verdict] ?? r.verdict,
+      String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
-      [words[r.state] ?? r.state, ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
+      [words[r.state] ?? r.state, ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
+      ...(reports ? [r.sha256 !== "" ? report_link(r.sha256) : ""] : []),
     ]);
-    const headings = [tr("Entry"), ...(named ? [tr("Number"), tr("Name")] : []), tr("Pseudonym"), tr("Exam"), tr("Verdict"), tr("Points"), tr("State")];
+    const headings = [tr("Entry"), ...(named ? [tr("Number"), tr("Name")] : []), tr("Pseudonym"), tr("Exam"), tr("Verdict"), tr("Points"), tr("State"), ...(reports ? [tr("Report")] : [])];
     list.replaceChildren(table(tr("Results: {}", results.length), headings, rows));
   };
   await show();
   const root = make("div", {}, make("h1", {}, tr("Results")), list);
-  if (may("POST /api/release")) root.append(release(second_factor, show));
+  if (may("POST /api/release")) root.append(release(second_factor, show), taking);
   const files = make("ul");
   if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
   if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
   root.append(make("h2", {}, tr("Files")), files);
   return { root };
+}
+
+/** What was released goes back; nothing where nothing was. */
+function retraction(released: Result[], show: () => Promise<void>): HTMLElement[] {
+  if (released.length === 0) return [];
+  const which = select(tr("Released result"), [["", tr("choose …")], ...released.map((r): [string, string] => [String(r.session), [tr("entry {}", r.session), r.name ?? "", r.candidate].filter((t) => t !== "").join(", ")])]);
+  which.required = true;
+  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  const code = code_field();
+  return [make("h2", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
+    form(tr("Take it back"), async () => {
+      const { entry } = await post<{ entry: number }>("/api/retract", { sessions: [Number(which.value)], reason: reason.value, code: code.value });
+      await show();
+      say(tr("Taken back: entry {}.", entry));
+    }, which.block, reason.block, code.block)];
+}
+
+function code_field(): ReturnType<typeof input> {
+  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
 }
 
 function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {
@@ -47,7 +67,7 @@ function release(second_factor: boolean, show: () => Promise<void>): HTMLElement
     return section;
   }
   const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-  const code = input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
+  const code = code_field();
   section.append(
     make("p", {}, tr("All results go out that are ready. What waits for a decision, or is questioned, stays.")),
     form(tr("Release all that are ready"), async () => {

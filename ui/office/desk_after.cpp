@@ -1,0 +1,153 @@
+// What the desk does with results: the queue, decisions, release, appeals, and what goes to other systems.
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "grading/ledger/appeal.h"
+#include "grading/ledger/decision.h"
+#include "grading/ledger/erasure.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/release.h"
+#include "ui/office/desk.h"
+#include "ui/office/desk_parts.h"
+#include "ui/office/desk_turn.h"
+
+namespace cavum::office {
+
+using nlohmann::json;
+
+namespace {
+
+const ledger::FiledSession* session_of(const ledger::Registry& registry, std::uint64_t seq) {
+  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [seq](const ledger::FiledSession& s) { return s.seq == seq; });
+  return found == registry.sessions.end() ? nullptr : &*found;
+}
+
+/// By which its report is asked for; empty where the recording was erased.
+std::string recording_sha256(const ledger::FiledSession& s) { return s.motion_erased_by ? "" : s.file_sha256; }
+
+std::vector<std::uint64_t> sessions_in(const json& asked) {
+  std::vector<std::uint64_t> out;
+  if (const json& sessions = member_of(asked, "sessions"); sessions.is_array())
+    for (const json& s : sessions)
+      if (s.is_number_unsigned()) out.push_back(s);
+  return out;
+}
+
+}  // namespace
+
+json Desk::queue() {
+  Turn turn(*this);
+  json out = json::array();
+  for (const auto& d : ledger::review_queue(turn.book.registry()))
+    out.push_back({{"session", d.session},
+                   {"candidate", d.candidate},
+                   {"exam", d.scenario_id},
+                   {"points", d.points},
+                   {"max", d.max},
+                   {"reasons", d.reasons},
+                   {"sha256", recording_sha256(*session_of(turn.book.registry(), d.session))}});
+  return {{"queue", out}};
+}
+
+json Desk::decide(const json& asked, const Account& by) {
+  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::enter_decision(turn.book, session, {text_in(asked, "verdict"), by.name, reason_in(asked)}).seq}};
+}
+
+json Desk::results(bool names) {
+  Turn turn(*this);
+  const ledger::Registry& registry = turn.book.registry();
+  const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
+  json out = json::array();
+  for (const auto& s : registry.sessions) {
+    json row = {{"session", s.seq},
+                {"candidate", s.candidate},
+                {"exam", s.scenario_id},
+                {"state", state_of(registry, s)},
+                {"findings", s.findings},
+                {"simulated", s.simulated},
+                {"verdict", text_in(s.result, "verdict")},
+                {"sha256", recording_sha256(s)},
+                {"shown", s.shown_seq != 0},
+                {"appeal", s.open_appeal() != nullptr}};
+    const json& score = member_of(s.result, "score");
+    row["points"] = member_of(score, "points");
+    row["max"] = member_of(score, "max");
+    if (names) put_name(row, people, s.candidate);
+    out.push_back(std::move(row));
+  }
+  return {{"results", out}};
+}
+
+json Desk::release(const json& asked, const Account& by) {
+  ledger::ReleaseWish wish;
+  wish.all = member_of(asked, "all") == true;
+  wish.sessions = sessions_in(asked);
+  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or sessions");
+  Turn turn(*this, {by.name, reason_in(asked), ""});
+  const ledger::Release done = ledger::release_results(turn.book, wish);
+  return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
+}
+
+std::string Desk::gradebook() {
+  Turn turn(*this);
+  ledger::Identities identities = ledger::sound_identities(turn.book);
+  int left_out = 0;
+  return ledger::moodle_csv(turn.book.registry(), identities, left_out);
+}
+
+std::string Desk::criteria() {
+  Turn turn(*this);
+  return ledger::tidy_csv(turn.book.registry());
+}
+
+json Desk::retract(const json& asked, const Account& by) {
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::retract_results(turn.book, sessions_in(asked), reason_in(asked)).seq}};
+}
+
+json Desk::appeals() {
+  Turn turn(*this);
+  json out = json::array();
+  for (const auto& s : turn.book.registry().sessions)
+    for (const auto& a : s.appeals) {
+      const json& score = member_of(s.result, "score");
+      out.push_back({{"entry", a.seq},
+                     {"utc", utc_text(a.utc_ns)},
+                     {"session", s.seq},
+                     {"candidate", s.candidate},
+                     {"exam", s.scenario_id},
+                     {"verdict", text_in(s.result, "verdict")},
+                     {"points", member_of(score, "points")},
+                     {"max", member_of(score, "max")},
+                     {"sha256", recording_sha256(s)},
+                     {"reason", a.reason},
+                     {"open", !a.closed_by.has_value()},
+                     {"changed", s.result_seq > a.seq},
+                     {"outcome", a.outcome},
+                     {"answer", a.answer}});
+    }
+  return {{"appeals", out}};
+}
+
+json Desk::open_appeal(const json& asked, const Account& by) {
+  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::open_appeal(turn.book, session, reason_in(asked)).seq}};
+}
+
+json Desk::answer_appeal(const json& asked, const Account& by) {
+  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+  Turn turn(*this, {by.name, "", ""});
+  return {{"entry", ledger::answer_appeal(turn.book, session, text_in(asked, "outcome"), reason_in(asked)).seq}};
+}
+
+Recording Desk::recording(const std::string& file_sha256) {
+  Turn turn(*this);
+  for (const auto& s : turn.book.registry().sessions)
+    if (s.file_sha256 == file_sha256) return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
+  throw Error("the session", "is not filed here", "look at the results again");
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,80 @@
+// Appeals: what a candidate objects to, the verdict that a person may decide meanwhile, and the answer.
+import { make } from "../report_src/dom.ts";
+import { fixed, tr } from "../report_src/words.ts";
+import { get, post } from "./api.ts";
+import { act, form, input, local_time, report_link, say, select, verdict_words, type View } from "./parts.ts";
+
+interface Appeal {
+  entry: number; utc: string; session: number; candidate: string; exam: string; verdict: string; points: number | null; max: number | null; sha256: string;
+  reason: string; open: boolean; changed: boolean; outcome: string; answer: string;
+}
+interface Filed { session: number; candidate: string; exam: string; appeal: boolean; name?: string }
+
+export async function appeals(may: (door: string) => boolean): Promise<View> {
+  const list = make("div");
+  const show = async (): Promise<void> => {
+    const all = (await get<{ appeals: Appeal[] }>("/api/appeals")).appeals;
+    const open = all.filter((a) => a.open), answered = all.filter((a) => !a.open);
+    list.replaceChildren(make("h2", {}, tr("Open: {}", open.length)), ...open.map((a) => card(a, may, show)),
+      make("h2", {}, tr("Answered: {}", answered.length)), ...answered.map((a) => card(a, may, show)));
+  };
+  await show();
+  const root = make("div", {}, make("h1", {}, tr("Appeals")), act(tr("Look again"), {}, show));
+  if (may("POST /api/appeals/open")) root.append(await opening(show));
+  root.append(list);
+  return { root };
+}
+
+async function opening(show: () => Promise<void>): Promise<HTMLElement> {
+  const { results } = await get<{ results: Filed[] }>("/api/results");
+  const choices: [string, string][] = results.filter((r) => !r.appeal).map((r) => [String(r.session), [tr("entry {}", r.session), r.name ?? "", r.candidate, r.exam].filter((t) => t !== "").join(", ")]);
+  const which = select(tr("Result"), [["", tr("choose …")], ...choices]);
+  which.required = true;
+  const reason = input(tr("What the candidate objects to"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  return make("section", {}, make("h2", {}, tr("A new appeal")), form(tr("Enter the appeal"), async () => {
+    const { entry } = await post<{ entry: number }>("/api/appeals/open", { session: Number(which.value), reason: reason.value });
+    reason.value = "";
+    which.querySelector(`option[value="${which.value}"]`)?.remove();
+    await show();
+    say(tr("The appeal is open: entry {}.", entry));
+  }, which.block, reason.block));
+}
+
+function card(a: Appeal, may: (door: string) => boolean, show: () => Promise<void>): HTMLElement {
+  const words = verdict_words();
+  const points = a.points === null ? "" : tr("{0} of {1} points", fixed(a.points, 1), a.max ?? "");
+  const element = make("section", { class: "card", "aria-label": tr("Appeal of {}", a.candidate) },
+    make("h3", {}, a.candidate),
+    make("p", {}, [a.exam, tr("entry {}", a.session), words[a.verdict] ?? a.verdict, points].filter((t) => t !== "").join(", ")),
+    make("p", {}, `${local_time(a.utc)}: ${a.reason}`));
+  if (a.sha256 !== "" && may("GET /api/report/*")) element.append(report_link(a.sha256));
+  if (!a.open) {
+    element.append(make("p", {}, make("strong", {}, a.outcome === "changed" ? tr("The result was changed.") : tr("The result stands.")), ` ${a.answer}`));
+    return element;
+  }
+  if (a.changed) element.append(make("p", {}, tr("Another result was entered since the appeal.")));
+  if (may("POST /api/decide") && !a.changed) element.append(deciding(a, show));
+  if (may("POST /api/appeals/answer")) element.append(answering(a, show));
+  return element;
+}
+
+function deciding(a: Appeal, show: () => Promise<void>): HTMLElement {
+  const verdict = select(tr("Another verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
+  verdict.required = true;
+  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  return make("details", {}, make("summary", {}, tr("Decide otherwise")), form(tr("Decide"), async () => {
+    const { entry } = await post<{ entry: number }>("/api/decide", { session: a.session, verdict: verdict.value, reason: reason.value });
+    await show();
+    say(tr("Decided: entry {}.", entry));
+  }, verdict.block, reason.block));
+}
+
+function answering(a: Appeal, show: () => Promise<void>): HTMLElement {
+  const outcome = a.changed ? "changed" : "stands";
+  const reason = input(tr("Answer"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  return form(a.changed ? tr("Answer: the result was changed") : tr("Answer: the result stands"), async () => {
+    const { entry } = await post<{ entry: number }>("/api/appeals/answer", { session: a.session, outcome, reason: reason.value });
+    await show();
+    say(tr("Answered: entry {}.", entry));
+  }, reason.block);
+}
