@@ -95,11 +95,55 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await press(page, "Release all that are ready");
   await said(page, "is not good, or was used before");
   await look(officer, "results");
-  await type(page, "Code of your app", code());
+  await type(page, "Code of your app", code(-1));
   await press(page, "Release all that are ready");
   await said(page, "Released: 2. Questioned: 0. Waiting for a decision: 0.");
   const book = await page.evaluate(async () => (await fetch("/api/gradebook.csv")).text());
   assert.match(book, /^"?ID number/);
+
+  // An appeal: the officer enters it, the examiner looks at tooth and replay, decides otherwise, and answers.
+  await go(page, "Appeals");
+  const failed = await page.evaluate(async () => (await (await fetch("/api/results")).json()).results.find((r: { verdict: string }) => r.verdict === "fail") as { session: number; candidate: string; sha256: string });
+  await page.select(await control(page, "Result"), String(failed.session));
+  await type(page, "What the candidate objects to", "the wall is as thick as asked");
+  await press(page, "Enter the appeal");
+  await said(page, "The appeal is open");
+  await look(officer, "appeals");
+  await go(examiner.page, "Appeals");
+  await said(examiner.page, "the wall is as thick as asked");
+  const [opened] = await Promise.all([
+    new Promise<import("puppeteer-core").Page>((found) => examiner.page.once("popup", (p) => found(p!))),
+    examiner.page.click("a[href^='/api/report/']"),
+  ]);
+  await opened.waitForFunction(() => document.querySelector("canvas") !== null, { timeout: 60_000 });
+  assert.ok((await opened.$eval("body", (b) => b.innerText)).includes(failed.candidate));
+  assert.ok(await opened.evaluate(() => { try { return document.cookie === ""; } catch { return true; } }), "no cookie of the office's is seen");
+  await opened.close();
+  await examiner.page.click("details summary");
+  await examiner.page.select(await control(examiner.page, "Another verdict"), "pass");
+  await type(examiner.page, "Reason", "measured again by two");
+  await press(examiner.page, "Decide");
+  await said(examiner.page, "Another result was entered since the appeal.");
+  await type(examiner.page, "Answer", "the wall holds");
+  await look(examiner, "appeal-answer");
+  await press(examiner.page, "Answer: the result was changed");
+  await said(examiner.page, "The result was changed.");
+
+  // A retraction, and the release of what is ready then: of the changed result, too.
+  await go(page, "Results");
+  const first = await page.evaluate(async () => (await (await fetch("/api/results")).json()).results.find((r: { verdict: string; state: string }) => r.state === "released") as { session: number });
+  await page.select(await control(page, "Released result"), String(first.session));
+  const back = await page.evaluateHandle(() => [...document.querySelectorAll("form")].find((f) => f.textContent!.includes("Take it back"))!);
+  const fields = await back.$$("input");
+  await fields[0].type("the wrong tooth was mounted");
+  await fields[1].type(code());
+  await look(officer, "results-back");
+  await fields[1].press("Enter");
+  await said(page, "Taken back: entry");
+  await type(page, "Reason", "after the appeal");
+  await type(page, "Code of your app", code(1));
+  await press(page, "Release all that are ready");
+  await said(page, "Released: 2.");
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   for (const one of [officer, invigilator, reader, examiner]) assert.deepEqual(one.complaints, []);

@@ -44,6 +44,7 @@ class Opened {
     o.certificate = {certificate(), home() + "/certificate.key"};
     o.limits = limits_;
     o.filing.simulated = rehearsal_;
+    o.report = [](const std::string& recording) { return "<p>" + recording + "</p><script>1</script>"; };
     if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
     office_ = std::make_unique<office::Office>(o);
@@ -65,10 +66,10 @@ class Opened {
     return {"https://127.0.0.1:" + std::to_string(port()), certificate(), to_hex(testing_ledger::School::key().public_key),
             load_station_key(station_key_path())};
   }
-  /// The next code of the officer's second factor.
-  [[nodiscard]] std::string code() const {
+  /// A code of the officer's second factor: of this half minute, or of one beside it, which is good, too. Each is good once, and none before it then.
+  [[nodiscard]] std::string code(int steps_on = 0) const {
     const auto secret = office::from_base32(accounts().of(name_of(office::Role::officer))->code_secret);
-    return office::one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s));
+    return office::one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s + steps_on));
   }
   /// A class list as the page sends it.
   [[nodiscard]] static nlohmann::json list(const std::string& text, const std::vector<std::string>& answers = {}) {

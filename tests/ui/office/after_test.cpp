@@ -1,0 +1,86 @@
+// What becomes of results at the office: an appeal with its trail, a result that is taken back, and the report of an exam as a page of no site.
+#include "engine/base/hash.h"
+#include "grading/ledger/signed_note.h"
+#include "tests/ui/office/opened.h"
+
+namespace cavum::office {
+namespace {
+
+using namespace testing_office;
+using namespace testing_ledger;
+using nlohmann::json;
+
+/// An office with one exam that is filed.
+class AfterTheExam : public testing::Test {
+ protected:
+  void SetUp() override {
+    ASSERT_EQ(opened_.issue(officer_, "4711\n").status, 200);
+    auto station = opened_.station();
+    const Bytes image = read_file(opened_.school().sit(station.tickets()[0]["text"]));
+    hash_ = to_hex(sha256(image));
+    station.hand_in(image);
+    const json filed = Opened::outcome(station, hash_);
+    ASSERT_EQ(filed["state"], "filed") << filed;
+    session_ = filed["entry"];
+  }
+  [[nodiscard]] ledger::LedgerEntry last() const { return opened_.content().entries.back(); }
+  [[nodiscard]] json appeal() const { return examiner_.get("/api/appeals").json()["appeals"][0]; }
+
+  Opened opened_;
+  Visitor officer_ = opened_.signed_in(Role::officer), examiner_ = opened_.signed_in(Role::examiner);
+  std::string hash_;
+  std::uint64_t session_ = 0;
+};
+
+TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWithReason) {
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}}).status, 400) << "without a reason";
+  EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status, 403);
+  EXPECT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).status, 400) << "nothing to decide";
+  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
+  EXPECT_EQ(last().kind, "appeal");
+  EXPECT_EQ(last().body["account"], "The officer");
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "again"}}).status, 400);
+  EXPECT_EQ(appeal()["open"], true);
+  EXPECT_FALSE(appeal().contains("name")) << "an examiner sees no name";
+  EXPECT_EQ(officer_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 403);
+  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "x"}}).status, 400) << "nothing changed";
+  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}}).status, 200);
+  ASSERT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "measured again"}}).status, 200);
+  EXPECT_EQ(last().body["account"], "The examiner");
+  EXPECT_EQ(appeal()["open"], false);
+  EXPECT_EQ(appeal()["answer"], "measured again");
+  EXPECT_EQ(appeal()["verdict"], "fail");
+  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 400) << "once";
+  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+}
+
+TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
+  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  ASSERT_NE(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
+  EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", "000000"}}).status, 400);
+  EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"code", opened_.code()}}).status, 400) << "without a reason";
+  ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code(1)}}).status, 200);
+  EXPECT_EQ(last().kind, "retract");
+  EXPECT_EQ(last().body["reason"], "wrong tooth");
+  EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
+  EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "ready");
+  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+}
+
+TEST_F(AfterTheExam, AReportRunsItsOwnScriptAloneAndReachesNothingOfTheOffice) {
+  EXPECT_EQ(examiner_.get("/api/queue").status, 200);
+  const Heard report = examiner_.get("/api/report/" + hash_);
+  ASSERT_EQ(report.status, 200) << report.body;
+  EXPECT_NE(report.body.find(hash_), std::string::npos);
+  const std::string policy = report.fields.at("content-security-policy");
+  EXPECT_NE(policy.find("script-src 'sha256-" + ledger::to_base64(sha256(std::string("1"))) + "';"), std::string::npos) << policy;
+  EXPECT_NE(policy.find("sandbox allow-scripts"), std::string::npos);
+  for (const char* no : {"allow-same-origin", "allow-top-navigation", "connect-src", "script-src 'unsafe-inline'"})
+    EXPECT_EQ(policy.find(no), std::string::npos) << policy;
+  EXPECT_EQ(examiner_.get("/api/report/" + std::string(64, 'a')).status, 400) << "not filed";
+  EXPECT_EQ(opened_.signed_in(Role::invigilator).get("/api/report/" + hash_).status, 403);
+  EXPECT_EQ(opened_.visitor().get("/api/report/" + hash_).status, 401);
+}
+
+}  // namespace
+}  // namespace cavum::office
