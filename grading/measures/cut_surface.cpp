@@ -124,7 +124,8 @@ std::array<Sample, scenarios::k_walls> thickest_left(const GradeInput& input, co
   return thickest;
 }
 
-std::array<WallMeasures, scenarios::k_walls> wall_measures(WallSurface& surface, const std::array<Sample, scenarios::k_walls>& furthest,
+std::array<WallMeasures, scenarios::k_walls> wall_measures(const GradeInput& input, WallSurface& surface,
+                                                           const std::array<Sample, scenarios::k_walls>& furthest,
                                                            const std::array<Sample, scenarios::k_walls>& thickest, double bound_mm) {
   std::array<WallMeasures, scenarios::k_walls> walls;
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
@@ -135,6 +136,10 @@ std::array<WallMeasures, scenarios::k_walls> wall_measures(WallSurface& surface,
     if (furthest[w].deviation_mm > walls[w].max_over_mm) {
       walls[w].max_over_mm = furthest[w].deviation_mm;
       walls[w].worst_over = {furthest[w].tick, furthest[w].place};
+    }
+    if (walls[w].worst_over.tick >= 0) {
+      const scenarios::Zone zone = input.zones.zone(input.before.octree.leaf_at(walls[w].worst_over.site_mm));
+      walls[w].over_outside = zone == scenarios::Zone::none || zone == scenarios::Zone::protected_;
     }
     // a wall without a cut has no value
     if (walls[w].samples > 0 && -thickest[w].deviation_mm > walls[w].max_under_mm) {
@@ -208,7 +213,7 @@ ShapeMeasures measure_shape(const GradeInput& input, const RemovedMap& removed, 
   m.facing = input.zones.facing();
   m.bound_mm = leaf_mm + input.surface_bound_mm;  // half a leaf of the target's distance, half a leaf of the cut surface
   WallSurface surface = sample_walls(input, removed, last_tick);
-  m.wall = wall_measures(surface, furthest_removed(input, removed, last_tick), thickest_left(input, removed), m.bound_mm);
+  m.wall = wall_measures(input, surface, furthest_removed(input, removed, last_tick), thickest_left(input, removed), m.bound_mm);
   put_outline(m, cavity_outlines(input, removed, last_tick), leaf_mm);
   put_depth(m, input.zones, deepest_cut(input, removed, last_tick), removed.count() > 0);
   if (surface.across > 0) m.taper_deg = atan_deg(surface.up / surface.across);

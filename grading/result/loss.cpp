@@ -133,7 +133,9 @@ Loss at_walls(const Result& r, const Asked& a) {
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   Loss loss{{}, t};
-  if (over)
+  if (over && m.over_outside)
+    loss.text = fmt::format("cut outside the container, up to {} mm beyond {}", fixed(m.max_over_mm, 2), wall_text(worst, r.shape.facing));
+  else if (over)
     loss.text = fmt::format("{} overcut by up to {} mm", wall_text(worst, r.shape.facing), fixed(m.max_over_mm, 2));
   else if (under)
     loss.text = fmt::format("{} left up to {} mm thick", wall_text(worst, r.shape.facing), fixed(m.max_under_mm, 2));

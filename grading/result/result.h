@@ -67,6 +67,7 @@ struct WallMeasures {
   double mean_mm = 0.0, p95_mm = 0.0, max_over_mm = 0.0, max_under_mm = 0.0;
   /// Of the mean and the 95th percentile; of the largest it is ShapeMeasures::bound_mm.
   double mean_bound_mm = 0.0, p95_bound_mm = 0.0;
+  bool over_outside = false;      ///< `worst_over` lies beyond the container: what was cut there is no wall of the cavity
   Trace worst_over, worst_under;  ///< worst_under without a tick where the thickest place was never cut
 };
 

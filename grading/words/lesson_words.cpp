@@ -138,13 +138,16 @@ class Teller {
   void beside(Lesson& l) const {
     const ZoneVolume &out = r_.volumes.zone[row_of(Zone::container_sides)], &near = r_.volumes.zone[row_of(Zone::leeway_sides)];
     std::size_t w = largest(out.removed.mm3 > 0 ? out.by_wall_mm3 : near.by_wall_mm3, scenarios::k_walls);
-    if (w == row_of(scenarios::Wall::floor)) w = worst_side();
+    if (w == row_of(scenarios::Wall::floor)) w = worst_side(r_);
+    const bool all_round = walls_as_wide() >= 3;
+    if (all_round) w = worst_side(r_);
     const WallMeasures& m = r_.shape.wall[w];
     l.where = m.worst_over;
     if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     const Trace& first = out.removed.mm3 > 0 ? out.first : near.first;
-    l.what = fmt::format("The cavity became too wide: {} was cut by up to {} beyond its outline{}.", wall(w), mm(std::max(0.0, m.max_over_mm)),
-                         from(first));
+    const std::string far = mm(std::max(0.0, m.max_over_mm));
+    l.what = all_round ? fmt::format("The cavity became too wide all round, by up to {} at {}{}.", far, wall(w), from(first))
+                       : fmt::format("The cavity became too wide: {} was cut by up to {} beyond its outline{}.", wall(w), far, from(first));
     l.instead = "Stop at the outline, with the side of the point on the wall and not its tip.";
     if (const std::string lean = lean_at(w); !lean.empty()) l.instead += " " + lean;
   }
@@ -280,11 +283,13 @@ class Teller {
   static bool is_outside(const PerforationTruth& p) { return p.tissue == "periodontium"; }
   [[nodiscard]] bool one_canal() const { return r_.access.canal_mouths.size() == 1; }
 
-  [[nodiscard]] std::size_t worst_side() const {
-    std::size_t worst = 0;
-    for (std::size_t w = 0; w < 4; ++w)
-      if (r_.shape.wall[w].max_over_mm > r_.shape.wall[worst].max_over_mm) worst = w;
-    return worst;
+  /// Side walls that were cut nearly as far beyond the outline as the furthest.
+  [[nodiscard]] int walls_as_wide() const {
+    constexpr double k_as_far = 0.6;
+    const double most = r_.shape.wall[worst_side(r_)].max_over_mm;
+    int walls = 0;
+    for (std::size_t w = 0; w < scenarios::k_side_walls; ++w) walls += most > 0 && r_.shape.wall[w].max_over_mm >= k_as_far * most ? 1 : 0;
+    return walls;
   }
 
   /// How the handpiece leaned while a wall was cut beyond its outline; empty when it stood along the way in, or nobody knows.
@@ -315,6 +320,13 @@ class Teller {
 }  // namespace
 
 /// What must not be opened was reached through the floor: the same mistake as a floor that is too deep.
+std::size_t worst_side(const Result& r) {
+  std::size_t worst = 0;
+  for (std::size_t w = 0; w < scenarios::k_side_walls; ++w)
+    if (r.shape.wall[w].max_over_mm > r.shape.wall[worst].max_over_mm) worst = w;
+  return worst;
+}
+
 bool opened_through_floor(const GradeInput& in, const Result& r) {
   const PerforationTruth& p = r.perforation.fault;
   return p.perforated && p.first.tick >= 0 && in.zones.wall(in.before.octree.leaf_at(p.first.site_mm)) == scenarios::Wall::floor &&

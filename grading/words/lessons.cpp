@@ -56,15 +56,13 @@ Shares by_ends(const Result& r, std::size_t first) {
 }
 
 /// Whether the furthest overcut of the walls that a measure looks at is no wall of the cavity, but a cut elsewhere.
-bool is_cut_elsewhere(const GradeInput& in, const Result& r, const scenarios::Measure& m) {
+bool is_cut_elsewhere(const Result& r, const scenarios::Measure& m) {
   const WallMeasures* worst = nullptr;
   for (std::size_t w = m.first_wall; w < std::min(m.first_wall + m.walls, scenarios::k_walls); ++w)
     if (worst == nullptr || r.shape.wall[w].max_over_mm > worst->max_over_mm) worst = &r.shape.wall[w];
   if (worst == nullptr || worst->worst_over.tick < 0 || worst == &r.shape.wall[row_of(scenarios::Wall::floor)]) return false;
-  const Zone zone = in.zones.zone(in.before.octree.leaf_at(worst->worst_over.site_mm));
   const auto removed = [&r](Zone z) { return r.volumes.zone[row_of(z)].removed.mm3; };
-  return (zone == Zone::none || zone == Zone::protected_) &&
-         r.volumes.outside().mm3 > removed(Zone::container_sides) + removed(Zone::container_bottom);
+  return worst->over_outside && r.volumes.outside().mm3 > removed(Zone::container_sides) + removed(Zone::container_bottom);
 }
 
 /// One mistake that several measures see is named once: tissue over the chamber stands over the canals' mouths as well.
@@ -76,8 +74,28 @@ void join(std::map<Topic, Lesson>& by_topic, Topic from, Topic to) {
   by_topic.erase(found);
 }
 
+/// Within a slip of what must not be opened: the point went through there, and what it cut then is the same mistake.
+bool in_that_slip(const Trace& opened, const Trace& cut) {
+  constexpr double k_slip_s = 5;
+  return opened.timed() && cut.timed() && std::fabs(cut.t_s() - opened.t_s()) <= k_slip_s;
+}
+
+/// Nearly all that was cut elsewhere, beside the floor, was cut in that slip.
+bool elsewhere_in_that_slip(const GradeInput& in, const Trace& opened) {
+  constexpr double k_nearly_all = 0.9;
+  double all = 0, then = 0;
+  for (const RemovedAt& r : in.removed) {
+    const IVec3 leaf = r.leaf.leaf();
+    const Zone zone = in.zones.zone(leaf);
+    if ((zone != Zone::none && zone != Zone::protected_) || in.zones.wall(leaf) == scenarios::Wall::floor) continue;
+    all += 1;
+    then += in_that_slip(opened, {r.tick, {}}) ? 1 : 0;
+  }
+  return then >= k_nearly_all * all;
+}
+
 /// What a criterion's value is charged for.
-Shares charged_for(const GradeInput& in, const Result& r, const scenarios::Measure& m) {
+Shares charged_for(const Result& r, const scenarios::Measure& m) {
   if (m.name == "overhang_mm3") return {{Topic::roof, 1}};
   if (m.name == "canals_covered_percent") return {{Topic::canals, 1}};
   if (m.name == "taper_deg" || m.name == "taper_error_deg") return {{Topic::taper, 1}};
@@ -88,17 +106,17 @@ Shares charged_for(const GradeInput& in, const Result& r, const scenarios::Measu
   if (m.name.starts_with("outline_length")) return by_ends(r, 0);
   if (m.name.starts_with("outline_width")) return by_ends(r, 2);
   if (m.name.starts_with("depth_")) return {{r.shape.depth_mm.value_or(0) > r.shape.target_depth_mm ? Topic::too_deep : Topic::left_standing, 1}};
-  if (m.family != nullptr && m.key() == scenarios::k_wall_family && m.figure != scenarios::WallFigure::max_under && is_cut_elsewhere(in, r, m))
+  if (m.family != nullptr && m.key() == scenarios::k_wall_family && m.figure != scenarios::WallFigure::max_under && is_cut_elsewhere(r, m))
     return {{Topic::elsewhere, 1}};
   if (m.name.starts_with("force_")) return {{Topic::force, 1}};
   return by_volume(r, m.counts);
 }
 
-Shares shares_of(const GradeInput& in, const Result& r, const CriterionResult& c) {
+Shares shares_of(const Result& r, const CriterionResult& c) {
   const double lost = c.max - c.points;
   // care that counts in part only: what is missing of it is missing work
   const double by_value = c.value && c.work_share > 0 ? c.max - c.points / c.work_share : 0;
-  Shares charged = charged_for(in, r, scenarios::known_measure(c.metric)), out;
+  Shares charged = charged_for(r, scenarios::known_measure(c.metric)), out;
   double sum = 0;
   for (const auto& [topic, part] : charged) sum += part;
   if (charged.empty()) charged[Topic::other] = 0;
@@ -133,7 +151,7 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
   std::map<Topic, Lesson> by_topic;
   for (const auto& c : result.criteria) {
     if (!c.judged || (!(c.max - c.points > 0) && !c.critical_failed)) continue;
-    const Shares shares = shares_of(input, result, c);
+    const Shares shares = shares_of(result, c);
     const auto main = std::max_element(shares.begin(), shares.end(), [](const auto& a, const auto& b) { return a.second < b.second; });
     for (const auto& [topic, points] : shares) {
       by_topic[topic].points += points;
@@ -142,6 +160,11 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
   }
   if (by_topic.contains(Topic::roof)) join(by_topic, Topic::canals, Topic::roof);
   if (opened_through_floor(input, result)) join(by_topic, Topic::opened, Topic::too_deep);
+  if (const PerforationTruth& fault = result.perforation.fault; fault.perforated) {
+    const Topic slip = by_topic.contains(Topic::too_deep) ? Topic::too_deep : Topic::opened;
+    if (by_topic.contains(slip) && elsewhere_in_that_slip(input, fault.first)) join(by_topic, Topic::elsewhere, slip);
+    if (by_topic.contains(slip) && in_that_slip(fault.first, result.shape.wall[worst_side(result)].worst_over)) join(by_topic, Topic::beside, slip);
+  }
   std::vector<Lesson> all;
   for (auto& [topic, lesson] : by_topic) {
     if (lesson.points <= k_least_points && !lesson.fails_exam) continue;

@@ -108,6 +108,10 @@ std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession&
   return b;
 }
 
+bool is_practice(const grading::GradedSession& s) {
+  return std::any_of(s.notes.begin(), s.notes.end(), [](const auto& note) { return note.first == "practice"; });
+}
+
 /// The report of one session, as a file of that name holds it.
 struct MadeReport {
   std::string text;
@@ -124,6 +128,8 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   const grading::GradeInput input = m.session->input();
   if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), m.result.verdict, {}};
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
+  if (filed == nullptr && o.for_whom() == report::ReportReader::student && m.session->scenario.hold_results && !is_practice(*m.session))
+    throw Error(session, "its scenario holds results until the school releases them", "name the ledger that holds it: --ledger");
   report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();

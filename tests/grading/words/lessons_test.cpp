@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "engine/tooth/anatomy/tooth_number.h"
 #include "grading/result/loss.h"
@@ -96,6 +97,25 @@ TEST_F(Lessons, AWallThatWasCutTooFarIsNamedWithItsTime) {
   EXPECT_NEAR(all[0].points, 20 * (0.8 - 0.3) / 0.7 + 20, 4);
 }
 
+TEST_F(Lessons, WallsThatWereAllCutTooFarAreOneSentence) {
+  work_.carve(box_hole(-2.1, 2.1, -1.6, 1.6, -2), 500);  // 0.6 mm too far all round, at the corners 0.85
+  const auto all = of();
+  ASSERT_FALSE(all.empty());
+  EXPECT_EQ(all[0].topic, Topic::beside);
+  EXPECT_NE(all[0].what.find("too wide all round, by up to 0.8"), std::string::npos) << all[0].what;
+}
+
+TEST_F(Lessons, ADentFarFromTheCavityIsNoWallOfIt) {
+  work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+  work_.carve(box_hole(3.4, 3.7, -0.5, 0.5, -0.3), 900);
+  static_cast<void>(of());
+  for (const auto& c : result_.criteria) {
+    if (c.metric != "side_walls_max_over_mm") continue;
+    EXPECT_EQ(c.reason.find("overcut"), std::string::npos) << c.reason;
+    EXPECT_NE(c.reason.find("cut outside the container, up to 2."), std::string::npos) << c.reason;
+  }
+}
+
 TEST_F(Lessons, AFloorThatIsTooDeepIsNamedWithItsPlace) {
   work_.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
   work_.carve(box_hole(-1.4, -0.7, 0.4, 1, -2.9), 61'000);
@@ -154,6 +174,29 @@ std::vector<Lesson> of_chamber(double down_to_z, double open_x) {
 const Lesson* of_topic(const std::vector<Lesson>& all, Topic topic) {
   const auto found = std::find_if(all.begin(), all.end(), [topic](const Lesson& l) { return l.topic == topic; });
   return found == all.end() ? nullptr : &*found;
+}
+
+TEST(LessonsOfAChamber, WhatASlipCutsBehindTheOpeningIsTheSameMistake) {
+  const auto topics = [](std::int64_t slip_tick) {
+    Carved work(box_task(), testing::chambered_block(0.1));
+    work.carve(box_hole(-1.5, 1.5, -1, 1, -2), 500);
+    work.carve(box_hole(-0.5, 0.5, -0.5, 0.5, -3.5), 61'000);
+    work.carve(box_hole(2.9, 3.5, -1, 1, -1), slip_tick);
+    scenarios::RubricSpec rubric = box_rubric();
+    scenarios::CriterionSpec opened;
+    opened.id = opened.title = opened.metric = "perforated";
+    opened.full = 0, opened.zero = 1, opened.points = 10;
+    rubric.criteria.push_back(opened);
+    Result r = work.graded();
+    mark(r, rubric);
+    std::map<Topic, double> points;
+    for (const auto& l : lessons(work.input(), r)) points[l.topic] = l.points;
+    return points;
+  };
+  const auto slip = topics(62'000), apart = topics(90'000);
+  EXPECT_FALSE(slip.contains(Topic::elsewhere));
+  ASSERT_TRUE(apart.contains(Topic::elsewhere));
+  EXPECT_NEAR(slip.at(Topic::too_deep), apart.at(Topic::too_deep) + apart.at(Topic::elsewhere), 0.02);
 }
 
 TEST(LessonsOfAChamber, WhoOpenedItIsNotToldToGoDeeper) {
