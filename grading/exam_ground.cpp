@@ -35,6 +35,7 @@ ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
 
 std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where) {
   const std::string content = content_of(session);
+  const std::lock_guard lock(mutex_);
   Kept& kept = by_content_[content];
   if (!kept.ground) {
     try {

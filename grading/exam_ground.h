@@ -4,6 +4,7 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "engine/session/session.h"
@@ -28,7 +29,7 @@ struct ExamGround {
   mutable KnownTooth known;
 };
 
-/// Keeps the last few grounds that were asked for.
+/// Keeps the last few grounds that were asked for. Any number of threads may ask: one makes a ground, those who want the same wait for it.
 class ExamGrounds {
  public:
   ExamGrounds() = default;
@@ -42,6 +43,7 @@ class ExamGrounds {
     std::shared_ptr<const ExamGround> ground;
     std::uint64_t asked = 0;
   };
+  std::mutex mutex_;
   std::map<std::string, Kept> by_content_;
   std::uint64_t asked_ = 0;
 };

@@ -19,7 +19,11 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
 }
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds) {
-  const SessionReader reader(path);
+  return load_for_grading(SessionReader(path), grounds);
+}
+
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, ExamGrounds& grounds) {
+  const std::string& path = reader.path();
   reader.require_readable();
   if (!reader.closed())
     throw Error(path, "this exam was not closed",
