@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/session/session.h"
+#include "engine/tooth/known_fits.h"
 #include "grading/breakthrough/known_tooth.h"
 #include "grading/measures/apart.h"
 #include "scenarios/file/scenario.h"
@@ -20,10 +21,12 @@ struct ExamSetup;
 namespace cavum::grading {
 
 struct ExamGround {
-  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it);
+  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it = {});
   ExamGround(const ExamGround&) = delete;  // `known` refers to it
   ExamGround& operator=(const ExamGround&) = delete;
-  const Tooth tooth;  ///< before the first tick
+  const Tooth tooth;       ///< before the first tick
+  const KnownFits fits;    ///< of it; may be null
+  const std::string hash;  ///< of it
   const scenarios::ZoneMap zones;
   const std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
   mutable KnownTooth known;
