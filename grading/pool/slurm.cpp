@@ -29,7 +29,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_patience_s = 300;  // for a controller that does not answer
+constexpr double k_patience_s = 300;        // for a controller that does not answer
+constexpr std::size_t k_most_tasks = 1000;  // of an array: Slurm's MaxArraySize is 1001 unless set otherwise
 
 struct Said {
   int code = -1;
@@ -122,12 +123,19 @@ std::string script_of(const Slurm& slurm, const Work& work, int attempt) {
 
 std::string blocks_file(const std::string& folder, int attempt) { return fmt::format("{}/blocks-{}.json", folder, attempt); }
 
+/// As many as hold at least `a_task` sessions each, whose sizes differ by one at most: while a larger one ends the other nodes would be idle.
+json blocks_of(const std::vector<std::size_t>& wanted, std::size_t a_task) {
+  json blocks = json::array();
+  const std::size_t count = std::clamp<std::size_t>(wanted.size() / a_task, 1, k_most_tasks);
+  for (std::size_t b = 0; b < count; ++b)
+    blocks.push_back(std::vector<std::size_t>(wanted.begin() + static_cast<std::ptrdiff_t>(wanted.size() * b / count),
+                                              wanted.begin() + static_cast<std::ptrdiff_t>(wanted.size() * (b + 1) / count)));
+  return blocks;
+}
+
 /// Hands the blocks to sbatch; returns the job's number.
 std::string submit(const Slurm& slurm, const Work& work, const std::vector<std::size_t>& wanted, int attempt) {
-  json blocks = json::array();
-  for (std::size_t i = 0; i < wanted.size(); i += slurm.a_task)
-    blocks.push_back(std::vector<std::size_t>(wanted.begin() + static_cast<std::ptrdiff_t>(i),
-                                              wanted.begin() + static_cast<std::ptrdiff_t>(std::min(wanted.size(), i + slurm.a_task))));
+  const json blocks = blocks_of(wanted, slurm.a_task);
   write_text_file(blocks_file(slurm.folder, attempt), blocks.dump());
   const std::string script = fmt::format("{}/task-{}.sh", slurm.folder, attempt);
   write_text_file(script, script_of(slurm, work, attempt));

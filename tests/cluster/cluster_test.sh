@@ -33,6 +33,9 @@ export SLURM_CONF=$work/cluster/slurm.conf
 
 "$cavum" verify-all "$work/s" --slurm --work "$work/whole" --out "$work/slurm" | sed 's/^/two nodes: /'
 cmp "$work/threads" "$work/slurm" || fail "the cluster gives other lines"
+tasks=$(sed 's/\],*/\n/g' "$work/whole/blocks-1.json" | awk -F, '/[0-9]/ { print NF }' | sort -n | xargs)
+awk -v count="$count" -v sizes="$tasks" 'BEGIN { n = split(sizes, of, " "); for (i in of) sum += of[i]
+  exit !(sum == count && (n == 1 || of[1] >= 50) && of[n] - of[1] <= 1) }' || fail "tasks are uneven, or below 50 sessions: $tasks"
 
 # the same with a node that dies: its daemon and what it runs
 "$cavum" verify-all "$work/s" --slurm --work "$work/broken" --out "$work/killed" >"$work/said" 2>&1 &
