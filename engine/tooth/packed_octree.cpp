@@ -336,7 +336,7 @@ class Walk {
     const std::size_t context = (((bend * 19 + errors) * 3 + limit) * 2 + first) * 4 + (errors < 9 ? part : 0);
     return {static_cast<std::uint16_t>(context), static_cast<std::int8_t>(expected)};
   }
-  static constexpr std::size_t k_fit_contexts = 13 * 19 * 3 * 2 * 4;
+  static constexpr std::size_t k_fit_contexts = std::size_t{13} * 19 * 3 * 2 * 4;
 
   struct Residual {
     AdaptiveBit zero, positive;
@@ -414,7 +414,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
   if (bricks > k_most_bricks) throw Error("tooth", fmt::format("too much detail for a tooth file: {} bricks", bricks), "use a larger leaf");
   RangeEncoder coder;
-  Walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
+  const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
   out.put_bytes(std::span(whole.bytes()).first(k_head_bytes));
   out.put(static_cast<std::uint32_t>(bricks));
@@ -432,7 +432,7 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const Pa
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), "tooth");
   RangeDecoder coder(bits);
   Streams streams;
-  Walk(coder, streams, tissues, levels, bricks, full, like, keep);
+  const Walk walk(coder, streams, tissues, levels, bricks, full, like, keep);
   if (bits.left() != 0) in.fail("data after the end of the octree");
   for (std::size_t i = streams.distance.size(); i-- > 0;)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] - streams.distance[i - 1]);

@@ -149,7 +149,7 @@ std::string submit(const Slurm& slurm, const Work& work, const std::vector<std::
   words.insert(words.end(), slurm.sbatch.begin(), slurm.sbatch.end());
   words.push_back(script);
   const Said said = run_program(words);
-  const std::string job = said.text.substr(0, said.text.find_first_of(";\n"));
+  std::string job = said.text.substr(0, said.text.find_first_of(";\n"));
   if (said.code != 0 || job.empty() || job.find_first_not_of("0123456789") != std::string::npos)
     throw Error("sbatch", fmt::format("refused the work: {}", one_line(said.text)), "check the cluster with `sinfo`, and the options after --sbatch");
   return job;

@@ -28,7 +28,7 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 }
 
 /// Makes the lines of `wanted`, some at the same time; `take` gets each. Returns those that could not be made.
-std::vector<std::size_t> make(const Work& work, std::vector<std::size_t> wanted, std::size_t threads, const Run& run,
+std::vector<std::size_t> make(const Work& work, const std::vector<std::size_t>& wanted, std::size_t threads, const Run& run,
                               const std::function<void(std::size_t, std::string, const Spent&)>& take) {
   struct Wanted {
     std::size_t index = 0;
