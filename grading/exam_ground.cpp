@@ -26,8 +26,12 @@ std::string content_of(const SessionSetup& session) {
 
 }  // namespace
 
-ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it)
-    : tooth(std::move(tooth_before)), zones(std::move(zones_of_it)), apart(take_apart(tooth)), known(tooth, apart ? apart->own : tooth) {}
+ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it)
+    : tooth(std::move(tooth_before)),
+      fits(std::move(fits_of_it)),
+      zones(std::move(zones_of_it)),
+      apart(take_apart(tooth)),
+      known(tooth, apart ? apart->own : tooth) {}
 
 ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
   by_content_[content_of(exam.session)] = {std::make_shared<const ExamGround>(exam.tooth, exam.zones), ++asked_};
@@ -35,12 +39,14 @@ ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
 
 std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where) {
   const std::string content = content_of(session);
+  const std::lock_guard lock(mutex_);
   Kept& kept = by_content_[content];
   if (!kept.ground) {
     try {
-      Tooth tooth = load_tooth(session.tooth, where + ": tooth");
+      KnownFits fits;
+      Tooth tooth = load_tooth_like(session.tooth, where + ": tooth", nullptr, &fits);
       scenarios::ZoneMap zones = scenarios::build_zones_of_exam(scenario, tooth, session.landmarks_json, where);
-      kept.ground = std::make_shared<const ExamGround>(std::move(tooth), std::move(zones));
+      kept.ground = std::make_shared<const ExamGround>(std::move(tooth), std::move(zones), std::move(fits));
     } catch (...) {
       by_content_.erase(content);
       throw;

@@ -4,9 +4,11 @@
 
 #include <map>
 #include <memory>
+#include <mutex>
 #include <string>
 
 #include "engine/session/session.h"
+#include "engine/tooth/known_fits.h"
 #include "grading/breakthrough/known_tooth.h"
 #include "grading/measures/apart.h"
 #include "scenarios/file/scenario.h"
@@ -19,16 +21,18 @@ struct ExamSetup;
 namespace cavum::grading {
 
 struct ExamGround {
-  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it);
+  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it = {});
   ExamGround(const ExamGround&) = delete;  // `known` refers to it
   ExamGround& operator=(const ExamGround&) = delete;
-  const Tooth tooth;  ///< before the first tick
+  const Tooth tooth;       ///< before the first tick
+  const KnownFits fits;    ///< of it; may be null
+  const std::string hash;  ///< of it
   const scenarios::ZoneMap zones;
   const std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
   mutable KnownTooth known;
 };
 
-/// Keeps the last few grounds that were asked for.
+/// Keeps the last few grounds that were asked for. Any number of threads may ask: one makes a ground, those who want the same wait for it.
 class ExamGrounds {
  public:
   ExamGrounds() = default;
@@ -42,6 +46,7 @@ class ExamGrounds {
     std::shared_ptr<const ExamGround> ground;
     std::uint64_t asked = 0;
   };
+  std::mutex mutex_;
   std::map<std::string, Kept> by_content_;
   std::uint64_t asked_ = 0;
 };

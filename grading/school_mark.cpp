@@ -76,7 +76,7 @@ class EventsAgain {
   }
 
   [[nodiscard]] std::vector<std::string> servo_findings() const { return scenarios::check_servo(setup_.servo_toml, scenario_); }
-  [[nodiscard]] const Tooth& start_tooth() const noexcept { return ground_->tooth; }
+  [[nodiscard]] VerifyTeeth teeth(Tooth& final_tooth) const noexcept { return {&ground_->tooth, ground_->fits.get(), &final_tooth}; }
   /// Those of the motion, and what else the station recorded.
   [[nodiscard]] std::vector<SessionEvent> events() const {
     std::vector<SessionEvent> all = again_;
@@ -191,7 +191,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
     events->see(tick, input, output, state);
   };
-  out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, {events ? &events->start_tooth() : nullptr, &final_tooth});
+  out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, events ? events->teeth(final_tooth) : VerifyTeeth{});
   out.findings.insert(out.findings.begin(), out.replay.findings.begin(), out.replay.findings.end());
   if (events)
     for (auto& f : events->servo_findings()) out.findings.push_back(std::move(f));

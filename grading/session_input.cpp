@@ -12,6 +12,41 @@
 #include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
+namespace {
+
+/// `after_of` gives the tooth at the end.
+template <class After>
+std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGrounds& grounds, const After& after_of) {
+  const std::string& path = reader.path();
+  SessionSetup setup = reader.setup();
+  auto s = std::make_unique<GradedSession>();
+  s->scenario = scenario_in(setup, path);
+  s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
+  s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
+  s->ground = grounds.of(s->scenario, setup, path);
+  const auto& ground = s->ground;
+  s->before = {ground, &ground->tooth};
+  s->after = after_of(*ground);
+  s->zones = {ground, &ground->zones};
+  s->inputs = reader.inputs();
+  s->records = reader.records();
+  s->removed = reader.removed();
+  s->events = reader.events();
+  if (s->apart = ground->apart; s->apart) {
+    s->own = take_apart(*s->apart, s->after.octree, s->removed);
+    s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
+  }
+  s->sealed_result_json = reader.result_json();
+  s->notes = setup.notes;
+  s->landmarks_json = setup.landmarks_json;
+  s->landmarks_anew = s->landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
+  s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, ground->hash, setup.calibration,
+              setup.points_toml, setup.notes};
+  if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);
+  return s;
+}
+
+}  // namespace
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
   ExamGrounds grounds;
@@ -19,7 +54,11 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
 }
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds) {
-  const SessionReader reader(path);
+  return load_for_grading(SessionReader(path), grounds);
+}
+
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, ExamGrounds& grounds) {
+  const std::string& path = reader.path();
   reader.require_readable();
   if (!reader.closed())
     throw Error(path, "this exam was not closed",
@@ -27,7 +66,8 @@ std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGro
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
     throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
-  return load_for_grading(reader, load_tooth(reader.final_tooth(), path + ": final tooth"), grounds);
+  return load_with(reader, grounds,
+                   [&](const ExamGround& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }
 
 scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
@@ -43,33 +83,7 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
 }
 
 std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamGrounds& grounds) {
-  const std::string& path = reader.path();
-  SessionSetup setup = reader.setup();
-  auto s = std::make_unique<GradedSession>();
-  s->scenario = scenario_in(setup, path);
-  s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
-  s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
-  s->ground = grounds.of(s->scenario, setup, path);
-  const auto& ground = s->ground;
-  s->before = {ground, &ground->tooth};
-  s->after = std::move(after);
-  s->zones = {ground, &ground->zones};
-  s->inputs = reader.inputs();
-  s->records = reader.records();
-  s->removed = reader.removed();
-  s->events = reader.events();
-  if (s->apart = ground->apart; s->apart) {
-    s->own = take_apart(*s->apart, s->after.octree, s->removed);
-    s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
-  }
-  s->sealed_result_json = reader.result_json();
-  s->notes = setup.notes;
-  s->landmarks_json = setup.landmarks_json;
-  s->landmarks_anew = s->landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
-  s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, tooth_hash(*s->before), setup.calibration,
-              setup.points_toml, setup.notes};
-  if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);
-  return s;
+  return load_with(reader, grounds, [&](const ExamGround&) { return std::move(after); });
 }
 
 void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool another_task) {

@@ -58,6 +58,8 @@ struct GradedSession {
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
 /// The same with tooth and zones out of `grounds`.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds);
+/// The same of a session that was read already.
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, ExamGrounds& grounds);
 /// The same for an exam that is just ending, with the tooth as it is now.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);

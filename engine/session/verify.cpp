@@ -89,7 +89,7 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
 
 void compare_final_tooth(const SessionReader& session, const Simulation& simulation, const VerifyTeeth& teeth, VerifyReport& report) {
   try {
-    Tooth kept = load_tooth(session.final_tooth(), session.path() + ": final_tooth.cvt");
+    Tooth kept = load_tooth_like(session.final_tooth(), session.path() + ": final_tooth.cvt", teeth.like);
     if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation)))
       report.findings.push_back("table artifact: the final tooth is not the one that the replay leaves");
     if (teeth.final_out != nullptr) *teeth.final_out = std::move(kept);

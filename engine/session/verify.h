@@ -10,6 +10,7 @@
 
 #include "engine/session/session_reader.h"
 #include "engine/session/simulation.h"
+#include "engine/tooth/known_fits.h"
 
 namespace cavum {
 
@@ -37,8 +38,9 @@ struct VerifyReport {
 
 /// Teeth that somebody else has, or wants to have: unpacking one takes as long as simulating a third of a minute.
 struct VerifyTeeth {
-  const Tooth* start = nullptr;  ///< the session's own, as it was read already; else it is read
-  Tooth* final_out = nullptr;    ///< receives the final tooth as the session keeps it, when the replay came to its end
+  const Tooth* start = nullptr;      ///< the session's own, as it was read already; else it is read
+  const PackedFits* like = nullptr;  ///< of that, as far as reading it found some
+  Tooth* final_out = nullptr;        ///< receives the final tooth as the session keeps it, when the replay came to its end
 };
 
 /// Throws Error only when the file cannot be read as a session at all; damage is in the report. With

@@ -25,6 +25,10 @@ class BrickLattice {
     fill({0, 0, 0}, levels, k_unknown);
   }
   [[nodiscard]] std::uint32_t operator[](IVec3 brick) const noexcept { return cell_[index(brick)]; }
+  [[nodiscard]] int bricks_along() const noexcept { return edge_ - 2; }
+  /// Of a brick in an array of `cells()`, the air around included.
+  [[nodiscard]] std::size_t place(IVec3 brick) const noexcept { return index(brick); }
+  [[nodiscard]] std::size_t cells() const noexcept { return cell_.size(); }
   void fill(IVec3 low, int level, std::uint32_t what) noexcept {
     const int n = 1 << level;
     for (int z = 0; z < n; ++z)

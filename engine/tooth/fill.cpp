@@ -54,32 +54,32 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
         return;
       }
   });
-  std::vector<std::uint8_t> filled(grid.count(), 0);
-  const TissueGrid before = grid;
+  constexpr std::uint8_t k_filled = 1, k_near = 2;  // one byte a leaf for both: a large tooth has 30 million
+  std::vector<std::uint8_t> marks(grid.count(), 0);
+  const auto is_filled = [&](IVec3 leaf) { return (marks[grid.index(leaf)] & k_filled) != 0; };
   for (std::size_t i = 0; i < reached.size(); ++i) {  // grows while it is walked
     const IVec3 leaf = reached[i];
-    if (filled[grid.index(leaf)] != 0) continue;
+    if (is_filled(leaf)) continue;
     for (const IVec3 step : k_beside)
       if (grid.inside(leaf + step) && solid[grid.tissue[grid.index(leaf + step)]]) {
         grid.tissue[grid.index(leaf)] = grid.tissue[grid.index(leaf + step)];
         break;
       }
-    filled[grid.index(leaf)] = 1;
+    marks[grid.index(leaf)] = k_filled;
     for (const IVec3 step : k_beside)
-      if (const IVec3 next = leaf + step; grid.inside(next) && filled[grid.index(next)] == 0 && tissues[before.tissue[before.index(next)]] &&
-                                          !solid[before.tissue[before.index(next)]])
+      if (const IVec3 next = leaf + step;
+          grid.inside(next) && !is_filled(next) && tissues[grid.tissue[grid.index(next)]] && !solid[grid.tissue[grid.index(next)]])
         reached.push_back(next);
   }
-  std::vector<std::uint8_t> near(grid.count(), 0);
   each_leaf(grid, [&](IVec3 leaf) {
-    if (filled[grid.index(leaf)] == 0) return;
+    if (!is_filled(leaf)) return;
     bool inner = true;  // all leaves beside it were filled, too, so that those beside them see to the rest
-    for (const IVec3 step : k_beside) inner = inner && grid.inside(leaf + step) && filled[grid.index(leaf + step)] != 0;
-    near[grid.index(leaf)] = 1;
-    if (!inner) around(grid, leaf, [&](IVec3 other, IVec3) { near[grid.index(other)] = 1; });
+    for (const IVec3 step : k_beside) inner = inner && grid.inside(leaf + step) && is_filled(leaf + step);
+    marks[grid.index(leaf)] |= k_near;
+    if (!inner) around(grid, leaf, [&](IVec3 other, IVec3) { marks[grid.index(other)] |= k_near; });
   });
   each_leaf(grid, [&](IVec3 leaf) {
-    if (near[grid.index(leaf)] != 0) grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));
+    if ((marks[grid.index(leaf)] & k_near) != 0) grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));
   });
   grid.make_consistent(tooth.tissues);
   Tooth out;

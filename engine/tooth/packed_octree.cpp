@@ -14,6 +14,8 @@
 
 #include <algorithm>
 #include <bit>
+#include <optional>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
@@ -35,11 +37,81 @@ struct Streams {
   Bytes shape, tissue, distance;
 };
 
+}  // namespace
+
+struct PackedFits {
+  static constexpr std::uint32_t k_no_full = ~0u;
+  struct Brick {
+    IVec3 at;            // in the lattice
+    std::uint32_t full;  // its number among the full ones, or k_no_full
+  };
+  /// What a leaf's distance is expected to be, and in which context the residual is coded.
+  struct Expected {
+    std::uint16_t context = 0;
+    std::int8_t code = 0;
+  };
+
+  std::array<bool, 256> solid;
+  BrickLattice lattice;
+  std::vector<Brick> brick;
+  Bytes tissue, distance;          // of the leaves of all bricks, and of the full ones
+  std::vector<Expected> expected;  // of the latter
+  std::vector<LeafLayers> layers;  // of the full bricks
+
+  /// The number of the full brick at a place; k_no_full when there is none.
+  [[nodiscard]] std::uint32_t full_at(IVec3 at) const noexcept {
+    const std::uint32_t what = lattice[at];
+    return what < BrickLattice::k_first_brick ? k_no_full : brick[what - BrickLattice::k_first_brick].full;
+  }
+};
+
+namespace {
+
+using Brick = PackedFits::Brick;
+using Expected = PackedFits::Expected;
+constexpr std::uint32_t k_no_full = PackedFits::k_no_full;
+
+/// Where an octree differs from one whose fits are known, or where what is known about it would come out differently. All other fits are taken over:
+/// the bricks of both are coded in the same order, so what lies around a brick is at that moment what it was then.
+class Differences {
+ public:
+  Differences(const PackedFits& like, const BrickLattice& lattice, const std::vector<Brick>& brick, const Bytes& tissue)
+      : lattice_(lattice), near_(lattice.cells(), 0) {
+    constexpr int k_reach = 2;  // a label changes the layers of the bricks beside it, and these what is guessed there
+    const int n = lattice.bricks_along();
+    for (int z = 0; z < n; ++z)
+      for (int y = 0; y < n; ++y)
+        for (int x = 0; x < n; ++x)
+          if (differ(like, lattice[{x, y, z}], like.lattice[{x, y, z}], brick, tissue)) note({x, y, z}, k_reach);
+  }
+  /// Something differs at `at`: bricks up to `reach` away are worked out anew.
+  void note(IVec3 at, int reach) noexcept {
+    const int last = lattice_.bricks_along() - 1;
+    const auto low = [&](int v) { return std::max(v - reach, 0); };
+    const auto high = [&](int v) { return std::min(v + reach, last); };
+    for (int z = low(at.z); z <= high(at.z); ++z)
+      for (int y = low(at.y); y <= high(at.y); ++y)
+        for (int x = low(at.x); x <= high(at.x); ++x) near_[lattice_.place({x, y, z})] = 1;
+  }
+  [[nodiscard]] bool near(IVec3 at) const noexcept { return near_[lattice_.place(at)] != 0; }
+
+ private:
+  static bool differ(const PackedFits& like, std::uint32_t is, std::uint32_t was, const std::vector<Brick>& brick, const Bytes& tissue) noexcept {
+    if (is < BrickLattice::k_first_brick || was < BrickLattice::k_first_brick) return is != was;
+    const std::size_t i = is - BrickLattice::k_first_brick, w = was - BrickLattice::k_first_brick;
+    if ((brick[i].full == k_no_full) != (like.brick[w].full == k_no_full)) return true;
+    return !std::equal(&tissue[i * k_leaves], &tissue[i * k_leaves] + k_leaves, &like.tissue[w * k_leaves]);
+  }
+  const BrickLattice& lattice_;
+  std::vector<std::uint8_t> near_;
+};
+
 /// One walk that writes (Coder = RangeEncoder) or reads (RangeDecoder) all three streams.
 template <class Coder>
 class Walk {
  public:
-  Walk(Coder& coder, Streams& streams, const std::vector<Tissue>& tissues, int levels, std::uint32_t bricks, std::uint32_t full)
+  Walk(Coder& coder, Streams& streams, const std::vector<Tissue>& tissues, int levels, std::uint32_t bricks, std::uint32_t full,
+       const PackedFits* like = nullptr, KnownFits* keep = nullptr)
       : coder_(coder), streams_(streams), lattice_(levels), most_bricks_(bricks), most_full_(full) {
     for (const auto& t : tissues) solid_[t.id] = t.solid;
     code_cell({0, 0, 0}, levels);
@@ -47,19 +119,22 @@ class Walk {
     if constexpr (Coder::k_decodes) streams_.tissue.resize(brick_.size() * k_leaves);
     for (std::size_t i = 0; i < brick_.size(); ++i) code_labels(i);
     if constexpr (Coder::k_decodes) streams_.distance.resize(full_brick_.size() * k_leaves);
+    if (like != nullptr && like->solid == solid_ && like->lattice.cells() == lattice_.cells()) {
+      like_ = like;
+      differences_.emplace(*like, lattice_, brick_, streams_.tissue);
+    }
+    if (keep != nullptr) expected_.resize(full_brick_.size() * k_leaves);
     sort_into_layers();
     for (std::size_t layer = 0; layer < k_leaf_layers; ++layer)
       for (std::size_t i = 0; i < full_brick_.size(); ++i)
         if (layers_[i][layer] != 0) code_distances(i, layer);
+    if (keep != nullptr)
+      *keep = std::make_shared<const PackedFits>(
+          PackedFits{solid_, std::move(lattice_), std::move(brick_), streams_.tissue, streams_.distance, std::move(expected_), std::move(layers_)});
   }
 
  private:
   static constexpr std::uint16_t k_not_yet = 256;  // a label that is not known yet
-  static constexpr std::uint32_t k_no_full = ~0u;
-  struct Brick {
-    IVec3 at;            // in the lattice
-    std::uint32_t full;  // its number among the full ones, or k_no_full
-  };
   using LabelWindow = std::array<std::uint16_t, 512>;
 
   [[noreturn]] static void throw_damaged() {
@@ -172,10 +247,14 @@ class Walk {
     leaf_.resize(full_brick_.size() * k_leaves);
     layers_.reserve(full_brick_.size());
     for (std::size_t i = 0; i < full_brick_.size(); ++i) {
-      const LabelWindow labels = labels_around(brick_[full_brick_[i]].at, brick_.size());
-      WindowBits solid{};
-      for (std::size_t j = 0; j < labels.size(); ++j) solid[j >> 6] |= std::uint64_t{solid_[labels[j] & 255]} << (j & 63);
-      layers_.push_back(leaf_layers(solid));
+      if (const std::uint32_t known = known_full(i); known != k_no_full) {
+        layers_.push_back(like_->layers[known]);
+      } else {
+        const LabelWindow labels = labels_around(brick_[full_brick_[i]].at, brick_.size());
+        WindowBits solid{};
+        for (std::size_t j = 0; j < labels.size(); ++j) solid[j >> 6] |= std::uint64_t{solid_[labels[j] & 255]} << (j & 63);
+        layers_.push_back(leaf_layers(solid));
+      }
       constexpr std::array<std::int8_t, 3> k_usual{28, 55, 70};
       for (std::size_t layer = 0; layer < k_usual.size(); ++layer)
         for (std::uint64_t left = layers_[i][layer]; left != 0; left &= left - 1) {
@@ -186,50 +265,78 @@ class Walk {
     }
   }
 
+  /// The full brick of `like_` whose fits hold for full brick `number`, too; k_no_full when they may not.
+  [[nodiscard]] std::uint32_t known_full(std::size_t number) const noexcept {
+    const IVec3 at = brick_[full_brick_[number]].at;
+    return like_ == nullptr || differences_->near(at) ? k_no_full : like_->full_at(at);
+  }
+
+  void gather_window(IVec3 at) {
+    lattice_.gather(
+        at, window_.leaf,
+        [&](std::uint32_t ref) -> const FitLeaf* {
+          if (ref < BrickLattice::k_first_brick) return nullptr;
+          const std::uint32_t full = brick_[ref - BrickLattice::k_first_brick].full;
+          return full == k_no_full ? nullptr : &leaf_[full * k_leaves];
+        },
+        [](std::uint32_t) { return FitLeaf{}; });
+  }
+
+  [[nodiscard]] static FitLeaf coded(std::int8_t code, int off) noexcept {
+    if (std::abs(int{code}) >= k_distance_far) return {code, FitLeaf::k_unused};
+    return {code, static_cast<std::uint8_t>(std::min<int>(std::abs(off), FitLeaf::k_most_error))};
+  }
+
   void code_distances(std::size_t number, std::size_t layer) {
     const std::uint32_t brick = full_brick_[number];
+    const IVec3 at = brick_[brick].at;
     const bool far = layer + 1 == k_leaf_layers;  // all distances there are, but for what a carve left behind
-    if (!far)
-      lattice_.gather(
-          brick_[brick].at, window_.leaf,
-          [&](std::uint32_t ref) -> const FitLeaf* {
-            if (ref < BrickLattice::k_first_brick) return nullptr;
-            const std::uint32_t full = brick_[ref - BrickLattice::k_first_brick].full;
-            return full == k_no_full ? nullptr : &leaf_[full * k_leaves];
-          },
-          [](std::uint32_t) { return FitLeaf{}; });
+    const std::uint32_t before = far || like_ == nullptr ? k_no_full : like_->full_at(at);
+    bool known = !far && known_full(number) != k_no_full;
+    if (!far && !known) gather_window(at);
     for (std::uint64_t left = layers_[number][layer]; left != 0; left &= left - 1) {
       const auto leaf = static_cast<std::size_t>(std::countr_zero(left));
-      const std::size_t at = number * k_leaves + leaf;
+      const std::size_t here = number * k_leaves + leaf;
       const int sign = solid_[streams_.tissue[brick * k_leaves + leaf]] ? -1 : 1;
-      const auto known = static_cast<std::int8_t>(streams_.distance[at]);
-      FitLeaf& here = window_.leaf[static_cast<std::size_t>(place_of(leaf))];
-      int expected = k_distance_far;
-      const std::size_t context = far ? k_fit_contexts : fit(window_, place_of(leaf), sign, layer == 0, expected);
-      const int off = code_residual(residual_[context], sign * known - expected);
-      const auto code = static_cast<std::int8_t>(static_cast<std::uint8_t>(sign * (expected + off)));
-      streams_.distance[at] = static_cast<std::uint8_t>(code);
-      here.code = code;
-      here.error =
-          std::abs(int{code}) >= k_distance_far ? FitLeaf::k_unused : static_cast<std::uint8_t>(std::min<int>(std::abs(off), FitLeaf::k_most_error));
-      leaf_[at] = here;
+      Expected expected{static_cast<std::uint16_t>(k_fit_contexts), static_cast<std::int8_t>(k_distance_far)};
+      if (known)
+        expected = like_->expected[before * k_leaves + leaf];
+      else if (!far)
+        expected = fit(window_, place_of(leaf), sign, layer == 0);
+      if (!expected_.empty()) expected_[here] = expected;
+      const int off = code_residual(residual_[expected.context], sign * static_cast<std::int8_t>(streams_.distance[here]) - expected.code);
+      leaf_[here] = coded(static_cast<std::int8_t>(static_cast<std::uint8_t>(sign * (expected.code + off))), off);
+      streams_.distance[here] = static_cast<std::uint8_t>(leaf_[here].code);
+      window_.leaf[static_cast<std::size_t>(place_of(leaf))] = leaf_[here];
+      if (before != k_no_full && differs(before * k_leaves + leaf, sign, leaf_[here])) {
+        differences_->note(at, 1);
+        if (std::exchange(known, false)) gather_window(at);
+      }
     }
   }
 
-  /// Sets the code expected (as if outside: 1..127) and returns the context: how the two planes differ, the errors around,
-  /// near the limit or not, where between two codes the expectation lies.
-  [[nodiscard]] static std::size_t fit(const FitWindow& window, int place, int sign, bool first, int& expected) {
+  /// Whether a leaf came out otherwise than that of `like_`.
+  [[nodiscard]] bool differs(std::size_t leaf, int sign, FitLeaf is) const noexcept {
+    const auto code = static_cast<std::int8_t>(like_->distance[leaf]);
+    const FitLeaf was = coded(code, sign * code - like_->expected[leaf].code);
+    return is.code != was.code || is.error != was.error;
+  }
+
+  /// The code expected (as if outside: 1..127) and the context: how the two planes differ, the errors around, near the limit or not, where
+  /// between two codes the expectation lies.
+  [[nodiscard]] static Expected fit(const FitWindow& window, int place, int sign, bool first) {
     const SurfaceFit f = fit_surface(window, place);
     const double near = std::clamp<double>(f.near * sign, 1, k_distance_far), wide = std::clamp<double>(f.wide * sign, 1, k_distance_far);
-    expected = static_cast<int>(near + 0.5);
+    const int expected = static_cast<int>(near + 0.5);
     const auto part = static_cast<std::size_t>((near - expected + 0.5) * 4);                     // 0..3
     const auto bend = static_cast<std::size_t>(std::clamp((wide - near) * 2, -6.0, 6.0) + 6.5);  // 0..12
     const auto errors =
         static_cast<std::size_t>(f.error_8 < 0 ? 18 : std::bit_width(static_cast<unsigned>(f.error_8 * f.error_8)));  // 0..18, two per octave
     const std::size_t limit = expected == k_distance_far ? 2 : expected > 120 ? 1 : 0;
-    return (((bend * 19 + errors) * 3 + limit) * 2 + first) * 4 + (errors < 9 ? part : 0);
+    const std::size_t context = (((bend * 19 + errors) * 3 + limit) * 2 + first) * 4 + (errors < 9 ? part : 0);
+    return {static_cast<std::uint16_t>(context), static_cast<std::int8_t>(expected)};
   }
-  static constexpr std::size_t k_fit_contexts = 13 * 19 * 3 * 2 * 4;
+  static constexpr std::size_t k_fit_contexts = std::size_t{13} * 19 * 3 * 2 * 4;
 
   struct Residual {
     AdaptiveBit zero, positive;
@@ -259,7 +366,10 @@ class Walk {
   FitWindow window_;
   std::vector<FitLeaf> leaf_;       // leaves of the full bricks, as far as known
   std::vector<LeafLayers> layers_;  // of each full brick
-  std::uint32_t candidate_ = 0;     // the tissue that is asked about
+  std::vector<Expected> expected_;  // of the leaves of the full bricks, where they are to be kept
+  const PackedFits* like_ = nullptr;
+  std::optional<Differences> differences_;  // from `like_`
+  std::uint32_t candidate_ = 0;             // the tissue that is asked about
 
   static constexpr std::size_t k_label_context = 13;
   std::array<std::array<AdaptiveBit, 512>, 9> uniform_;
@@ -304,7 +414,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
   if (bricks > k_most_bricks) throw Error("tooth", fmt::format("too much detail for a tooth file: {} bricks", bricks), "use a larger leaf");
   RangeEncoder coder;
-  Walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
+  const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
   out.put_bytes(std::span(whole.bytes()).first(k_head_bytes));
   out.put(static_cast<std::uint32_t>(bricks));
@@ -314,7 +424,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   out.put(fast_hash(whole.bytes().data(), whole.bytes().size(), 0));
 }
 
-Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues) {
+Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const PackedFits* like, KnownFits* keep) {
   ByteWriter out;
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
@@ -322,7 +432,7 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues) {
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), "tooth");
   RangeDecoder coder(bits);
   Streams streams;
-  Walk(coder, streams, tissues, levels, bricks, full);
+  const Walk walk(coder, streams, tissues, levels, bricks, full, like, keep);
   if (bits.left() != 0) in.fail("data after the end of the octree");
   for (std::size_t i = streams.distance.size(); i-- > 0;)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] - streams.distance[i - 1]);

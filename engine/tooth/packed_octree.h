@@ -2,6 +2,7 @@
 // coded is how each cell, label and distance differs from what those around it let expect. Lossless; the same octree gives the same bytes.
 #pragma once
 
+#include <memory>
 #include <vector>
 
 #include "engine/base/bytes.h"
@@ -9,9 +10,15 @@
 
 namespace cavum {
 
+/// What unpacking worked out about one octree. Another that differs from it in places, as a tooth that was drilled, is then unpacked in less time,
+/// to the same bytes.
+struct PackedFits;
+using KnownFits = std::shared_ptr<const PackedFits>;
+
 /// Appends the packed form (layout in packed_octree.cpp) of what `Octree::write` wrote. Throws Error above 2^18 bricks.
 void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, ByteWriter& out);
 /// The canonical bytes again. Throws Error, of `in`, on damage; needs memory in proportion to the bricks that `in` really codes.
-[[nodiscard]] Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues);
+/// `like`, unless null: of an octree that is much the same. `keep` receives what is worked out about this one.
+[[nodiscard]] Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const PackedFits* like = nullptr, KnownFits* keep = nullptr);
 
 }  // namespace cavum

@@ -23,8 +23,7 @@
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
-#include "engine/tooth/packed_octree.h"
-#include "engine/tooth/tooth.h"
+#include "engine/tooth/known_fits.h"
 
 namespace cavum {
 namespace {
@@ -124,6 +123,17 @@ Tooth read_body_1(ByteReader& in, const std::string& where) {
   return tooth;
 }
 
+KnownFits fits_of(const Tooth& tooth) {
+  ByteWriter canonical, packed;
+  tooth.octree.write(canonical);
+  ByteReader from(canonical.bytes(), "tooth");
+  pack_octree(from, tooth.tissues, packed);
+  ByteReader in(packed.bytes(), "tooth");
+  KnownFits fits;
+  static_cast<void>(unpack_octree(in, tooth.tissues, nullptr, &fits));
+  return fits;
+}
+
 }  // namespace
 
 std::string Tooth::tissue_name(std::uint8_t id) const {
@@ -157,7 +167,9 @@ Bytes save_tooth(const Tooth& tooth) {
   return out.take();
 }
 
-Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) {
+Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) { return load_tooth_like(bytes, where, nullptr); }
+
+Tooth load_tooth_like(std::span<const std::uint8_t> bytes, const std::string& where, const PackedFits* like, KnownFits* keep) {
   const auto begins_with = [&bytes](std::string_view magic) {
     return bytes.size() >= magic.size() && std::equal(magic.begin(), magic.end(), bytes.begin());
   };
@@ -172,9 +184,10 @@ Tooth load_tooth(std::span<const std::uint8_t> bytes, const std::string& where) 
   Tooth tooth;
   if (first_version) {
     tooth = read_body_1(in, where);
+    if (keep != nullptr) *keep = fits_of(tooth);
   } else {
     tooth = read_all_but_octree(in);
-    const Bytes canonical = unpack_octree(in, tooth.tissues);
+    const Bytes canonical = unpack_octree(in, tooth.tissues, like, keep);
     ByteReader from(canonical, where);
     tooth.octree = Octree::read(from, tooth.tissues);
     if (third_version) tooth.placed_landmarks = read_landmarks(in);

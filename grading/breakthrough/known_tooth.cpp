@@ -29,20 +29,26 @@ std::string hash_of_motion(const SessionSetup& setup, const std::array<bool, 256
 }  // namespace
 
 const std::array<bool, 256>& KnownTooth::around(const std::array<bool, 256>& of_interest) {
+  const std::lock_guard lock(mutex_);
   const auto known = around_.find(of_interest);
   return known != around_.end() ? known->second : around_.emplace(of_interest, tissues_around(own_, of_interest)).first->second;
 }
 
-const std::vector<double>& KnownTooth::filled_force_n(const SessionSetup& setup, const std::array<bool, 256>& tissues,
-                                                      std::span<const TickInput> inputs) {
+std::vector<double> KnownTooth::filled_force_n(const SessionSetup& setup, const std::array<bool, 256>& tissues, std::span<const TickInput> inputs) {
   std::string asked = hash_of_motion(setup, tissues, inputs);
-  if (asked == last_asked_) return last_n_;
-  auto filled = filled_.find(tissues);
-  if (filled == filled_.end()) filled = filled_.emplace(tissues, filled_tooth(seen_, tissues)).first;
-  last_asked_.clear();
-  last_n_ = grading::filled_force_n(setup, filled->second, inputs);
+  const Tooth* tooth = nullptr;
+  {
+    const std::lock_guard lock(mutex_);
+    if (asked == last_asked_) return last_n_;
+    auto filled = filled_.find(tissues);
+    if (filled == filled_.end()) filled = filled_.emplace(tissues, filled_tooth(seen_, tissues)).first;
+    tooth = &filled->second;
+  }
+  std::vector<double> force_n = grading::filled_force_n(setup, *tooth, inputs);
+  const std::lock_guard lock(mutex_);
   last_asked_ = std::move(asked);
-  return last_n_;
+  last_n_ = force_n;
+  return force_n;
 }
 
 }  // namespace cavum::grading

@@ -66,7 +66,8 @@ ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, le
   }
 
   ClassSat out;
-  std::mutex mutex;  // of everything below
+  grading::ExamGrounds grounds;  // of the class
+  std::mutex mutex;              // of everything below
   std::size_t next = 0;
   std::exception_ptr failed;
   const auto work = [&] {
@@ -79,10 +80,11 @@ ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, le
       }
       try {
         sit(students[mine], wanted.scenario);
+        const ledger::MarkedRecording marked(students[mine].path, grounds);
         const std::lock_guard lock(mutex);
         ++out.sat;
         out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[mine].path));
-        if (ledger::file_session(ledger, students[mine].path, {.simulated = true}).seq) ++out.filed;
+        if (ledger::file_session(ledger, marked, {.simulated = true}).seq) ++out.filed;
         done(out.sat);
       } catch (...) {
         const std::lock_guard lock(mutex);

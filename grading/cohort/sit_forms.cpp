@@ -80,8 +80,8 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
   std::atomic<std::size_t> next{0};
   int ended = 0;
   std::exception_ptr failed;
+  grading::ExamGrounds grounds;  // of all
   const auto work = [&] {
-    grading::ExamGrounds grounds;  // of this thread
     for (std::size_t i = next++; i < n * k; i = next++) {
       const std::size_t form = i / n, student = i % n;
       const std::string session = scratch.file(fmt::format("{}.cavum", i));

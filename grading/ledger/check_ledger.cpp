@@ -8,8 +8,8 @@
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/session/session_image.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
@@ -23,12 +23,25 @@ namespace cavum::ledger {
 
 namespace {
 
-/// Simulates and marks a filed session again: it must hold, and be marked as it was. `image` is the file.
-void check_again(const FiledSession& s, const Bytes& image, const std::string& path, const std::string& name, grading::ExamGrounds& grounds,
-                 LedgerCheck& out) {
-  const grading::SchoolMark mark = grading::mark_again(SessionReader(image, path), grounds);
-  for (const auto& f : mark.findings) out.findings.push_back(fmt::format("{}: {}", name, f));
-  const auto differ = s.filed.is_object() && mark.result.is_object() ? grading::result_differences(s.filed, mark.result) : std::vector<std::string>();
+using nlohmann::json;
+
+/// What simulating and marking a filed session again gave: it must hold, and be marked as it was.
+void compare_with_line(const FiledSession& s, const std::string& line, const std::string& name, LedgerCheck& out) {
+  const json again = parse_json_or_null(line, k_json_part);
+  if (line.empty() || !again.is_object()) {
+    out.findings.push_back(fmt::format("{}: could not be simulated again; run the same command once more", name));
+    return;
+  }
+  if (const std::string error = text_in(again, "error"); !error.empty()) {
+    out.findings.push_back(fmt::format("{}: its file cannot be read: {}", name, error));
+    return;
+  }
+  if (text_in(again, "sha256") != s.file_sha256)
+    out.findings.push_back(fmt::format("{}: its file was changed while it was checked, or a log lies beside it", name));
+  for (const auto& f : member_of(again, "findings"))
+    if (f.is_string()) out.findings.push_back(fmt::format("{}: {}", name, f.get<std::string>()));
+  const json& result = member_of(again, "result");
+  const auto differ = s.filed.is_object() && result.is_object() ? grading::result_differences(s.filed, result) : std::vector<std::string>();
   if (differ.empty()) return;
   const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
   if (s.grading_version == grading::k_grading_version)
@@ -63,11 +76,10 @@ void say_not_checked(const LedgerContent& content, const Registry& registry, boo
 
 std::string name_of(const FiledSession& s) { return fmt::format("entry {} (session of {})", s.seq, s.candidate); }
 
-enum class Recording { there, erased };
+enum class Recording { there, changed, erased };
 
 /// One filed recording: there and unchanged, or erased as an entry says. `gone`: hashes of the recordings that nothing needs any more.
-Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, bool replay,
-                          grading::ExamGrounds& grounds, LedgerCheck& out) {
+Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, LedgerCheck& out) {
   const std::string name = name_of(s), path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
@@ -79,22 +91,29 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
   if (!std::filesystem::exists(path)) {
     if (erased_by(read_ledger(places).erased, s.seq, k_motion)) return Recording::erased;  // meanwhile
     out.findings.push_back(fmt::format("{}: its file is gone: {}", name, path));
-  } else if (const Bytes image = read_file(path); to_hex(sha256(image)) != s.file_sha256) {
+    return Recording::changed;
+  } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
     out.findings.push_back(fmt::format("{}: its file was changed: {}", name, path));
-  } else if (replay && s.findings.empty()) {
-    check_again(s, image, path, name, grounds, out);
+    return Recording::changed;
   }
   return Recording::there;
 }
 
 /// All of them, and how many could not be shown again.
-void check_recordings(const LedgerPlaces& places, const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
-  grading::ExamGrounds grounds;
+void check_recordings(const LedgerPlaces& places, const LedgerContent& content, const Registry& registry, const pool::Maker& by, LedgerCheck& out) {
+  pool::Work work;
+  work.folder = places.folder;
+  std::vector<const FiledSession*> replayed;
   std::size_t filed_with_findings = 0, erased = 0;
   const auto gone = erased_recordings(content);
   for (const auto& s : registry.sessions) {
     try {
-      erased += check_recording(s, places, gone, replay, grounds, out) == Recording::erased ? 1 : 0;
+      const Recording recording = check_recording(s, places, gone, out);
+      erased += recording == Recording::erased ? 1 : 0;
+      if (by && recording == Recording::there && s.findings.empty()) {
+        work.sessions.push_back(fmt::format("sessions/{}.cavum", s.file_sha256));
+        replayed.push_back(&s);
+      }
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
@@ -107,7 +126,11 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
             "{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
             s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
-  if (replay && filed_with_findings > 0)
+  if (!replayed.empty()) {
+    const pool::Made made = by(work);
+    for (std::size_t i = 0; i < replayed.size(); ++i) compare_with_line(*replayed[i], made.lines[i], name_of(*replayed[i]), out);
+  }
+  if (by && filed_with_findings > 0)
     out.not_checked.push_back(fmt::format("{} sessions that were filed with findings are not simulated again", filed_with_findings));
   if (erased > 0)
     out.not_checked.push_back(fmt::format("{}{} erased, as entries say: whether motion gives their marks can no longer be shown", erased,
@@ -126,6 +149,10 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
 }  // namespace
 
 LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
+  return check_ledger(places, replay ? pool::Maker([](const pool::Work& work) { return pool::by_threads(work); }) : pool::Maker());
+}
+
+LedgerCheck check_ledger(const LedgerPlaces& places, const pool::Maker& by) {
   const LedgerContent content = read_ledger(places);
   LedgerCheck out{content.findings, {}, content.remarks};
   check_times(content, out.remarks);
@@ -133,8 +160,8 @@ LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
   out.findings.insert(out.findings.end(), registry.findings.begin(), registry.findings.end());
   for (const auto& r : restores_of(content)) out.remarks.push_back(in_words(r));
   out.remarks.insert(out.remarks.end(), registry.remarks.begin(), registry.remarks.end());
-  say_not_checked(content, registry, replay, out);
-  check_recordings(places, content, registry, replay, out);
+  say_not_checked(content, registry, static_cast<bool>(by), out);
+  check_recordings(places, content, registry, by, out);
   if (!content.id.empty()) say_strangers(places, registry, out);
   return out;
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "grading/ledger/ledger_content.h"
+#include "grading/pool/makers.h"
 
 namespace cavum::ledger {
 
@@ -14,8 +15,10 @@ struct LedgerCheck {
   std::vector<std::string> remarks;      ///< what may be harmless
 };
 /// What of a ledger holds and what does not: entries, tree, signatures, witness, tickets, and the sessions' files beside it; with `replay` each
-/// session is simulated again.
+/// session is simulated and marked again.
 [[nodiscard]] LedgerCheck check_ledger(const LedgerPlaces& places, bool replay);
+/// The same with `by`, which simulates and marks them: their names are relative to the ledger's folder. A line that it could not make is a finding.
+[[nodiscard]] LedgerCheck check_ledger(const LedgerPlaces& places, const pool::Maker& by);
 
 /// Whose ledger is it, and are its identities unchanged? With the school's key at `key_path`, the public key at `public_key_path`, or neither: what
 /// is not there is not checked, and `check` says so.

@@ -55,36 +55,29 @@ json body_of(const SessionReader& session, const SessionSetup& setup, const grad
           {"ticks", mark.replay.ticks}};
 }
 
-}  // namespace
-
-Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamGrounds& grounds) {
-  Filing out;
-  ledger.refresh();
-  const Bytes image = read_session_image(path, out.findings);
-  const SessionReader session(image, path);
+/// Throws Error when it cannot be filed at all.
+void require_closed(const SessionReader& session) {
+  const std::string& path = session.path();
   if (!session.closed() && !session.findings().empty()) throw Error(path, "is damaged: " + session.findings().front(), "use an intact copy");
   if (!session.closed())
     throw Error(path, "was never closed", fmt::format("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
+}
+
+auto claims_of(Ledger& ledger, const SessionReader& session, const FilingOptions& options) {
+  return [&](const LedgerContent& c) { return check_claims(c, ledger.registry(), session, read_clocks().utc_ns, options, &ledger.places()); };
+}
+
+/// Takes the marked image in: `out` holds the findings of reading it, `claimed` what the ledger has against it.
+void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, const grading::SchoolMark& mark, const FilingOptions& options,
+           std::vector<std::string> claimed, std::size_t seen, Filing& out) {
   const SessionSetup setup = session.setup();
   const std::string file_sha256 = to_hex(sha256(image));
-
+  const auto claims = claims_of(ledger, session, options);
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  const auto claims = [&](const LedgerContent& c) {
-    return check_claims(c, ledger.registry(), session, read_clocks().utc_ns, options, &ledger.places());
-  };
-  const std::size_t seen = ledger.content().entries.size();
-  auto claimed = claims(ledger.content());
-  if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
-    out.findings = std::move(claimed);
-    out.findings.push_back(fmt::format("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
-                                       fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
-    return out;
-  }
-  const grading::SchoolMark mark = grading::mark_again(session, grounds);
   out.findings.insert(out.findings.end(), mark.findings.begin(), mark.findings.end());
   out.remarks = mark.remarks;
   out.findings.insert(out.findings.end(), claimed.begin(), claimed.end());
-  if (refused()) return out;
+  if (refused()) return;
 
   const std::string kept = ledger.places().session(file_sha256);
   make_private_folder(ledger.places().folder + "/sessions");
@@ -104,8 +97,43 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
     });
     out.seq = entry.seq;
   } catch (const Refused&) {
+  }
+}
+
+SessionReader require_closed_session(const Bytes& image, const std::string& path) {
+  SessionReader session(image, path);
+  require_closed(session);
+  return session;
+}
+
+}  // namespace
+
+Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamGrounds& grounds) {
+  Filing out;
+  ledger.refresh();
+  const Bytes image = read_session_image(path, out.findings);
+  const SessionReader session = require_closed_session(image, path);
+  const std::size_t seen = ledger.content().entries.size();
+  auto claimed = claims_of(ledger, session, options)(ledger.content());
+  if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
+    out.findings = std::move(claimed);
+    out.findings.push_back(fmt::format("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
+                                       fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
     return out;
   }
+  enter(ledger, image, session, grading::mark_again(session, grounds), options, std::move(claimed), seen, out);
+  return out;
+}
+
+MarkedRecording::MarkedRecording(const std::string& path, grading::ExamGrounds& grounds)
+    : image_(read_session_image(path, findings_)), session_(require_closed_session(image_, path)), mark_(grading::mark_again(session_, grounds)) {}
+
+Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options) {
+  Filing out;
+  ledger.refresh();
+  out.findings = marked.findings_;
+  auto claimed = claims_of(ledger, marked.session_, options)(ledger.content());
+  enter(ledger, marked.image_, marked.session_, marked.mark_, options, std::move(claimed), ledger.content().entries.size(), out);
   return out;
 }
 

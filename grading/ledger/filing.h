@@ -9,6 +9,7 @@
 #include "grading/ledger/claims.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
+#include "grading/school_mark.h"
 
 namespace cavum::ledger {
 
@@ -26,5 +27,21 @@ struct Filing {
   grading::ExamGrounds grounds;
   return file_session(ledger, session, options, grounds);
 }
+
+/// The same in two halves: marking, which takes the time and may go on in several threads at once, and what concerns the ledger. Whatever `marked` is
+/// filed as was marked here, of the bytes that are kept.
+class MarkedRecording {
+ public:
+  /// Throws Error when the file cannot be read as a session, or was never closed.
+  MarkedRecording(const std::string& session, grading::ExamGrounds& grounds);
+
+ private:
+  friend Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options);
+  std::vector<std::string> findings_;
+  Bytes image_;
+  SessionReader session_;
+  grading::SchoolMark mark_;
+};
+[[nodiscard]] Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options);
 
 }  // namespace cavum::ledger

@@ -146,12 +146,15 @@ void add_release(LedgerCommand& ledger) {
 
 void add_regrade(LedgerCommand& ledger) {
   const auto& o = ledger.options;
-  auto* v = ledger.verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", done(ledger_regrade));
-  v->add_option("--session", o->session_seq, "its entry")->required();
+  auto* v = ledger.verb("regrade", "Mark a filed exam by another rubric or a corrected scenario: a new result beside the old", ledger_regrade);
+  auto* session = v->add_option("--session", o->session_seq, "its entry");
+  v->add_option("--exam", o->exam, "all sessions of this scenario's id instead, or none where one cannot be marked")->excludes(session);
+  v->add_flag("--preview", o->preview, "of --exam: only the table of what would change; nothing is entered");
   v->add_option("--rubric", o->rubric, "rubric (TOML)");
   v->add_option("--scenario", o->scenario, "corrected scenario (TOML)");
-  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal")->required();
+  v->add_option("--reason", o->reason, "why, in one line; it is kept for ever, so no names and nothing personal");
   v->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the session's");
+  add_pool_options(*v, o->pool);
   ledger.json_flag(v);
 }
 
@@ -188,6 +191,7 @@ void add_verify(LedgerCommand& ledger) {
   const auto& o = ledger.options;
   auto* v = ledger.verb("verify", "Check every entry, signature, ticket and filed session", ledger_verify);
   v->add_flag("--replay", o->replay, "simulate every session again, too");
+  add_pool_options(*v, o->pool);
   v->add_option("--receipt", o->receipts, "check this receipt, and that the ledger still begins with what it saw; may be repeated");
   v->add_option("--cosigned", o->cosigned, "check this note of a cosigner, and that the ledger still begins with what it saw; may be repeated");
   v->add_option("--cosigners", o->cosigners, "key lines of the cosigners whose word counts (default: $CAVUM_HOME/cosigners)");

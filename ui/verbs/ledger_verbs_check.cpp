@@ -23,7 +23,8 @@ int ledger_verify(const LedgerOptions& o) {
   const ledger::LedgerPlaces places{o.folder};
   if (!o.key.empty()) static_cast<void>(ledger::load_school_key(o.key));  // one that was named has to be there
   const ledger::LedgerContent content = ledger::read_ledger(places);
-  ledger::LedgerCheck check = ledger::check_ledger(places, o.replay);
+  const pool::Maker by = o.replay ? pool::Maker([&](const pool::Work& work) { return make_lines(work, o.pool); }) : pool::Maker();
+  ledger::LedgerCheck check = ledger::check_ledger(places, by);
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));

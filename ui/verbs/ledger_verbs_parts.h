@@ -9,20 +9,22 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 #include "scenarios/file/accommodations.h"
+#include "ui/verbs/pool_options.h"
 
 namespace cavum::ui {
 
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
                            results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss, again, before,
-                           verdict, person, outcome;
+                           verdict, person, outcome, exam;
   std::vector<std::string> sessions, chosen, receipts, cosigned, passed_over;
   scenarios::Grant grant;
+  PoolOptions pool;
   std::vector<std::uint64_t> chosen_sessions;
   std::int64_t session_seq = -1, since = -1, from_size = 0;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
        another_task = false, with_simulated = false, with_identities = false, another = false, begin_at_ledger = false, keep_motion = false,
-       keep_results = false, erase_motion = false, erase_results = false, replace = false, undecided = false;
+       keep_results = false, erase_motion = false, erase_results = false, replace = false, undecided = false, preview = false;
 };
 
 /// The school's key: --key, else the one in its place. Throws Error when there is none.
@@ -43,7 +45,7 @@ void ledger_begin(const LedgerOptions& options);
 int ledger_add(const LedgerOptions& options);
 void ledger_receipt(const LedgerOptions& options);
 void ledger_release(const LedgerOptions& options);
-void ledger_regrade(const LedgerOptions& options);
+int ledger_regrade(const LedgerOptions& options);
 void ledger_decide(const LedgerOptions& options);
 void ledger_retract(const LedgerOptions& options);
 void ledger_appeal(const LedgerOptions& options);

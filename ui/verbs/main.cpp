@@ -64,6 +64,7 @@ int main(int argc, char** argv) {
   cavum::ui::add_report_verbs(app, exit_code);
   cavum::ui::add_cohort_verbs(app, exit_code);
   cavum::ui::add_verify_verbs(app, exit_code);
+  cavum::ui::add_verify_all_verb(app, exit_code);
   cavum::ui::add_device_verbs(app, exit_code);
   cavum::ui::add_station_verbs(app, exit_code);
   cavum::ui::add_serve_verbs(app, exit_code);

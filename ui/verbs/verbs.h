@@ -24,6 +24,7 @@ void add_explain_verbs(CLI::App& app, int& exit_code);
 void add_ledger_verbs(CLI::App& app, int& exit_code);
 void add_cohort_verbs(CLI::App& app, int& exit_code);
 void add_verify_verbs(CLI::App& app, int& exit_code);
+void add_verify_all_verb(CLI::App& app, int& exit_code);
 void add_station_verbs(CLI::App& app, int& exit_code);
 void add_serve_verbs(CLI::App& app, int& exit_code);
 /// What it writes speaks of all that `app` has when it runs.

@@ -27,9 +27,9 @@ Bytes packed(const Octree& octree, const std::vector<Tissue>& tissues) {
   return out.take();
 }
 
-Bytes unpacked(const Bytes& bytes, const std::vector<Tissue>& tissues) {
+Bytes unpacked(const Bytes& bytes, const std::vector<Tissue>& tissues, const PackedFits* like = nullptr) {
   ByteReader in(bytes, "packed");
-  Bytes all = unpack_octree(in, tissues);
+  Bytes all = unpack_octree(in, tissues, like);
   EXPECT_EQ(in.left(), 0u);
   return all;
 }
@@ -38,6 +38,14 @@ void expect_round_trip(const Octree& octree, const std::vector<Tissue>& tissues)
   const Bytes once = packed(octree, tissues);
   ASSERT_EQ(unpacked(once, tissues), canonical(octree));
   ASSERT_EQ(packed(octree, tissues), once);
+}
+
+KnownFits fits_of(const Octree& octree, const std::vector<Tissue>& tissues) {
+  const Bytes bytes = packed(octree, tissues);
+  ByteReader in(bytes, "packed");
+  KnownFits fits;
+  EXPECT_EQ(unpack_octree(in, tissues, nullptr, &fits), canonical(octree));
+  return fits;
 }
 
 std::vector<Tissue> many_tissues() {
@@ -100,6 +108,46 @@ TEST(PackedOctree, BringsBackCarvedTeeth) {
   }
 }
 
+// Whatever is known of whatever other tooth, the bytes are the same.
+TEST(PackedOctree, WhatIsKnownOfAnotherToothChangesNothing) {
+  Random random(testing_tooth::drawn_seed("PackedOctree.WhatIsKnownOfAnotherToothChangesNothing"));
+  Tooth tooth = make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1);
+  tooth.octree.reserve_edits(20000);
+  std::vector<KnownFits> known{fits_of(tooth.octree, tooth.tissues), fits_of(make_cube(2.0, "dentin", 0.1).octree, tooth.tissues)};
+  std::vector<RemovedLeaf> removed;
+  removed.reserve(100000);
+  for (int i = 0; i < 40; ++i) {
+    const Ball ball{{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)}, random.uniform(0.05, 0.3)};
+    const double r = ball.radius_mm + 0.3;
+    ASSERT_TRUE(tooth.octree.carve(ball.centre_mm - Vec3{r, r, r}, ball.centre_mm + Vec3{r, r, r}, ball, removed, 0.002 * (i % 3)));
+    const Bytes bytes = packed(tooth.octree, tooth.tissues), whole = canonical(tooth.octree);
+    for (const auto& fits : known) ASSERT_EQ(unpacked(bytes, tooth.tissues, fits.get()), whole) << "round " << i;
+    if (i % 8 == 0) known.push_back(fits_of(tooth.octree, tooth.tissues));
+  }
+}
+
+// Labels and distances at odds with one another, as no tooth has them, altered in a few places.
+TEST(PackedOctree, WhatIsKnownOfAnotherGridChangesNothing) {
+  Random random(testing_tooth::drawn_seed("PackedOctree.WhatIsKnownOfAnotherGridChangesNothing"));
+  const auto tissues = many_tissues();
+  for (int round = 0; round < 20; ++round) {
+    TissueGrid grid;
+    grid.allocate({40, 36, 33}, 0.05, {});
+    for (std::size_t i = 0; i < grid.count(); ++i) {
+      grid.tissue[i] = static_cast<std::uint8_t>(random.below(40) == 0 ? random.below(6) : i / 9000);
+      grid.distance[i] = static_cast<std::int8_t>(random.below(3) ? static_cast<int>(i % 251) - 125 : k_distance_far);
+    }
+    const KnownFits fits = fits_of(Octree(grid, tissues), tissues);
+    for (std::uint64_t n = random.below(30); n > 0; --n) {
+      const std::size_t i = random.below(grid.count());
+      if (n % 2 == 0) grid.tissue[i] = static_cast<std::uint8_t>(random.below(6));
+      grid.distance[i] = static_cast<std::int8_t>(random.below(256));
+    }
+    const Octree altered(grid, tissues);
+    ASSERT_EQ(unpacked(packed(altered, tissues), tissues, fits.get()), canonical(altered)) << "round " << round;
+  }
+}
+
 /// A ball of enamel around a ball of pulp: what the packing is made for.
 Tooth round_tooth(double leaf_mm) {
   Tooth tooth;
@@ -143,6 +191,7 @@ TEST(PackedOctree, DamagedBytesAreErrorsOrChangeNothing) {
   Random random(testing_tooth::drawn_seed("PackedOctree.DamagedBytesAreErrorsOrChangeNothing"));
   const Tooth tooth = round_tooth(0.2);
   const Bytes good = packed(tooth.octree, tooth.tissues), whole = canonical(tooth.octree);
+  const KnownFits fits = fits_of(tooth.octree, tooth.tissues);
   constexpr std::size_t k_past_head = 44;  // leaf, origin and size: any value of leaf and origin is one
   for (int i = 0; i < 1500; ++i) {
     Bytes bytes = good;
@@ -152,7 +201,7 @@ TEST(PackedOctree, DamagedBytesAreErrorsOrChangeNothing) {
     }
     if (i % 5 == 0) bytes.resize(k_past_head + random.below(bytes.size() - k_past_head));
     try {
-      ASSERT_EQ(unpacked(bytes, tooth.tissues), whole) << "round " << i;
+      ASSERT_EQ(unpacked(bytes, tooth.tissues, i % 3 == 0 ? fits.get() : nullptr), whole) << "round " << i;
     } catch (const Error&) {
     }
   }

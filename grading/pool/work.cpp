@@ -1,0 +1,129 @@
+#include "grading/pool/work.h"
+
+#include <nlohmann/json.hpp>
+
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+#include "engine/base/version.h"
+#include "engine/servo/servo.h"
+#include "engine/session/session_image.h"
+#include "grading/grade.h"
+#include "grading/result/result_json.h"
+#include "grading/school_mark.h"
+#include "grading/session_input.h"
+#include "scenarios/file/parse.h"
+
+namespace cavum::pool {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* k_what[] = {"verify", "mark", "regrade"};
+constexpr JsonLimits k_work_limits{1U << 30, 20'000'000, 8};
+
+std::string dumped(const json& j) { return j.dump(-1, ' ', false, json::error_handler_t::replace); }
+
+json on_lines(const std::vector<std::string>& texts) {
+  json list = json::array();
+  for (const auto& t : texts) list.push_back(one_line(t));
+  return list;
+}
+
+Bytes from_hex(const std::string& text, const std::string& where) {
+  const auto digit = [&](char c) {
+    if (c >= '0' && c <= '9') return c - '0';
+    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
+    throw Error(where, "holds a surface that is not hexadecimal", "make the work anew");
+  };
+  if (text.size() % 2 != 0) throw Error(where, "holds half a byte of a surface", "make the work anew");
+  Bytes bytes(text.size() / 2);
+  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(digit(text[2 * i]) << 4 | digit(text[2 * i + 1]));
+  return bytes;
+}
+
+/// The session marked as the work asks.
+json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
+  const auto graded = grading::load_for_grading(session, grounds);
+  if (!work.scenario_toml.empty()) {
+    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario", scenarios::Reading::recorded);
+    scenarios::use_surfaces(scenario, work.surfaces);
+    grading::use_scenario(*graded, std::move(scenario), work.another_task);
+    grading::use_rubric(*graded, graded->scenario.rubric);
+  }
+  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric"));
+  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), "result");
+}
+
+}  // namespace
+
+std::string to_text(const Work& work) {
+  json surfaces = json::array();
+  for (const auto& [name, bytes] : work.surfaces) surfaces.push_back({{"name", name}, {"hex", to_hex(bytes)}});
+  return dumped({{"cavum", version()},
+                 {"physics", k_physics_version},
+                 {"grading", grading::k_grading_version},
+                 {"what", k_what[static_cast<int>(work.what)]},
+                 {"sessions", work.sessions},
+                 {"rubric", work.rubric_toml},
+                 {"scenario", work.scenario_toml},
+                 {"surfaces", surfaces},
+                 {"another_task", work.another_task}});
+}
+
+Work parse_work(const std::string& text, const std::string& where) {
+  const json j = parse_json(text, where, k_work_limits);
+  if (text_in(j, "cavum") != version() || whole_in(j, "physics") != k_physics_version || whole_in(j, "grading") != grading::k_grading_version)
+    throw Error(where, "was made by another version of the program", "run the same version on all machines");
+  Work work;
+  const std::string what = text_in(j, "what");
+  bool known = false;
+  for (int i = 0; i < 3; ++i)
+    if (what == k_what[i]) work.what = static_cast<What>(i), known = true;
+  const json &sessions = member_of(j, "sessions"), &surfaces = member_of(j, "surfaces"), &another = member_of(j, "another_task");
+  if (!known || !sessions.is_array() || !surfaces.is_array() || !another.is_boolean())
+    throw Error(where, "is no list of work", "make it anew, by `cavum verify-all`");
+  for (const auto& s : sessions) {
+    if (!s.is_string()) throw Error(where, "names a session that is no text", "make the work anew");
+    work.sessions.push_back(s.get<std::string>());
+  }
+  work.rubric_toml = text_in(j, "rubric");
+  work.scenario_toml = text_in(j, "scenario");
+  for (const auto& s : surfaces) work.surfaces.emplace_back(text_in(s, "name"), from_hex(text_in(s, "hex"), where));
+  work.another_task = another.get<bool>();
+  return work;
+}
+
+std::string id_of(const Work& work) { return to_hex(sha256(to_text(work))); }
+
+std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& grounds) {
+  const std::string& name = work.sessions[index];
+  json line{{"session", name}};
+  try {
+    std::vector<std::string> findings;
+    const Bytes image = read_session_image(work.folder.empty() ? name : work.folder + "/" + name, findings);
+    line["sha256"] = to_hex(sha256(image));
+    const SessionReader session(image, name);
+    if (work.what == What::verify) {
+      const grading::SchoolMark mark = grading::mark_again(session, grounds);
+      findings.insert(findings.end(), mark.findings.begin(), mark.findings.end());
+      line["verified"] = mark.holds() && findings.empty();
+      line["ticks"] = mark.replay.ticks;
+      line["findings"] = on_lines(findings);
+      line["remarks"] = on_lines(mark.remarks);
+      line["result"] = mark.result;
+    } else {
+      line["result"] = marked(work, session, grounds);
+      line["ticks"] = session.ticks();
+    }
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the session
+  } catch (const std::exception& e) {
+    line["error"] = one_line(e.what());
+  }
+  return dumped(line);
+}
+
+}  // namespace cavum::pool
