@@ -8,7 +8,16 @@ namespace cavum::office {
 
 using nlohmann::json;
 
-std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::string& key, const Said& said, std::int64_t now) {
+std::map<std::string, std::string> begun_at(const ledger::LedgerContent& content, const ledger::Registry& registry) {
+  std::map<std::string, std::string> out;
+  for (const auto& t : registry.tickets)
+    if (!t.begins.empty() && !t.used_by && !t.cancelled_by)
+      out[t.ticket.candidate] = text_in(content.entries.at(t.begins.back().seq).body, "station");
+  return out;
+}
+
+std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::map<std::string, std::string>& begun, const std::string& key,
+                                  const Said& said, std::int64_t now) {
   const auto candidate_at = [&](const std::string& station) -> std::string {
     const auto found = said.find(station);
     if (found == said.end() || now - whole_in(found->second, "seen_utc_ns") > k_silent_ns) return {};
@@ -18,8 +27,10 @@ std::vector<std::string> twins_of(const ledger::StationRegister& stations, const
   std::vector<std::string> twins;
   const std::string candidate = candidate_at(key);
   if (candidate.empty()) return twins;
+  const auto word = begun.find(candidate);
   for (const auto& other : stations.stations)
-    if (other.public_key != key && candidate_at(other.public_key) == candidate) twins.push_back(other.name);
+    if (other.public_key != key && ((word != begun.end() && word->second == other.public_key) || candidate_at(other.public_key) == candidate))
+      twins.push_back(other.name);
   return twins;
 }
 

@@ -18,9 +18,11 @@ inline constexpr std::int64_t k_silent_ns = 15'000'000'000;
 /// What stations said, by key (Board::stations()).
 using Said = std::map<std::string, nlohmann::json>;
 
-/// Names of other stations that have the candidate whom this one has.
-[[nodiscard]] std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::string& key, const Said& said,
-                                                std::int64_t now_utc_ns);
+/// The station that has the office's word to begin the exam of each candidate, by pseudonym: while its ticket is good.
+[[nodiscard]] std::map<std::string, std::string> begun_at(const ledger::LedgerContent& content, const ledger::Registry& registry);
+/// Names of other stations that have the candidate whom this one has, or asked for: by what they say, or by the office's word (`begun`).
+[[nodiscard]] std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::map<std::string, std::string>& begun,
+                                                const std::string& key, const Said& said, std::int64_t now_utc_ns);
 /// How many announcements for this station nobody there has read; 0 for one that says nothing.
 [[nodiscard]] std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now_utc_ns);
 /// {"entry","reason","room","stations"} of each that lasts; `stations`: keys, none for all.

@@ -104,6 +104,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
   const ledger::Registry& registry = turn.book.registry();
   const std::int64_t now = read_clocks().utc_ns;
   const auto said = board.stations();
+  const auto begun = begun_at(turn.book.content(), registry);
   json stations = json::array();
   for (const auto& s : registry.stations.stations) {
     if (!s.replaced_by.empty()) continue;
@@ -115,7 +116,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
                 {"room", s.room},
                 {"hold", hold == nullptr ? 0 : hold->seq},
                 {"unread", unread_by(registry.day, s.public_key, said, now)},
-                {"twins", twins_of(registry.stations, s.public_key, said, now)}};
+                {"twins", twins_of(registry.stations, begun, s.public_key, said, now)}};
     const auto found = said.find(s.public_key);
     row["said"] = found == said.end() ? json() : found->second;
     stations.push_back(std::move(row));

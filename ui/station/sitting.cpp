@@ -33,13 +33,19 @@ ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code)
   return ledger::read_ticket(path);
 }
 
-/// The exam bears the office's word. Without one it begins when its ticket lets it (require_promised).
-void ask_for_word(ledger::HeldTicket& held, const std::function<std::string(const std::string&)>& word) {
+/// The exam bears the office's word. Without one it begins when its ticket lets it (require_promised). Nothing is asked for what the ticket does not
+/// promise: the office would take the exam for begun.
+void ask_for_word(ledger::HeldTicket& held, const std::function<std::string(const std::string&)>& word, SessionSetup& session) {
+  ledger::HeldTicket promised = held;
+  promised.ticket.begun_at_ledger = false;
+  ledger::require_promised(promised, session);
   const std::string said = word(held.ticket.nonce);
   if (said.empty()) return;
   static_cast<void>(ledger::parse_begin(said, held.ticket.public_key, "the office's word"));
   write_private_text_file(ledger::begin_path(held.path), said + "\n");
   held.begin = said;
+  std::erase_if(session.notes, [](const auto& note) { return note.first == ledger::k_begin_note; });  // an earlier one
+  session.notes.emplace_back(ledger::k_begin_note, said);
 }
 
 /// Enough on its disk for the end of any exam.
@@ -94,10 +100,10 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
   }
   preparing_ = std::async(std::launch::async, [this, exam, held]() mutable {
-    if (held && ticket_ && options_.word) ask_for_word(*held, options_.word);
     if (held) ledger::use_ticket(*held, exam);
     auto setup =
         options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
+    if (ticket_ && options_.word) ask_for_word(*held, options_.word, setup->session);
     if (held) ledger::require_promised(*held, setup->session);
     device_->prepare(*setup);
     return setup;

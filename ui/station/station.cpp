@@ -220,7 +220,7 @@ class Station {
     show_screen(context);
     office_notice(context);
     ask_whether_to_leave(context, lock_.locked());
-    ask_whether_to_go_on(context, lock_.locked());
+    if (office_) ask_whether_to_go_on(context, lock_.locked());
   }
   static void show_screen(const ScreenContext& context) {
     switch (context.state.screen) {

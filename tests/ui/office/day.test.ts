@@ -54,7 +54,7 @@ test("an exam day with its accidents, by clicks", { skip: k_skip }, async () => 
     await press(page, "It stands there");
     await said(page, "The board shows it.");
   }
-  await said(page, "room Room 2");
+  await said(page, "Room 2");
 
   await issue(page, "id,name,extra_time_percent\n4711,Anna A.,25\n4712,Bert B.,\n4713,Cleo C.,\n4714,Dora D.,\n4715,Emil E.,\n");
   await go(page, "Tickets");
@@ -108,7 +108,7 @@ test("an exam day with its accidents, by clicks", { skip: k_skip }, async () => 
   await hall.select(await control(hall, "What candidates read").then(() => hall.$$eval("section select", (all) => `#${all[all.length - 1].id}`)), "room Room 2");
   await type(hall, "What candidates read", "The lamp is being mended.");
   await press(hall, "Announce it");
-  await said(hall, "room Room 2: The lamp is being mended.");
+  await said(hall, "all in Room 2: The lamp is being mended.");
   const told = sits("seat3", cleo);
   assert.match(told, /announcement \d+: The lamp is being mended\./);
   assert.equal(sits("seat1", anna), "");

@@ -139,8 +139,10 @@ TEST_F(ADay, OneCandidateAtTwoStationsIsNoticedAtOnce) {
   EXPECT_THROW(static_cast<void>(second_->begin(t["nonce"])), Error);
   EXPECT_EQ(row("Seat 1")["twins"], json{"Seat 2"}) << "it asked for what the first has";
   EXPECT_EQ(row("Seat 2")["said"]["refused"], t["candidate"]);
+  EXPECT_EQ(row("Seat 2")["twins"], json{"Seat 1"});
   second_->report({{"state", "check"}, {"candidate", first_->tickets()[1]["candidate"]}});
   EXPECT_TRUE(row("Seat 1")["twins"].empty()) << "somebody else sits there now";
+  EXPECT_TRUE(row("Seat 2")["twins"].empty());
 }
 
 TEST_F(ADay, ASittingIsSeatedWithoutGivingAStationTwice) {

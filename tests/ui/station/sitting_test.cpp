@@ -226,6 +226,11 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   write_text_file(options_.tickets + "/" + candidate + ".ticket", ticket + "\n");
   EXPECT_THROW(Sitting(options_, "4711"), Error) << "the code is the pseudonym, and nothing that others know";
   EXPECT_THROW(Sitting(options_, "../tickets/" + candidate), Error);
+  int asked = 0;
+  options_.word = [&asked](const std::string&) {  // an office that does not answer
+    ++asked;
+    return std::string();
+  };
   std::string typed = candidate;
   for (char& c : typed) c = static_cast<char>(std::tolower(c));
   {
@@ -234,10 +239,12 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     EXPECT_EQ(sitting.setup().scenario.accommodations.extra_time_percent, 50.0);
     EXPECT_EQ(sitting.setup().session.candidate, candidate);
+    EXPECT_EQ(asked, 1);
   }
   options_.model = "paper";
   Sitting other(options_, candidate);
   EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
+  EXPECT_EQ(asked, 1) << "the office would take it for begun";
 }
 
 TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {

@@ -31,7 +31,7 @@ function clock(s: number): string {
 function card(s: Station, now_ns: number): HTMLElement {
   const lines = make("div");
   const element = make("li", { class: "card" }, make("h3", {}, s.name), lines);
-  if (s.room !== "") lines.append(make("p", { class: "hint" }, tr("room {}", s.room)));
+  if (s.room !== "") lines.append(make("p", { class: "hint" }, s.room));
   if (s.revoked) {
     element.classList.add("silent");
     lines.append(make("p", {}, tr("Key revoked")));

@@ -22,7 +22,7 @@ export class Choice {
     this.held = now;
     const chosen = this.list.value;
     const rooms = [...new Set(good.map((s) => s.room).filter((r) => r !== ""))].sort();
-    const choices: [string, string][] = [["all", tr("all stations")], ...rooms.map((r): [string, string] => [`room ${r}`, tr("room {}", r)]),
+    const choices: [string, string][] = [["all", tr("all stations")], ...rooms.map((r): [string, string] => [`room ${r}`, tr("all in {}", r)]),
       ...good.map((s): [string, string] => [`station ${s.public_key}`, s.name])];
     this.list.replaceChildren(...choices.map(([value, text]) => make("option", { value }, text)));
     if (choices.some(([value]) => value === chosen)) this.list.value = chosen;
@@ -37,7 +37,7 @@ export class Choice {
 
 export function whom(of: { room: string; stations: string[] }, stations: Place[]): string {
   if (of.stations.length === 0) return tr("all stations");
-  if (of.room !== "") return tr("room {}", of.room);
+  if (of.room !== "") return tr("all in {}", of.room);
   return of.stations.map((key) => stations.find((s) => s.public_key === key)?.name ?? key.slice(0, 8)).join(", ");
 }
 
@@ -52,6 +52,7 @@ export class Pauses {
     const reason = input(tr("Why"), { required: "", maxlength: "500", autocomplete: "off", value: tr("Fire alarm") }, tr("Candidates read it."));
     const pause = form(tr("Pause the exams"), async () => {
       await post("/api/hold", { reason: reason.value, to: this.choice.audience });
+      more.open = false;
       say(tr("The exams stand still; each candidate keeps his time."));
     }, this.choice.list.block, reason.block);
     const more = make("details", { class: "pause" }, make("summary", {}, tr("Pause: fire alarm, power cut")), pause);
