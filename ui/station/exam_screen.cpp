@@ -73,6 +73,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   ImGui::BeginChild("gauges", {0, std::max(t.px(60), ImGui::GetContentRegionAvail().y - rows * row)}, false);
   const scenarios::GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
+  contact_lamp(t, view.output.contact);
   text_line("Speed dial  ( [ and ] )");
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
@@ -153,7 +154,7 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
 void pointer_keys(const Theme& t, bool mouse_free, ImVec2 at, ImVec2 size) {
   const std::string english = mouse_free ? "Mouse: points at buttons. Tab or middle button: it is the stylus again"
                                          : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: "
-                                           "upright. Shift: finer. Tab or middle button: mouse for buttons";
+                                           "upright. Shift: finer. B: back above the tooth. Tab or middle button: mouse for buttons";
   push_font(Font::small);
   const std::string text = shown(english), lines = in_lines(text, std::min(t.px(210), 0.25F * size.x));
   ImGui::GetWindowDrawList()->AddText({at.x + t.px(16), at.y + t.px(44)}, ink(t.quiet), lines.c_str());
@@ -162,6 +163,22 @@ void pointer_keys(const Theme& t, bool mouse_free, ImVec2 at, ImVec2 size) {
 }
 
 bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_close || s.confirm_leave || s.confirm_go_on; }
+
+Vec3 to_vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
+
+/// B brings a lost point back above the tooth, by a way that the hand goes.
+void come_back(const ScreenContext& c, const scenarios::LiveView& now, Vec3 out) {
+  StationState& s = c.state;
+  if (key_pressed(GLFW_KEY_B) && !asked_something(s)) {
+    s.coming_back = true;
+    s.wanted_mm = now.output.proxy_mm;  // not from inside the tooth, where it may press
+  }
+  if (!s.coming_back) return;
+  const auto in_tissue = [&c](Vec3 p) { return c.scene->tooth().distance_mm(p) < 0.0; };
+  const WayBack way{c.sitting->device().start().tip_mm, out, in_tissue};
+  s.wanted_mm = next_on_way_back(way, s.wanted_mm, k_pointer_back_mm_s * c.frame_s);
+  s.coming_back = !(s.wanted_mm == way.goal);
+}
 
 /// Mouse and keyboard say where the hand wants the tip: across the picture along the surface; seen from the side, up and down is depth.
 void move_pointer(const ScreenContext& c, const scenarios::LiveView& now, PointerStylus& pointer, float picture_height) {
@@ -178,8 +195,13 @@ void move_pointer(const ScreenContext& c, const scenarios::LiveView& now, Pointe
   view.up = across(camera.up());
   view.mm_per_px = 2.0 * camera.distance_mm * std::tan(13.0 * 3.14159265 / 180.0) / picture_height;
   view.mouse = c.mouse_captured;
+  const Vec3 before = s.wanted_mm;
   if (!asked_something(s)) move_by_pointer(c.input, view, s.wanted_mm, s.wanted_rotation);
+  if (!(s.wanted_mm == before)) s.coming_back = false;  // the hand wants something else
+  come_back(c, now, view.out);
   if (now.output.contact) keep_in_reach(view, now.input.pose().tip_mm, s.wanted_mm);
+  const auto& box = c.scene->tooth().box_mm();
+  s.wanted_mm = near_tooth(to_vec3(box[0]), to_vec3(box[1]), c.sitting->device().start().tip_mm, s.wanted_mm);
   PointerIntent intent;
   intent.tip_mm = s.wanted_mm;
   intent.rotation = s.wanted_rotation;
@@ -229,6 +251,7 @@ void exam_screen(const ScreenContext& c) {
   c.scene->tooth().update();
   s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
   s.view.point = view.ticks > 0 ? view.input.point : -1;
+  s.view.pressed = view.output.contact;
   turn_point(s.view, view.output.rpm, c.frame_s);
   spray_on(s.view.spray, view.output.rpm, view.output.cutting, view.enamel_share, view.dentin_share, c.frame_s);
   if (s.tutorial && view.ticks > 0) s.tutorial->see(tutorial_sight(c, view));
@@ -240,6 +263,8 @@ void exam_screen(const ScreenContext& c) {
   begin_area(t, "tooth", l.tooth_at, l.tooth, false);
   ImGui::PopStyleVar();
   const bool over = tooth_area(c, l.tooth);
+  const bool lost = s.view.point >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
+  const bool by_pointer = c.sitting->device().pointer() != nullptr;
   if (!view.recording_error.empty()) {
     const std::string waiting = fmt::format("{} s are kept in memory, nothing is lost. Go on working, and", view.unwritten_ticks / 1000);
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", fmt::format("{} call the supervisor: {}", waiting, view.recording_error), t.bad);
@@ -259,13 +284,18 @@ void exam_screen(const ScreenContext& c) {
                      fmt::format("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn);
   } else if (view.paused) {
     words_in_picture(t, l.tooth_at, l.tooth, "PAUSE", "The clock stands still and the handpiece stays off. Press P to go on.", t.warn);
+  } else if (lost) {
+    words_in_picture(t, l.tooth_at, l.tooth, "POINT",
+                     by_pointer ? "The point is out of the picture, where the arrow shows. B brings it back above the tooth."
+                                : "The point is out of the picture, where the arrow shows.",
+                     t.warn);
   } else if (s.tutorial) {
     const std::string where = s.tutorial->done() ? "TUTORIAL" : fmt::format("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);
     words_in_picture(t, l.tooth_at, l.tooth, where.c_str(), s.tutorial->text(), s.tutorial->done() ? t.good : t.accent);
   } else if (c.practice) {
     words_in_picture(t, l.tooth_at, l.tooth, "PRACTICE", coaching_hint(c.sitting->setup(), view), t.accent);
   }
-  if (c.sitting->device().pointer() != nullptr) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
+  if (by_pointer) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
   if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);
   end_area();
   if (PointerStylus* pointer = c.sitting->device().pointer()) {

@@ -79,6 +79,20 @@ void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOu
   }
 }
 
+void contact_lamp(const Theme& t, bool touches) {
+  const std::string word = shown(touches ? "touches" : "free");
+  const float width = ImGui::GetContentRegionAvail().x, r = t.px(7);
+  text_line("Contact");
+  ImGui::SameLine(width - ImGui::CalcTextSize(word.c_str()).x + ImGui::GetCursorStartPos().x);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
+  text_line(word);
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  const ImVec2 lamp{at.x - 2.0F * r, at.y + 0.5F * ImGui::GetTextLineHeight()};
+  if (touches) draw.AddCircleFilled(lamp, r, ink(t.warn));
+  draw.AddCircle(lamp, r, ink(touches ? t.text : t.quiet), 0, t.px(2));
+  ImGui::Dummy({0, t.px(4)});
+}
+
 void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) {
   const double shown_s = limit_s > 0 ? limit_s - passed_s : passed_s;
   constexpr double k_soon_s = 60.0;

@@ -20,6 +20,9 @@ void depth_gauge(const Theme& theme, double tip_mm, double deepest_mm, double mo
 /// Those of speed, force and depth that are `shown`. `deepest_mm` so far below the opening.
 void show_gauges(const Theme& theme, const scenarios::ExamSetup& setup, const TickOutput& now, double deepest_mm, const scenarios::GaugeSpec& shown);
 
+/// Whether the instrument touches, by a word and a lamp that is full or hollow.
+void contact_lamp(const Theme& theme, bool touches);
+
 /// The exam's clock: what is left of the limit, or what has passed when there is none.
 void exam_clock(const Theme& theme, double passed_s, double limit_s, bool standing);
 

@@ -28,6 +28,7 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       runner_(make_runner()),
       inputs_(reader_.inputs()),
       events_(reader_.events()),
+      moments_(replay_moments(events_, reader_.result_json(), static_cast<std::int64_t>(inputs_.size()), !setup_->scenario.hold_results)),
       ended_by_hand_(std::any_of(events_.begin(), events_.end(),
                                  [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); })),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {

@@ -13,6 +13,7 @@
 #include "engine/session/simulation.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/exam/runner.h"
+#include "ui/station/replay_moments.h"
 
 namespace cavum::station {
 
@@ -23,7 +24,7 @@ class ReplayPlayer {
 
   [[nodiscard]] const scenarios::ExamSetup& setup() const noexcept { return *setup_; }
   [[nodiscard]] const SessionReader& session() const noexcept { return reader_; }
-  [[nodiscard]] const std::vector<SessionEvent>& events() const noexcept { return events_; }
+  [[nodiscard]] const std::vector<ReplayMoment>& moments() const noexcept { return moments_; }
   [[nodiscard]] std::int64_t ticks() const noexcept { return static_cast<std::int64_t>(inputs_.size()); }
 
   /// Where to go, 0..ticks(): the moment after so many ticks.
@@ -73,6 +74,7 @@ class ReplayPlayer {
   scenarios::Runner runner_;
   std::vector<TickInput> inputs_;
   std::vector<SessionEvent> events_;
+  std::vector<ReplayMoment> moments_;
   bool ended_by_hand_ = false;  // what the candidate or the supervisor ended is no input of a tick
   std::int64_t between_ = 1, goal_ = 0;
   std::unique_ptr<Moment> now_;

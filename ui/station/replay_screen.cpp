@@ -14,20 +14,6 @@
 namespace cavum::station {
 namespace {
 
-/// What of the recording's events is worth a mark.
-const char* mark_of(const std::string& kind) {
-  if (kind == "perforation") return "perforation";
-  if (kind == "aim_reached") return "aim reached";
-  if (kind == "step_completed") return "step completed";
-  if (kind == "step_failed" || kind == "step_time_limit") return "step failed";
-  if (kind == "pause_started") return "pause";
-  if (kind == "hold_started") return "paused by the office";
-  if (kind == "gap") return "recording interrupted";
-  if (kind == "time_limit") return "time is up";
-  if (kind == "finished") return "finished";
-  return nullptr;
-}
-
 void top_bar(const ScreenContext& c, ImVec2 size) {
   const Theme& t = c.theme;
   const ReplayPlayer& player = *c.replay;
@@ -65,17 +51,54 @@ void time_line(const ScreenContext& c) {
   draw.AddRectFilled(at, {at.x + width, at.y + height}, ink(t.raised), t.px(4));
   draw.AddRectFilled(at, {x_of(static_cast<double>(player.shown().tick)), at.y + height}, ink(t.accent), t.px(4));
   draw.AddRectFilled({x_of(s.replay_at) - t.px(2), at.y - t.px(4)}, {x_of(s.replay_at) + t.px(2), at.y + height + t.px(4)}, ink(t.text));
-  for (const SessionEvent& e : player.events()) {
-    const char* word = mark_of(e.kind);
-    if (word == nullptr) continue;
-    const float x = x_of(static_cast<double>(e.tick));
-    const bool bad = e.kind == "perforation" || e.kind == "step_failed" || e.kind == "step_time_limit" || e.kind == "gap";
+  for (const ReplayMoment& m : player.moments()) {
+    const float x = x_of(static_cast<double>(m.tick));
     draw.AddTriangleFilled({x - t.px(6), at.y + height + t.px(14)}, {x + t.px(6), at.y + height + t.px(14)}, {x, at.y + height + t.px(3)},
-                           ink(bad ? t.bad : t.good));
+                           ink(m.bad ? t.bad : t.good));
     if (ImGui::IsMouseHoveringRect({x - t.px(7), at.y}, {x + t.px(7), at.y + height + t.px(15)}))
-      ImGui::SetTooltip("%s, %s", shown(word).c_str(), clock_text(static_cast<double>(e.tick) * k_tick_s).c_str());
+      ImGui::SetTooltip("%s, %s", shown(m.what).c_str(), clock_text(static_cast<double>(m.tick) * k_tick_s).c_str());
   }
   ImGui::Dummy({width, t.px(14)});
+}
+
+void go_to_moment(const ScreenContext& c, int number) {
+  if (number < 0) return;
+  c.state.replay_moment = number;
+  c.state.replay_at = static_cast<double>(c.replay->moments()[static_cast<std::size_t>(number)].tick);
+  c.state.playing = false;
+}
+
+/// Time, what happened and the points it cost, a row each; a click or PgUp and PgDn go there.
+void moment_list(const ScreenContext& c, float height) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  const auto& moments = c.replay->moments();
+  const auto now = static_cast<std::int64_t>(s.replay_at);
+  const int before = s.replay_moment;
+  const int step = (ImGui::IsKeyPressed(GLFW_KEY_PAGE_DOWN) ? 1 : 0) - (ImGui::IsKeyPressed(GLFW_KEY_PAGE_UP) ? 1 : 0);
+  if (step != 0) go_to_moment(c, moment_beside(moments, now, s.replay_moment, step));
+  text_line("Events  (PgUp, PgDn)");
+  ImGui::BeginChild("moments", {0, height}, false);
+  push_font(Font::small);
+  const float wide = ImGui::GetContentRegionAvail().x, left = t.px(42), right = t.px(46), line = ImGui::GetTextLineHeight();
+  for (std::size_t i = 0; i < moments.size(); ++i) {
+    const ReplayMoment& m = moments[i];
+    const std::string words = in_lines(shown(m.what), wide - left - right), time = clock_text(static_cast<double>(m.tick) * k_tick_s);
+    const std::string points = m.lost ? number_text("-%.1f", *m.lost) : "";
+    const ImVec2 at = ImGui::GetCursorScreenPos(), box = ImGui::CalcTextSize(words.c_str());
+    const bool chosen = static_cast<int>(i) == s.replay_moment && m.tick == static_cast<std::int64_t>(s.replay_at);
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable("##moment", chosen, 0, {0, std::max(box.y, line)})) go_to_moment(c, static_cast<int>(i));
+    ImGui::PopID();
+    if (chosen && s.replay_moment != before) ImGui::SetScrollHereY();
+    ImDrawList& draw = *ImGui::GetWindowDrawList();
+    draw.AddText(at, ink(t.quiet), time.c_str());
+    draw.AddText({at.x + left, at.y}, ink(t.text), words.c_str());
+    draw.AddText({at.x + wide - ImGui::CalcTextSize(points.c_str()).x, at.y}, ink(m.bad ? t.bad : t.text), points.c_str());
+    ImGui::LogText("%s\n", (time + " " + shown(m.what) + " " + points).c_str());
+  }
+  pop_font();
+  ImGui::EndChild();
 }
 
 void controls(const ScreenContext& c, ImVec2 at, ImVec2 size) {
@@ -134,6 +157,7 @@ void replay_screen(const ScreenContext& c) {
     player.show();
     s.view.tool = {player.shown().output.proxy_mm, player.shown().input.pose().rotation};
     s.view.point = player.shown().input.point;
+    s.view.pressed = player.shown().output.contact;
     if (s.playing) turn_point(s.view, player.shown().output.rpm, c.frame_s);
   }
   constexpr double k_pale = 0.5;  // of what it cut is not at hand here
@@ -149,8 +173,11 @@ void replay_screen(const ScreenContext& c) {
   const scenarios::ExamSetup& setup = player.setup();
   const ReplayPlayer::Shown& now = player.shown();
   show_gauges(t, setup, now.output, now.runner.depth_mm, {true, true, true});
+  contact_lamp(t, now.output.contact);
   quiet_text(t, "Target removed: about " +
                     number_text("%.1f %%", 100.0 * static_cast<double>(now.runner.target_shares) / static_cast<double>(setup.zones.target_shares())));
+  const float help = t.px(84);
+  moment_list(c, std::max(t.px(120), ImGui::GetContentRegionAvail().y - help - t.px(30)));
   quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray");
   end_area();
   controls(c, {0, screen.y - bottom}, {screen.x, bottom});

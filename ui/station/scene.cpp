@@ -22,7 +22,7 @@ constexpr glm::vec3 k_night(0.085F, 0.105F, 0.130F);
 
 bool same(const SceneView& a, const SceneView& b) {
   const auto facts = [](const SceneView& v) {
-    return std::tie(v.camera, v.point, v.spin_rad, v.handpiece, v.foot, v.drops, v.spray, v.clear, v.stereo, v.high_contrast);
+    return std::tie(v.camera, v.point, v.pressed, v.spin_rad, v.handpiece, v.foot, v.drops, v.spray, v.clear, v.stereo, v.high_contrast);
   };
   return facts(a) == facts(b) && a.tool.tip_mm == b.tool.tip_mm && a.tool.rotation == b.tool.rotation;
 }
@@ -203,6 +203,7 @@ glm::vec3 Scene::background_of(const SceneView& view) { return view.high_contras
 bool Scene::has_tool(const SceneView& view) const { return view.point >= 0 && static_cast<std::size_t>(view.point) < heads_.size(); }
 
 float Scene::touch(const SceneView& view) const {
+  if (view.pressed) return 1.0F;
   const Mat3 r = rotation(view.tool.rotation);
   double nearest_mm = 1.0;
   for (const Vec3 p : surfaces_[static_cast<std::size_t>(view.point)])

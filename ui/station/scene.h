@@ -25,6 +25,7 @@ struct SceneView {
   Camera camera;
   Pose tool;              ///< tip as the tooth allows it
   int point = -1;         ///< of the tray; -1 = no instrument
+  bool pressed = false;   ///< the tooth holds the instrument, also by its side or shank: seen where it is
   float spin_rad = 0;     ///< how far the running point has turned, as shown
   bool handpiece = true;  ///< shown; it fades where one looks along it
   bool foot = true;       ///< the ring on the tissue below the head, wider the higher the head is

@@ -49,6 +49,9 @@ bool tooth_area(const ScreenContext& c, ImVec2 size);
 /// Its lower left corner on the screen and its size, of the last tooth_area: for words written into it.
 void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour);
 
+/// Whether a place of the tooth frame lies outside the picture of the tooth; then an arrow at the picture's edge shows where to.
+bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVec2 size);
+
 /// All over a picture whose hand is a simulated one, pixels.
 void demonstration_in_picture(const Theme& theme, ImVec2 at, ImVec2 size);
 

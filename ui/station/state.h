@@ -9,6 +9,7 @@
 
 #include "ui/office/station_link.h"
 #include "ui/station/scene.h"
+#include "ui/station/side_words.h"
 #include "ui/station/tutorial.h"
 
 namespace cavum::station {
@@ -47,6 +48,7 @@ struct StationState {
   bool focus_place = true;
   std::string message;  ///< shown with the screen: what went wrong, what was written
   SceneView view;
+  std::optional<CrownSides> sides;  ///< of the tooth in the picture; none: no words stand beside it
   bool left_handed = false;
   bool high_contrast = false;
   double text_scale = 1.0;
@@ -65,6 +67,7 @@ struct StationState {
   int attempts = 0;                        ///< in this exam
   bool rescue_failed = false;              ///< no other place took it either
   double replay_at = 0.0;                  ///< ticks
+  int replay_moment = -1;                  ///< chosen of the replay's list; -1 = none
   double replay_speed = 1.0;               ///< times real time
   bool playing = false;                    ///< the replay
   double pause_key_s = 0.0;                ///< for so long the pause button stays pressed
@@ -72,6 +75,7 @@ struct StationState {
   bool own_arrows = false;                 ///< the screen has another use for the arrows than turning the tooth
   Vec3 wanted_mm;                          ///< where mouse and keyboard want the tip, tooth frame
   Quat wanted_rotation;                    ///< of the handpiece then
+  bool coming_back = false;                ///< mouse and keyboard bring the tip back above the tooth
   bool tutorial_wanted = false;            ///< chosen at sign-in
   std::optional<Tutorial> tutorial;        ///< in practice, once it was asked for
   bool mouse_free = false;                 ///< in an exam: the mouse points at buttons instead of being the stylus

@@ -446,6 +446,7 @@ class Station {
       const Pose start = sitting_->device().start();
       state_.wanted_mm = start.tip_mm;
       state_.wanted_rotation = start.rotation;
+      state_.coming_back = false;
       go_to(Screen::device_check);
     }
     if (now == Stage::grading || now == Stage::interrupted) {
@@ -470,6 +471,7 @@ class Station {
     scene_->fix_effects(options_.effects);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
+    state_.sides = crown_sides(setup.tooth, setup.zones);
     state_.view.camera.distance_mm = 36.0F;
     state_.view.clear = practice;
     constexpr double k_below_mm = 1.5;  // of the opening: the whole crown is in the picture

@@ -2,6 +2,7 @@
 #include <GLFW/glfw3.h>
 #include <imgui.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "engine/language/shown.h"
@@ -55,12 +56,33 @@ bool tooth_area(const ScreenContext& c, ImVec2 size) {
     for (const InputEvent& e : c.input.played())
       if (e.kind == InputEvent::Kind::motion) s.view.camera.orbit(-0.3F * e.x, 0.3F * e.y);
   if ((over || c.mouse_captured) && io.MouseWheel != 0 && (!mouse_is_stylus || io.KeyCtrl)) s.view.camera.approach(std::pow(0.92F, io.MouseWheel));
+  if (s.sides) draw_side_words(c.theme, *s.sides, s.view.camera, s.view.stereo, at, size);
   if (c.sitting != nullptr && c.sitting->device().simulated()) demonstration_in_picture(c.theme, at, size);
   if (s.view.camera.mirror) {
     const std::string word = shown("MIRROR");
     ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word.c_str());
   }
   return over;
+}
+
+bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVec2 size) {
+  const Camera& camera = c.state.view.camera;
+  const float width = c.state.view.stereo ? 0.5F * size.x : size.x;
+  const glm::vec4 p = camera.projection(width / size.y) * camera.view() * glm::vec4(place_mm.x, place_mm.y, place_mm.z, 1.0F);
+  if (p.w > 0 && std::fabs(p.x) <= p.w && std::fabs(p.y) <= p.w) return false;
+  const float far = std::max(1e-6F, std::max(std::fabs(p.x), std::fabs(p.y)));
+  const ImVec2 share{p.x / far, -p.y / far};
+  const float words = c.theme.px(110);  // at the picture's foot
+  const float edge = c.theme.px(26), r = c.theme.px(14), length = std::hypot(share.x, share.y);
+  const ImVec2 middle{at.x + 0.5F * size.x + share.x * (0.5F * size.x - edge),
+                      at.y + std::min(0.5F * size.y + share.y * (0.5F * size.y - edge), size.y - words)};
+  const ImVec2 d{share.x / length, share.y / length};
+  const ImVec2 top{middle.x + r * d.x, middle.y + r * d.y}, left{middle.x - r * d.x - r * d.y, middle.y - r * d.y + r * d.x},
+      right{middle.x - r * d.x + r * d.y, middle.y - r * d.y - r * d.x};
+  ImDrawList& draw = *ImGui::GetWindowDrawList();
+  draw.AddTriangleFilled(top, left, right, ink(c.theme.warn));
+  draw.AddTriangle(top, left, right, ink(c.theme.back), c.theme.px(2));
+  return true;
 }
 
 void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& english, const ImVec4& colour) {

@@ -111,6 +111,44 @@ TEST(PointerHand, AWindowThatStoodStillPlungesNoTip) {
   EXPECT_GT(brought_to(did, 0.4, 10.0).z, -k_pointer_step_mm - k_pointer_mm_s * 2.0 * InputQueue::k_longest_picture_s);
 }
 
+TEST(PointerHand, StaysNearTheTooth) {
+  const Vec3 low{-5, -5, -20}, high{5, 5, 1}, start{0, 0, 9};
+  EXPECT_EQ(near_tooth(low, high, start, {1, 2, -3}), (Vec3{1, 2, -3}));
+  EXPECT_EQ(near_tooth(low, high, start, {40, -40, -99}), (Vec3{5 + k_pointer_room_mm, -5 - k_pointer_room_mm, -20 - k_pointer_room_mm}));
+  EXPECT_EQ(near_tooth(low, high, start, {0, 0, 99}), (Vec3{0, 0, start.z})) << "where it began belongs to it";
+}
+
+/// From a place back above a tooth; how far it went.
+double came_back(const WayBack& way, Vec3 tip, double step_mm) {
+  double gone = 0;
+  for (int i = 0; i < 20000 && !(tip == way.goal); ++i) {
+    const Vec3 next = next_on_way_back(way, tip, step_mm);
+    EXPECT_LE(length(next - tip), step_mm + 1e-9) << "it travels";
+    EXPECT_FALSE(way.in_tissue(next)) << next.x << " " << next.y << " " << next.z;
+    gone += length(next - tip);
+    tip = next;
+  }
+  EXPECT_EQ(tip, way.goal);
+  return gone;
+}
+
+TEST(PointerHand, ComesBackAboveTheToothFromBesideItBelowItsBulgeAndFromACavity) {
+  // a ball of a crown over a thin root, with a hole from above
+  const auto tissue = [](Vec3 p) {
+    const bool crown = length(p) < 5.0, root = std::hypot(p.x, p.y) < 2.0 && p.z < 0 && p.z > -18;
+    return (crown || root) && !(std::hypot(p.x, p.y) < 0.7 && p.z > 2.0);
+  };
+  const WayBack way{{0, 0, 9}, {0, 0, 1}, tissue};
+  for (const double step_mm : {0.02, 0.3}) {
+    EXPECT_NEAR(came_back(way, {0.2, 0, 2.5}, step_mm), 6.5 + 0.2, 1e-6) << "straight out of the hole";
+    EXPECT_LT(came_back(way, {2.3, 0, -14}, step_mm), 23 + 2 * 7.0) << "from beside the root, below the crown";
+    EXPECT_LT(came_back(way, {-6, 4, -20}, step_mm), 29 + 9.0) << "out of all tissue";
+    EXPECT_LT(came_back(way, {5.05, 0, 0.1}, step_mm), 9 + 9.0) << "leaning on the crown";
+  }
+  const WayBack lingual{{0, -6, 3}, normalized(Vec3{0, -1, 0.5}), tissue};
+  EXPECT_LT(came_back(lingual, {0, 5.5, 0}, 0.1), 40.0) << "from the other side of the tooth";
+}
+
 TEST(PointerHand, TheMouseGoesOnWithoutAnEdgeAndCtrlTiltsAsFarAsItMay) {
   InputQueue queue;
   PointerView view;

@@ -18,6 +18,7 @@
 #include "ui/station/camera.h"
 #include "ui/station/coach.h"
 #include "ui/station/device_check.h"
+#include "ui/station/replay_moments.h"
 #include "ui/station/replay_player.h"
 #include "ui/station/theme.h"
 
@@ -114,6 +115,31 @@ TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
   EXPECT_EQ(r.pedal, 0.4);
   EXPECT_EQ(r.flags, k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2);
   EXPECT_EQ(r.pose.tip_mm, (Vec3{1, 2, 3}));
+}
+
+TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
+  const std::vector<SessionEvent> events{{100, "step_completed", "{}"}, {100, "perforation", "{}"}, {300, "device_lost", "{}"}};
+  const std::string result =
+      R"({"criteria":[{"title":"Depth","points":3.5,"max":10,"first_tick":50},{"title":"Full","points":5,"max":5,"first_tick":60},
+          {"title":"Time","points":0,"max":2,"first_tick":null}]})";
+  const auto moments = replay_moments(events, result, 400, true);
+  ASSERT_EQ(moments.size(), 4u);
+  EXPECT_EQ(moments[0].what, "Depth");
+  EXPECT_NEAR(moments[0].lost.value(), 6.5, 1e-12);
+  EXPECT_EQ(moments[1].what, "step completed");
+  EXPECT_FALSE(moments[1].bad);
+  EXPECT_TRUE(moments[2].bad);
+  EXPECT_EQ(moments[3].tick, 400) << "one without a moment stands at the end";
+  EXPECT_EQ(replay_moments(events, result, 400, false).size(), 2u) << "marks that are held";
+  EXPECT_EQ(replay_moments(events, "", 400, true).size(), 2u);
+  EXPECT_THROW(static_cast<void>(replay_moments(events, "{}", 400, true)), Error);
+  // by keys through all of them, also two of one tick
+  std::vector<int> down, up;
+  int at = -1;
+  for (std::int64_t tick = 0; (at = moment_beside(moments, tick, at, 1)) >= 0; tick = moments[static_cast<std::size_t>(at)].tick) down.push_back(at);
+  EXPECT_EQ(down, (std::vector<int>{0, 1, 2, 3}));
+  for (std::int64_t tick = 401; (at = moment_beside(moments, tick, at, -1)) >= 0; tick = moments[static_cast<std::size_t>(at)].tick) up.push_back(at);
+  EXPECT_EQ(up, (std::vector<int>{3, 2, 1, 0}));
 }
 
 class Coach : public ::testing::Test {

@@ -1,0 +1,69 @@
+#include "ui/station/replay_moments.h"
+
+#include <algorithm>
+#include <nlohmann/json.hpp>
+
+#include "engine/base/error.h"
+
+namespace cavum::station {
+namespace {
+
+/// What of the recording's events is worth a mark.
+const char* word_of_event(const std::string& kind) {
+  if (kind == "perforation") return "perforation";
+  if (kind == "aim_reached") return "aim reached";
+  if (kind == "step_completed") return "step completed";
+  if (kind == "step_failed" || kind == "step_time_limit") return "step failed";
+  if (kind == "pause_started") return "pause";
+  if (kind == "hold_started") return "paused by the office";
+  if (kind == "gap") return "recording interrupted";
+  if (kind == "time_limit") return "time is up";
+  if (kind == "finished") return "finished";
+  return nullptr;
+}
+
+}  // namespace
+
+std::vector<ReplayMoment> replay_moments(const std::vector<SessionEvent>& events, const std::string& result_json, std::int64_t ticks,
+                                         bool with_points) {
+  std::vector<ReplayMoment> moments;
+  for (const SessionEvent& e : events)
+    if (const char* word = word_of_event(e.kind))
+      moments.push_back({e.tick, word, e.kind == "perforation" || e.kind == "step_failed" || e.kind == "step_time_limit" || e.kind == "gap"});
+  if (with_points && !result_json.empty()) {
+    try {
+      const auto result = nlohmann::json::parse(result_json);
+      for (const auto& c : result.at("criteria")) {
+        if (!c.at("points").is_number() || !c.at("max").is_number()) continue;  // not judged
+        const double lost = c.at("max").get<double>() - c.at("points").get<double>();
+        constexpr double k_least = 0.005;
+        if (lost <= k_least) continue;
+        const auto& first = c.at("first_tick");
+        moments.push_back({first.is_number() ? std::clamp<std::int64_t>(first.get<std::int64_t>(), 0, ticks) : ticks,
+                           c.at("title").get<std::string>(), true, lost});
+      }
+    } catch (const nlohmann::json::exception& e) {
+      throw Error("result of the session", e.what(), "grade it anew: cavum grade");
+    }
+  }
+  std::stable_sort(moments.begin(), moments.end(), [](const ReplayMoment& a, const ReplayMoment& b) { return a.tick < b.tick; });
+  return moments;
+}
+
+int moment_beside(const std::vector<ReplayMoment>& moments, std::int64_t at, int chosen, int step) {
+  const auto n = static_cast<int>(moments.size());
+  if (chosen >= 0 && chosen < n && moments[static_cast<std::size_t>(chosen)].tick == at) {
+    const int next = chosen + step;
+    return next >= 0 && next < n ? next : -1;
+  }
+  if (step > 0) {
+    for (int i = 0; i < n; ++i)
+      if (moments[static_cast<std::size_t>(i)].tick > at) return i;
+    return -1;
+  }
+  for (int i = n - 1; i >= 0; --i)
+    if (moments[static_cast<std::size_t>(i)].tick < at) return i;
+  return -1;
+}
+
+}  // namespace cavum::station
