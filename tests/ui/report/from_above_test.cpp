@@ -90,18 +90,36 @@ TEST_F(MistakePictures, WhoCutsTheTargetAndNothingElseSeesThePlan) {
   EXPECT_NE(image(picture_from_above), image(picture_as_planned));
 }
 
-TEST_F(MistakePictures, ASectionThroughAMistakeLiesWhereMostOfItShowsAndRingsIt) {
+TEST_F(MistakePictures, ASectionThroughAMistakeShowsCavityAndWallWithItAndRingsIt) {
   work_.carve(testing::box_hole(-1.5, 1.5, -1, 1, -2), 500);
   EXPECT_FALSE(section_of_mistake(work_.input(), {0, 0, -2}).has_value()) << "nothing is wrong";
   work_.carve(testing::box_hole(-1.5, 1.5, 1, 1.5, -2), 600);  // the buccal wall, 3 mm wide, 2 mm high, 0.5 mm deep
-  const auto across = section_of_mistake(work_.input(), {0, 1.45, -1});
-  ASSERT_TRUE(across.has_value());
-  EXPECT_EQ(across->view, scenarios::View::mesio_distal) << "3 x 2 mm of it lie in the plane of the wall";
-  const auto deep = section_of_mistake(work_.input(), {0, 1.95, -1});
-  ASSERT_TRUE(deep.has_value());
-  EXPECT_NE(deep->view, scenarios::View::mesio_distal) << "beyond the wall that plane shows none of it";
-  EXPECT_EQ(times_of(deep->svg, "<circle"), 2);
+  for (const double y : {1.1, 1.45, 1.95}) {                   // 3 x 2 mm of it lie in a plane along the wall, but nothing of the cavity does
+    const auto across = section_of_mistake(work_.input(), {0, y, -1});
+    ASSERT_TRUE(across.has_value());
+    EXPECT_NE(across->view, scenarios::View::mesio_distal) << y;
+    EXPECT_EQ(times_of(across->svg, "class='ring'"), 2);
+  }
   EXPECT_EQ(section_of_mistake(work_.input(), {-3, -3, -1}).has_value(), false) << "far from it";
+}
+
+TEST_F(MistakePictures, AFloorCutTooDeepShowsUprightWithTheCavityAboveIt) {
+  work_.carve(testing::box_hole(-1.5, 1.5, -1, 1, -2.6), 500);
+  const auto floor = section_of_mistake(work_.input(), {0, 0, -2.55});
+  ASSERT_TRUE(floor.has_value());
+  EXPECT_NE(floor->view, scenarios::View::horizontal);
+}
+
+TEST_F(MistakePictures, WhatCannotBeSeenHasNoSectionOfItsOwn) {
+  const auto titles = [&] {
+    std::string all;
+    for (const auto& p : section_pictures(work_.graded(), work_.input())) all += p.title + "\n";
+    return all;
+  };
+  work_.carve(testing::box_hole(-1.5, 1.5, -1, 1.02, -2), 500);
+  EXPECT_EQ(titles().find("worst overcut"), std::string::npos) << titles();
+  work_.carve(testing::box_hole(-1.5, 1.5, -1, 1.4, -2), 600);
+  EXPECT_NE(titles().find("worst overcut"), std::string::npos) << titles();
 }
 
 }  // namespace

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/report/figures/packed_array.h"
 
@@ -174,10 +175,21 @@ Bytes columns_png(const Columns& columns) {
   return png_of(image.get());
 }
 
-constexpr double k_top_px = 24, k_key_px = 190, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
+constexpr double k_top_px = 24, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
 
 std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
   return fmt::format("<text x='{}' y='{}' text-anchor='{}'>{}</text>", fixed(x, 0), fixed(y, 0), anchor, words);
+}
+
+std::string beyond_words() { return fixed(k_colours_end_mm, 1) + " mm beyond"; }
+std::string left_words() { return fixed(k_colours_end_mm, 1) + " mm left"; }
+
+/// Room beside the picture for the key, in the reader's language.
+double key_width_px() {
+  constexpr double k_least_px = 190, k_letter_px = 10;  // of letters of 16 px, wide ones
+  std::size_t letters = 0;
+  for (const std::string& words : {beyond_words(), left_words(), std::string("as planned")}) letters = std::max(letters, shown(words).size());
+  return std::max(k_least_px, 20 + k_bar_px + 8 + k_letter_px * static_cast<double>(letters));
 }
 
 /// The bar of colours with its corner at `left` and `top`, and a millimetre of `mm_px` below it.
@@ -191,8 +203,8 @@ std::string key_svg(double left, double top, double mm_px) {
                        fixed(k_step_px + 0.5, 1), hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
   svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>\n", fixed(left, 0), fixed(top, 0), fixed(k_bar_px, 0),
                      fixed(k_bar_height_px, 0));
-  svg += text_at(words, top + 14, fixed(k_colours_end_mm, 1) + " mm beyond") + text_at(words, top + k_bar_height_px / 2 + 5, "as planned") +
-         text_at(words, top + k_bar_height_px - 4, fixed(k_colours_end_mm, 1) + " mm left");
+  svg += text_at(words, top + 14, beyond_words()) + text_at(words, top + k_bar_height_px / 2 + 5, "as planned") +
+         text_at(words, top + k_bar_height_px - 4, left_words());
   svg += fmt::format("\n<path d='M{} {}h{}' stroke='#222222' stroke-width='2'/>{}", fixed(left, 0), fixed(top + k_bar_height_px + 34, 0),
                      fixed(mm_px, 1), text_at(left + mm_px + 8, top + k_bar_height_px + 40, "1 mm"));
   return svg;
@@ -232,7 +244,7 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
   constexpr double k_below_bar_px = k_bar_height_px + 60;
   const auto beside = with_key ? key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px) : std::vector<std::string>{};
   beside_shown = !beside.empty();
-  const double all_width = width + k_key_px,
+  const double all_width = width + key_width_px(),
                key_height = k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())),
                all_height = k_top_px + std::max(height, key_height);
   std::string svg = fmt::format(

@@ -9,11 +9,13 @@
 #include <optional>
 
 #include "engine/base/text.h"
+#include "scenarios/review/section.h"
 
 namespace cavum::report {
 namespace {
 
 constexpr double k_scale_px_per_mm = 25;
+constexpr double k_least_seen_mm = 0.05;  // what is less deep does not show in a section
 
 /// A section that could be shown, and why.
 struct Wish {
@@ -40,12 +42,12 @@ struct Worst {
   std::size_t wall = 0;
   double mm = 0;
 };
-/// The place of the largest deviation of all walls; none where nothing was measured.
+/// The place of the largest deviation of all walls; none where nothing was measured that shows.
 std::optional<Worst> worst(const grading::Result& r, double grading::WallMeasures::*largest, grading::Trace grading::WallMeasures::*where) {
   std::optional<Worst> w;
   for (std::size_t i = 0; i < scenarios::k_walls; ++i) {
     const grading::WallMeasures& m = r.shape.wall[i];
-    if ((m.*where).tick < 0 || !(m.*largest > 0) || (w && w->mm >= m.*largest)) continue;
+    if ((m.*where).tick < 0 || m.*largest < k_least_seen_mm || (w && w->mm >= m.*largest)) continue;
     w = Worst{(m.*where).site_mm, i, m.*largest};
   }
   return w;
@@ -71,7 +73,7 @@ scenarios::View other(scenarios::View v) {
 /// Where a neighbour was nicked, and where a contact that was to be opened is narrowest.
 void add_beside(const grading::BesideMeasures& m, std::vector<Wish>& list) {
   constexpr double k_narrow_mm = 0.2;
-  if (m.nick_depth_mm > 0)
+  if (m.nick_depth_mm >= k_least_seen_mm)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::horizontal})
       list.push_back({v, m.deepest.site_mm, fmt::format("neighbouring tooth cut, {} mm deep here", fixed(m.nick_depth_mm, 2))});
   if (m.clearance_mm && *m.clearance_mm < k_narrow_mm)
@@ -135,6 +137,36 @@ std::array<std::string, 3> three_sections(const grading::Result& r, const gradin
           draw(scenarios::View::horizontal, across, "across, z = ")};
 }
 
+/// Leaves of one section near a mistake.
+struct Seen {
+  int wrong = 0, cut_as_asked = 0, left_as_asked = 0;
+  /// Mistake, cavity and wall together, by what there is least of; where one of them is nowhere, most of the mistake.
+  [[nodiscard]] std::pair<int, int> score() const noexcept { return {wrong == 0 ? -1 : std::min({wrong, cut_as_asked, left_as_asked}), wrong}; }
+};
+
+/// A ring around a leaf, in leaves of the section: two lines, so that it shows on any colour, and open where it would leave the section for the words
+/// around it.
+std::string ring_svg(const scenarios::Section& section, IVec3 at, double leaf_px) {
+  constexpr double k_radius_px = 16, k_widest_px = 5, k_full_circle = 6.283185307179586;
+  constexpr int k_corners = 48;
+  const IVec3 corner = section.leaf(0, 0);
+  const int across = section.leaf(1, 0).y != corner.y ? at.y - corner.y : at.x - corner.x, up = section.upright() ? at.z - corner.z : at.y - corner.y;
+  const double half = 0.5 * k_widest_px / leaf_px, low = section.height() - half;
+  std::string path;
+  bool drawing = false;
+  for (int i = 0; i <= k_corners; ++i) {
+    const double turn = k_full_circle * i / k_corners, x = across + 0.5 + k_radius_px / leaf_px * std::cos(turn),
+                 y = section.height() - up - 0.5 + k_radius_px / leaf_px * std::sin(turn);
+    const bool inside = y >= half && y <= low;
+    if (inside) path += fmt::format("{}{} {}", drawing ? "L" : "M", fixed(x, 2), fixed(y, 2));
+    drawing = inside;
+  }
+  std::string svg;
+  for (const auto& [colour, width] : {std::pair{"#ffffff", k_widest_px}, std::pair{"#111111", 2.0}})
+    svg += fmt::format("<path class='ring' fill='none' stroke='{}' stroke-width='{}' d='{}'/>\n", colour, fixed(width / leaf_px, 3), path);
+  return svg;
+}
+
 /// The number behind the first `key` of an SVG element, px.
 double svg_px(const std::string& svg, const std::string& key) {
   double px = 0;
@@ -170,25 +202,28 @@ std::optional<SectionPicture> section_of_mistake(const grading::GradeInput& inpu
   const Octree &before = input.seen_before().octree, &after = input.seen_after();
   const IVec3 at = before.leaf_at(place_mm);
   const int near = static_cast<int>(std::ceil(k_near_mm / before.leaf_mm()));
-  const auto wrong = [&](IVec3 leaf) {
-    const bool was = before.is_solid(before.tissue(leaf)), is = after.is_solid(after.tissue(leaf));
-    return was && is == (input.zones.zone(leaf) == scenarios::Zone::target);
+  std::array<Seen, 3> seen{};
+  const auto count = [&](Seen& s, IVec3 leaf) {
+    if (!before.is_solid(before.tissue(leaf))) return;
+    const bool target = input.zones.zone(leaf) == scenarios::Zone::target, stands = after.is_solid(after.tissue(leaf));
+    (stands == target ? s.wrong : target ? s.cut_as_asked : s.left_as_asked) += 1;
   };
-  constexpr std::array k_views{scenarios::View::mesio_distal, scenarios::View::bucco_lingual, scenarios::View::horizontal};
-  std::array<int, 3> found{};
   for (int u = -near; u <= near; ++u)
     for (int v = -near; v <= near; ++v) {
-      found[0] += wrong(at + IVec3{u, 0, v}) ? 1 : 0;
-      found[1] += wrong(at + IVec3{0, u, v}) ? 1 : 0;
-      found[2] += wrong(at + IVec3{u, v, 0}) ? 1 : 0;
+      count(seen[0], at + IVec3{u, 0, v});
+      count(seen[1], at + IVec3{0, u, v});
+      count(seen[2], at + IVec3{u, v, 0});
     }
-  const auto most = static_cast<std::size_t>(std::max_element(found.begin(), found.end()) - found.begin());
-  if (found[most] == 0) return std::nullopt;
+  const auto best = std::max_element(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.score() < b.score(); });
+  if (best->wrong == 0) return std::nullopt;
+  constexpr std::array k_views{scenarios::View::mesio_distal, scenarios::View::bucco_lingual, scenarios::View::horizontal};
   constexpr std::array k_titles{"Section from mesial to distal", "Section from buccal to lingual", "Section across"};
-  SectionPicture p{k_views[most], at_of(k_views[most], place_mm), k_titles[most], ""};
-  scenarios::PictureSpec spec{p.view, p.at_mm, k_small_px_per_mm, p.title, input.scenario.accommodations.high_contrast};
-  spec.ring_mm = place_mm;
-  p.svg = scenarios::section_svg(input.seen_before(), &after, input.zones, spec);
+  const auto which = static_cast<std::size_t>(best - seen.begin());
+  SectionPicture p{k_views[which], at_of(k_views[which], place_mm), k_titles[which], ""};
+  p.svg = scenarios::section_svg(input.seen_before(), &after, input.zones,
+                                 {p.view, p.at_mm, k_small_px_per_mm, p.title, input.scenario.accommodations.high_contrast});
+  const scenarios::Section section(before, &after, input.zones, p.view, p.at_mm);
+  p.svg.insert(p.svg.rfind("</g>"), ring_svg(section, at, k_small_px_per_mm * before.leaf_mm()));
   return p;
 }
 

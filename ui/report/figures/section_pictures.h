@@ -22,8 +22,8 @@ inline constexpr std::size_t k_report_sections = 8;
 /// Always k_report_sections, no two the same.
 [[nodiscard]] std::vector<SectionPicture> section_pictures(const grading::Result& result, const grading::GradeInput& input);
 
-/// The section through a place that shows most of what is wrong within 1.5 mm of it (removed beyond the target or of what stands beside it, or left
-/// of the target), with a ring around the place; none where nothing is. Its title has no figures.
+/// The section through a place in which what is wrong within 1.5 mm of it (removed beyond the target or of what stands beside it, or left of the
+/// target) shows together with cavity and wall, with a ring around the place; none where nothing is wrong. Its title has no figures.
 [[nodiscard]] std::optional<SectionPicture> section_of_mistake(const grading::GradeInput& input, Vec3 place_mm);
 
 /// Three sections (through the middle of the target, or the place of a perforation) with the key to their colours: one standalone SVG document.

@@ -130,8 +130,8 @@ struct PdfSheet::State {
     y = k_top;
     const double width = k_page_width - 2 * k_side;
     if (page > 1) {
-      furniture(document.title, k_side, 28, 0.5 * width, false);
-      furniture(document.subtitle, k_side + 0.5 * width, 28, 0.5 * width, true);
+      furniture(document.title, k_side, 24, width, false);
+      furniture(document.subtitle, k_side, 33, width, false);
     }
     const double foot = k_page_height - 32;
     cairo_set_line_width(cairo, 0.5);

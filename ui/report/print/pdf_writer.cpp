@@ -191,11 +191,13 @@ class Printer {
   static std::size_t columns_of(const Pictures& b) { return static_cast<std::size_t>(std::max(1, b.columns)); }
   [[nodiscard]] PictureRow row_of(const Pictures& b, std::size_t first) {
     const std::size_t columns = columns_of(b), end = std::min(b.list.size(), first + columns);
+    // three rows of sections to a page: two leave a third of it empty
+    const double most = b.sections ? s_.page_height_pt() / 3 - k_gap_pt - 3 * k_small_pt : k_most_of_page * s_.page_height_pt();
     PictureRow row;
     row.width = (s_.width_pt() - k_between_pt * static_cast<double>(columns - 1)) / static_cast<double>(columns);
     for (std::size_t i = first; i < end; ++i) {
       const PdfPicture p(b.list[i].svg);
-      const double scale = std::min({k_pt_per_px, row.width / p.width_px(), k_most_of_page * s_.page_height_pt() / p.height_px()});
+      const double scale = std::min({k_pt_per_px, row.width / p.width_px(), most / p.height_px()});
       row.placed.push_back({p, p.width_px() * scale, p.height_px() * scale});
       row.tallest = std::max(row.tallest, row.placed.back().height);
       if (!b.list[i].title.empty()) row.titles = std::max(row.titles, s_.height({b.list[i].title, k_small_pt, false}, row.width) + 2);

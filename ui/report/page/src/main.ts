@@ -59,9 +59,20 @@ function tooth_in(section: HTMLElement, data: ReportData, clock: Clock | null): 
   }
 }
 
-/** Tables wider than a narrow screen scroll by themselves, by keyboard too. */
+/** Each cell knows its heading: on a narrow screen rows are cards. */
+function label_cells(table: HTMLTableElement): void {
+  const headings = [...(table.tHead?.rows[0]?.cells ?? [])].map((cell) => cell.textContent ?? "");
+  for (const row of [...table.tBodies].flatMap((body) => [...body.rows]))
+    [...row.cells].forEach((cell, i) => {
+      if (headings[i]) cell.dataset["label"] = headings[i];
+    });
+  table.classList.add("stack");
+}
+
+/** Tables that are wider than their place even so scroll by themselves, by keyboard too. */
 function hold_wide_tables(): void {
   for (const table of document.querySelectorAll("table")) {
+    label_cells(table);
     if (table.parentElement?.classList.contains("wide")) continue;
     const holder = make("div", { class: "wide" });
     table.before(holder);
