@@ -19,7 +19,7 @@ const char* const k_names =
 /// The task's own English texts, which its file brings in German as well.
 const char* const k_own_texts = "Straight slot in a block Block cavity";
 /// Options as they are typed.
-const char* const k_options = "h,--help help version language see VERB";
+const char* const k_options = "verify-all h,--help help version language see VERB";
 
 class VerbLanguage : public testing_ui::Program {
  protected:
