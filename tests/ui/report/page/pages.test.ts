@@ -43,11 +43,11 @@ after(async () => {
   rmSync(folder, { recursive: true, force: true });
 });
 
-/** Elements whose content is wider than they are, and that do not hide the rest: what a reader of a telephone has to push about. */
+/** Elements that scroll sideways: what a reader of a telephone has to push about. */
 async function scrolling_sideways(page: Page): Promise<string[]> {
   return page.evaluate(() =>
     [...document.querySelectorAll<HTMLElement>("body, body *")]
-      .filter((e) => e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && !["hidden", "clip"].includes(getComputedStyle(e).overflowX))
+      .filter((e) => e.clientWidth > 0 && e.scrollWidth > e.clientWidth + 1 && ["auto", "scroll"].includes(getComputedStyle(e).overflowX))
       .map((e) => `${e.scrollWidth} px in ${e.clientWidth}: ${e.outerHTML.slice(0, 100)}`),
   );
 }
