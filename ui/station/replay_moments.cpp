@@ -33,8 +33,8 @@ std::vector<ReplayMoment> replay_moments(const std::vector<SessionEvent>& events
   if (with_points && !result_json.empty()) {
     try {
       const auto result = nlohmann::json::parse(result_json);
-      for (const auto& c : result.at("criteria")) {
-        if (!c.at("points").is_number() || !c.at("max").is_number()) continue;  // not judged
+      for (const auto& c : result.value("criteria", nlohmann::json::array())) {  // a recording of no exam has none
+        if (!c.at("points").is_number() || !c.at("max").is_number()) continue;   // not judged
         const double lost = c.at("max").get<double>() - c.at("points").get<double>();
         constexpr double k_least = 0.005;
         if (lost <= k_least) continue;
