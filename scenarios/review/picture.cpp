@@ -59,19 +59,6 @@ std::string section_lines_svg(const Section& section, const PictureSpec& spec, c
   return svg + line(guard_contour(section, *spec.guard), colours.guard_line, px, 1.4 * colours.line_px, dash.c_str());
 }
 
-/// Two lines, so that it shows on any colour.
-std::string ring_svg(const Section& section, Vec3 place_mm, double px) {
-  constexpr double k_radius_px = 16;
-  const IVec3 at = section.before.leaf_at(place_mm), corner = section.leaf(0, 0);
-  const int across = section.leaf(1, 0).y != corner.y ? at.y - corner.y : at.x - corner.x;
-  const int up = section.upright() ? at.z - corner.z : at.y - corner.y;
-  std::string svg;
-  for (const auto& [colour, width] : {std::pair{"#ffffff", 5.0}, std::pair{"#111111", 2.0}})
-    svg += fmt::format("<circle cx='{}' cy='{}' r='{}' fill='none' stroke='{}' stroke-width='{}'/>\n", svg_number(across + 0.5),
-                       svg_number(section.height() - up - 0.5), svg_number(k_radius_px / px), colour, svg_number(width / px));
-  return svg;
-}
-
 std::string caption(double x, double y, const std::string& text, const char* anchor) {
   return fmt::format("<text x='{}' y='{}' font-size='11' fill='#444444' text-anchor='{}'>{}</text>\n", svg_number(x), svg_number(y), anchor, text);
 }
@@ -92,7 +79,6 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   if (!spec.title.empty()) svg += fmt::format("<text x='4' y='15' font-size='13' fill='#222222'>{}</text>\n", xml_text(spec.title));
   svg += fmt::format("<g transform='translate(0 {}) scale({})'>\n", svg_number(title_px), svg_number(px));
   svg += section_leaves_svg(section, spec, colours) + section_lines_svg(section, spec, colours, px);
-  if (spec.ring_mm) svg += ring_svg(section, *spec.ring_mm, px);
   svg += "</g>\n";
   // a millimetre, and which way is which
   const double bottom = height_px + title_px;

@@ -33,7 +33,6 @@ struct PictureSpec {
   /// grey and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most
   /// often.
   std::function<double(IVec3 leaf)> heat_percent = {};
-  std::optional<Vec3> ring_mm = {};  ///< a place to look at: a ring around it
 };
 
 /// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.

@@ -25,7 +25,7 @@ for file in share/man/man1/cavum.1 share/bash-completion/completions/cavum share
   [ -s moved/$file ] || { echo "not installed: $file"; exit 1; }
 done
 for verb in $("$cavum" --help | sed -n '/^Subcommands:/,$p' | awk '/^  [a-z]/ {print $1}'); do
-  grep -q "cavum $verb" moved/share/man/man1/cavum.1 || { echo "the manual page lacks the verb $verb"; exit 1; }
+  grep -qF "cavum ${verb//-/\\-}" moved/share/man/man1/cavum.1 || { echo "the manual page lacks the verb $verb"; exit 1; }
 done
 bash -c 'source moved/share/bash-completion/completions/cavum; COMP_WORDS=(cavum ledger can); COMP_CWORD=2; _cavum; [[ " ${COMPREPLY[*]} " == *" cancel "* ]]' ||
   { echo "the completion does not know cavum ledger cancel"; exit 1; }

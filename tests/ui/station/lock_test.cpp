@@ -271,7 +271,8 @@ TEST_F(PointerByHand, TheMouseGoesToTheEdgeOfTheHandsBox) {
     std::this_thread::sleep_for(20ms);
   }
   EXPECT_EQ(wait(child), 0) << said();
-  EXPECT_NEAR(length(way()), 9.87, 0.2) << "3000 pixels are 60 mm";
+  EXPECT_GT(length(way()), k_pointer_room_mm) << "from within the tooth's box to the edge of the room around it";
+  EXPECT_LT(length(way()), 30) << "3000 pixels alone are 60 mm";
 }
 
 }  // namespace
