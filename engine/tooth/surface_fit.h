@@ -18,7 +18,7 @@ struct FitLeaf {
 /// 4x4x4 leaves and the two around them, x fastest.
 struct FitWindow {
   static constexpr int k_edge = 8, k_margin = 2;
-  std::array<FitLeaf, k_edge * k_edge * k_edge> leaf;
+  std::array<FitLeaf, std::size_t{k_edge} * k_edge * k_edge> leaf;
   [[nodiscard]] static constexpr int index(int x, int y, int z) noexcept {
     return (x + k_margin) + k_edge * (y + k_margin) + k_edge * k_edge * (z + k_margin);
   }

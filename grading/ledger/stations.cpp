@@ -178,7 +178,8 @@ std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t
   if (name.empty() || name.size() > k_longest_name || !is_plain_text(name))
     throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_name))),
                 fmt::format("give one line of at most {} bytes", k_longest_name));
-  const std::string code = new_station_code(), code_key = to_hex(key_of_code(code).public_key);
+  std::string code = new_station_code();
+  const std::string code_key = to_hex(key_of_code(code).public_key);
   ledger.append("station", [&](const LedgerContent&) -> json {
     return {{"action", "invite"}, {"name", name}, {"code_key", code_key}, {"until_utc_ns", until_utc_ns}};
   });

@@ -21,7 +21,7 @@ std::vector<std::string> twins_of(const ledger::StationRegister& stations, const
   const auto candidate_at = [&](const std::string& station) -> std::string {
     const auto found = said.find(station);
     if (found == said.end() || now - whole_in(found->second, "seen_utc_ns") > k_silent_ns) return {};
-    if (const std::string asked_for = text_in(found->second, "refused"); !asked_for.empty()) return asked_for;
+    if (std::string asked_for = text_in(found->second, "refused"); !asked_for.empty()) return asked_for;
     return text_in(found->second, "state") == "ended" ? "" : text_in(found->second, "candidate");
   };
   std::vector<std::string> twins;

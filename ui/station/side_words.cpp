@@ -57,7 +57,7 @@ Outline outline_of(Vec3 low, Vec3 high, bool round, const Pixels& pixels) {
       const double x = std::clamp(wide * std::cos(a), -1.0, 1.0), y = std::clamp(wide * std::sin(a), -1.0, 1.0);
       if (const auto at = pixels.of({middle.x + x * half.x, middle.y + y * half.y, z})) points.push_back(*at);
     }
-  return points.size() < 2 * k_around ? Outline{} : outline_of(std::move(points));
+  return points.size() < std::size_t{2} * k_around ? Outline{} : outline_of(std::move(points));
 }
 
 bool meets(const Outline& outline, ImVec2 middle, ImVec2 half) {

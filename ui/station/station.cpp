@@ -54,7 +54,8 @@ scenarios::Scenario scenario_of(const SittingOptions& o) {
 /// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as the exam begins: it does not grow any more then.
 /// The allocator keeps it, instead of giving it back at once.
 void reserve_memory() {
-  constexpr std::size_t k_blocks = 384, k_block_bytes = 64 * 1024;  // 24 MB: ten minutes of hard work took 8, a picture takes 8 for a moment
+  constexpr std::size_t k_blocks = 384,
+                        k_block_bytes = std::size_t{64} * 1024;  // 24 MB: ten minutes of hard work took 8, a picture takes 8 for a moment
   mallopt(M_TRIM_THRESHOLD, 4 * static_cast<int>(k_blocks * k_block_bytes));
   std::vector<std::vector<char>> blocks(k_blocks);
   for (auto& block : blocks) block.assign(k_block_bytes, 1);

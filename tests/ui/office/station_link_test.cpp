@@ -53,7 +53,7 @@ class AStation : public testing::Test {
     std::string text;
     auto station = opened_.station();
     for (const json& t : station.tickets()) text = t["text"];
-    const std::string path = folder("exams/" + number + ".cavum");
+    std::string path = folder("exams/" + number + ".cavum");
     sit_shortly(k_scenario, path, text);
     return path;
   }
