@@ -134,6 +134,12 @@ void EmulatedInverse3::serve(Line& line) {
 
 void EmulatedInverse3::hear(Line& line, const std::string& text) {
   const json message = json::parse(text, nullptr, false);
+  std::function<void()> moves;
+  {
+    const std::lock_guard lock(mutex_);
+    moves = moves_;
+  }
+  if (moves) moves();
   const std::lock_guard lock(mutex_);
   try {
     for (const auto& device : message.at("inverse3")) {

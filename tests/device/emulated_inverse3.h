@@ -5,11 +5,13 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <memory>
 #include <mutex>
 #include <string>
 #include <thread>
+#include <utility>
 #include <vector>
 
 #include "engine/base/pose.h"
@@ -61,6 +63,12 @@ class EmulatedInverse3 {
     change([&](auto& devices, auto&) { devices.begin()->second.position_m = position_m; });
   }
 
+  /// Called, without its lock, before a command is heard. Set it, or take it away, while no line is open.
+  void before_each_command(std::function<void()> moves) {
+    const std::lock_guard lock(mutex_);
+    moves_ = std::move(moves);
+  }
+
   [[nodiscard]] Told told(const std::string& id = "049D") const;
   /// Of a line that is open: the force that its device gives.
   [[nodiscard]] Vec3 force_n(const std::string& id = "049D") const;
@@ -86,6 +94,7 @@ class EmulatedInverse3 {
   std::map<std::string, Device> devices_{{"049D", {}}};
   std::map<std::string, Grip> grips_{{"61548", {}}};
   std::map<std::string, Told> told_;
+  std::function<void()> moves_;
 };
 
 }  // namespace cavum::testing_device

@@ -48,8 +48,14 @@ class Inverse3SelfCheck : public ::testing::Test {
     return m;
   }
   [[nodiscard]] std::unique_ptr<MovingArm> arm(const MovingArm::Model& model) {
-    return std::make_unique<MovingArm>(
+    auto moving = std::make_unique<MovingArm>(
         model, k_inverse3_middle_mm + Vec3{5, 4, -6}, [this] { return service_.force_n(); }, [this](Vec3 mm) { service_.move_to(mm / 1000.0); });
+    service_.before_each_command([arm = moving.get()] { arm->catch_up(); });
+    return moving;
+  }
+  void let_go(std::unique_ptr<MovingArm>& moving) {
+    service_.before_each_command({});
+    moving.reset();
   }
 
   testing_basics::Folder folder_;
@@ -75,13 +81,13 @@ TEST_F(Inverse3SelfCheck, FindsAStifferJointAndTheSessionSaysWhatWasDecided) {
 
   MovingArm::Model stiffer = free_arm();
   for (double& c : stiffer.coulomb_n) c += 0.1;
-  moving.reset();
+  let_go(moving);
   moving = arm(stiffer);
   const Ran second = run("devices --self-check --stylus inverse3");
   EXPECT_EQ(second.code, 1) << second.out;
   EXPECT_NE(second.out.find("Seat 3"), std::string::npos);
   EXPECT_NE(second.out.find("friction is +0.1"), std::string::npos) << second.out;
-  moving.reset();
+  let_go(moving);
 
   write_file(folder_.file("block.cvt"), save_tooth(make_block({6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.5}, {"pulp", 1.0}, {"dentin", 1.5}}, 0.05)));
   std::string scenario = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml");
