@@ -338,6 +338,39 @@ key enter
   EXPECT_GT(most_n, 0.3);
 }
 
+TEST_F(StationWindow, BBringsALostPointBackToWhereItBegan) {
+  const std::string script = R"(type M8
+go device-check
+sleep 1
+key space 0.6
+go briefing
+key enter
+wait exam
+until 1
+hold left
+hold pagedown
+until )" + std::string(k_in_time ? "2.5" : "12") + R"(
+release left
+release pagedown
+sleep 0.5
+key b
+until )" + (k_in_time ? "6" : "40") + R"(
+key escape
+sleep 0.3
+key enter
+wait result
+key enter
+)";
+  EXPECT_EQ(run(script, "--device mouse --practice"), 0) << said();
+  EXPECT_TRUE(verify_session(session()).verified);
+  const auto inputs = SessionReader(session()).inputs();
+  const Vec3 began = inputs.front().pose().tip_mm;
+  double farthest_mm = 0.0;
+  for (const TickInput& input : inputs) farthest_mm = std::max(farthest_mm, length(input.pose().tip_mm - began));
+  EXPECT_GT(farthest_mm, 3.0) << "the keys led it away";
+  EXPECT_LT(length(inputs.back().pose().tip_mm - began), 0.2);
+}
+
 TEST_F(StationWindow, PausesAsOftenAsTheScenarioPermits) {
   std::string scenario = read_text_file(k_scenario);
   scenario.insert(scenario.find("time_limit_s"), "gauges = [\"speed\", \"depth\"]\npauses = { count = 1, longest_s = 60, button = 1 }\n");
