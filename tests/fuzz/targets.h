@@ -32,6 +32,7 @@ void fuzz_results(Data data);     ///< exported results
 void fuzz_notes(Data data);       ///< signed notes, keys and requests to cosign, by the first byte
 void fuzz_entries(Data data);     ///< what a ledger's entries say, stations' requests among them, and what is exported of them
 void fuzz_ledger(Data data);      ///< edits of a ledger's database and the log beside it, see ledger_file_target.cpp
+void fuzz_office(Data data);      ///< a connection to the exam office; the first byte says who asks, see office_target.cpp
 void fuzz_volume(Data data);      ///< a volume's file or a DICOM slice, read in a child process; the first byte says which
 
 struct Target {
@@ -62,6 +63,7 @@ inline void PrintTo(const Target& target, std::ostream* out) { *out << target.na
 [[nodiscard]] std::vector<Bytes> notes_seeds();
 [[nodiscard]] std::vector<Bytes> entries_seeds();
 [[nodiscard]] std::vector<Bytes> ledger_seeds();
+[[nodiscard]] std::vector<Bytes> office_seeds();
 [[nodiscard]] std::vector<Bytes> volume_seeds();
 
 }  // namespace cavum::fuzz

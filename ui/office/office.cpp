@@ -270,6 +270,7 @@ struct Office::Parts {
 Office::Office(const OfficeOptions& options) : parts_(std::make_unique<Parts>(options)) {}
 Office::~Office() = default;
 std::uint16_t Office::port() const noexcept { return parts_->server->port(); }
+std::unique_ptr<Exchange> Office::welcome(const Head& head) { return parts_->site.welcome(head); }
 const std::string& Office::school() const noexcept { return parts_->desk.school(); }
 
 }  // namespace cavum::office

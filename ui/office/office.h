@@ -35,6 +35,8 @@ class Office {
   Office(const Office&) = delete;
   Office& operator=(const Office&) = delete;
   [[nodiscard]] std::uint16_t port() const noexcept;
+  /// What the server asks for each request: for whoever brings one on another way than a connection.
+  [[nodiscard]] std::unique_ptr<Exchange> welcome(const Head& head);
   [[nodiscard]] const std::string& school() const noexcept;
 
  private:
