@@ -3,6 +3,7 @@
 
 #include <fcntl.h>
 #include <signal.h>
+#include <sys/resource.h>
 #include <sys/wait.h>
 #include <unistd.h>
 
@@ -16,14 +17,21 @@ namespace cavum::testing_office {
 
 class Served {
  public:
-  explicit Served(const testing_ledger::School& school) : out_(school.file("served.txt")) {
+  /// `port` 0: any that is free. `most_bytes`: no file of its may grow beyond, as on a disk that is full; 0: any size.
+  explicit Served(const testing_ledger::School& school, std::uint16_t port = 0, std::uintmax_t most_bytes = 0) : out_(school.file("served.txt")) {
+    const std::string listen = "127.0.0.1:" + std::to_string(port);
     std::filesystem::remove(out_);
     pid_ = ::fork();
     if (pid_ == 0) {
       const int file = ::open(out_.c_str(), O_WRONLY | O_CREAT | O_TRUNC, 0600);
       ::dup2(file, STDOUT_FILENO);
       ::dup2(file, STDERR_FILENO);
-      ::execl(CAVUM_BINARY, CAVUM_BINARY, "serve", school.ledger_folder().c_str(), "--listen", "127.0.0.1:0", "--exam",
+      if (most_bytes > 0) {
+        const rlimit limit{most_bytes, most_bytes};
+        ::setrlimit(RLIMIT_FSIZE, &limit);
+        ::signal(SIGXFSZ, SIG_IGN);
+      }
+      ::execl(CAVUM_BINARY, CAVUM_BINARY, "serve", school.ledger_folder().c_str(), "--listen", listen.c_str(), "--exam",
               testing_ledger::k_scenario.c_str(), static_cast<char*>(nullptr));
       ::_exit(127);
     }
