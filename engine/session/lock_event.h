@@ -12,11 +12,13 @@
 namespace cavum {
 
 inline constexpr char k_lock_event[] = "lock";
+/// `more` of a close_granted that was a locked station's.
+inline constexpr char k_by_supervisor[] = "supervisor";
 
 /// `what` is one of close_asked, close_refused, close_granted, focus_lost, focus_back, screen_lost, screen_back, second_station, keyboard_added.
 struct LockAttempt {
   std::string what;
-  std::string more;  ///< which keyboard, how many screens; may be empty
+  std::string more;  ///< which keyboard, how many screens, who closed it; may be empty
 };
 
 /// Detail of the event: {"what"} or {"more","what"}.

@@ -32,6 +32,13 @@ std::size_t largest(const Row& row, std::size_t count) {
   return static_cast<std::size_t>(std::max_element(row.begin(), row.begin() + static_cast<std::ptrdiff_t>(count)) - row.begin());
 }
 
+std::size_t worst_side(const Result& r) {
+  std::size_t worst = 0;
+  for (std::size_t w = 0; w < scenarios::k_side_walls; ++w)
+    if (r.shape.wall[w].max_over_mm > r.shape.wall[worst].max_over_mm) worst = w;
+  return worst;
+}
+
 /// Says a topic's sentences.
 class Teller {
  public:
@@ -87,16 +94,23 @@ class Teller {
       l.instead = "Open the outline first, then take the cavity away layer by layer.";
       return;
     }
+    constexpr double k_hardly_begun_percent = 50.0;  // of a cavity that was never made, no wall has to be taken back
+    const double roof_mm3 = r_.access.overhang ? r_.access.overhang->mm3 : 0;
     const Left left = what_is_left();
     const std::size_t w = largest(left.hard_by_wall, scenarios::k_walls);
-    const double roof = r_.access.overhang ? r_.access.overhang->mm3 : 0;
-    const std::string amount = mm3(std::max(0.0, r_.volumes.missed.mm3 - roof));
+    const std::string amount = mm3(std::max(0.0, r_.volumes.missed.mm3 - roof_mm3));
     l.where = r_.volumes.target_last[w];
     if (left.aim > left.hard_by_wall[w]) {
       l.look_mm = left.aim_middle_mm;
       l.what =
           fmt::format("{} of the cavity was left, {} % of it {} that was not cleared out.", amount, percent_of(left.aim, left.all), left.aim_tissue);
       l.instead = "Clear it out from wall to wall with light strokes, and do not press on the floor below.";
+      return;
+    }
+    if (r_.volumes.target_removed_percent < k_hardly_begun_percent) {
+      l.what = fmt::format("Only {} % of the cavity was cut: {} of it were left standing.", fixed(r_.volumes.target_removed_percent, 0),
+                           mm3(std::max(0.0, r_.volumes.missed.mm3 - roof_mm3)));
+      l.instead = "Open the outline first, then take the cavity away layer by layer.";
       return;
     }
     const double thick = r_.shape.wall[w].max_under_mm;
@@ -320,13 +334,6 @@ class Teller {
 }  // namespace
 
 /// What must not be opened was reached through the floor: the same mistake as a floor that is too deep.
-std::size_t worst_side(const Result& r) {
-  std::size_t worst = 0;
-  for (std::size_t w = 0; w < scenarios::k_side_walls; ++w)
-    if (r.shape.wall[w].max_over_mm > r.shape.wall[worst].max_over_mm) worst = w;
-  return worst;
-}
-
 bool opened_through_floor(const GradeInput& in, const Result& r) {
   const PerforationTruth& p = r.perforation.fault;
   return p.perforated && p.first.tick >= 0 && in.zones.wall(in.before.octree.leaf_at(p.first.site_mm)) == scenarios::Wall::floor &&

@@ -9,8 +9,6 @@ namespace cavum::grading {
 [[nodiscard]] constexpr std::size_t row_of(scenarios::Zone z) noexcept { return static_cast<std::size_t>(z); }
 [[nodiscard]] constexpr std::size_t row_of(scenarios::Wall w) noexcept { return static_cast<std::size_t>(w); }
 
-/// The side wall that was cut furthest beyond the outline.
-[[nodiscard]] std::size_t worst_side(const Result& r);
 /// What must not be opened was reached through the floor: the same mistake as a floor that is too deep.
 [[nodiscard]] bool opened_through_floor(const GradeInput& in, const Result& r);
 

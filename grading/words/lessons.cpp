@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <map>
 
 #include "grading/result/mark.h"
@@ -20,9 +21,14 @@ constexpr double k_least_points = 0.005, k_middle_mm = 0.4;
 /// Points of one criterion, by what they were lost for.
 using Shares = std::map<Topic, double>;
 
+double removed_mm3(const Result& r, Zone z) { return r.volumes.zone[row_of(z)].removed.mm3; }
+/// Of what was removed there, straight on through the floor: too deep, however far it went.
+double below_mm3(const Result& r, Zone z) { return r.volumes.zone[row_of(z)].by_wall_mm3[row_of(scenarios::Wall::floor)]; }
+double elsewhere_mm3(const Result& r, Zone z) { return std::max(0.0, removed_mm3(r, z) - below_mm3(r, z)); }
+
 /// What a measure charges where it counts several things: each by its own volume.
 Shares by_volume(const Result& r, unsigned counts) {
-  const auto removed = [&r](Zone z) { return r.volumes.zone[row_of(z)].removed.mm3; };
+  const auto removed = [&r](Zone z) { return removed_mm3(r, z); };
   Shares s;
   const auto add = [&](unsigned bit, Topic topic, double amount) {
     if ((counts & bit) != 0) s[topic] += amount;
@@ -33,11 +39,9 @@ Shares by_volume(const Result& r, unsigned counts) {
   add(scenarios::k_counts_sides, Topic::beside, removed(Zone::container_sides));
   add(scenarios::k_counts_leeway, Topic::beside, removed(Zone::leeway_sides));
   add(scenarios::k_counts_bottom, Topic::too_deep, removed(Zone::container_bottom));
-  // straight on through the floor is too deep, however far it went
-  const auto below = [&r](Zone z) { return r.volumes.zone[row_of(z)].by_wall_mm3[row_of(scenarios::Wall::floor)]; };
   for (const auto& [bit, zone] : {std::pair{scenarios::k_counts_outside, Zone::none}, std::pair{scenarios::k_counts_protected, Zone::protected_}}) {
-    add(bit, Topic::too_deep, below(zone));
-    add(bit, Topic::elsewhere, std::max(0.0, removed(zone) - below(zone)));
+    add(bit, Topic::too_deep, below_mm3(r, zone));
+    add(bit, Topic::elsewhere, elsewhere_mm3(r, zone));
   }
   add(scenarios::k_counts_faults, Topic::opened, r.perforation.fault.volume_mm3);
   add(scenarios::k_counts_time, Topic::time, 0);
@@ -61,8 +65,8 @@ bool is_cut_elsewhere(const Result& r, const scenarios::Measure& m) {
   for (std::size_t w = m.first_wall; w < std::min(m.first_wall + m.walls, scenarios::k_walls); ++w)
     if (worst == nullptr || r.shape.wall[w].max_over_mm > worst->max_over_mm) worst = &r.shape.wall[w];
   if (worst == nullptr || worst->worst_over.tick < 0 || worst == &r.shape.wall[row_of(scenarios::Wall::floor)]) return false;
-  const auto removed = [&r](Zone z) { return r.volumes.zone[row_of(z)].removed.mm3; };
-  return worst->over_outside && r.volumes.outside().mm3 > removed(Zone::container_sides) + removed(Zone::container_bottom);
+  return worst->over_outside && elsewhere_mm3(r, Zone::none) + elsewhere_mm3(r, Zone::protected_) >
+                                    removed_mm3(r, Zone::container_sides) + removed_mm3(r, Zone::container_bottom);
 }
 
 /// One mistake that several measures see is named once: tissue over the chamber stands over the canals' mouths as well.
@@ -74,20 +78,21 @@ void join(std::map<Topic, Lesson>& by_topic, Topic from, Topic to) {
   by_topic.erase(found);
 }
 
-/// Within a slip of what must not be opened: the point went through there, and what it cut then is the same mistake.
+/// In a slip through what must not be opened: the point went through there, and what it cut from then on is the same mistake. What was cut before is
+/// one of its own: a hole that was begun beside the outline was wrong before it reached the pulp.
 bool in_that_slip(const Trace& opened, const Trace& cut) {
-  constexpr double k_slip_s = 5;
-  return opened.timed() && cut.timed() && std::fabs(cut.t_s() - opened.t_s()) <= k_slip_s;
+  constexpr double k_slip_s = 5, k_before_s = 0.5;
+  const double after_s = cut.t_s() - opened.t_s();
+  return opened.timed() && cut.timed() && after_s >= -k_before_s && after_s <= k_slip_s;
 }
 
-/// Nearly all that was cut elsewhere, beside the floor, was cut in that slip.
-bool elsewhere_in_that_slip(const GradeInput& in, const Trace& opened) {
+/// Nearly all that was cut in these zones, but for the floor, was cut in that slip.
+bool cut_in_that_slip(const GradeInput& in, const Trace& opened, std::initializer_list<Zone> zones) {
   constexpr double k_nearly_all = 0.9;
   double all = 0, then = 0;
   for (const RemovedAt& r : in.removed) {
     const IVec3 leaf = r.leaf.leaf();
-    const Zone zone = in.zones.zone(leaf);
-    if ((zone != Zone::none && zone != Zone::protected_) || in.zones.wall(leaf) == scenarios::Wall::floor) continue;
+    if (std::find(zones.begin(), zones.end(), in.zones.zone(leaf)) == zones.end() || in.zones.wall(leaf) == scenarios::Wall::floor) continue;
     all += 1;
     then += in_that_slip(opened, {r.tick, {}}) ? 1 : 0;
   }
@@ -162,8 +167,9 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
   if (opened_through_floor(input, result)) join(by_topic, Topic::opened, Topic::too_deep);
   if (const PerforationTruth& fault = result.perforation.fault; fault.perforated) {
     const Topic slip = by_topic.contains(Topic::too_deep) ? Topic::too_deep : Topic::opened;
-    if (by_topic.contains(slip) && elsewhere_in_that_slip(input, fault.first)) join(by_topic, Topic::elsewhere, slip);
-    if (by_topic.contains(slip) && in_that_slip(fault.first, result.shape.wall[worst_side(result)].worst_over)) join(by_topic, Topic::beside, slip);
+    const auto is_that_slip = [&](std::initializer_list<Zone> zones) { return cut_in_that_slip(input, fault.first, zones); };
+    if (by_topic.contains(slip) && is_that_slip({Zone::none, Zone::protected_})) join(by_topic, Topic::elsewhere, slip);
+    if (by_topic.contains(slip) && is_that_slip({Zone::container_sides, Zone::leeway_sides})) join(by_topic, Topic::beside, slip);
   }
   std::vector<Lesson> all;
   for (auto& [topic, lesson] : by_topic) {

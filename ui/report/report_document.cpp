@@ -111,7 +111,7 @@ void add_criteria(Document& d, const ReportSource& s) {
 /// What is asked of a criterion, and why care gives fewer points than its value would.
 std::string asked_text(const grading::CriterionResult& c, const scenarios::CriterionSpec& spec) {
   std::string text = limits_text(spec, c.unit);
-  if (c.work_share < 1) text += tr("; counts {} %, because too little of the cavity was cut there", fixed(100 * c.work_share, 0));
+  if (c.work_share < 1) text += tr("; only {} % of these points can be had, for so little of the cavity was cut there", fixed(100 * c.work_share, 0));
   return text;
 }
 

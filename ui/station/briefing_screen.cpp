@@ -36,7 +36,10 @@ void briefing_screen(const ScreenContext& c) {
   ImGui::Dummy({0, t.px(8)});
   const auto limit = static_cast<double>(scenarios::exam_limit_ticks(scenario)) * k_tick_s;
   fact(t, "Candidate", c.sitting->candidate());
-  fact(t, "Time", clock_text(limit) + " minutes");
+  const std::optional<Begun>& begun = c.sitting->begun();
+  fact(t, "Time",
+       begun && limit > 0 ? fmt::format("{} of {} minutes left", clock_text(begun->left_s), clock_text(limit)) : clock_text(limit) + " minutes");
+  if (begun) fact(t, "Mounted", c.sitting->setup().points.at(static_cast<std::size_t>(begun->point)).title);
   const std::string granted = scenarios::accommodations_text(scenario.accommodations);
   if (!granted.empty()) fact(t, "Granted", granted);
   fact(t, "Pauses", pauses_text(scenario.pauses));
@@ -62,7 +65,8 @@ void briefing_screen(const ScreenContext& c) {
     wrapped_text("This is practice: the target is shown, a coach speaks, and the recording says so.");
   }
   ImGui::EndChild();
-  if (main_button(t, c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)", true)) s.wish = Wish::begin;
+  const char* button = begun ? "Go on with the exam  (Enter)" : c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)";
+  if (main_button(t, button, true)) s.wish = Wish::begin;
   quiet_text(t, "The clock runs from then on.");
   bad_text(t, s.message);
   end_area();

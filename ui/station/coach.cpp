@@ -8,6 +8,11 @@ std::string coaching_hint(const scenarios::ExamSetup& setup, const scenarios::Li
   const TickOutput& now = view.output;
   const scenarios::ZoneMap& zones = setup.zones;
   const scenarios::Scenario& scenario = setup.scenario;
+  // the hand lifts, and the tooth holds the head back
+  constexpr double k_lifted_mm = 0.5;
+  const Vec3 lifted = view.input.pose().tip_mm - now.proxy_mm;
+  if (now.contact && dot(lifted, zones.approach()) > k_lifted_mm && dot(lifted, now.normal) < 0.0)
+    return "The head is caught under an edge: hold the handpiece upright, press the pedal, and lift slowly.";
   const double force_n = length(now.rendered_force_n);
   if (scenario.force_limit_n > 0 && force_n > scenario.force_limit_n)
     return number_text("Too much force: %.1f N. ", force_n) + number_text("Let the diamond do the work, below %.1f N.", scenario.force_limit_n);

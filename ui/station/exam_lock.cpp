@@ -11,7 +11,7 @@ ExamLock::ExamLock(std::string code_hash) : hash_(std::move(code_hash)) {
 std::vector<LockAttempt> ExamLock::look(const InputQueue& input) {
   std::vector<LockAttempt> attempts;
   for (const InputEvent& e : input.played()) {
-    if (e.kind == InputEvent::Kind::focus) {
+    if (e.kind == InputEvent::Kind::focus && away_ == e.down) {
       away_ = !e.down;
       attempts.push_back({away_ ? "focus_lost" : "focus_back", ""});
     }

@@ -75,7 +75,7 @@ void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOu
   }
   if (shown.depth) {
     const double floor_mm = setup.zones.opening_z_mm() - setup.zones.floor_level_mm();
-    depth_gauge(t, setup.zones.below_opening_mm(now.proxy_mm), deepest_mm, std::ceil(floor_mm + 1.0), t.px(90));
+    depth_gauge(t, setup.zones.below_opening_mm(now.proxy_mm), deepest_mm, std::ceil(std::max(floor_mm + 1.0, deepest_mm)), t.px(90));
   }
 }
 

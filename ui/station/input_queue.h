@@ -38,6 +38,9 @@ class InputQueue {
 
   /// In the order in which they came. What is no change (pressed while down) is ignored.
   void push(const InputEvent& event);
+  /// A key, with the modifiers that the system says are held (GLFW_MOD_*): whoever took one's release for himself, as a window manager does with
+  /// Alt+F4, took it from all others, and it would be held for ever.
+  void push_key(const InputEvent& event, int modifiers);
   /// Plays them up to `now_s`, or up to the first that would change a key a second time: it and all after it wait for the next picture.
   const std::vector<InputEvent>& play(double now_s);
   [[nodiscard]] const std::vector<InputEvent>& played() const noexcept { return played_; }

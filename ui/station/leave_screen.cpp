@@ -47,6 +47,7 @@ void ask_whether_to_leave(const ScreenContext& c, bool locked) {
   if (s.confirm_leave) return;
   s.supervisor_code = {};
   s.leave_message.clear();
+  s.focus_code = s.screen == Screen::sign_in;  // the question took it away
 }
 
 void demonstration_in_picture(const Theme& t, ImVec2 at, ImVec2 size) {

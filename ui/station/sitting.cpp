@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <chrono>
 #include <ctime>
 #include <filesystem>
@@ -14,6 +15,7 @@
 #include "grading/ledger/begin.h"
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
+#include "ui/station/replay_player.h"
 
 namespace cavum::station {
 namespace {
@@ -68,6 +70,19 @@ void require_resumable(const std::string& path, const std::string& candidate, co
     throw Error(device.name(), "has another encoder than the stylus that this exam was begun with", "go on with that one");
 }
 
+/// What was recorded so far, taken again from its inputs.
+Begun begun_so_far(const std::string& path) {
+  constexpr double k_at_once_s = 3600.0;
+  ReplayPlayer player(path);
+  player.seek(player.ticks());
+  while (!player.work(k_at_once_s)) {
+  }
+  player.show();
+  const scenarios::RunnerState& at = player.shown().runner;
+  const auto limit = static_cast<double>(scenarios::exam_limit_ticks(player.setup().scenario));
+  return {player.tooth(), std::max(0.0, (limit - static_cast<double>(at.ticks - at.paused_ticks)) * k_tick_s), player.shown().input.point};
+}
+
 }  // namespace
 
 Sitting::Sitting(SittingOptions options, std::string candidate)
@@ -105,6 +120,10 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
         options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
     if (ticket_ && options_.word) ask_for_word(*held, options_.word, setup->session);
     if (held) ledger::require_promised(*held, setup->session);
+    if (!options_.resume.empty()) {
+      begun_ = begun_so_far(options_.resume);
+      desk_.point.store(begun_->point, std::memory_order_relaxed);
+    }
     device_->prepare(*setup);
     return setup;
   });

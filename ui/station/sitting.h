@@ -43,6 +43,13 @@ enum class Stage {
   interrupted,  ///< the device failed: the session is open and can be resumed
 };
 
+/// How far an exam had come that is gone on with.
+struct Begun {
+  Octree tooth;
+  double left_s = 0.0;  ///< of its time; 0 where it has no limit
+  int point = 0;        ///< of the tray, that was mounted
+};
+
 class Sitting {
  public:
   /// Begins to prepare, in a thread of its own. Throws Error for a device that is none, a code without a ticket where tickets are asked for,
@@ -61,6 +68,8 @@ class Sitting {
 
   /// From `checking` on.
   [[nodiscard]] const scenarios::ExamSetup& setup() const { return *setup_; }
+  /// None: it begins anew.
+  [[nodiscard]] const std::optional<Begun>& begun() const noexcept { return begun_; }
   [[nodiscard]] StationDevice& device() { return *device_; }
   [[nodiscard]] DeviceSight sight() const;
   /// From `checking` to `running`: begins to record, at the second place when the first refuses. Throws Error when that is impossible; the stage
@@ -110,6 +119,7 @@ class Sitting {
   std::unique_ptr<StationDevice> device_;
   std::future<std::unique_ptr<scenarios::ExamSetup>> preparing_;
   std::unique_ptr<scenarios::ExamSetup> setup_;
+  std::optional<Begun> begun_;                ///< of the thread that prepares, until it is ready
   std::optional<ledger::HeldTicket> ticket_;  ///< that this exam will use up
   std::unique_ptr<DeviceCheck> check_;
   DeviceSight last_sight_;

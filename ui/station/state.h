@@ -81,6 +81,7 @@ struct StationState {
   bool mouse_free = false;                 ///< in an exam: the mouse points at buttons instead of being the stylus
   bool capture_mouse = false;              ///< the screen wants it as the stylus
   bool focus_code = true;
+  bool goes_on = false;  ///< an exam that was begun before is gone on with
 };
 
 }  // namespace cavum::station

@@ -82,6 +82,7 @@ class Station {
     if (options_.office) office_ = std::make_unique<OfficeLine>(*options_.office);
     options_.candidate.copy(state_.code.data(), state_.code.size() - 1);
     state_.tutorial_wanted = options_.tutorial;
+    state_.goes_on = !options_.sitting.resume.empty();
   }
 
   int run() {
@@ -346,6 +347,7 @@ class Station {
       }
     } catch (const Error& e) {
       state_.message = e.what();
+      state_.focus_code = state_.screen == Screen::sign_in;
     }
   }
 
@@ -433,6 +435,7 @@ class Station {
       const bool was_preparing = before == Stage::preparing;
       if (was_preparing) sitting_.reset();
       go_to(was_preparing ? Screen::sign_in : Screen::trouble);
+      state_.focus_code = was_preparing;
       state_.message = e.what();
       return;
     }
@@ -444,6 +447,10 @@ class Station {
       state_.left_handed = state_.left_handed || granted.left_handed;
       state_.high_contrast = state_.high_contrast || granted.high_contrast;
       make_scene(sitting_->setup(), options_.sitting.practice);
+      if (sitting_->begun()) {
+        scene_->tooth().take(sitting_->begun()->tooth);
+        scene_->tooth().update();
+      }
       const Pose start = sitting_->device().start();
       state_.wanted_mm = start.tip_mm;
       state_.wanted_rotation = start.rotation;

@@ -49,7 +49,7 @@ void StationLock::leave(Window& window, StationState& state, Sitting* sitting) {
     state.leave_message = "This is not the supervisor's code.";
     return;
   }
-  keep({"close_granted", ""}, state, sitting);
+  keep({"close_granted", locked() ? k_by_supervisor : ""}, state, sitting);
   granted_ = true;
   state.confirm_leave = false;
   window.ask_to_close();

@@ -250,12 +250,16 @@ bool main_button(const Theme& theme, const char* label, bool enabled, bool by_en
 
 bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
 
+namespace {
+/// A question stands before the window that asks.
+bool is_covered() { return ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) && !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows); }
+}  // namespace
+
 bool key_pressed(int key) {
   const ImGuiIO& io = ImGui::GetIO();
-  const bool covered = ImGui::IsPopupOpen("", ImGuiPopupFlags_AnyPopup) && !ImGui::IsWindowFocused(ImGuiFocusedFlags_RootAndChildWindows);
-  return !covered && ImGui::IsKeyPressed(key, false) && !io.KeyCtrl && !io.KeyAlt;
+  return !is_covered() && ImGui::IsKeyPressed(key, false) && !io.KeyCtrl && !io.KeyAlt;
 }
-bool key_held(int key) { return ImGui::IsKeyDown(key); }
+bool key_held(int key) { return !is_covered() && ImGui::IsKeyDown(key); }
 
 std::string clock_text(double seconds) {
   const auto whole = static_cast<long>(std::ceil(std::fmax(0.0, seconds)));

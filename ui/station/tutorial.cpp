@@ -18,8 +18,9 @@ struct Words {
 constexpr std::array<Words, Tutorial::k_steps> k_words{{
     {"Move the mouse, or press the arrow keys: the tip follows.", "Move the stylus: the tip follows."},
     {"Turn the tooth: press A, D, W or S, or hold the right mouse button and move.", "Turn the tooth: press A, D, W or S."},
-    {"Press 1: you look from above again.", "Press 1: you look from above again."},
-    {"Tilt the handpiece: hold Ctrl and move the mouse. 0 makes it upright again.", "Tilt the handpiece."},
+    {"Press 1: you look from above.", "Press 1: you look from above."},
+    {"Tilt the handpiece: hold Ctrl, and move the mouse or press arrows. Then press 0: it is upright again. Without a keyboard go on down.",
+     "Tilt the handpiece, and hold it upright again."},
     {"Bring the tip over the blue target. Turn the wheel towards you, or hold PgDn, until it touches the tooth.",
      "Bring the tip over the blue target, and down until it touches the tooth."},
     {"Now drill: hold the space bar or the left button (the pedal), and go on down.", "Now drill: press the pedal, and go on down gently."},
@@ -31,7 +32,7 @@ double degrees_between(Vec3 a, Vec3 b) { return std::acos(std::clamp(dot(a, b), 
 }  // namespace
 
 bool Tutorial::did(const TutorialSight& s) {
-  constexpr double k_way_mm = 2.0, k_tilt_deg = 10.0, k_off_mm = 0.3, k_standing_rpm = 1000.0;
+  constexpr double k_way_mm = 2.0, k_tilt_deg = 10.0, k_upright_deg = 7.0, k_off_mm = 0.3, k_standing_rpm = 1000.0;
   constexpr float k_turn_deg = 20.0F, k_from_above_deg = 80.0F;
   switch (step_) {
     case Step::move:
@@ -41,7 +42,8 @@ bool Tutorial::did(const TutorialSight& s) {
     case Step::above:
       return s.rise_deg > k_from_above_deg;
     case Step::tilt:
-      return degrees_between(s.handle, first_.handle) > k_tilt_deg;
+      tilted_ = tilted_ || degrees_between(s.handle, first_.handle) > k_tilt_deg;
+      return (tilted_ && degrees_between(s.handle, first_.handle) < k_upright_deg) || (!tilted_ && s.contact);
     case Step::touch:
       if (s.contact) touched_mm_ = s.tip_mm;
       return s.contact;

@@ -39,6 +39,7 @@ class Tutorial {
   bool pointer_;
   int step_ = 0;
   bool begun_ = false;   // the running step has its first sight
+  bool tilted_ = false;  // the handpiece was, in that step
   TutorialSight first_;  // of the running step
   Vec3 touched_mm_;      // where the tip touched the tooth first
   double hole_mm_ = 0.0;

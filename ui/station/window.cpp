@@ -166,11 +166,13 @@ void Window::listen() {
   static Window* one;  // GLFW's monitors belong to no window
   one = this;
   glfwSetWindowUserPointer(window_, this);
-  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int) {
+  glfwSetKeyCallback(window_, [](GLFWwindow* w, int key, int scancode, int action, int modifiers) {
     if (action == GLFW_REPEAT) return;
     Window& self = *static_cast<Window*>(glfwGetWindowUserPointer(w));
     const bool down = action == GLFW_PRESS;
-    self.push({.kind = Kind::key, .code = key, .down = down, .t_s = self.times_->of_key(scancode, down)});
+    InputEvent event{.kind = Kind::key, .code = key, .down = down, .t_s = self.times_->of_key(scancode, down)};
+    if (event.t_s == 0.0) event.t_s = own_clock_s();
+    self.input_.push_key(event, modifiers);
   });
   glfwSetCharCallback(window_, [](GLFWwindow* w, unsigned letter) {
     static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::text, .code = static_cast<int>(letter)});
@@ -190,6 +192,9 @@ void Window::listen() {
   });
   glfwSetWindowFocusCallback(window_, [](GLFWwindow* w, int won) {
     static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::focus, .down = won == GLFW_TRUE});
+  });
+  glfwSetWindowIconifyCallback(window_, [](GLFWwindow* w, int iconified) {  // not every window manager takes the keyboard away with it
+    if (iconified == GLFW_TRUE) static_cast<Window*>(glfwGetWindowUserPointer(w))->push({.kind = Kind::focus});
   });
   glfwSetMonitorCallback(
       [](GLFWmonitor*, int event) { one->push({.kind = Kind::screens, .code = monitor_count(), .down = event == GLFW_CONNECTED}); });

@@ -74,6 +74,20 @@ TEST(InputQueue, TwentyTapsInOnePictureAreTwentyTapsInTheirOrder) {
   for (int i = 0; i < 20; ++i) EXPECT_EQ(pressed[static_cast<std::size_t>(i)], i % 3 == 0 ? GLFW_KEY_A : GLFW_KEY_B) << i;
 }
 
+TEST(InputQueue, AModifierWhoseReleaseSomebodyElseTookIsLetGoOfWithTheNextKey) {
+  InputQueue queue;
+  queue.push_key(key_event(GLFW_KEY_LEFT_ALT, true, 0.1), 0);
+  queue.push_key(key_event(GLFW_KEY_RIGHT_CONTROL, true, 0.2), GLFW_MOD_ALT);
+  queue.play(0.5);
+  ASSERT_TRUE(queue.down(GLFW_KEY_LEFT_ALT));
+  queue.push_key(key_event(GLFW_KEY_ESCAPE, true, 1.0), GLFW_MOD_CONTROL);
+  std::vector<int> keys;
+  for (const InputEvent& e : queue.play(1.1)) keys.push_back(e.down ? e.code : -e.code);
+  EXPECT_EQ(keys, (std::vector<int>{-GLFW_KEY_LEFT_ALT, GLFW_KEY_ESCAPE}));
+  EXPECT_FALSE(queue.down(GLFW_KEY_LEFT_ALT));
+  EXPECT_TRUE(queue.down(GLFW_KEY_RIGHT_CONTROL));
+}
+
 TEST(InputQueue, LettersAndWheelKeepTheirPlaceBetweenKeys) {
   InputQueue queue;
   queue.push({.kind = InputEvent::Kind::text, .code = 'a', .t_s = 0.1});
@@ -220,6 +234,8 @@ TEST(Tutorial, GoesOnByWhatThePersonDidAndEndsInAHole) {
   s.rise_deg = 90;
   see(3);
   s.handle = normalized(Vec3{0.3, 0, 1});
+  see(3);  // not upright again
+  s.handle = normalized(Vec3{0.05, 0, 1});
   see(4);
   s.cutting = true;  // in the air
   see(4);

@@ -172,6 +172,17 @@ TEST_F(Coach, WarnsOfForceBeforeAnythingElse) {
   EXPECT_NE(coaching_hint(*setup_, v).find("2.6 N"), std::string::npos) << coaching_hint(*setup_, v);
 }
 
+TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
+  scenarios::LiveView v = cutting({0, 0, -0.6});
+  v.output.cutting = false;
+  v.output.rendered_force_n = {0, 0, -3.3};
+  v.output.normal = normalized(Vec3{0.5, 0, -1});
+  v.input.tip_nm = {0, 0, 400'000};
+  EXPECT_NE(coaching_hint(*setup_, v).find("caught"), std::string::npos) << coaching_hint(*setup_, v);
+  v.output.normal = {0, 0, 1};  // it stands on the floor
+  EXPECT_EQ(coaching_hint(*setup_, v).find("caught"), std::string::npos);
+}
+
 TEST_F(Coach, MeasuresHowFarBesideTheTargetTheTipIs) {
   const std::string hint = coaching_hint(*setup_, cutting({1.1 + 0.7, 0, -0.6}));
   EXPECT_NE(hint.find("0.7 mm beyond"), std::string::npos) << hint;
