@@ -25,7 +25,7 @@ LockAttempt lock_attempt_of(const std::string& detail_json) {
 std::string lock_words(const LockAttempt& a) {
   if (a.what == "close_asked") return "the window was asked to close";
   if (a.what == "close_refused") return "a wrong supervisor code was typed";
-  if (a.what == "close_granted") return a.more == k_by_supervisor ? "the supervisor's code closed the window" : "the window was closed";
+  if (a.what == "close_granted") return a.more == k_by_supervisor ? "the window was closed with the supervisor code" : "the window was closed";
   if (a.what == "focus_lost") return "another window took the keyboard";
   if (a.what == "focus_back") return "the keyboard came back";
   if (a.what == "screen_lost") return "a screen was unplugged";

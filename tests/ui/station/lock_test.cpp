@@ -86,7 +86,7 @@ TEST_F(LockedExam, FillsTheScreenAndClosesByTheSupervisorsCodeAlone) {
   expect_resumable(before + 2000);
   EXPECT_EQ(attempts(), (std::vector<std::string>{"close_asked", "close_refused", "close_asked", "close_granted"}));
   EXPECT_EQ(SessionReader(session()).fact("note.locked"), "yes");
-  expect_told({"the window was asked to close", "a wrong supervisor code was typed", "the supervisor's code closed the window"});
+  expect_told({"the window was asked to close", "a wrong supervisor code was typed", "the window was closed with the supervisor code"});
 }
 
 TEST_F(LockedExam, AnotherWindowAndASecondStartAreRecordedAndEndNothing) {
