@@ -8,7 +8,7 @@ import pathlib
 import re
 import sys
 
-HANDS = 5
+HANDS = 8
 
 
 def read_table(path):
