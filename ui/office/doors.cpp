@@ -8,7 +8,7 @@ namespace cavum::office {
 namespace {
 
 constexpr std::size_t k_hash_digits = 64;
-constexpr std::uint64_t k_small = 16U << 10, k_seats = 1U << 20, k_roster = 4U << 20, k_session = 256U << 20;
+constexpr std::uint64_t k_small = 16U << 10, k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20, k_session = 256U << 20;
 
 constexpr unsigned bits(auto... roles) { return (0U | ... | static_cast<unsigned>(roles)); }
 constexpr unsigned k_officer = bits(Role::officer), k_examiner = bits(Role::examiner), k_staff = bits(Role::officer, Role::examiner),
@@ -47,6 +47,11 @@ constexpr Door k_doors[] = {
     {"GET", "/api/results", Asks::person, k_results, 0},
     {"POST", "/api/release", Asks::person, k_officer, k_small},
     {"POST", "/api/retract", Asks::person, k_officer, k_small},
+    {"GET", "/api/regrade", Asks::person, k_staff, 0},
+    {"GET", "/api/regrade/events", Asks::person, k_staff, 0},
+    {"POST", "/api/regrade/begin", Asks::person, k_examiner, k_rubric},
+    {"POST", "/api/regrade/count", Asks::person, k_examiner, k_small},
+    {"POST", "/api/regrade/drop", Asks::person, k_examiner, k_small},
     {"GET", "/api/appeals", Asks::person, k_staff, 0},
     {"POST", "/api/appeals/open", Asks::person, k_officer, k_small},
     {"POST", "/api/appeals/answer", Asks::person, k_examiner, k_small},

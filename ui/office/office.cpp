@@ -13,8 +13,10 @@
 #include "engine/language/shown.h"
 #include "engine/session/session.h"
 #include "ui/office/desk.h"
+#include "ui/office/desk_parts.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
+#include "ui/office/regrades.h"
 #include "ui/office/reports.h"
 #include "ui/office/site.h"
 
@@ -67,7 +69,8 @@ struct Office::Parts {
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
         site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
               steady_s, utc_now_ns, desk.ledger_id()}),
-        reports(o.report) {
+        reports(o.report),
+        regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
     serve_pages();
     serve_people();
     serve_desk();
@@ -141,9 +144,8 @@ struct Office::Parts {
     post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });
     get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
     site.on("GET", "/api/board/events", [this](const Call& c) {
-      Reply reply{200, "text/event-stream"};
-      reply.events = [this, c](const WriteEvent& write) { send_board(c, write); };
-      return reply;
+      return events(
+          c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); });
     });
     post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
     post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
@@ -166,6 +168,7 @@ struct Office::Parts {
       require_code(text_in(asked, "code"), by);
       return desk.retract(asked, by);
     });
+    serve_regrades();
     get("/api/appeals", [this](const Call&) { return desk.appeals(); });
     post("/api/appeals/open", [this](const json& asked, const Account& by) { return desk.open_appeal(asked, by); });
     post("/api/appeals/answer", [this](const json& asked, const Account& by) { return desk.answer_appeal(asked, by); });
@@ -184,30 +187,60 @@ struct Office::Parts {
     paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
   }
 
-  /// The board whenever it changes, four times a second at most, and a comment in between, so that a line that is dead is noticed.
-  void send_board(const Call& call, const WriteEvent& write) {
-    std::uint64_t seen = 0;
-    std::int64_t spoken_s = steady_s();
-    while (site.still(call)) {
-      const std::uint64_t now = board.wait(seen, k_patience_ms);
-      if (now != seen) {
-        seen = now;
-        spoken_s = steady_s();
-        if (!write("data: " + json_reply(desk.board(board, inbox)).body + "\n\n")) return;
-        std::this_thread::sleep_for(k_between_events);
-      } else if (steady_s() - spoken_s >= k_silence_s) {
-        spoken_s = steady_s();
-        if (!write(":\n\n")) return;
-      } else if (!write("")) {
-        return;
-      }
-    }
+  /// A new rubric over all of an exam.
+  void serve_regrades() {
+    const auto post = [this](const char* path, auto act) {
+      site.on("POST", path, [act](const Call& c) { return json_reply(act(c.json(), c.by->account)); });
+    };
+    site.on("GET", "/api/regrade", [this](const Call&) {
+      json state = regrades.state(true);
+      state["exams"] = desk.filed_exams();
+      return json_reply(state);
+    });
+    site.on("GET", "/api/regrade/events", [this](const Call& c) {
+      return events(
+          c, [this](std::uint64_t seen) { return regrades.wait(seen, k_patience_ms); }, [this] { return regrades.state(false); });
+    });
+    post("/api/regrade/begin", [this](const json& asked, const Account& by) { return regrades.begin(asked, by); });
+    post("/api/regrade/drop", [this](const json& asked, const Account& by) { return regrades.drop(asked, by); });
+    post("/api/regrade/count", [this](const json& asked, const Account& by) {
+      regrades.require_ready(asked, by);  // before a code is used up for nothing
+      static_cast<void>(reason_in(asked));
+      require_code(text_in(asked, "code"), by);
+      return regrades.count(asked, by);
+    });
   }
 
-  /// A release asks for a code of the second factor, each good once.
+  /// What `say` says whenever `wait` gives another number, four times a second at most, and a comment in between, so that a line that is dead is
+  /// noticed.
+  [[nodiscard]] Reply events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<json()> say) {
+    Reply reply{200, "text/event-stream"};
+    reply.events = [this, call, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
+      std::uint64_t seen = 0;
+      std::int64_t spoken_s = steady_s();
+      while (site.still(call)) {
+        const std::uint64_t now = wait(seen);
+        if (now != seen) {
+          seen = now;
+          spoken_s = steady_s();
+          if (!write("data: " + json_reply(say()).body + "\n\n")) return;
+          std::this_thread::sleep_for(k_between_events);
+        } else if (steady_s() - spoken_s >= k_silence_s) {
+          spoken_s = steady_s();
+          if (!write(":\n\n")) return;
+        } else if (!write("")) {
+          return;
+        }
+      }
+    };
+    return reply;
+  }
+
+  /// A release and a new rubric ask for a code of the second factor, each good once.
   void require_code(const std::string& code, const Account& by) {
     if (by.code_secret.empty())
-      throw Error("this", "needs a second factor, and this account has none", "cavum serve --add-account NAME --role officer --second-factor");
+      throw Error("this", "needs a second factor, and this account has none",
+                  fmt::format("cavum serve --add-account NAME --role {} --second-factor", name_of(by.role)));
     if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
     const std::lock_guard guard(codes_lock);
     std::uint64_t& used = used_codes[by.name];
@@ -261,6 +294,7 @@ struct Office::Parts {
   Inbox inbox;
   Site site;
   Reports reports;
+  Regrades regrades;
   Tries tries;
   std::mutex codes_lock;
   std::map<std::string, std::uint64_t> used_codes;

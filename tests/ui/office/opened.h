@@ -67,8 +67,10 @@ class Opened {
             load_station_key(station_key_path())};
   }
   /// A code of the officer's second factor: of this half minute, or of one beside it, which is good, too. Each is good once, and none before it then.
-  [[nodiscard]] std::string code(int steps_on = 0) const {
-    const auto secret = office::from_base32(accounts().of(name_of(office::Role::officer))->code_secret);
+  [[nodiscard]] std::string code(int steps_on = 0) const { return code_of(name_of(office::Role::officer), steps_on); }
+  /// The same of another account.
+  [[nodiscard]] std::string code_of(const std::string& name, int steps_on = 0) const {
+    const auto secret = office::from_base32(accounts().of(name)->code_secret);
     return office::one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s + steps_on));
   }
   /// A class list as the page sends it.

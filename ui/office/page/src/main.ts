@@ -7,6 +7,7 @@ import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
 import { act, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
+import { regrade } from "./regrade.ts";
 import { results } from "./results.ts";
 import { roster } from "./roster.ts";
 import { sign_in } from "./sign_in.ts";
@@ -26,6 +27,7 @@ const places = (): Place[] => [
   { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
   { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(may) },
+  { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
 ];
 

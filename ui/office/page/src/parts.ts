@@ -31,6 +31,11 @@ export function input(label: string, attributes: { [name: string]: string } = {}
   return field(label, make("input", { type: "text", ...attributes }), hint);
 }
 
+/** For a code of the second factor. */
+export function code_field(): ReturnType<typeof input> {
+  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
+}
+
 export function select(label: string, choices: [string, string][], chosen = ""): HTMLSelectElement & { block: HTMLElement } {
   const list = make("select");
   for (const [value, text] of choices) list.append(Object.assign(make("option", { value }, text), { selected: value === chosen }));

@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
+import { code_field, form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
 
 interface Result {
   session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; verdict: string;
@@ -54,10 +54,6 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
       await show();
       say(tr("Taken back: entry {}.", entry));
     }, which.block, reason.block, code.block)];
-}
-
-function code_field(): ReturnType<typeof input> {
-  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
 }
 
 function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {
