@@ -53,6 +53,7 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
     if (t->used_by)
       throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
                   "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
+    if (t->made_up_by) throw Error(where, fmt::format("was made up by entry {}", *t->made_up_by), "cancel that one, if it is too much");
     if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
     return {{"ticket", seq}, {"reason", reason}};
   });
@@ -65,7 +66,7 @@ const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seat
     nlohmann::json list = nlohmann::json::array();
     for (const Seat& s : seats) {
       const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == s.ticket; });
-      if (t == registry.tickets.end() || t->used_by || t->cancelled_by)
+      if (t == registry.tickets.end() || t->used_by || t->cancelled_by || t->made_up_by)
         throw Error(fmt::format("entry {}", s.ticket), "is no ticket that is good", "look at the list of tickets again");
       const Station* at = registry.stations.of(s.station);
       if (!s.station.empty() && (at == nullptr || at->revoked_utc_ns))

@@ -14,6 +14,7 @@
 #include "grading/ledger/exports.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
+#include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
 #include "ui/office/day_parts.h"
@@ -68,6 +69,34 @@ json Desk::issue(const json& asked, const Account& by) {
   return {{"issued", issued}, {"refused", refused}};
 }
 
+json Desk::make_up(const json& asked, const Account& by) {
+  const auto first = require_whole<std::uint64_t>(asked, "ticket", "the ticket");
+  const std::string reason = reason_in(asked);
+  std::string exam, nonce;
+  {
+    Turn turn(*this);
+    for (const auto& t : turn.book.registry().tickets)
+      if (t.seq == first) exam = t.ticket.exam, nonce = t.ticket.nonce;
+  }
+  json wanted = asked;
+  wanted["exam"] = exam;
+  const IssueWish wish = issue_wish(wanted, exams_);
+  const auto setup = scenarios::prepare_exam(wish.scenario, {});
+  auto grant = grant_in(asked);
+  Turn turn(*this, {by.name, "", ""});
+  if (!grant) grant = ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the first ticket").grant;
+  ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
+  ticket.begun_at_ledger = wish.begun_at_ledger;
+  ticket.grant = *grant;
+  const std::string text = ledger::issue_makeup(turn.book, ticket, {first, text_in(asked, "became"), reason});
+  const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
+  write_private_text_file(places_.ticket(issued.nonce), text + "\n");
+  remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
+  return {{"entry", turn.book.content().entries.size() - 1},
+          {"candidate", issued.candidate},
+          {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
+}
+
 json Desk::tickets() {
   Turn turn(*this);
   const auto people = people_of(turn.book);
@@ -84,7 +113,10 @@ json Desk::tickets() {
                 {"state", state.word},
                 {"live", state.live},
                 {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))},
-                {"seat", t.seat}};
+                {"seat", t.seat},
+                {"why", t.why}};
+    std::string why_not;
+    row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
     put_name(row, people, t.ticket.candidate);
     out.push_back(std::move(row));
   }
@@ -121,7 +153,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
     row["said"] = found == said.end() ? json() : found->second;
     stations.push_back(std::move(row));
   }
-  json tickets = {{"live", 0}, {"begun", 0}, {"filed", 0}, {"cancelled", 0}, {"run out", 0}};
+  json tickets = {{"live", 0}, {"begun", 0}, {"filed", 0}, {"cancelled", 0}, {"run out", 0}, {"made up", 0}};
   for (const auto& t : registry.tickets) {
     json& n = tickets[state_of(t, now).group];
     n = n.get<int>() + 1;

@@ -46,6 +46,8 @@ class Desk {
   [[nodiscard]] static nlohmann::json preview(const nlohmann::json& asked);
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json tickets();
+  /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.
+  [[nodiscard]] nlohmann::json make_up(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
   [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);

@@ -70,6 +70,8 @@ json Desk::results(bool names) {
                 {"verdict", text_in(s.result, "verdict")},
                 {"sha256", recording_sha256(s)},
                 {"shown", s.shown_seq != 0},
+                {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
+                {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                 {"appeal", s.open_appeal() != nullptr}};
     const json& score = member_of(s.result, "score");
     row["points"] = member_of(score, "points");

@@ -100,7 +100,7 @@ json Desk::attendance(const Board& board) {
   const std::int64_t now = read_clocks().utc_ns;
   json out = json::array();
   for (const auto& t : registry.tickets) {
-    if (t.used_by || t.cancelled_by || !t.begins.empty() || seen.contains(t.ticket.candidate)) continue;
+    if (t.used_by || t.cancelled_by || t.made_up_by || !t.begins.empty() || seen.contains(t.ticket.candidate)) continue;
     if (now < t.ticket.not_before_utc_ns || now > t.ticket.not_after_utc_ns + k_day_ns) continue;
     json row = {{"candidate", t.ticket.candidate},
                 {"exam", t.ticket.exam},

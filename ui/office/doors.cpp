@@ -28,6 +28,7 @@ constexpr Door k_doors[] = {
     {"POST", "/api/roster/issue", Asks::person, k_officer, k_roster},
     {"GET", "/api/tickets", Asks::person, k_hall, 0},
     {"POST", "/api/tickets/cancel", Asks::person, k_officer, k_small},
+    {"POST", "/api/tickets/makeup", Asks::person, k_officer, k_small},
     {"GET", "/api/board", Asks::person, k_hall, 0},
     {"GET", "/api/board/events", Asks::person, k_hall, 0},
     {"POST", "/api/stations/invite", Asks::person, k_officer, k_small},

@@ -142,6 +142,7 @@ struct Office::Parts {
     post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
     get("/api/tickets", [this](const Call&) { return desk.tickets(); });
     post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });
+    post("/api/tickets/makeup", [this](const json& asked, const Account& by) { return desk.make_up(asked, by); });
     get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
     site.on("GET", "/api/board/events", [this](const Call& c) {
       return events(

@@ -78,7 +78,8 @@ void ledger_tickets(const LedgerOptions& o) {
   const std::int64_t now = read_clocks().utc_ns;
   json printed = json::array();
   for (const auto& t : registry.tickets) {
-    const std::string state = t.used_by                         ? fmt::format("used by entry {}", *t.used_by)
+    const std::string state = t.made_up_by                      ? fmt::format("made up by entry {}", *t.made_up_by)
+                              : t.used_by                       ? fmt::format("used by entry {}", *t.used_by)
                               : t.cancelled_by                  ? fmt::format("cancelled by entry {}", *t.cancelled_by)
                               : now > t.ticket.not_after_utc_ns ? "run out"
                               : !t.begins.empty()               ? fmt::format("let begin by entry {}", t.begins.back().seq)

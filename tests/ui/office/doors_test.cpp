@@ -26,6 +26,7 @@ const std::map<std::string, std::string> k_expected = {
     {"POST /api/roster/issue", "o"},
     {"GET /api/tickets", "oi"},
     {"POST /api/tickets/cancel", "o"},
+    {"POST /api/tickets/makeup", "o"},
     {"GET /api/board", "oi"},
     {"GET /api/board/events", "oi"},
     {"POST /api/stations/invite", "o"},

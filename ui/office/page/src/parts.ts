@@ -123,6 +123,10 @@ export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("p
 export function local_time(utc: string): string {
   return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
 }
+/** What a control for a moment says, as UTC to the second. */
+export function utc(local: string): string {
+  return new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
+}
 export function time_zone(): string {
   return Intl.DateTimeFormat().resolvedOptions().timeZone;
 }

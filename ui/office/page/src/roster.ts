@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { field, form, input, say, select, table, time_zone, type View } from "./parts.ts";
+import { field, form, input, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
@@ -100,7 +100,6 @@ class Roster {
     const word = make("input", { type: "checkbox", id: "begin-at-office" });
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
     const out = make("div");
-    const utc = (local: string): string => new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
     const asked = form(tr("Issue the tickets"), async () => {
       const done = await post<Issued>("/api/roster/issue", {
         ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, reason: reason.value,
