@@ -40,7 +40,18 @@ json Desk::exams() const {
   return {{"exams", out}};
 }
 
-json Desk::preview(const json& asked) { return shown_roster(roster_of(asked)); }
+json Desk::preview(const json& asked) {
+  Roster roster = roster_of(asked);
+  try {
+    Turn turn(*this);
+    ledger::Identities identities = ledger::sound_identities(turn.book);
+    static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
+  } catch (const Error& wrong) {
+    roster.people.clear();
+    roster.problem = wrong.what();
+  }
+  return shown_roster(roster);
+}
 
 json Desk::issue(const json& asked, const Account& by) {
   const Roster roster = roster_of(asked);
@@ -54,18 +65,24 @@ json Desk::issue(const json& asked, const Account& by) {
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   json issued = json::array(), refused = json::array();
-  for (const auto& person : roster.people) {
+  const auto stations =
+      ledger::stations_of(turn.book.registry(), identities, roster.people, ledger::TimeSpan{wish.from_utc_ns, wish.until_utc_ns}, k_list);
+  std::vector<ledger::Seat> seats;
+  for (std::size_t i = 0; i < roster.people.size(); ++i) {
+    const auto& person = roster.people[i];
     const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
     ticket.grant = scenarios::notes_of(person.grant);
     std::sort(ticket.grant.begin(), ticket.grant.end());
     try {
       const std::string text = ledger::issue(turn.book, ticket, candidate);
       write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
-      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}});
+      if (!stations[i].empty()) seats.push_back({turn.book.content().entries.size() - 1, stations[i]});
+      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}, {"station", person.station}});
     } catch (const ledger::TicketIsLive& live) {  // the others get theirs
       refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(live.what())}});
     }
   }
+  if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
   return {{"issued", issued}, {"refused", refused}};
 }
 
@@ -84,6 +101,8 @@ json Desk::make_up(const json& asked, const Account& by) {
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});
+  if (!grant && !std::filesystem::exists(places_.ticket(nonce)))
+    throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
   if (!grant) grant = ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the first ticket").grant;
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;

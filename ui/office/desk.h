@@ -43,7 +43,7 @@ class Desk {
 
   // Each takes and gives JSON (docs/office.md), and throws Error in the words of what is wrong.
   [[nodiscard]] nlohmann::json exams() const;
-  [[nodiscard]] static nlohmann::json preview(const nlohmann::json& asked);
+  [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json tickets();
   /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.

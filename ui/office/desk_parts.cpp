@@ -51,6 +51,7 @@ json shown_roster(const Roster& roster) {
   for (const auto& p : roster.people)
     people.push_back({{"id", p.id},
                       {"name", p.name},
+                      {"station", p.station},
                       {"accommodations", scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list"))}});
   return {{"encoding", roster.encoding},
           {"separator", std::string(1, roster.separator)},

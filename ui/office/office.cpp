@@ -138,7 +138,7 @@ struct Office::Parts {
       });
     };
     get("/api/exams", [this](const Call&) { return desk.exams(); });
-    site.on("POST", "/api/roster/preview", [](const Call& c) { return json_reply(Desk::preview(c.json())); });
+    site.on("POST", "/api/roster/preview", [this](const Call& c) { return json_reply(desk.preview(c.json())); });
     post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
     get("/api/tickets", [this](const Call&) { return desk.tickets(); });
     post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });

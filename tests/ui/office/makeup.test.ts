@@ -38,11 +38,18 @@ test("makeup sittings by keys", { skip: k_skip }, async () => {
   await press(page, "Make a code");
   await page.waitForSelector("section code");
   station("seat", "enrol", "--code", await page.$eval("section code", (c) => c.textContent!));
-  await issue(page, "id,name,extra_time_percent\n4711,Anna A.,25\n", -1, 3);
+  await go(page, "Class list");
+  await type(page, "Paste the list, with its line of column names", "id,name,station\n4711,Anna A.,Seat 1\n4712,Bert B.,Seat 9\n");
+  await press(page, "Read the list");
+  await said(page, "no station that is enrolled bears the name 'Seat 9'");
+  await look(officer, "unknown-station");
+  await go(page, "Tickets");
+  await issue(page, "id,name,extra_time_percent,station\n4711,Anna A.,25,Seat 1\n", -1, 3);
   await go(page, "Tickets");
   await issue(page, "id,name,extra_time_percent\n4712,Bert B.,30\n", -3, -2);
   await go(page, "Tickets");
   await said(page, "4712");
+  assert.equal(await page.$eval('td[data-label="Station"] select', (s) => (s as HTMLSelectElement).selectedOptions[0].textContent), "Seat 1");
   const codes = await page.$$eval("tbody tr", (all) => all.map((r) => r.children[2].textContent!));
 
   await make_up(page, codes[0], "interrupted", "as before");

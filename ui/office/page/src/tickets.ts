@@ -60,7 +60,10 @@ function seat_of(t: Ticket, stations: Station[]): HTMLElement {
   list.addEventListener("change", () => {
     post("/api/seats", { ticket: t.entry, station: list.value })
       .then(() => say(tr("{} has another station.", t.candidate)))
-      .catch((wrong: Error) => say(wrong.message, true));
+      .catch((wrong: Error) => {
+        list.value = t.seat;  // it stays where it was
+        say(wrong.message, true);
+      });
   });
   return list.block;
 }
