@@ -5,6 +5,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <regex>
 #include <thread>
 
 #include "engine/base/json_fields.h"
@@ -16,6 +18,7 @@
 #include "ui/office/desk_parts.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
+#include "ui/office/pieces.h"
 #include "ui/office/regrades.h"
 #include "ui/office/reports.h"
 #include "ui/office/site.h"
@@ -36,11 +39,19 @@ std::string cookie_field(const std::string& value, std::int64_t seconds) {
   return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite=Strict", k_cookie, value, seconds);
 }
 
-json words_of_the_page() {
+json words_of_the_page(bool proxied) {
   json words = json::object();
   if (language() != "en")
     for (const auto& m : page_messages()) words[m] = shown(m);
-  return {{"language", language()}, {"words", words}};
+  return {{"language", language()}, {"words", words}, {"proxy", proxied}};
+}
+
+/// "at=0&of=1000", to the letter; none: it is something else.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> place_in(const std::string& query) {
+  static const std::regex k_place("at=([0-9]{1,9})&of=([0-9]{1,9})");
+  std::smatch found;
+  if (!std::regex_match(query, found, k_place)) return std::nullopt;
+  return std::pair(std::stoull(found[1]), std::stoull(found[2]));
 }
 
 /// A recording that a station hands in.
@@ -67,8 +78,12 @@ struct Office::Parts {
       : accounts(o.home + "/accounts.json"),
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
+        pieces(
+            o.home + "/" + desk.ledger_id() + "/inbox/pieces",
+            [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); }, [] { return utc_now_ns() / 1'000'000'000; }),
         site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id()}),
+              steady_s, utc_now_ns, desk.ledger_id(), o.proxy}),
+        proxied(o.proxy.has_value()),
         reports(o.report),
         regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
     serve_pages();
@@ -87,11 +102,12 @@ struct Office::Parts {
     page("/", "text/html; charset=utf-8", page_html());
     page("/office.js", "text/javascript; charset=utf-8", page_script());
     page("/office.css", "text/css; charset=utf-8", page_style());
-    site.on("GET", "/api/words", [](const Call&) { return json_reply(words_of_the_page()); });
+    site.on("GET", "/api/words", [this](const Call&) { return json_reply(words_of_the_page(proxied)); });
   }
 
   void serve_people() {
     site.on("POST", "/api/sign-in", [this](const Call& c) { return sign_in(c); });
+    site.on("POST", "/api/sign-in/proxy", [this](const Call& c) { return sign_in_by_proxy(c); });
     site.on("POST", "/api/sign-out", [this](const Call& c) {
       site.sign_ins().end(c.cookie);
       Reply reply = json_reply(json::object());
@@ -122,7 +138,22 @@ struct Office::Parts {
     const auto account = accounts.sign_in(name, text_in(asked, "password"));
     if (!account) return error_reply(401, "name and password do not belong together");
     tries.forget(key);
-    const std::string cookie = site.sign_ins().begin(*account, now);
+    return signed_in(*account, now, "");
+  }
+
+  /// Who the proxy says it is, where that is an account here: its role is the account's.
+  Reply sign_in_by_proxy(const Call& call) {
+    if (!proxied) return error_reply(404, "there is nothing here");
+    if (call.proxied_as.empty()) return error_reply(401, "the school's sign-on says nobody: come by its address");
+    const std::int64_t now = steady_s();
+    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) return error_reply(429, "too many tries: wait a minute");
+    const auto account = accounts.called(call.proxied_as);
+    if (!account) return error_reply(403, "the school's sign-on knows you, and this office has no account for you: ask who runs it");
+    return signed_in(*account, now, call.proxied_as);
+  }
+
+  Reply signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
+    const std::string cookie = site.sign_ins().begin(account, now, proxied_as);
     Reply reply = me(*site.sign_ins().of(cookie, now));
     reply.fields.emplace_back("Set-Cookie", cookie_field(cookie, k_absolute_end_s));
     return reply;
@@ -278,8 +309,20 @@ struct Office::Parts {
       board.report(c.station, report, utc_now_ns());
       return json_reply(desk.word_for(c.station, report.heard));
     });
+    site.on("GET", "/station/pieces/*", [this](const Call& c) { return said_of(pieces.have(c.station, c.tail)); });
+    site.on("PUT", "/station/pieces/*", [this](const Call& c) {
+      const auto place = place_in(c.head.query);
+      if (!place) return error_reply(400, "say where the piece stands: ?at=0&of=1000");
+      return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
+    });
     site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail); });
     site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });
+  }
+
+  /// 409: the piece was not the next one.
+  static Reply said_of(const Pieces::Have& h, bool after_a_piece = false) {
+    if (h.whole) return json_reply({{"state", "waiting"}}, 202);
+    return json_reply({{"have", h.have}, {"of", h.of}}, after_a_piece && !h.taken ? 409 : 200);
   }
 
   Reply handed(const std::string& sha256) {
@@ -293,7 +336,9 @@ struct Office::Parts {
   Desk desk;
   Board board;
   Inbox inbox;
+  Pieces pieces;
   Site site;
+  bool proxied = false;
   Reports reports;
   Regrades regrades;
   Tries tries;

@@ -48,9 +48,15 @@ export function code_of(secret: string, steps_on = 0): string {
 }
 
 /** The secret of its second factor, where it gets one. */
-export function add_account(name: string, role: string, second_factor = false): string {
-  const told = run("school", ["serve", "--add-account", name, "--role", role, ...(second_factor ? ["--second-factor"] : [])], `${password}\n`);
+export function add_account(name: string, role: string, second_factor = false, ...further: string[]): string {
+  const told = run("school", ["serve", "--add-account", name, "--role", role, ...(second_factor ? ["--second-factor"] : []), ...further], `${password}\n`);
   return /secret=([A-Z2-7]+)/.exec(told)?.[1] ?? "";
+}
+
+/** Further options of the next office's server, by its folder. */
+let more: (folder: string) => string[] = () => [];
+export function serve_with(options: (folder: string) => string[]): void {
+  more = options;
 }
 
 /** Opens an office with an account of each role and a folder for each station. */
@@ -71,7 +77,7 @@ export async function open_office(...seats: string[]): Promise<void> {
     mkdirSync(join(folder, seat));
     copyFileSync(join(folder, "school/school.pub"), join(folder, seat, "school.pub"));
   }
-  server = spawn(cavum, ["serve", join(folder, "ledger"), "--listen", "127.0.0.1:0", "--exam", task, "--simulated"], {
+  server = spawn(cavum, ["serve", join(folder, "ledger"), "--listen", "127.0.0.1:0", "--exam", task, "--simulated", ...more(folder)], {
     env: { ...process.env, CAVUM_HOME: join(folder, "school"), LANGUAGE: "en" },
   });
   let said = "";

@@ -44,6 +44,7 @@ class Opened {
     o.certificate = {certificate(), home() + "/certificate.key"};
     o.limits = limits_;
     o.filing.simulated = rehearsal_;
+    o.proxy = proxy_;
     o.report = [](const std::string& recording) { return "<p>" + recording + "</p><script>1</script>"; };
     if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
@@ -52,6 +53,8 @@ class Opened {
   }
   /// From the next open() on what no hand moved is filed, too.
   void rehearse() { rehearsal_ = true; }
+  /// From the next open() on people may sign in by a proxy.
+  void stand_behind(const office::ProxySignOn& proxy) { proxy_ = proxy; }
   void close() { office_.reset(); }
 
   [[nodiscard]] Visitor visitor() const { return {port()}; }
@@ -110,6 +113,7 @@ class Opened {
   office::HttpLimits limits_;
   std::uint16_t port_ = 0;
   bool rehearsal_ = false;
+  std::optional<office::ProxySignOn> proxy_;
   std::unique_ptr<office::Office> office_;
 };
 

@@ -14,6 +14,7 @@ import { sign_in } from "./sign_in.ts";
 import { tickets } from "./tickets.ts";
 
 let me: Me | null = null;
+let by_proxy = false;
 let view: View | null = null;
 const may = (door: string): boolean => me?.may.includes(door) ?? false;
 
@@ -64,7 +65,7 @@ async function show(): Promise<void> {
   const place = mine.find((p) => `#${p.name}` === location.hash) ?? mine[0];
   head(mine, place?.name ?? "");
   document.title = `${place?.title ?? tr("Sign in")} · ${me?.school ?? "Cavum"}`;
-  if (place === undefined) return put(sign_in(signed_in));
+  if (place === undefined) return put(sign_in(signed_in, by_proxy));
   const this_time = ++asked;
   try {
     const next = await place.open();
@@ -83,7 +84,8 @@ function signed_in(who: Me): void {
 }
 
 async function begin(): Promise<void> {
-  const { language, words } = await get<{ language: string; words: { [english: string]: string } }>("/api/words");
+  const { language, words, proxy } = await get<{ language: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
+  by_proxy = proxy;
   set_words(words, language === "de" ? "," : ".");
   document.documentElement.lang = language;
   document.getElementById("skip")!.textContent = tr("To the content");
