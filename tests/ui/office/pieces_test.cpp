@@ -176,13 +176,13 @@ class PoorLine {
 TEST(PiecesOverTheNetwork, GoOnWhereTheLineBroke) {
   const Opened opened;
   PoorLine line(opened.port());
-  constexpr std::size_t k_bytes = 3'000'000;
+  constexpr std::size_t k_bytes = 100'000'000, k_breaks_after = 9'000'000;
   const std::string text = some_bytes(k_bytes, 5);
   const Bytes image(text.begin(), text.end());
-  line.breaks_after = 900'000;
+  line.breaks_after = k_breaks_after;
   int broken = 0;
   json said;
-  while (said.is_null() && broken < 20) {
+  while (said.is_null() && broken < 50) {
     StationClient station(line.address(), opened.certificate(), to_hex(School::key().public_key), load_station_key(station_key_path()));
     try {
       said = station.hand_in(image);
@@ -191,8 +191,9 @@ TEST(PiecesOverTheNetwork, GoOnWhereTheLineBroke) {
     }
   }
   EXPECT_EQ(said["state"], "waiting") << broken;
-  EXPECT_GE(broken, 3) << "3 MB do not go through a line that breaks after 0.9 MB";
-  EXPECT_LT(line.sent, k_bytes + static_cast<std::size_t>(broken + 1) * 600'000) << "at most a piece is sent again for each break";
+  EXPECT_GE(broken, 11) << "100 MB do not go through a line that breaks after 9 MB";
+  EXPECT_LT(line.sent, k_bytes + static_cast<std::size_t>(broken + 1) * (k_largest_piece + 100'000))
+      << "at most a piece is sent again for each break";
   auto direct = opened.station();
   const json outcome = Opened::outcome(direct, to_hex(sha256(image)));
   EXPECT_EQ(outcome["state"], "refused") << "it arrived whole, and is no exam: " << outcome;
