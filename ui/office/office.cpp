@@ -79,8 +79,8 @@ struct Office::Parts {
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
         pieces(
-            o.home + "/" + desk.ledger_id() + "/inbox/pieces",
-            [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); }, [] { return utc_now_ns() / 1'000'000'000; }),
+            o.home + "/" + desk.ledger_id() + "/pieces", [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); },
+            [] { return utc_now_ns() / 1'000'000'000; }),
         site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
               steady_s, utc_now_ns, desk.ledger_id(), o.proxy}),
         proxied(o.proxy.has_value()),

@@ -21,7 +21,7 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
     const names = new Map(stations.map((s) => [s.public_key, s.name]));
     const rows = tickets.map((t) => {
       const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
-      const actions = make("div", {}, cancel, ...(t.makeup.length > 0 && may("POST /api/tickets/makeup") ? [with_makeup(t, show)] : []));
+      const actions = make("div", { class: "row" }, cancel, ...(t.makeup.length > 0 && may("POST /api/tickets/makeup") ? [with_makeup(t, show)] : []));
       const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
       const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
       return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, actions.textContent === "" ? "" : actions];
