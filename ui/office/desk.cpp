@@ -133,8 +133,11 @@ json Desk::tickets() {
                 {"live", state.live},
                 {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))},
                 {"seat", t.seat},
+                {"became", ""},
                 {"why", t.why}};
     std::string why_not;
+    for (const auto& makeup : turn.book.registry().tickets)
+      if (makeup.seq == t.made_up_by) row["became"] = makeup.first_became;
     row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
     put_name(row, people, t.ticket.candidate);
     out.push_back(std::move(row));

@@ -129,7 +129,10 @@ TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
   if (t.makes_up)
     state.word = t.first_became == ledger::k_missed ? tr("{0}; makeup of entry {1}, which was missed", state.word, *t.makes_up)
                                                     : tr("{0}; makeup of entry {1}, which was interrupted", state.word, *t.makes_up);
-  if (t.made_up_by) state = {tr("{0}; made up by entry {1}", state.word, *t.made_up_by), "made up", false};
+  if (t.made_up_by) {
+    const bool open = state.group == "live" || state.group == "run out";  // it is neither any more
+    state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{0}; made up by entry {1}", state.word, *t.made_up_by), "made up", false};
+  }
   return state;
 }
 

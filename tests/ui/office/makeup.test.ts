@@ -57,7 +57,7 @@ test("makeup sittings by keys", { skip: k_skip }, async () => {
   await look(officer, "makeup-form");
   await page.keyboard.press("Enter");
   await said(page, `${codes[0]} has a makeup sitting: 25 % extra time.`);
-  await said(page, "made up by entry");
+  await said(page, "interrupted; made up by entry");
   await said(page, "which was interrupted. Reason: the power failed");
 
   await make_up(page, codes[1], "missed", "these");
@@ -66,6 +66,7 @@ test("makeup sittings by keys", { skip: k_skip }, async () => {
   await type(page, "Reason", "ill, with a certificate");
   await page.keyboard.press("Enter");
   await said(page, `${codes[1]} has a makeup sitting: 30 % extra time.`);
+  await said(page, "missed; made up by entry");
   await look(officer, "makeup-tickets");
 
   station("seat", "tickets", "--out", join(folder, "tickets"));

@@ -58,6 +58,7 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   EXPECT_EQ(a.grant, b.grant);
   EXPECT_EQ(station.ask("POST", "/station/begin", json{{"ticket", a.nonce}}.dump()).status, 400);
   EXPECT_EQ(row(first["entry"])["live"], false);
+  EXPECT_EQ(row(first["entry"])["became"], "interrupted");
   EXPECT_EQ(make_up(first).status, 400) << "once";
   EXPECT_EQ(officer_.get("/api/board").json()["tickets"]["made up"], 1);
 }

@@ -7,7 +7,7 @@ import { act, form, local_time as local, say, select, table, time_zone, with_rea
 
 interface Ticket {
   entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean;
-  seat: string; id: string; name: string; why: string; makeup: string[];
+  seat: string; id: string; name: string; became: string; why: string; makeup: string[];
 }
 interface Station { name: string; public_key: string; room: string; revoked: boolean }
 
@@ -22,7 +22,8 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
     const rows = tickets.map((t) => {
       const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
       const actions = make("div", { class: "row" }, cancel, ...(t.makeup.length > 0 && may("POST /api/tickets/makeup") ? [with_makeup(t, show)] : []));
-      const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
+      const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.became === "missed" ? tr("missed; {}", t.state) : t.became !== "" ? tr("interrupted; {}", t.state)
+        : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
       const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
       return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, actions.textContent === "" ? "" : actions];
     });
