@@ -311,7 +311,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
 std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam) {
   std::map<std::string, const ledger::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
-    if (s.scenario_id == exam && !s.doubtful() && s.result.is_object()) sat[s.candidate] = &s;
+    if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result.is_object()) sat[s.candidate] = &s;
   if (sat.empty()) throw Error(fmt::format("exam '{}'", one_line(exam)), "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
   return sat;
 }

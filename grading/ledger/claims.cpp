@@ -217,6 +217,7 @@ std::vector<std::string> check_claims(const LedgerContent& content, const Regist
       if (t.cancelled_by)
         findings.push_back(
             fmt::format("its ticket was cancelled on {} (entry {})", utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by));
+      if (t.made_up_by) findings.push_back(fmt::format("a makeup sitting was given in its place (entry {})", *t.made_up_by));
       for (auto& f : check_begin(content, session, setup, t)) findings.push_back(std::move(f));
       for (auto& f : check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns)) findings.push_back(std::move(f));
       if (t.used_by) {

@@ -39,7 +39,7 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
 std::vector<ToDecide> review_queue(const Registry& registry) {
   std::vector<ToDecide> queue;
   for (const FiledSession& s : registry.sessions) {
-    if (!s.undecided() || registry.chosen_instead_of(s) != nullptr) continue;
+    if (!s.undecided() || s.made_up_by || registry.chosen_instead_of(s) != nullptr) continue;
     const json& score = s.result.at("score");
     ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
     for (const json& reason : member_of(s.result, "verdict_reasons"))

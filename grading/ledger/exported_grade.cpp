@@ -31,6 +31,7 @@ std::string critical_in(const json& result) {
 /// What a person decided before this result was released, or has to decide.
 std::string doubts_of(const FiledSession& s) {
   std::string out;
+  if (s.makes_up) out += fmt::format("Makeup sitting, for the first was {} (entry {}). ", one_line(s.first_became), *s.makes_up);
   if (!s.contested_by.empty()) {
     std::string others;
     for (const auto other : s.contested_by) others += (others.empty() ? "" : ", ") + std::to_string(other);

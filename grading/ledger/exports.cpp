@@ -108,7 +108,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
 json lti_scores(const Registry& registry, Identities& identities, bool with_simulated) {
   std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last one that is released, else the last
   for (const auto& s : registry.sessions) {
-    if (!s.simulated.empty() && !with_simulated) continue;
+    if ((!s.simulated.empty() && !with_simulated) || s.made_up_by) continue;
     const std::string user = s.simulated.empty() ? number_of(s, identities) : "simulated:" + s.candidate;
     if (user.empty()) continue;  // the platform knows nobody by a pseudonym
     const FiledSession*& counts = last[{s.scenario_id, user}];
@@ -154,6 +154,8 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"simulated", s.simulated},
                        {"contested_by", s.contested_by},
                        {"chosen", s.chosen},
+                       {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
+                       {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                        {"findings", s.findings}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
@@ -196,15 +198,17 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
 
 std::string tidy_csv(const Registry& registry) {
   std::string out =
-      "session,candidate,scenario,station,simulated,regraded,findings,contested,chosen,verdict,released,criterion,metric,value,unit,points,max\n";
+      "session,candidate,scenario,station,simulated,regraded,findings,contested,chosen,makes_up,made_up_by,verdict,released,criterion,metric,value,"
+      "unit,points,max\n";
   for (const auto& s : registry.sessions) {
     if (!s.result.is_object()) continue;
     for (const auto& c : s.result.at("criteria"))
       out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + csv_field(s.station_key.substr(0, 16)) +
              "," + csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
-             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + csv_field(s.result.value("verdict", "")) + "," +
-             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
-             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + (s.makes_up ? std::to_string(*s.makes_up) : "") + "," +
+             (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result.value("verdict", "")) + "," + (s.released ? "1" : "0") +
+             "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) + "," +
+             csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }
   return out;
 }

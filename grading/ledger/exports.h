@@ -26,9 +26,9 @@ namespace cavum::ledger {
 /// How many released results were sat by simulated operators.
 [[nodiscard]] std::size_t released_simulated(const Registry& registry);
 
-/// {"results":[{session, candidate, file_sha256, released, result, shown, simulated, findings, contested_by, chosen}], "ledger", "checkpoint",
-/// "public_key", "signature"}: keys in order, no spaces, signed by the school over "CVRESULT" and the text of the object without "signature".
-/// Pseudonyms only.
+/// {"results":[{session, candidate, file_sha256, released, result, shown, simulated, findings, contested_by, chosen, makes_up, made_up_by}],
+/// "ledger", "checkpoint", "public_key", "signature"}: keys in order, no spaces, signed by the school over "CVRESULT" and the text of the object
+/// without "signature". Pseudonyms only.
 [[nodiscard]] std::string signed_results(const Registry& registry, const Ledger& ledger);
 /// Why `text` is not what signed_results wrote, in words; empty when it is. As check_receipt(): `public_key` (hexadecimal) is the school's, empty =
 /// the file's own; with a ledger's content also whether that still begins with what the export saw. The text has to be the one that was written, to
@@ -36,7 +36,7 @@ namespace cavum::ledger {
 [[nodiscard]] std::vector<std::string> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
 
 /// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings, contested (their numbers),
-/// chosen, verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.
+/// chosen, makes_up, made_up_by (entries of tickets, or empty), verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.
 [[nodiscard]] std::string tidy_csv(const Registry& registry);
 
 }  // namespace cavum::ledger

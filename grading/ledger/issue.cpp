@@ -53,9 +53,47 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
     if (t->used_by)
       throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
                   "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
+    if (t->made_up_by) throw Error(where, fmt::format("was made up by entry {}", *t->made_up_by), "cancel that one, if it is too much");
     if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
     return {{"ticket", seq}, {"reason", reason}};
   });
+}
+
+namespace {
+
+bool meet(const TimeSpan& a, const Ticket& b) { return a.from_utc_ns < b.not_after_utc_ns && b.not_before_utc_ns < a.until_utc_ns; }
+
+}  // namespace
+
+const IssuedTicket* seated_there(const Registry& registry, const std::string& station, const TimeSpan& when, std::uint64_t but_ticket,
+                                 std::int64_t now) {
+  for (const auto& t : registry.tickets)
+    if (!station.empty() && t.seat == station && t.seq != but_ticket && t.live(now) && meet(when, t.ticket)) return &t;
+  return nullptr;
+}
+
+std::vector<std::string> stations_of(const Registry& registry, Identities& identities, const std::vector<Person>& people,
+                                     const std::optional<TimeSpan>& when, const std::string& where) {
+  std::vector<std::string> keys;
+  for (const Person& p : people) {
+    const std::string at = fmt::format("{}:{}: station", where, p.line);
+    std::string& key = keys.emplace_back();
+    if (p.station.empty()) continue;
+    for (const Station& s : registry.stations.stations) {
+      if (s.name != p.station || s.revoked_utc_ns || !s.replaced_by.empty()) continue;
+      if (!key.empty()) throw Error(at, fmt::format("two stations bear the name '{}'", one_line(p.station)), "give each a name of its own");
+      key = s.public_key;
+    }
+    if (key.empty())
+      throw Error(at, fmt::format("no station that is enrolled bears the name '{}'", one_line(p.station)),
+                  "write it as the board does, or leave it empty");
+    if (!when) continue;
+    const IssuedTicket* there = seated_there(registry, key, *when, 0, read_clocks().utc_ns);
+    const auto who = there == nullptr ? std::nullopt : identities.of_pseudonym(there->ticket.candidate);
+    if (there != nullptr && (!who || who->id != p.id))
+      throw Error(at, fmt::format("'{}' has another candidate at that time (entry {})", one_line(p.station), there->seq), "choose another station");
+  }
+  return keys;
 }
 
 const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats) {
@@ -65,11 +103,20 @@ const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seat
     nlohmann::json list = nlohmann::json::array();
     for (const Seat& s : seats) {
       const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == s.ticket; });
-      if (t == registry.tickets.end() || t->used_by || t->cancelled_by)
+      if (t == registry.tickets.end() || t->used_by || t->cancelled_by || t->made_up_by)
         throw Error(fmt::format("entry {}", s.ticket), "is no ticket that is good", "look at the list of tickets again");
       const Station* at = registry.stations.of(s.station);
       if (!s.station.empty() && (at == nullptr || at->revoked_utc_ns))
         throw Error("station " + one_line(s.station), "is none that is enrolled", "choose one of the list");
+      const TimeSpan when{t->ticket.not_before_utc_ns, t->ticket.not_after_utc_ns};
+      const bool twice = !s.station.empty() && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) {
+        const auto other = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == o.ticket; });
+        return o.ticket != s.ticket && o.station == s.station && other != registry.tickets.end() && meet(when, other->ticket);
+      });
+      const IssuedTicket* there = seated_there(registry, s.station, when, s.ticket, read_clocks().utc_ns);
+      const bool moves = there != nullptr && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) { return o.ticket == there->seq; });
+      if (twice || (there != nullptr && !moves))
+        throw Error("station " + one_line(at->name), "has another candidate at that time", "choose another station");
       list.push_back({{"ticket", s.ticket}, {"station", s.station}});
     }
     return {{"seats", list}};
@@ -105,6 +152,7 @@ bool yes_of(const std::string& field, const std::string& at) {
 constexpr Column k_columns[] = {
     {"id", [](Person& p, const std::string& f, const std::string&) { p.id = f; }},
     {"name", [](Person& p, const std::string& f, const std::string&) { p.name = f; }},
+    {"station", [](Person& p, const std::string& f, const std::string&) { p.station = f; }},
     {"extra_time_percent", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_percent = number_of(f, at); }},
     {"extra_time_s", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_s = number_of(f, at); }},
     {"left_handed", [](Person& p, const std::string& f, const std::string& at) { p.grant.left_handed = yes_of(f, at); }},
@@ -118,8 +166,9 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
   for (const std::string& field : heading) {
     const auto* const found =
         std::find_if(std::begin(k_columns), std::end(k_columns), [&](const Column& c) { return small_letters(field) == c.name; });
-    const bool is_known = found != std::end(k_columns);
-    if (!is_known && std::find(passed_over.begin(), passed_over.end(), field) == passed_over.end())
+    const bool passed = std::find(passed_over.begin(), passed_over.end(), field) != passed_over.end();
+    const bool is_known = found != std::end(k_columns) && !passed;
+    if (!is_known && !passed)
       throw Error(at, fmt::format("a ticket knows no column '{}'", one_line(field)),
                   fmt::format("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
     if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
@@ -147,7 +196,7 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
   if (rows.empty()) throw Error(where + ":1", "is no heading of candidates", "begin with id,name");
   const auto columns = columns_of(rows[0].fields, fmt::format("{}:{}", where, rows[0].line), passed_over);
   std::vector<Person> people;
-  std::set<std::string> seen;
+  std::set<std::string> seen, stations;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const std::string at = fmt::format("{}:{}", where, rows[i].line);
     Person p;
@@ -158,6 +207,10 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
     require_candidate_id(at + ": name", p.name);
     scenarios::require_sound(p.grant, at);
     if (!seen.insert(p.id).second) throw Error(at, fmt::format("'{}' stands there a second time", p.id), "leave one of them");
+    require_candidate_id(at + ": station", p.station);
+    if (!p.station.empty() && !stations.insert(p.station).second)
+      throw Error(at + ": station", fmt::format("'{}' is given to two candidates", p.station), "give each a station of his own");
+    p.line = rows[i].line;
     people.push_back(std::move(p));
   }
   if (people.empty()) throw Error(where, "names no candidate", "write one on each line below the heading");

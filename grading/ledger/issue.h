@@ -1,10 +1,12 @@
 // Issuing tickets: what one promises of an exam that was made ready, its entry in the ledger, and the list of those who get one.
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/base/csv.h"
+#include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 #include "scenarios/exam/exam.h"
@@ -34,23 +36,38 @@ struct Seat {
   std::uint64_t ticket = 0;
   std::string station;
 };
-/// Enters seats, all in one entry. Throws Error when one is of no ticket that is good, or at no station that is enrolled.
+/// Enters seats, all in one entry. Throws Error when one is of no ticket that is good, at no station that is enrolled, or at one where another
+/// candidate is to sit at that time.
 const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats);
 
 struct Person {
   std::string id;               ///< how the school's other systems name the candidate
   std::string name = {};        ///< for people; may be empty
   scenarios::Grant grant = {};  ///< accommodations of this candidate: what is set goes before what the class is granted
+  std::string station = {};     ///< name of the station where the candidate is to sit; empty: any
+  std::size_t line = 0;         ///< of the table
 };
-/// A table (CSV) with a column `id` and, if wanted, `name`, `extra_time_percent`, `extra_time_s`, `left_handed`, `high_contrast` (yes or no; empty:
-/// nothing said). Nobody's accommodation is lost in silence: any other column is refused, but for those that `passed_over` names. Throws
-/// Error(where:line, ...) for that, for one without ids, with one twice, or with a value that no scenario could grant.
+/// A table (CSV) with a column `id` and, if wanted, `name`, `station`, `extra_time_percent`, `extra_time_s`, `left_handed`, `high_contrast` (yes or
+/// no; empty: nothing said). Nobody's accommodation is lost in silence: any other column is refused, but for those that `passed_over` names. Throws
+/// Error(where:line, ...) for that, for one without ids, with one twice, with one station twice, or with a value that no scenario could grant.
 [[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over = {});
 /// The same of rows that were read before, the heading first.
 [[nodiscard]] std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where,
                                                const std::vector<std::string>& passed_over = {});
 /// Names of the columns that it knows, `id` first.
 [[nodiscard]] std::vector<std::string> people_columns();
+
+/// A time within which exams begin: of a ticket, or of a sitting.
+struct TimeSpan {
+  std::int64_t from_utc_ns = 0, until_utc_ns = 0;
+};
+/// The keys of the stations that a list names, in its order; empty where it names none. With `when` also none where somebody else is to sit then.
+/// Throws Error(`where`:line, ...) for a name of no station or of several, or a seat that is taken.
+[[nodiscard]] std::vector<std::string> stations_of(const Registry& registry, Identities& identities, const std::vector<Person>& people,
+                                                   const std::optional<TimeSpan>& when, const std::string& where);
+/// The ticket of another candidate, good at this time or later, whose seat is this station within a time that meets `when`; null: none.
+[[nodiscard]] const IssuedTicket* seated_there(const Registry& registry, const std::string& station, const TimeSpan& when, std::uint64_t but_ticket,
+                                               std::int64_t now_utc_ns);
 
 /// What `person` says, and what `all` says where he does not.
 [[nodiscard]] scenarios::Grant together(const scenarios::Grant& all, const scenarios::Grant& person);

@@ -108,14 +108,21 @@ void Ledger::refresh() {
 }
 
 const LedgerEntry& Ledger::append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents) {
+  append_all(
+      kind, [&](const LedgerContent& now) { return std::vector<json>{body(now)}; }, documents);
+  return content_.entries.back();
+}
+
+std::size_t Ledger::append_all(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents) {
   return append_signed(
       kind,
       [&](const LedgerContent& now) {
         require_key_in_time(now, read_clocks().utc_ns);
-        json made = body(now);
-        for (const auto& [name, text] :
-             {std::pair("account", actor_.account), std::pair("reason", actor_.reason), std::pair("station", actor_.station)})
-          if (!text.empty() && !made.contains(name)) made[name] = text;
+        std::vector<json> made = bodies(now);
+        for (json& one : made)
+          for (const auto& [name, text] :
+               {std::pair("account", actor_.account), std::pair("reason", actor_.reason), std::pair("station", actor_.station)})
+            if (!text.empty() && !one.contains(name)) one[name] = text;
         return made;
       },
       documents, key_);
@@ -123,32 +130,42 @@ const LedgerEntry& Ledger::append(const std::string& kind, const MakeBody& body,
 
 void Ledger::change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason) {
   append_signed(
-      "key", [&](const LedgerContent& now) { return school_key_body(now, key_, next, until_utc_ns, reason); }, {}, next);
+      "key", [&](const LedgerContent& now) { return std::vector<json>{school_key_body(now, key_, next, until_utc_ns, reason)}; }, {}, next);
   key_ = next;
   reload();
 }
 
-const LedgerEntry& Ledger::append_signed(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents, const SigningKey& key) {
+std::size_t Ledger::append_signed(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents, const SigningKey& key) {
   Transaction all(database_);
   refresh();
-  LedgerEntry e = make_entry(content_.entries.size(), kind, body(content_));
-  e.erases = taken_out_by(content_, e.body);
+  std::vector<LedgerEntry> added;
+  std::vector<Checkpoint> points;
   auto leaves = leaves_of(content_);
-  leaves.push_back(e.leaf);
-  const Checkpoint p = sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key);
-  insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), p), documents);
+  bool erases = false;
+  for (json& body : bodies(content_)) {
+    LedgerEntry& e = added.emplace_back(make_entry(leaves.size(), kind, std::move(body)));
+    e.erases = taken_out_by(content_, e.body);
+    leaves.push_back(e.leaf);
+    points.push_back(sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key));
+    insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), points.back()),
+           added.size() == 1 ? documents : std::span<const Bytes>());
+    erases = erases || !member_of(e.body, "erased").empty();
+  }
+  if (added.empty()) return 0;
   require_memory(places_.folder);
   all.commit();
-  const bool erases = !member_of(e.body, "erased").empty();
-  content_.entries.push_back(std::move(e));
-  content_.checkpoints.push_back(p);
+  const std::size_t number = added.size();
+  for (LedgerEntry& e : added) content_.entries.push_back(std::move(e));
   for (const Bytes& d : documents) content_.documents[to_hex(sha256(d))] = d;
-  tell_witness(content_.id, p);
+  for (const Checkpoint& p : points) {
+    content_.checkpoints.push_back(p);
+    tell_witness(content_.id, p);
+  }
   if (erases) {
     reload();
     wipe();
   }
-  return content_.entries.back();
+  return number;
 }
 
 }  // namespace cavum::ledger

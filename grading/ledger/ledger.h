@@ -33,6 +33,7 @@ class Ledger {
  public:
   /// Makes an entry's body from what is there so far.
   using MakeBody = std::function<nlohmann::json(const LedgerContent&)>;
+  using MakeBodies = std::function<std::vector<nlohmann::json>(const LedgerContent&)>;
   /// A new ledger in a folder, made when missing. Throws Error when there is one already.
   static void create(const std::string& folder, const std::string& school_name, const SigningKey& key);
   /// Throws Error, in the words of its use, when anything in it does not hold, or the key is another school's.
@@ -49,6 +50,8 @@ class Ledger {
   /// nothing is added then. Throws DatabaseError when the disk refuses; the ledger then holds what it held. `documents` are kept with it, each once;
   /// the body names them (documents_of).
   const LedgerEntry& append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents = {});
+  /// The same with several entries of a kind in one transaction: all of them are added, or none. Returns how many; nothing is added for no body.
+  std::size_t append_all(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents = {});
   /// Entries that are added from now on name this actor: members `account`, `reason`, `station` of their bodies, each where it is not empty and the
   /// body has no such member.
   void act_for(Actor actor) { actor_ = std::move(actor); }
@@ -62,7 +65,7 @@ class Ledger {
   void keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures);
 
  private:
-  const LedgerEntry& append_signed(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents, const SigningKey& key);
+  std::size_t append_signed(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents, const SigningKey& key);
   void reload();
   void sign_last_as_note();
 

@@ -51,6 +51,14 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
       say(fmt::format("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;
     }
+    if (s.made_up_by) {
+      say(fmt::format("the makeup sitting of entry {} counts in its place", *s.made_up_by));
+      continue;
+    }
+    if (const FiledSession* other = r.shown_beside(s)) {
+      say(fmt::format("entry {}, another sitting of the same exam, is released", other->seq));
+      continue;
+    }
     const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
                                   [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
     if (both) {
@@ -76,9 +84,15 @@ const FiledSession* Registry::chosen_instead_of(const FiledSession& session) con
   return nullptr;
 }
 
+const FiledSession* Registry::shown_beside(const FiledSession& session) const {
+  for (const auto& o : sessions)
+    if (session.first_sitting != 0 && o.first_sitting == session.first_sitting && o.nonce != session.nonce && o.shown_seq != 0) return &o;
+  return nullptr;
+}
+
 const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const {
   for (const auto& t : tickets)
-    if (t.ticket.candidate == candidate && t.ticket.exam == exam && !t.used_by && !t.cancelled_by && t.ticket.not_after_utc_ns >= utc_ns) return &t;
+    if (t.ticket.candidate == candidate && t.ticket.exam == exam && t.live(utc_ns)) return &t;
   return nullptr;
 }
 
@@ -122,9 +136,38 @@ class RegistryReader {
 
   void ticket(const LedgerEntry& e) {
     IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content_->key_of(e.seq + 1), "ticket", GrantIs::apart), {}, {}, {}};
+    t.first_sitting = e.seq;
+    if (e.body.contains("makes_up")) make_up(e, t);
     if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(e, "a ticket with a number that another one has");
     by_ticket_[e.seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
+  }
+
+  /// Of the first sitting nothing counts from now on.
+  void make_up(const LedgerEntry& e, IssuedTicket& t) {
+    IssuedTicket& first = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "makes_up", "ticket")));
+    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
+      say(e, "makes up another candidate's ticket, or one of another exam");
+    if (first.made_up_by) say(e, "makes up a ticket that another one makes up");
+    first.made_up_by = e.seq;
+    t.makes_up = first.seq;
+    t.first_became = text_in(e.body, "became");
+    t.why = text_in(e.body, "reason");
+    t.first_sitting = first.first_sitting;
+    for (auto& s : r_.sessions) {
+      if (s.nonce.empty() || s.nonce != first.ticket.nonce) continue;
+      if (s.shown_seq != 0) say(e, "makes up a sitting whose result is released");
+      s.made_up_by = e.seq;
+    }
+  }
+
+  /// A makeup that was cancelled before it was begun is none.
+  void unmake(const IssuedTicket& t) {
+    if (!t.makes_up || t.made_up_by || !t.begins.empty()) return;
+    IssuedTicket& first = r_.tickets.at(by_ticket_.at(*t.makes_up));
+    first.made_up_by.reset();
+    for (auto& s : r_.sessions)
+      if (s.nonce == first.ticket.nonce) s.made_up_by.reset();
   }
 
   void seats(const LedgerEntry& e) {
@@ -138,7 +181,10 @@ class RegistryReader {
   void cancel(const LedgerEntry& e) {
     IssuedTicket& t = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "ticket", "cancel")));
     if (t.used_by || t.cancelled_by) say(e, "cancels a ticket that was used or cancelled before");
-    if (!t.cancelled_by) t.cancelled_by = e.seq;
+    if (!t.cancelled_by) {
+      t.cancelled_by = e.seq;
+      unmake(t);
+    }
   }
 
   /// Whoever is forgotten sits no more exams under that pseudonym.
@@ -190,6 +236,10 @@ class RegistryReader {
     s.findings = e.body.at("findings").get<std::vector<std::string>>();
     if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(e, "a session that was entered before");
     if (!s.nonce.empty() && s.findings.empty()) use_ticket(e, s);
+    if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
+      const IssuedTicket& ticket = r_.tickets[t->second];
+      s.made_up_by = ticket.made_up_by, s.makes_up = ticket.makes_up, s.first_became = ticket.first_became, s.first_sitting = ticket.first_sitting;
+    }
     for (auto& other : r_.sessions)  // two endings of one exam: the one that was filed as sound may be the wrong one
       if (!s.nonce.empty() && other.nonce == s.nonce && other.chain_sha256 != s.chain_sha256) {
         other.contested_by.push_back(s.seq);
@@ -205,6 +255,7 @@ class RegistryReader {
     IssuedTicket& t = r_.tickets[found->second];
     if (t.used_by) return say(e, "a ticket that was used before");
     if (t.cancelled_by) say(e, fmt::format("a ticket that was cancelled by entry {}", *t.cancelled_by));
+    if (t.made_up_by) say(e, fmt::format("a ticket that entry {} makes up", *t.made_up_by));
     t.used_by = e.seq;
   }
 

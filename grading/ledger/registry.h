@@ -67,6 +67,11 @@ struct FiledSession {
       if (!a.closed_by) return &a;
     return nullptr;
   }
+  std::optional<std::uint64_t> made_up_by;  ///< entry of the ticket of a makeup sitting, which counts in the place of this one
+  /// Of a makeup sitting: the entry of the ticket that it makes up, and what became of that one (makeup.h).
+  std::optional<std::uint64_t> makes_up;
+  std::string first_became;
+  std::uint64_t first_sitting = 0;  ///< entry of the ticket with which the row of sittings began that makeups go on; 0: there was no ticket
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
   /// The program leaves it to a person, and none has decided.
   [[nodiscard]] bool undecided() const { return result.is_object() && result.value("verdict", "") == "review"; }
@@ -83,11 +88,17 @@ struct LetBegin {
 };
 struct IssuedTicket {
   std::uint64_t seq = 0;
-  Ticket ticket;                              ///< without its accommodations, which the ledger does not hold
-  std::optional<std::uint64_t> used_by;       ///< entry of the session
-  std::optional<std::uint64_t> cancelled_by;  ///< entry that says so
-  std::vector<LetBegin> begins;               ///< the last one counts
-  std::string seat = {};                      ///< public key of the station where the candidate is to sit; empty: any
+  Ticket ticket;                                 ///< without its accommodations, which the ledger does not hold
+  std::optional<std::uint64_t> used_by;          ///< entry of the session
+  std::optional<std::uint64_t> cancelled_by;     ///< entry that says so
+  std::vector<LetBegin> begins;                  ///< the last one counts
+  std::string seat = {};                         ///< public key of the station where the candidate is to sit; empty: any
+  std::optional<std::uint64_t> makes_up = {};    ///< entry of the ticket that this one makes up
+  std::string first_became = {}, why = {};       ///< of that one, and the reason
+  std::optional<std::uint64_t> made_up_by = {};  ///< entry of the ticket that makes this one up: nothing is sat with this one any more
+  std::uint64_t first_sitting = 0;               ///< entry of the ticket with which the row of makeups began; its own without any
+  /// Neither used, cancelled nor made up, and good at this time or later.
+  [[nodiscard]] bool live(std::int64_t utc_ns) const { return !used_by && !cancelled_by && !made_up_by && ticket.not_after_utc_ns >= utc_ns; }
 };
 struct Registry {
   StationRegister stations;
@@ -96,10 +107,13 @@ struct Registry {
   std::vector<FiledSession> sessions;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.
   std::vector<std::string> findings;
-  /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once. Neither is a contradiction.
+  /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once; of a sitting when another one counts.
+  /// None is a contradiction.
   std::vector<std::string> remarks;
   /// A ticket of the candidate for this exam that is neither used nor cancelled, and good at this time or later; null when there is none.
   [[nodiscard]] const IssuedTicket* live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const;
+  /// A released session of another sitting of the same exam by the same candidate, where one makes up the other; null when there is none.
+  [[nodiscard]] const FiledSession* shown_beside(const FiledSession& session) const;
   /// The ending that was chosen of this session's exam, when it is another one; else null.
   [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };

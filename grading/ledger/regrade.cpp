@@ -61,24 +61,28 @@ void require_reason(const std::string& reason) {
                 "say in one line of UTF-8 why, without names: it is kept for ever");
 }
 
-const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
-                                 const std::string& reason) {
-  require_reason(reason);
-  std::vector<Bytes> documents;
-  nlohmann::json by = nlohmann::json::object();
+KeptParts kept_parts(const RegradeBasis& basis) {
+  KeptParts out{nlohmann::json::object(), {}};
   const auto keep = [&](const std::string& name, Bytes bytes) {
-    by[name] = to_hex(sha256(bytes));
-    documents.push_back(std::move(bytes));
+    out.by[name] = to_hex(sha256(bytes));
+    out.documents.push_back(std::move(bytes));
   };
   if (!basis.rubric_toml.empty()) keep(k_rubric, {basis.rubric_toml.begin(), basis.rubric_toml.end()});
   if (!basis.scenario_toml.empty()) keep(k_scenario, {basis.scenario_toml.begin(), basis.scenario_toml.end()});
   for (const auto& [name, bytes] : basis.surfaces) keep(k_attachment + name, bytes);
+  return out;
+}
+
+const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,
+                                 const std::string& reason) {
+  require_reason(reason);
+  const KeptParts parts = kept_parts(basis);
   return ledger.append(
       "regrade",
       [&](const LedgerContent&) {
-        return nlohmann::json{{"session", session}, {"result", result}, {"by", by}, {"reason", reason}};
+        return nlohmann::json{{"session", session}, {"result", result}, {"by", parts.by}, {"reason", reason}};
       },
-      documents);
+      parts.documents);
 }
 
 }  // namespace cavum::ledger

@@ -4,6 +4,7 @@
 
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
@@ -23,6 +24,13 @@ struct RegradeBasis {
 /// As it is marked by; nothing when the basis has none. `where` names it in errors.
 [[nodiscard]] std::optional<scenarios::Scenario> scenario_of(const RegradeBasis& basis, const std::string& where);
 [[nodiscard]] std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const std::string& where);
+
+/// A basis as an entry names it and the ledger keeps it.
+struct KeptParts {
+  nlohmann::json by;             ///< name and SHA-256 (hexadecimal) of each document
+  std::vector<Bytes> documents;  ///< of the same
+};
+[[nodiscard]] KeptParts kept_parts(const RegradeBasis& basis);
 
 /// The most bytes of a reason.
 inline constexpr std::size_t k_longest_reason = 2000;

@@ -32,6 +32,10 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
   if (const FiledSession* other = registry.chosen_instead_of(s))
     throw Error(where, fmt::format("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq),
                 "it stays unreleased");
+  if (s.made_up_by)
+    throw Error(where, fmt::format("a makeup sitting was given in its place (entry {})", *s.made_up_by), "the makeup's result is released");
+  if (const FiledSession* other = registry.shown_beside(s))
+    throw Error(where, fmt::format("entry {}, another sitting of the same exam, is released", other->seq), "take that one back first");
   if (s.result_erased_by)
     throw Error(where, fmt::format("its result was erased (entry {})", *s.result_erased_by), "there is nothing left to release");
   if (s.questioned() && !wish.with_findings)
@@ -60,10 +64,11 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     if (by_candidate && undecided && !by_entry)
       throw Error("--candidate " + s.candidate, fmt::format("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
                   "choose it with --session and --with-findings");
+    if (s.made_up_by) continue;
     // what was released before somebody contested it is not chosen yet
     if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful())) || s.result_erased_by) continue;
     const bool by_name = (by_entry || by_candidate) && wish.with_findings;
-    if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr)
+    if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr || registry.shown_beside(s) != nullptr)
       ++out.kept_back;
     else if (s.undecided() && !wish.undecided)
       ++out.to_decide;

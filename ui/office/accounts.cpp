@@ -58,7 +58,7 @@ std::vector<Account> Accounts::all() const {
   std::vector<Account> out;
   for (const json& a : file["accounts"]) {
     const auto role = role_named(text_in(a, "role"));
-    out.push_back({text_in(a, "name"), role.value_or(Role::reader), text_in(a, "password"), text_in(a, "code_secret")});
+    out.push_back({text_in(a, "name"), role.value_or(Role::reader), text_in(a, "password"), text_in(a, "code_secret"), text_in(a, "known_as")});
     if (!role || out.back().name.empty() || !out.back().password_hash.starts_with("$argon2id$")) refuse();
   }
   return out;
@@ -73,18 +73,30 @@ std::optional<Account> Accounts::of(const std::string& name) const {
 void Accounts::write(const std::vector<Account>& accounts) const {
   json list = json::array();
   for (const auto& a : accounts)
-    list.push_back({{"name", a.name}, {"role", name_of(a.role)}, {"password", a.password_hash}, {"code_secret", a.code_secret}});
+    list.push_back(
+        {{"name", a.name}, {"role", name_of(a.role)}, {"password", a.password_hash}, {"code_secret", a.code_secret}, {"known_as", a.known_as}});
   make_private_folder(std::filesystem::path(path_).parent_path().string());
   write_private_text_file(path_, json{{"format", k_accounts_format}, {"accounts", list}}.dump(1) + "\n");
 }
 
-Account Accounts::set(const std::string& name, Role role, const std::string& password, bool second_factor) {
+std::optional<Account> Accounts::called(const std::string& known_as) const {
+  if (known_as.empty()) return std::nullopt;
+  for (auto& a : all())
+    if (a.known_as == known_as) return a;
+  return std::nullopt;
+}
+
+Account Accounts::set(const std::string& name, Role role, const std::string& password, bool second_factor, const std::string& known_as) {
   if (name.empty() || name.size() > ledger::k_longest_person || !is_plain_text(name))
     throw Error("the account's name", "is no line of text of at most 200 bytes", "give the person's name: entries of the ledger will bear it");
   if (password.size() < k_shortest_password || password.size() > k_longest_password)
     throw Error("the password", fmt::format("has {} bytes", password.size()),
                 fmt::format("give {} to {}: four words that do not belong together", k_shortest_password, k_longest_password));
-  Account made{name, role, hash_of(password), second_factor ? base32(new_code_secret()) : ""};
+  if (known_as.size() > ledger::k_longest_person || (!known_as.empty() && !is_plain_text(known_as)))
+    throw Error("--known-as", "is no line of text of at most 200 bytes", "write it as the school's sign-on says it");
+  if (const auto other = called(known_as); other && other->name != name)
+    throw Error("--known-as " + one_line(known_as), "is another account's", "give each person one of his own");
+  Account made{name, role, hash_of(password), second_factor ? base32(new_code_secret()) : "", known_as};
   std::vector<Account> accounts = all();
   std::erase_if(accounts, [&](const Account& a) { return a.name == name; });
   accounts.push_back(made);

@@ -14,6 +14,7 @@
 #include "grading/ledger/exports.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
+#include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
 #include "ui/office/day_parts.h"
@@ -39,7 +40,18 @@ json Desk::exams() const {
   return {{"exams", out}};
 }
 
-json Desk::preview(const json& asked) { return shown_roster(roster_of(asked)); }
+json Desk::preview(const json& asked) {
+  Roster roster = roster_of(asked);
+  try {
+    Turn turn(*this);
+    ledger::Identities identities = ledger::sound_identities(turn.book);
+    static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
+  } catch (const Error& wrong) {
+    roster.people.clear();
+    roster.problem = wrong.what();
+  }
+  return shown_roster(roster);
+}
 
 json Desk::issue(const json& asked, const Account& by) {
   const Roster roster = roster_of(asked);
@@ -53,19 +65,55 @@ json Desk::issue(const json& asked, const Account& by) {
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   json issued = json::array(), refused = json::array();
-  for (const auto& person : roster.people) {
+  const auto stations =
+      ledger::stations_of(turn.book.registry(), identities, roster.people, ledger::TimeSpan{wish.from_utc_ns, wish.until_utc_ns}, k_list);
+  std::vector<ledger::Seat> seats;
+  for (std::size_t i = 0; i < roster.people.size(); ++i) {
+    const auto& person = roster.people[i];
     const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
     ticket.grant = scenarios::notes_of(person.grant);
     std::sort(ticket.grant.begin(), ticket.grant.end());
     try {
       const std::string text = ledger::issue(turn.book, ticket, candidate);
       write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
-      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}});
+      if (!stations[i].empty()) seats.push_back({turn.book.content().entries.size() - 1, stations[i]});
+      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}, {"station", person.station}});
     } catch (const ledger::TicketIsLive& live) {  // the others get theirs
       refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(live.what())}});
     }
   }
+  if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
   return {{"issued", issued}, {"refused", refused}};
+}
+
+json Desk::make_up(const json& asked, const Account& by) {
+  const auto first = require_whole<std::uint64_t>(asked, "ticket", "the ticket");
+  const std::string reason = reason_in(asked);
+  std::string exam, nonce;
+  {
+    Turn turn(*this);
+    for (const auto& t : turn.book.registry().tickets)
+      if (t.seq == first) exam = t.ticket.exam, nonce = t.ticket.nonce;
+  }
+  json wanted = asked;
+  wanted["exam"] = exam;
+  const IssueWish wish = issue_wish(wanted, exams_);
+  const auto setup = scenarios::prepare_exam(wish.scenario, {});
+  auto grant = grant_in(asked);
+  Turn turn(*this, {by.name, "", ""});
+  if (!grant && !std::filesystem::exists(places_.ticket(nonce)))
+    throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
+  if (!grant) grant = ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the first ticket").grant;
+  ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
+  ticket.begun_at_ledger = wish.begun_at_ledger;
+  ticket.grant = *grant;
+  const std::string text = ledger::issue_makeup(turn.book, ticket, {first, text_in(asked, "became"), reason});
+  const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
+  write_private_text_file(places_.ticket(issued.nonce), text + "\n");
+  remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
+  return {{"entry", turn.book.content().entries.size() - 1},
+          {"candidate", issued.candidate},
+          {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
 }
 
 json Desk::tickets() {
@@ -84,7 +132,13 @@ json Desk::tickets() {
                 {"state", state.word},
                 {"live", state.live},
                 {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))},
-                {"seat", t.seat}};
+                {"seat", t.seat},
+                {"became", ""},
+                {"why", t.why}};
+    std::string why_not;
+    for (const auto& makeup : turn.book.registry().tickets)
+      if (makeup.seq == t.made_up_by) row["became"] = makeup.first_became;
+    row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
     put_name(row, people, t.ticket.candidate);
     out.push_back(std::move(row));
   }
@@ -121,7 +175,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
     row["said"] = found == said.end() ? json() : found->second;
     stations.push_back(std::move(row));
   }
-  json tickets = {{"live", 0}, {"begun", 0}, {"filed", 0}, {"cancelled", 0}, {"run out", 0}};
+  json tickets = {{"live", 0}, {"begun", 0}, {"filed", 0}, {"cancelled", 0}, {"run out", 0}, {"made up", 0}};
   for (const auto& t : registry.tickets) {
     json& n = tickets[state_of(t, now).group];
     n = n.get<int>() + 1;

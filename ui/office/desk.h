@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/ledger/class_regrade.h"
 #include "grading/ledger/ledger.h"
 #include "ui/office/accounts.h"
 #include "ui/office/board.h"
@@ -42,9 +43,11 @@ class Desk {
 
   // Each takes and gives JSON (docs/office.md), and throws Error in the words of what is wrong.
   [[nodiscard]] nlohmann::json exams() const;
-  [[nodiscard]] static nlohmann::json preview(const nlohmann::json& asked);
+  [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json tickets();
+  /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.
+  [[nodiscard]] nlohmann::json make_up(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
   [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);
@@ -71,6 +74,15 @@ class Desk {
   [[nodiscard]] nlohmann::json appeals();
   [[nodiscard]] nlohmann::json open_appeal(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json answer_appeal(const nlohmann::json& asked, const Account& by);
+  /// Who would be marked anew by `basis`; `entries`: of the ledger then.
+  [[nodiscard]] ledger::ClassRegrade plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries);
+  /// All of it counts from now on. Returns how many were entered, from entry `first` on.
+  std::size_t count_regrade(const ledger::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first);
+  /// How many results of an exam this person has entered by this rubric since the ledger had so many entries; `first`: the first of them.
+  [[nodiscard]] std::uint64_t counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by,
+                                               std::uint64_t entries, std::uint64_t& first);
+  /// {"id","sessions"} of each exam that has something filed.
+  [[nodiscard]] nlohmann::json filed_exams();
   /// A filed recording. Throws Error when there is none, or it was erased.
   [[nodiscard]] Recording recording(const std::string& file_sha256);
   [[nodiscard]] std::string gradebook();

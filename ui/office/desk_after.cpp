@@ -70,6 +70,8 @@ json Desk::results(bool names) {
                 {"verdict", text_in(s.result, "verdict")},
                 {"sha256", recording_sha256(s)},
                 {"shown", s.shown_seq != 0},
+                {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
+                {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                 {"appeal", s.open_appeal() != nullptr}};
     const json& score = member_of(s.result, "score");
     row["points"] = member_of(score, "points");
@@ -141,6 +143,45 @@ json Desk::answer_appeal(const json& asked, const Account& by) {
   const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
   Turn turn(*this, {by.name, "", ""});
   return {{"entry", ledger::answer_appeal(turn.book, session, text_in(asked, "outcome"), reason_in(asked)).seq}};
+}
+
+ledger::ClassRegrade Desk::plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries) {
+  Turn turn(*this);
+  entries = turn.book.content().entries.size();
+  return ledger::plan_class_regrade(turn.book.registry(), exam, std::move(basis));
+}
+
+std::size_t Desk::count_regrade(const ledger::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first) {
+  Turn turn(*this, {by.name, "", ""});
+  const std::size_t entered = ledger::enter_class_regrade(turn.book, plan, reason);
+  first = turn.book.content().entries.size() - entered;
+  return entered;
+}
+
+std::uint64_t Desk::counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by, std::uint64_t entries,
+                                     std::uint64_t& first) {
+  Turn turn(*this);
+  const ledger::LedgerContent& content = turn.book.content();
+  std::uint64_t counted = 0;
+  for (const auto& s : turn.book.registry().sessions)
+    for (const auto& r : s.regrades) {
+      const auto rubric = r.documents.find("rubric.toml");
+      if (s.scenario_id != exam || r.seq < entries || rubric == r.documents.end() || rubric->second != rubric_sha256) continue;
+      if (text_in(content.entries.at(r.seq).body, "account") != by) continue;
+      first = counted == 0 ? r.seq : std::min(first, r.seq);
+      ++counted;
+    }
+  return counted;
+}
+
+json Desk::filed_exams() {
+  Turn turn(*this);
+  std::map<std::string, std::size_t> exams;
+  for (const auto& s : turn.book.registry().sessions) exams[s.scenario_id] += !s.motion_erased_by && s.result.is_object() ? 1 : 0;
+  json out = json::array();
+  for (const auto& [id, sessions] : exams)
+    if (sessions > 0) out.push_back({{"id", id}, {"sessions", sessions}});
+  return out;
 }
 
 Recording Desk::recording(const std::string& file_sha256) {

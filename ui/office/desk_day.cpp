@@ -24,24 +24,19 @@ std::string station_name(const ledger::Registry& registry, const std::string& ke
   return s == nullptr ? "" : s->name;
 }
 
-bool overlap(const ledger::Ticket& a, const ledger::Ticket& b) {
-  return a.not_before_utc_ns < b.not_after_utc_ns && b.not_before_utc_ns < a.not_after_utc_ns;
-}
-
 /// Gives each ticket of a sitting that has no seat a station that nobody has at that time.
 std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std::string& exam, std::int64_t from, std::int64_t until,
                                      const std::string& room, std::int64_t now) {
   std::vector<ledger::Seat> seats;
-  std::vector<const ledger::IssuedTicket*> good;
-  for (const auto& t : registry.tickets)
-    if (state_of(t, now).live) good.push_back(&t);
   std::set<std::string> given;
-  for (const auto* t : good) {
-    if (t->ticket.exam != exam || t->ticket.not_before_utc_ns != from || t->ticket.not_after_utc_ns != until || !t->seat.empty()) continue;
+  for (const auto& t : registry.tickets) {
+    if (!state_of(t, now).live || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until ||
+        !t.seat.empty())
+      continue;
     for (const auto& s : registry.stations.stations) {
       if (s.revoked_utc_ns || !s.replaced_by.empty() || (!room.empty() && s.room != room) || given.contains(s.public_key)) continue;
-      if (std::any_of(good.begin(), good.end(), [&](const auto* o) { return o->seat == s.public_key && overlap(o->ticket, t->ticket); })) continue;
-      seats.push_back({t->seq, s.public_key});
+      if (ledger::seated_there(registry, s.public_key, {from, until}, t.seq, now) != nullptr) continue;
+      seats.push_back({t.seq, s.public_key});
       given.insert(s.public_key);
       break;
     }
@@ -100,7 +95,7 @@ json Desk::attendance(const Board& board) {
   const std::int64_t now = read_clocks().utc_ns;
   json out = json::array();
   for (const auto& t : registry.tickets) {
-    if (t.used_by || t.cancelled_by || !t.begins.empty() || seen.contains(t.ticket.candidate)) continue;
+    if (t.used_by || t.cancelled_by || t.made_up_by || !t.begins.empty() || seen.contains(t.ticket.candidate)) continue;
     if (now < t.ticket.not_before_utc_ns || now > t.ticket.not_after_utc_ns + k_day_ns) continue;
     json row = {{"candidate", t.ticket.candidate},
                 {"exam", t.ticket.exam},

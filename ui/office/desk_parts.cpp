@@ -2,12 +2,15 @@
 
 #include <sodium.h>
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/language/say.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
@@ -48,6 +51,7 @@ json shown_roster(const Roster& roster) {
   for (const auto& p : roster.people)
     people.push_back({{"id", p.id},
                       {"name", p.name},
+                      {"station", p.station},
                       {"accommodations", scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list"))}});
   return {{"encoding", roster.encoding},
           {"separator", std::string(1, roster.separator)},
@@ -78,6 +82,28 @@ IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
   return wish;
 }
 
+std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const json& asked) {
+  const std::string word = text_in(asked, "accommodations");
+  if (word == "as before") return std::nullopt;
+  if (word != "none" && word != "these")
+    throw Error("the accommodations", "are not said", "say none, these, or as before: nobody's extra time is lost in silence");
+  scenarios::Grant grant;
+  if (word == "these") {
+    const auto number = [&](const char* name) -> std::optional<double> {
+      const json& value = member_of(asked, name);
+      return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+    };
+    const auto yes = [&](const char* name) { return member_of(asked, name) == true ? std::optional(true) : std::nullopt; };
+    grant = {number("extra_time_percent"), number("extra_time_s"), yes("left_handed"), yes("high_contrast")};
+    if (!grant.extra_time_percent && !grant.extra_time_s && !grant.left_handed && !grant.high_contrast)
+      throw Error("the accommodations", "are none", "say what is granted, or that nothing is");
+    scenarios::require_sound(grant, "the accommodations");
+  }
+  auto notes = scenarios::notes_of(grant);
+  std::sort(notes.begin(), notes.end());
+  return notes;
+}
+
 std::string reason_in(const json& asked) {
   std::string reason = text_in(asked, "reason");
   if (reason.empty() || reason.size() > ledger::k_longest_reason || !is_plain_text(reason))
@@ -85,7 +111,10 @@ std::string reason_in(const json& asked) {
   return reason;
 }
 
-TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
+namespace {
+
+/// Of the ticket alone.
+TicketState own_state(const ledger::IssuedTicket& t, std::int64_t now) {
   if (t.used_by) return {tr("filed, entry {}", *t.used_by), "filed", false};
   if (t.cancelled_by) return {tr("cancelled, entry {}", *t.cancelled_by), "cancelled", false};
   if (!t.begins.empty()) return {tr("begun, entry {}", t.begins.back().seq), "begun", now <= t.ticket.not_after_utc_ns};
@@ -93,8 +122,23 @@ TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
   return {now < t.ticket.not_before_utc_ns ? tr("not yet") : tr("live"), "live", true};
 }
 
+}  // namespace
+
+TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
+  TicketState state = own_state(t, now);
+  if (t.makes_up)
+    state.word = t.first_became == ledger::k_missed ? tr("{0}; makeup of entry {1}, which was missed", state.word, *t.makes_up)
+                                                    : tr("{0}; makeup of entry {1}, which was interrupted", state.word, *t.makes_up);
+  if (t.made_up_by) {
+    const bool open = state.group == "live" || state.group == "run out";  // it is neither any more
+    state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{0}; made up by entry {1}", state.word, *t.made_up_by), "made up", false};
+  }
+  return state;
+}
+
 std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s) {
   if (s.result_erased_by) return "erased";
+  if (s.made_up_by) return "made up";
   if (registry.chosen_instead_of(s) != nullptr) return "not chosen";
   if (s.released) return "released";
   if (s.doubtful()) return "questioned";

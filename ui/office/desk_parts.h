@@ -4,7 +4,9 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grading/ledger/identities.h"
@@ -35,16 +37,20 @@ struct IssueWish {
 /// {"exam","from","until","begin_at_office","reason"}: the exam by its id, one of `exams`. Throws Error.
 [[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
 
+/// What a request grants, as notes of a session: `accommodations` is "none", "these" (with extra_time_percent, extra_time_s, left_handed,
+/// high_contrast, each where it is granted) or "as before": nothing is returned then. Throws Error for another word, or a value that is none.
+[[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const nlohmann::json& asked);
+
 /// Why: one line, kept for ever. Throws Error when it is none.
 [[nodiscard]] std::string reason_in(const nlohmann::json& asked);
 
 struct TicketState {
   std::string word;   ///< for people
-  std::string group;  ///< live, begun, filed, cancelled, run out
+  std::string group;  ///< live, begun, filed, cancelled, run out, made up
   bool live = false;  ///< it may still be used
 };
 [[nodiscard]] TicketState state_of(const ledger::IssuedTicket& ticket, std::int64_t now_utc_ns);
-/// released, to decide, questioned, not chosen, erased, or ready: it waits for its release.
+/// made up, released, to decide, questioned, not chosen, erased, or ready: it waits for its release.
 [[nodiscard]] std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& session);
 
 }  // namespace cavum::office

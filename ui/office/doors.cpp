@@ -4,11 +4,13 @@
 #include <array>
 #include <utility>
 
+#include "ui/office/pieces.h"
+
 namespace cavum::office {
 namespace {
 
 constexpr std::size_t k_hash_digits = 64;
-constexpr std::uint64_t k_small = 16U << 10, k_seats = 1U << 20, k_roster = 4U << 20, k_session = 256U << 20;
+constexpr std::uint64_t k_small = 16U << 10, k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20;
 
 constexpr unsigned bits(auto... roles) { return (0U | ... | static_cast<unsigned>(roles)); }
 constexpr unsigned k_officer = bits(Role::officer), k_examiner = bits(Role::examiner), k_staff = bits(Role::officer, Role::examiner),
@@ -21,6 +23,7 @@ constexpr Door k_doors[] = {
     {"GET", "/office.css", Asks::nobody, 0, 0},
     {"GET", "/api/words", Asks::nobody, 0, 0},
     {"POST", "/api/sign-in", Asks::nobody, 0, k_small},
+    {"POST", "/api/sign-in/proxy", Asks::nobody, 0, k_small},
     {"POST", "/api/sign-out", Asks::person, k_all, k_small},
     {"GET", "/api/me", Asks::person, k_all, 0},
     {"GET", "/api/exams", Asks::person, k_officer, 0},
@@ -28,6 +31,7 @@ constexpr Door k_doors[] = {
     {"POST", "/api/roster/issue", Asks::person, k_officer, k_roster},
     {"GET", "/api/tickets", Asks::person, k_hall, 0},
     {"POST", "/api/tickets/cancel", Asks::person, k_officer, k_small},
+    {"POST", "/api/tickets/makeup", Asks::person, k_officer, k_small},
     {"GET", "/api/board", Asks::person, k_hall, 0},
     {"GET", "/api/board/events", Asks::person, k_hall, 0},
     {"POST", "/api/stations/invite", Asks::person, k_officer, k_small},
@@ -47,6 +51,11 @@ constexpr Door k_doors[] = {
     {"GET", "/api/results", Asks::person, k_results, 0},
     {"POST", "/api/release", Asks::person, k_officer, k_small},
     {"POST", "/api/retract", Asks::person, k_officer, k_small},
+    {"GET", "/api/regrade", Asks::person, k_staff, 0},
+    {"GET", "/api/regrade/events", Asks::person, k_staff, 0},
+    {"POST", "/api/regrade/begin", Asks::person, k_examiner, k_rubric},
+    {"POST", "/api/regrade/count", Asks::person, k_examiner, k_small},
+    {"POST", "/api/regrade/drop", Asks::person, k_examiner, k_small},
     {"GET", "/api/appeals", Asks::person, k_staff, 0},
     {"POST", "/api/appeals/open", Asks::person, k_officer, k_small},
     {"POST", "/api/appeals/answer", Asks::person, k_examiner, k_small},
@@ -58,7 +67,9 @@ constexpr Door k_doors[] = {
     {"GET", "/station/tickets", Asks::station, 0, 0},
     {"POST", "/station/begin", Asks::station, 0, k_small},
     {"POST", "/station/report", Asks::station, 0, k_small},
-    {"PUT", "/station/sessions/*", Asks::station, 0, k_session},
+    {"PUT", "/station/pieces/*", Asks::station, 0, k_largest_piece},
+    {"GET", "/station/pieces/*", Asks::station, 0, 0},
+    {"PUT", "/station/sessions/*", Asks::station, 0, k_largest_session},
     {"GET", "/station/sessions/*", Asks::station, 0, 0},
 };
 

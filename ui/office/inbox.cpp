@@ -113,6 +113,11 @@ Inbox::~Inbox() {
 
 std::unique_ptr<Arriving> Inbox::receive(const std::string& sha256) const { return std::make_unique<Arriving>(folder_, sha256); }
 
+void Inbox::adopt(const std::string& path, const std::string& sha256) {
+  if (!put_in_place(path, path_of(sha256))) ::unlink(path.c_str());  // handed in by another one meanwhile: either file is it
+  add(sha256);
+}
+
 void Inbox::add(const std::string& sha256) {
   const std::lock_guard guard(lock_);
   Handed& h = handed_[sha256];

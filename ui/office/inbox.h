@@ -55,6 +55,8 @@ class Inbox {
   Inbox& operator=(const Inbox&) = delete;
 
   [[nodiscard]] std::unique_ptr<Arriving> receive(const std::string& sha256) const;
+  /// A file of the same disk, with this hash, becomes one that is to be filed.
+  void adopt(const std::string& path, const std::string& sha256);
   /// It lies on disk: to be filed.
   void add(const std::string& sha256);
   /// Of this program's time; the ledger knows what was filed before.

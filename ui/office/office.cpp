@@ -5,6 +5,8 @@
 #include <chrono>
 #include <map>
 #include <mutex>
+#include <optional>
+#include <regex>
 #include <thread>
 
 #include "engine/base/json_fields.h"
@@ -13,8 +15,11 @@
 #include "engine/language/shown.h"
 #include "engine/session/session.h"
 #include "ui/office/desk.h"
+#include "ui/office/desk_parts.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
+#include "ui/office/pieces.h"
+#include "ui/office/regrades.h"
 #include "ui/office/reports.h"
 #include "ui/office/site.h"
 
@@ -34,11 +39,19 @@ std::string cookie_field(const std::string& value, std::int64_t seconds) {
   return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite=Strict", k_cookie, value, seconds);
 }
 
-json words_of_the_page() {
+json words_of_the_page(bool proxied) {
   json words = json::object();
   if (language() != "en")
     for (const auto& m : page_messages()) words[m] = shown(m);
-  return {{"language", language()}, {"words", words}};
+  return {{"language", language()}, {"words", words}, {"proxy", proxied}};
+}
+
+/// "at=0&of=1000", to the letter; none: it is something else.
+std::optional<std::pair<std::uint64_t, std::uint64_t>> place_in(const std::string& query) {
+  static const std::regex k_place("at=([0-9]{1,9})&of=([0-9]{1,9})");
+  std::smatch found;
+  if (!std::regex_match(query, found, k_place)) return std::nullopt;
+  return std::pair(std::stoull(found[1]), std::stoull(found[2]));
 }
 
 /// A recording that a station hands in.
@@ -65,9 +78,14 @@ struct Office::Parts {
       : accounts(o.home + "/accounts.json"),
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
+        pieces(
+            o.home + "/" + desk.ledger_id() + "/pieces", [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); },
+            [] { return utc_now_ns() / 1'000'000'000; }),
         site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id()}),
-        reports(o.report) {
+              steady_s, utc_now_ns, desk.ledger_id(), o.proxy}),
+        proxied(o.proxy.has_value()),
+        reports(o.report),
+        regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
     serve_pages();
     serve_people();
     serve_desk();
@@ -84,11 +102,12 @@ struct Office::Parts {
     page("/", "text/html; charset=utf-8", page_html());
     page("/office.js", "text/javascript; charset=utf-8", page_script());
     page("/office.css", "text/css; charset=utf-8", page_style());
-    site.on("GET", "/api/words", [](const Call&) { return json_reply(words_of_the_page()); });
+    site.on("GET", "/api/words", [this](const Call&) { return json_reply(words_of_the_page(proxied)); });
   }
 
   void serve_people() {
     site.on("POST", "/api/sign-in", [this](const Call& c) { return sign_in(c); });
+    site.on("POST", "/api/sign-in/proxy", [this](const Call& c) { return sign_in_by_proxy(c); });
     site.on("POST", "/api/sign-out", [this](const Call& c) {
       site.sign_ins().end(c.cookie);
       Reply reply = json_reply(json::object());
@@ -119,7 +138,22 @@ struct Office::Parts {
     const auto account = accounts.sign_in(name, text_in(asked, "password"));
     if (!account) return error_reply(401, "name and password do not belong together");
     tries.forget(key);
-    const std::string cookie = site.sign_ins().begin(*account, now);
+    return signed_in(*account, now, "");
+  }
+
+  /// Who the proxy says it is, where that is an account here: its role is the account's.
+  Reply sign_in_by_proxy(const Call& call) {
+    if (!proxied) return error_reply(404, "there is nothing here");
+    if (call.proxied_as.empty()) return error_reply(401, "the school's sign-on says nobody: come by its address");
+    const std::int64_t now = steady_s();
+    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) return error_reply(429, "too many tries: wait a minute");
+    const auto account = accounts.called(call.proxied_as);
+    if (!account) return error_reply(403, "the school's sign-on knows you, and this office has no account for you: ask who runs it");
+    return signed_in(*account, now, call.proxied_as);
+  }
+
+  Reply signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
+    const std::string cookie = site.sign_ins().begin(account, now, proxied_as);
     Reply reply = me(*site.sign_ins().of(cookie, now));
     reply.fields.emplace_back("Set-Cookie", cookie_field(cookie, k_absolute_end_s));
     return reply;
@@ -135,15 +169,15 @@ struct Office::Parts {
       });
     };
     get("/api/exams", [this](const Call&) { return desk.exams(); });
-    site.on("POST", "/api/roster/preview", [](const Call& c) { return json_reply(Desk::preview(c.json())); });
+    site.on("POST", "/api/roster/preview", [this](const Call& c) { return json_reply(desk.preview(c.json())); });
     post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
     get("/api/tickets", [this](const Call&) { return desk.tickets(); });
     post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });
+    post("/api/tickets/makeup", [this](const json& asked, const Account& by) { return desk.make_up(asked, by); });
     get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
     site.on("GET", "/api/board/events", [this](const Call& c) {
-      Reply reply{200, "text/event-stream"};
-      reply.events = [this, c](const WriteEvent& write) { send_board(c, write); };
-      return reply;
+      return events(
+          c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); });
     });
     post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
     post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
@@ -166,6 +200,7 @@ struct Office::Parts {
       require_code(text_in(asked, "code"), by);
       return desk.retract(asked, by);
     });
+    serve_regrades();
     get("/api/appeals", [this](const Call&) { return desk.appeals(); });
     post("/api/appeals/open", [this](const json& asked, const Account& by) { return desk.open_appeal(asked, by); });
     post("/api/appeals/answer", [this](const json& asked, const Account& by) { return desk.answer_appeal(asked, by); });
@@ -184,30 +219,60 @@ struct Office::Parts {
     paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
   }
 
-  /// The board whenever it changes, four times a second at most, and a comment in between, so that a line that is dead is noticed.
-  void send_board(const Call& call, const WriteEvent& write) {
-    std::uint64_t seen = 0;
-    std::int64_t spoken_s = steady_s();
-    while (site.still(call)) {
-      const std::uint64_t now = board.wait(seen, k_patience_ms);
-      if (now != seen) {
-        seen = now;
-        spoken_s = steady_s();
-        if (!write("data: " + json_reply(desk.board(board, inbox)).body + "\n\n")) return;
-        std::this_thread::sleep_for(k_between_events);
-      } else if (steady_s() - spoken_s >= k_silence_s) {
-        spoken_s = steady_s();
-        if (!write(":\n\n")) return;
-      } else if (!write("")) {
-        return;
-      }
-    }
+  /// A new rubric over all of an exam.
+  void serve_regrades() {
+    const auto post = [this](const char* path, auto act) {
+      site.on("POST", path, [act](const Call& c) { return json_reply(act(c.json(), c.by->account)); });
+    };
+    site.on("GET", "/api/regrade", [this](const Call&) {
+      json state = regrades.state(true);
+      state["exams"] = desk.filed_exams();
+      return json_reply(state);
+    });
+    site.on("GET", "/api/regrade/events", [this](const Call& c) {
+      return events(
+          c, [this](std::uint64_t seen) { return regrades.wait(seen, k_patience_ms); }, [this] { return regrades.state(false); });
+    });
+    post("/api/regrade/begin", [this](const json& asked, const Account& by) { return regrades.begin(asked, by); });
+    post("/api/regrade/drop", [this](const json& asked, const Account& by) { return regrades.drop(asked, by); });
+    post("/api/regrade/count", [this](const json& asked, const Account& by) {
+      regrades.require_ready(asked, by);  // before a code is used up for nothing
+      static_cast<void>(reason_in(asked));
+      require_code(text_in(asked, "code"), by);
+      return regrades.count(asked, by);
+    });
   }
 
-  /// A release asks for a code of the second factor, each good once.
+  /// What `say` says whenever `wait` gives another number, four times a second at most, and a comment in between, so that a line that is dead is
+  /// noticed.
+  [[nodiscard]] Reply events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<json()> say) {
+    Reply reply{200, "text/event-stream"};
+    reply.events = [this, call, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
+      std::uint64_t seen = 0;
+      std::int64_t spoken_s = steady_s();
+      while (site.still(call)) {
+        const std::uint64_t now = wait(seen);
+        if (now != seen) {
+          seen = now;
+          spoken_s = steady_s();
+          if (!write("data: " + json_reply(say()).body + "\n\n")) return;
+          std::this_thread::sleep_for(k_between_events);
+        } else if (steady_s() - spoken_s >= k_silence_s) {
+          spoken_s = steady_s();
+          if (!write(":\n\n")) return;
+        } else if (!write("")) {
+          return;
+        }
+      }
+    };
+    return reply;
+  }
+
+  /// A release and a new rubric ask for a code of the second factor, each good once.
   void require_code(const std::string& code, const Account& by) {
     if (by.code_secret.empty())
-      throw Error("this", "needs a second factor, and this account has none", "cavum serve --add-account NAME --role officer --second-factor");
+      throw Error("this", "needs a second factor, and this account has none",
+                  fmt::format("cavum serve --add-account NAME --role {} --second-factor", name_of(by.role)));
     if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
     const std::lock_guard guard(codes_lock);
     std::uint64_t& used = used_codes[by.name];
@@ -244,8 +309,20 @@ struct Office::Parts {
       board.report(c.station, report, utc_now_ns());
       return json_reply(desk.word_for(c.station, report.heard));
     });
+    site.on("GET", "/station/pieces/*", [this](const Call& c) { return said_of(pieces.have(c.station, c.tail)); });
+    site.on("PUT", "/station/pieces/*", [this](const Call& c) {
+      const auto place = place_in(c.head.query);
+      if (!place) return error_reply(400, "say where the piece stands: ?at=0&of=1000");
+      return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
+    });
     site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail); });
     site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });
+  }
+
+  /// 409: the piece was not the next one.
+  static Reply said_of(const Pieces::Have& h, bool after_a_piece = false) {
+    if (h.whole) return json_reply({{"state", "waiting"}}, 202);
+    return json_reply({{"have", h.have}, {"of", h.of}}, after_a_piece && !h.taken ? 409 : 200);
   }
 
   Reply handed(const std::string& sha256) {
@@ -259,8 +336,11 @@ struct Office::Parts {
   Desk desk;
   Board board;
   Inbox inbox;
+  Pieces pieces;
   Site site;
+  bool proxied = false;
   Reports reports;
+  Regrades regrades;
   Tries tries;
   std::mutex codes_lock;
   std::map<std::string, std::uint64_t> used_codes;

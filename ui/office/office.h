@@ -4,11 +4,13 @@
 #include <cstdint>
 #include <functional>
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "grading/ledger/filing.h"
 #include "ui/office/http_server.h"
+#include "ui/office/proxy.h"
 
 namespace cavum::office {
 
@@ -24,6 +26,7 @@ struct OfficeOptions {
   /// The instructor's report (HTML) of the recording at a path, which the ledger holds; it may take seconds. Throws Error.
   std::function<std::string(const std::string& recording)> report;
   HttpLimits limits;
+  std::optional<ProxySignOn> proxy = {};  ///< who signs in by the school's own accounts; none: nobody
 };
 
 class Office {

@@ -113,7 +113,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
   Roster roster;
   try {
     const std::string text = decoded(bytes, roster.encoding);
-    CsvReader in(text, "the list", {.bars = true});
+    CsvReader in(text, k_list, {.bars = true});
     std::vector<CsvRow> rows;
     while (in.next_row()) rows.push_back({in.line(), {in.fields().begin(), in.fields().end()}});
     if (rows.empty()) throw Error("the list", "is empty", "paste a line of column names, and a line for each candidate below");
@@ -122,7 +122,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     std::vector<std::string> passed_over;
     read_columns(roster, rows, answers, passed_over);
     if (std::all_of(roster.columns.begin(), roster.columns.end(), [](const RosterColumn& c) { return !c.use.empty(); }))
-      roster.people = ledger::parse_people(rows, "the list", passed_over);
+      roster.people = ledger::parse_people(rows, k_list, passed_over);
   } catch (const Error& wrong) {
     roster.problem = wrong.what();
   }

@@ -10,6 +10,8 @@
 
 namespace cavum::office {
 
+/// What errors call a list that was pasted.
+inline constexpr char k_list[] = "the list";
 /// The answer for a column that is not needed.
 inline constexpr char k_pass_over[] = "pass over";
 

@@ -19,12 +19,14 @@ struct SignedIn {
   Account account;
   std::string token;  ///< of requests that change something, 64 hexadecimal digits
   std::int64_t begun_s = 0, seen_s = 0;
+  std::string proxied_as = {};  ///< where the proxy said who it is: it has to say so in each request
 };
 
 class SignIns {
  public:
   /// The new cookie's value, 64 hexadecimal digits. `now_s`: any clock that only goes forward, s. The oldest gives way beyond k_most_sign_ins.
-  std::string begin(const Account& account, std::int64_t now_s);
+  /// `proxied_as`: what the proxy says; empty for a password.
+  std::string begin(const Account& account, std::int64_t now_s, const std::string& proxied_as = {});
   /// Who holds the cookie, and is seen now; none when it is not known, or its end has come.
   [[nodiscard]] std::optional<SignedIn> of(const std::string& cookie, std::int64_t now_s);
   /// The same without being seen: a page that only listens is no sign of a person.

@@ -136,6 +136,9 @@ void Site::require_complete() const {
 std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_unique<Visit>(*this, head); }
 
 std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& body_sha256) {
+  const ProxyWord proxied = proxy_word(call.head, knows_.proxy);
+  if (proxied.refused) return error_reply(403, "a field of this request is the proxy's alone, and the proxy did not send it");
+  call.proxied_as = proxied.known_as;
   // a page of another place cannot send this type without asking first, and is refused then
   if (door.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
   if (const std::string origin = call.head.field("origin"); !origin.empty() && door.changes() && origin != "https://" + call.head.field("host"))
@@ -158,6 +161,7 @@ std::optional<Reply> Site::refuse_person(const Door& door, Call& call) {
     sign_ins_.end(call.cookie);
     call.by.reset();
   }
+  if (call.by && call.by->proxied_as != call.proxied_as && !call.by->proxied_as.empty()) call.by.reset();  // not by the proxy, or by another person
   if (!call.by) return error_reply(401, "nobody is signed in");
   if (!door.lets(call.by->account.role)) return error_reply(403, "this account may not do that");
   if (door.changes() && !equal(call.head.field(k_token_field), call.by->token)) return error_reply(403, "the page's token is missing; load it again");

@@ -11,6 +11,7 @@
 
 #include "ui/office/doors.h"
 #include "ui/office/http_server.h"
+#include "ui/office/proxy.h"
 #include "ui/office/sign_ins.h"
 #include "ui/office/station_request.h"
 
@@ -22,6 +23,7 @@ struct Call {
   std::string body;                           ///< empty where a handler takes it part by part
   std::string cookie;                         ///< of the sign-in
   std::optional<SignedIn> by;                 ///< the person; where a door asks for one
+  std::string proxied_as;                     ///< who it is, as the proxy says; empty: it does not
   std::string station;                        ///< key of the station; where a door asks for one
   std::string tail;                           ///< what stands for `*` in the door's path
   [[nodiscard]] nlohmann::json json() const;  ///< the body; throws Error when it is none
@@ -42,7 +44,8 @@ struct Knows {
   std::function<std::optional<Account>(const std::string& name)> account;     ///< as it is now
   std::function<std::string(const std::string& public_key)> station_problem;  ///< empty: it is an enrolled one's
   std::function<std::int64_t()> now_s, utc_ns;
-  std::string ledger;  ///< id
+  std::string ledger;                     ///< id
+  std::optional<ProxySignOn> proxy = {};  ///< none: nobody signs in by a proxy
 };
 
 class Site {

@@ -19,6 +19,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "ui/office/certificate.h"
+#include "ui/office/pieces.h"
 #include "ui/office/station_request.h"
 
 namespace cavum::office {
@@ -34,6 +35,10 @@ constexpr std::uint64_t k_slowest_bytes_s = 64U << 10;
 constexpr auto k_slice = std::chrono::milliseconds(100);
 constexpr std::uint64_t k_largest_answer = 64U << 20;
 constexpr unsigned k_http = 11;
+constexpr std::size_t k_first_piece = 256U << 10;
+constexpr auto k_quick = std::chrono::seconds(2);
+constexpr int k_most_disputes = 5;
+constexpr unsigned k_conflict = 409;
 
 std::string fingerprint_in(asio::ssl::verify_context& context) {
   X509* shown = X509_STORE_CTX_get_current_cert(context.native_handle());
@@ -96,7 +101,7 @@ struct StationClient::Line {
 };
 
 StationClient::StationClient(const std::string& address, const std::string& certificate, std::string school, const SigningKey& key)
-    : certificate_(certificate), school_(std::move(school)), key_(key) {
+    : certificate_(certificate), school_(std::move(school)), key_(key), piece_bytes_(k_first_piece) {
   static const std::regex k_address(R"(https://(\[[0-9a-fA-F:]+\]|[A-Za-z0-9.-]+)(?::(\d{1,5}))?/?)");
   std::smatch found;
   if (!std::regex_match(address, found, k_address))
@@ -125,7 +130,8 @@ Answer StationClient::send(const std::string& method, const std::string& path, c
   wrong = line_->wait(patience, [&](auto done) { http::async_read(line_->stream, line_->heard, parser, done); });
   if (wrong) {
     line_.reset();
-    if (!fresh && wrong != beast::error::timeout) return send(method, path, body, line);  // the office had closed a line that was idle
+    if (!fresh && wrong != beast::error::timeout && body.size() < k_smallest_piece)
+      return send(method, path, body, line);  // the office had closed a line that was idle; what is large goes on in a smaller piece
     throw OfficeUnreachable(fmt::format("https://{}:{}", host_, port_), "the office does not answer: " + (unsent ? unsent : wrong).message(),
                             "try again");
   }
@@ -177,7 +183,38 @@ std::string StationClient::begin(const std::string& nonce) {
   return text_in(require(ask("POST", "/station/begin", json{{"ticket", nonce}}.dump())), "begin");
 }
 json StationClient::report(const json& state) { return require(ask("POST", "/station/report", state.dump())); }
+json StationClient::hand_in_pieces(const Bytes& image) {
+  const std::string path = "/station/pieces/" + to_hex(sha256(image));
+  const auto place = [&](const json& said) {  // of another size, it is not this recording's
+    return whole_in(said, "of") == static_cast<std::int64_t>(image.size()) ? static_cast<std::size_t>(whole_in(said, "have")) : 0;
+  };
+  std::size_t at = place(require(ask("GET", path, "")));
+  for (int disputes = 0;;) {
+    if (at >= image.size()) return {{"state", "waiting"}};  // all of it is there, and its hash is being made
+    const std::size_t size = std::min(piece_bytes_, image.size() - at);
+    const auto begun = std::chrono::steady_clock::now();
+    Answer answer;
+    try {
+      const auto first = image.begin() + static_cast<std::ptrdiff_t>(at);
+      answer = ask("PUT", fmt::format("{}?at={}&of={}", path, at, image.size()), {first, first + static_cast<std::ptrdiff_t>(size)});
+    } catch (const OfficeUnreachable&) {
+      piece_bytes_ = std::max<std::size_t>(k_smallest_piece, piece_bytes_ / 2);
+      throw;
+    }
+    if (answer.status == k_conflict && ++disputes < k_most_disputes) {  // an answer was lost on the way: the office has it
+      at = place(answer.body);
+      continue;
+    }
+    json said = require(std::move(answer));
+    if (!text_in(said, "state").empty()) return said;
+    at = place(said);
+    disputes = 0;
+    if (std::chrono::steady_clock::now() - begun < k_quick) piece_bytes_ = std::min<std::size_t>(k_largest_piece, 2 * piece_bytes_);
+  }
+}
+
 json StationClient::hand_in(const Bytes& image) {
+  if (image.size() > k_first_piece) return hand_in_pieces(image);
   return require(ask("PUT", "/station/sessions/" + to_hex(sha256(image)), {image.begin(), image.end()}));
 }
 json StationClient::handed(const std::string& sha256) { return require(ask("GET", "/station/sessions/" + sha256, "")); }

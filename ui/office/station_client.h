@@ -46,7 +46,8 @@ class StationClient {
   [[nodiscard]] std::string begin(const std::string& nonce);
   /// What the office has to say to that: {"utc_ns","tickets","hold","announcements"}, as docs/office.md says.
   nlohmann::json report(const nlohmann::json& state);
-  /// Sends the bytes of a recording; {"state": ...}. Sent twice is no harm.
+  /// Sends the bytes of a recording; {"state": ...}. Sent twice is no harm. What is larger than a piece goes in pieces: after OfficeUnreachable the
+  /// next call goes on where the line broke, also of another program.
   nlohmann::json hand_in(const Bytes& image);
   /// What became of it: {"state": unknown, waiting, filed or refused, …}.
   [[nodiscard]] nlohmann::json handed(const std::string& sha256);
@@ -66,11 +67,13 @@ class StationClient {
   void meet();
   [[nodiscard]] Answer send(const std::string& method, const std::string& path, const std::string& body, const std::string& line);
   [[nodiscard]] nlohmann::json require(Answer answer) const;
+  nlohmann::json hand_in_pieces(const Bytes& image);
 
   std::string host_, port_, certificate_, school_, ledger_;
   SigningKey key_;
   std::int64_t ahead_ns_ = 0;  // the office's clock before ours
   std::chrono::seconds patience_{20};
+  std::size_t piece_bytes_;  // smaller after a line broke, larger after a quick answer
   std::atomic<bool> stopped_{false};
   std::unique_ptr<Line> line_;
 };

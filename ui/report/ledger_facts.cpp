@@ -30,7 +30,7 @@ void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledge
   std::map<std::string, std::vector<double>> marks;
   std::vector<double> own;
   for (const auto& s : registry.sessions) {
-    if (s.scenario_id != session.scenario_id || s.simulated.empty() != session.simulated.empty()) continue;
+    if (s.scenario_id != session.scenario_id || s.simulated.empty() != session.simulated.empty() || s.made_up_by) continue;
     const auto percent = percent_of(s, reader);
     if (!percent) continue;
     marks[s.candidate].push_back(*percent);

@@ -10,6 +10,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/appeal.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/class_regrade.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
@@ -93,74 +94,35 @@ void regrade_session(const LedgerOptions& o) {
               << (found->shown.is_null() ? "" : "; the old result stands until the new one is released") << "\n";
 }
 
-/// Marked anew by the same already: a run that was broken off goes on behind it.
-bool is_entered(const ledger::LedgerContent& content, const ledger::FiledSession& s, const ledger::RegradeBasis& basis, const json& result) {
-  const ledger::Regrade* last = s.regrades.empty() ? nullptr : &s.regrades.back();
-  if (last == nullptr || last->seq != s.result_seq || s.result != result) return false;
-  const auto kept = ledger::kept_basis(content, *last);
-  return kept && kept->rubric_toml == basis.rubric_toml && kept->scenario_toml == basis.scenario_toml && kept->surfaces == basis.surfaces;
-}
-
 /// A whole exam: nothing is entered before each session of it is marked.
 int regrade_exam(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o), o.preview ? ledger::LedgerUse::tell : ledger::LedgerUse::add);
-  const ledger::Registry registry = ledger::read_registry(ledger.content());
-  const ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
-  pool::Work work;
-  work.what = pool::What::regrade;
-  work.folder = o.folder;
-  work.rubric_toml = basis.rubric_toml, work.scenario_toml = basis.scenario_toml, work.surfaces = basis.surfaces, work.another_task = o.another_task;
-  std::vector<const ledger::FiledSession*> sessions;
-  std::size_t left_out = 0;
-  for (const auto& s : registry.sessions) {
-    if (s.scenario_id != o.exam) continue;
-    if (s.motion_erased_by || !s.result.is_object()) {
-      ++left_out;
-      continue;
-    }
-    sessions.push_back(&s);
-    work.sessions.push_back(fmt::format("sessions/{}.cavum", s.file_sha256));
-  }
-  if (sessions.empty()) throw Error("--exam " + o.exam, "has no session that can be marked", fmt::format("see `cavum ledger show {}`", o.folder));
-  const pool::Made made = make_lines(work, o.pool);
-  std::vector<json> results;
-  for (std::size_t i = 0; i < sessions.size(); ++i) {
-    const json line = parse_json_or_null(made.lines[i], k_json_part);
-    if (!member_of(line, "result").is_object())
-      throw Error(fmt::format("entry {}", sessions[i]->seq), made.lines[i].empty() ? "could not be marked" : without_advice(text_in(line, "error")),
-                  "nothing was entered; correct the rubric or scenario, or mark the others by --session");
-    if (text_in(line, "sha256") != sessions[i]->file_sha256)
-      throw Error(fmt::format("entry {}", sessions[i]->seq), "its recording is another one by now",
-                  fmt::format("see `cavum ledger verify {}`", o.folder));
-    results.push_back(member_of(line, "result"));
-  }
-  std::size_t other_verdict = 0, other_points = 0, entered = 0;
+  ledger::ClassRegrade plan = ledger::plan_class_regrade(ledger.registry(), o.exam, ledger::read_basis(o.rubric, o.scenario));
+  pool::Work work = ledger::work_of(plan, o.folder);
+  work.another_task = o.another_task;
+  ledger::take_lines(plan, make_lines(work, o.pool).lines, o.folder);
+  std::size_t other_verdict = 0, other_points = 0;
   json table = json::array();
-  for (std::size_t i = 0; i < sessions.size(); ++i) {
-    const ledger::FiledSession& s = *sessions[i];
-    const bool verdict = text_in(s.result, "verdict") != text_in(results[i], "verdict");
-    const bool points = member_of(s.result, "score") != member_of(results[i], "score");
-    other_verdict += verdict ? 1 : 0;
-    other_points += points ? 1 : 0;
-    table.push_back({{"session", s.seq},
+  for (const auto& s : plan.sessions) {
+    other_verdict += s.other_verdict() ? 1 : 0;
+    other_points += s.other_points() ? 1 : 0;
+    table.push_back({{"session", s.session},
                      {"candidate", s.candidate},
-                     {"before", member_of(s.result, "score")},
-                     {"verdict_before", text_in(s.result, "verdict")},
-                     {"after", member_of(results[i], "score")},
-                     {"verdict", text_in(results[i], "verdict")}});
-    if (!o.as_json && (verdict || points))
-      std::cout << fmt::format("{:>6}  {:<16} {} before; {} now\n", s.seq, one_line(s.candidate), in_words(s.result), in_words(results[i]));
-    if (o.preview || is_entered(ledger.content(), s, basis, results[i])) continue;
-    ledger::enter_regrade(ledger, s.seq, results[i], basis, o.reason);
-    ++entered;
+                     {"before", member_of(s.before, "score")},
+                     {"verdict_before", text_in(s.before, "verdict")},
+                     {"after", member_of(s.after, "score")},
+                     {"verdict", text_in(s.after, "verdict")}});
+    if (!o.as_json && (s.other_verdict() || s.other_points()))
+      std::cout << fmt::format("{:>6}  {:<16} {} before; {} now\n", s.session, one_line(s.candidate), in_words(s.before), in_words(s.after));
   }
+  const std::size_t entered = o.preview ? 0 : ledger::enter_class_regrade(ledger, plan, o.reason);
   if (o.as_json)
-    print_json(
-        json{{"sessions", table}, {"other_verdict", other_verdict}, {"other_points", other_points}, {"entered", entered}, {"left_out", left_out}});
+    print_json(json{
+        {"sessions", table}, {"other_verdict", other_verdict}, {"other_points", other_points}, {"entered", entered}, {"left_out", plan.left_out}});
   else
-    std::cout << fmt::format("{} sessions: {} with another verdict, {} with other points; {}{}\n", sessions.size(), other_verdict, other_points,
+    std::cout << fmt::format("{} sessions: {} with another verdict, {} with other points; {}{}\n", plan.sessions.size(), other_verdict, other_points,
                              o.preview ? "nothing was entered" : fmt::format("{} entered, which wait for their release", entered),
-                             left_out == 0 ? "" : fmt::format("; {} left out, for their recording or result is erased", left_out));
+                             plan.left_out == 0 ? "" : fmt::format("; {} left out, for their recording or result is erased", plan.left_out));
   return 0;
 }
 

@@ -46,7 +46,10 @@ int ledger_ticket(const LedgerOptions& o) {
   if (folder) make_private_folder(o.out);
   json printed = json::array();
   int refused = 0;
-  for (const auto& p : people) {
+  const auto stations = ledger::stations_of(ledger.registry(), identities, people, ledger::TimeSpan{from, until}, o.candidates);
+  std::vector<ledger::Seat> seats;
+  for (std::size_t i = 0; i < people.size(); ++i) {
+    const auto& p = people[i];
     const std::string candidate = identities.enrol(p.id, p.name, ticket.exam, ledger.key()),
                       file = folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
     require_new(o, file);
@@ -62,12 +65,15 @@ int ledger_ticket(const LedgerOptions& o) {
       ++refused;
       continue;
     }
-    printed.push_back({{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}});
+    if (!stations[i].empty()) seats.push_back({ledger.content().entries.size() - 1, stations[i]});
+    printed.push_back(
+        {{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
     if (!o.as_json)
       std::cout << one_line(fmt::format("{}  {}  {}{}{}", candidate, file, p.id, p.name.empty() ? "" : ", " + p.name,
                                         granted.empty() ? "" : "; " + granted))
                 << "\n";
   }
+  if (!seats.empty()) static_cast<void>(ledger::seat_candidates(ledger, seats));
   if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
   return refused == 0 ? 0 : 1;
 }
@@ -78,7 +84,8 @@ void ledger_tickets(const LedgerOptions& o) {
   const std::int64_t now = read_clocks().utc_ns;
   json printed = json::array();
   for (const auto& t : registry.tickets) {
-    const std::string state = t.used_by                         ? fmt::format("used by entry {}", *t.used_by)
+    const std::string state = t.made_up_by                      ? fmt::format("made up by entry {}", *t.made_up_by)
+                              : t.used_by                       ? fmt::format("used by entry {}", *t.used_by)
                               : t.cancelled_by                  ? fmt::format("cancelled by entry {}", *t.cancelled_by)
                               : now > t.ticket.not_after_utc_ns ? "run out"
                               : !t.begins.empty()               ? fmt::format("let begin by entry {}", t.begins.back().seq)

@@ -33,7 +33,8 @@ namespace {
 using nlohmann::json;
 
 struct ServeArguments {
-  std::string ledger, key, listen = "127.0.0.1:8443", certificate, certificate_key, add_account, remove_account, role;
+  std::string ledger, key, listen = "127.0.0.1:8443", certificate, certificate_key, add_account, remove_account, role, known_as, proxy_address,
+                           proxy_secret, proxy_header = "X-Auth-Request-Email";
   std::vector<std::string> exams, names;
   bool accounts = false, second_factor = false, simulated = false;
 };
@@ -69,14 +70,15 @@ void add_account(const ServeArguments& o) {
   const auto role = office::role_named(o.role);
   if (!role) throw Error("--role " + one_line(o.role), "is none", "say officer, examiner, invigilator or reader");
   office::Accounts accounts(office_home() + "/accounts.json");
-  const office::Account made = accounts.set(o.add_account, *role, typed_password(), o.second_factor);
+  const office::Account made = accounts.set(o.add_account, *role, typed_password(), o.second_factor, o.known_as);
   std::cout << "written: " << accounts.path() << "\n";
   if (o.second_factor) std::cout << "for the app, shown only now: " << office::code_address(made, "exam office") << "\n";
 }
 
 void list_accounts() {
   for (const auto& a : office::Accounts(office_home() + "/accounts.json").all())
-    std::cout << one_line(a.name) << ", " << office::name_of(a.role) << (a.code_secret.empty() ? "" : ", second factor") << "\n";
+    std::cout << one_line(a.name) << ", " << office::name_of(a.role) << (a.code_secret.empty() ? "" : ", second factor")
+              << (a.known_as.empty() ? "" : ", known as " + one_line(a.known_as)) << "\n";
 }
 
 std::vector<std::string> exams_of(const ServeArguments& o) {
@@ -84,6 +86,15 @@ std::vector<std::string> exams_of(const ServeArguments& o) {
   std::vector<std::string> out;
   for (const auto& name : scenarios::data_names("scenarios", "")) out.push_back(scenarios::find_data_file("scenarios", name + ".toml", ""));
   return out;
+}
+
+/// The first line of a file that nobody else may read.
+std::string proxy_secret(const std::string& path) {
+  const auto may = std::filesystem::status(path).permissions();
+  if ((may & (std::filesystem::perms::group_all | std::filesystem::perms::others_all)) != std::filesystem::perms::none)
+    throw Error(path, "may be read by others", "chmod 600 it: whoever knows the secret can sign in as anybody");
+  const std::string text = read_text_file(path);
+  return text.substr(0, text.find_first_of("\r\n"));
 }
 
 void serve(const ServeArguments& o) {
@@ -109,6 +120,9 @@ void serve(const ServeArguments& o) {
     names.insert(names.end(), o.names.begin(), o.names.end());
     office::make_certificate(options.certificate, names);
   }
+  if (o.proxy_address.empty() != o.proxy_secret.empty())
+    throw Error("--proxy-address", "and --proxy-secret belong together", "give both, or neither: nobody signs in by a proxy then");
+  if (!o.proxy_address.empty()) options.proxy = office::proxy_sign_on(o.proxy_address, proxy_secret(o.proxy_secret), o.proxy_header);
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
   const Interrupt interrupt;
@@ -212,11 +226,17 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
   serve_verb->add_option("--name", o->names, "name or address that the certificate of its own is for, too; may be repeated");
   serve_verb->add_option("--exam", o->exams, "scenario that tickets may be issued for; may be repeated; without it, all that ship");
   serve_verb->add_option("--key", o->key, "the school's key, instead of the one in its place");
+  serve_verb->add_option("--proxy-address", o->proxy_address,
+                         "address of a reverse proxy that signs people in by the school's accounts (OpenID Connect)");
+  serve_verb->add_option("--proxy-secret", o->proxy_secret, "file with the secret that the proxy adds as X-Cavum-Proxy-Secret")
+      ->check(CLI::ExistingFile);
+  serve_verb->add_option("--proxy-header", o->proxy_header, "field in which the proxy says who asks")->capture_default_str();
   serve_verb->add_flag("--simulated", o->simulated, "rehearsal: files what no candidate's hand moved, too, marked as such");
   serve_verb->add_option("--add-account", o->add_account,
                          "add an account, or give it another password: the person's name; the password is asked for");
   serve_verb->add_option("--role", o->role, "of the account: officer, examiner, invigilator or reader");
   serve_verb->add_flag("--second-factor", o->second_factor, "with --add-account: a secret for an authenticator app, which a release asks for");
+  serve_verb->add_option("--known-as", o->known_as, "with --add-account: what the proxy calls the person, letter by letter");
   serve_verb->add_option("--remove-account", o->remove_account, "remove an account: who is signed in with it is out at once");
   serve_verb->add_flag("--accounts", o->accounts, "list the accounts");
   serve_verb->callback([o, &exit_code] {

@@ -70,6 +70,41 @@ void try_all(DiskFault fault, const char* name) {
 TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenTheDiskRefuses) { try_all(DiskFault::refused, "refused"); }
 TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenThePowerGoes) { try_all(DiskFault::power_cut, "power cut"); }
 
+/// Three entries in one transaction.
+void try_together(DiskFault fault, const char* name) {
+  const std::uint64_t seed = testing_basics::drawn_seed(name);
+  const School fresh;
+  int n = 1;
+  std::size_t with = 0, without = 0;
+  for (bool happened = true; happened; ++n) {
+    ASSERT_LT(n, 1000) << "it never goes through";
+    const School school(fresh);
+    bool acknowledged = false;
+    {
+      const FaultyDisk disk(fault, n, seed + static_cast<std::uint64_t>(n));
+      try {
+        Ledger ledger = school.ledger();
+        const auto bodies = [](const LedgerContent&) { return std::vector<json>(3, {{"candidate", "C-" + std::string(300, 'a')}}); };
+        acknowledged = ledger.append_all("forget", bodies) == 3;
+      } catch (const Error&) {
+      }
+      happened = FaultyDisk::happened();
+    }
+    std::error_code ignored;
+    if (fault == DiskFault::power_cut) std::filesystem::remove(school.places().database() + "-shm", ignored);
+    const LedgerContent content = read_ledger(school.places());
+    ASSERT_TRUE(content.findings.empty()) << name << " at change " << n << ": " << content.findings[0];
+    const std::size_t added = content.entries.size() - k_first_entries;
+    ASSERT_TRUE(added == 3 || (added == 0 && !acknowledged)) << name << " at change " << n << ": " << added << " of 3";
+    (added == 3 ? with : without)++;
+  }
+  EXPECT_GT(with, 0u);
+  EXPECT_GT(without, 0u);
+}
+
+TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenTheDiskRefuses) { try_together(DiskFault::refused, "together, refused"); }
+TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenThePowerGoes) { try_together(DiskFault::power_cut, "together, power cut"); }
+
 TEST(KilledLedger, ADiskThatForgetsWhatItSyncedIsFound) {
   // the test's own test: with a disk that lies, an acknowledged entry is lost, and the witness shows it
   const School school;

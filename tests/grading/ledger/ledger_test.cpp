@@ -510,14 +510,17 @@ TEST(People, WithAColumnThatNobodyReadsAreRefusedNotShortened) {
     return testing_basics::error_of([&] { static_cast<void>(parse_people(text, "class.csv", passed_over)); });
   };
   for (const auto& [text, told] : {std::pair<const char*, const char*>{"id,extra_time\n1,25\n", "class.csv:1: a ticket knows no column 'extra_time'"},
-                                   {"id,station\n1,3\n", "no column 'station'"},
+                                   {"id,seat\n1,3\n", "no column 'seat'"},
+                                   {"id,station\n1,Seat 3\n2,\n3,Seat 3\n", "class.csv:4: station: 'Seat 3' is given to two candidates"},
                                    {"id,name,ID\n1,a,2\n", "the column 'id' twice"},
                                    {"name\na\n", "is no heading of candidates"},
                                    {"id,extra_time_percent\n1,a quarter\n", "class.csv:2: extra_time_percent: 'a quarter' is no number"},
                                    {"id,extra_time_percent\n1,-5\n", "class.csv:2"},
                                    {"id,left_handed\n1,perhaps\n", "neither yes nor no"}})
     EXPECT_NE(refusal(text).find(told), std::string::npos) << refusal(text);
-  EXPECT_EQ(refusal("id,station\n1,3\n", {"station"}), "");
+  EXPECT_EQ(refusal("id,seat\n1,3\n", {"seat"}), "");
+  EXPECT_EQ(parse_people("id,station\n1,3\n", "class.csv").at(0).station, "3");
+  EXPECT_EQ(parse_people("id,station\n1,3\n", "class.csv", {"station"}).at(0).station, "") << "passed over";
 }
 
 TEST(Identities, ThatAreLostAreNotBegunAnew) {

@@ -35,6 +35,9 @@ export function station(home: string, ...args: string[]): string {
 
 /** RFC 6238, written anew: the code of this half minute, or of one beside it, which is good, too. */
 export function code(steps_on = 0): string {
+  return code_of(secret, steps_on);
+}
+export function code_of(secret: string, steps_on = 0): string {
   const letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ234567";
   const bits = [...secret].map((c) => letters.indexOf(c).toString(2).padStart(5, "0")).join("");
   const key = Buffer.from(bits.match(/.{8}/g)!.map((b) => parseInt(b, 2)));
@@ -42,6 +45,18 @@ export function code(steps_on = 0): string {
   counter.writeBigUInt64BE(BigInt(Math.floor(Date.now() / 30_000) + steps_on));
   const mac = createHmac("sha1", key).update(counter).digest();
   return String((mac.readUInt32BE(mac[19] & 15) & 0x7fffffff) % 1_000_000).padStart(6, "0");
+}
+
+/** The secret of its second factor, where it gets one. */
+export function add_account(name: string, role: string, second_factor = false, ...further: string[]): string {
+  const told = run("school", ["serve", "--add-account", name, "--role", role, ...(second_factor ? ["--second-factor"] : []), ...further], `${password}\n`);
+  return /secret=([A-Z2-7]+)/.exec(told)?.[1] ?? "";
+}
+
+/** Further options of the next office's server, by its folder. */
+let more: (folder: string) => string[] = () => [];
+export function serve_with(options: (folder: string) => string[]): void {
+  more = options;
 }
 
 /** Opens an office with an account of each role and a folder for each station. */
@@ -54,15 +69,15 @@ export async function open_office(...seats: string[]): Promise<void> {
   writeFileSync(task, block.replace('id = "block_cavity"', 'id = "border_cavity"').replace("pass_percent = 60", "pass_percent = 99"));
   copyFileSync(join(source, "tests/replay/block.cvt"), join(folder, "block.cvt"));
   run("school", ["ledger", "init", join(folder, "ledger"), "--school", "School of Dentistry"]);
-  secret = /secret=([A-Z2-7]+)/.exec(run("school", ["serve", "--add-account", "Anna Officer", "--role", "officer", "--second-factor"], `${password}\n`))![1];
-  run("school", ["serve", "--add-account", "Eva Examiner", "--role", "examiner"], `${password}\n`);
-  run("school", ["serve", "--add-account", "Ian Invigilator", "--role", "invigilator"], `${password}\n`);
-  run("school", ["serve", "--add-account", "Rita Reader", "--role", "reader"], `${password}\n`);
+  secret = add_account("Anna Officer", "officer", true);
+  add_account("Eva Examiner", "examiner");
+  add_account("Ian Invigilator", "invigilator");
+  add_account("Rita Reader", "reader");
   for (const seat of seats) {
     mkdirSync(join(folder, seat));
     copyFileSync(join(folder, "school/school.pub"), join(folder, seat, "school.pub"));
   }
-  server = spawn(cavum, ["serve", join(folder, "ledger"), "--listen", "127.0.0.1:0", "--exam", task, "--simulated"], {
+  server = spawn(cavum, ["serve", join(folder, "ledger"), "--listen", "127.0.0.1:0", "--exam", task, "--simulated", ...more(folder)], {
     env: { ...process.env, CAVUM_HOME: join(folder, "school"), LANGUAGE: "en" },
   });
   let said = "";

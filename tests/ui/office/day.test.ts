@@ -72,6 +72,7 @@ test("an exam day with its accidents, by clicks", { skip: k_skip }, async () => 
     return [answer.headers.get("content-type"), (await answer.text()).slice(0, 5)];
   });
   assert.deepEqual(pdf, ["application/pdf", "%PDF-"]);
+  await page.$eval(`[aria-label="Cancel the ticket of ${by_id.get("4715")}"]`, (b) => b.scrollIntoView({ block: "center" }));  // not below what was said last
   await page.click(`[aria-label="Cancel the ticket of ${by_id.get("4715")}"]`);
   await type(page, "Reason", "ill");
   await page.keyboard.press("Enter");

@@ -44,6 +44,7 @@ class Opened {
     o.certificate = {certificate(), home() + "/certificate.key"};
     o.limits = limits_;
     o.filing.simulated = rehearsal_;
+    o.proxy = proxy_;
     o.report = [](const std::string& recording) { return "<p>" + recording + "</p><script>1</script>"; };
     if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
@@ -52,6 +53,8 @@ class Opened {
   }
   /// From the next open() on what no hand moved is filed, too.
   void rehearse() { rehearsal_ = true; }
+  /// From the next open() on people may sign in by a proxy.
+  void stand_behind(const office::ProxySignOn& proxy) { proxy_ = proxy; }
   void close() { office_.reset(); }
 
   [[nodiscard]] Visitor visitor() const { return {port()}; }
@@ -67,8 +70,10 @@ class Opened {
             load_station_key(station_key_path())};
   }
   /// A code of the officer's second factor: of this half minute, or of one beside it, which is good, too. Each is good once, and none before it then.
-  [[nodiscard]] std::string code(int steps_on = 0) const {
-    const auto secret = office::from_base32(accounts().of(name_of(office::Role::officer))->code_secret);
+  [[nodiscard]] std::string code(int steps_on = 0) const { return code_of(name_of(office::Role::officer), steps_on); }
+  /// The same of another account.
+  [[nodiscard]] std::string code_of(const std::string& name, int steps_on = 0) const {
+    const auto secret = office::from_base32(accounts().of(name)->code_secret);
     return office::one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / office::k_code_step_s + steps_on));
   }
   /// A class list as the page sends it.
@@ -108,6 +113,7 @@ class Opened {
   office::HttpLimits limits_;
   std::uint16_t port_ = 0;
   bool rehearsal_ = false;
+  std::optional<office::ProxySignOn> proxy_;
   std::unique_ptr<office::Office> office_;
 };
 

@@ -21,7 +21,7 @@ const states = (): { [state: string]: string } => ({
   free: tr("free"), check: tr("self-check"), briefing: tr("briefing"), exam: tr("exam under way"), paused: tr("paused"), ended: tr("exam ended"),
 });
 const groups = (): { [group: string]: string } => ({
-  live: tr("live"), begun: tr("begun"), filed: tr("filed"), cancelled: tr("cancelled"), "run out": tr("run out"),
+  live: tr("live"), begun: tr("begun"), filed: tr("filed"), cancelled: tr("cancelled"), "run out": tr("run out"), "made up": tr("made up by another sitting"),
 });
 
 function clock(s: number): string {

@@ -7,12 +7,14 @@ import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
 import { act, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
+import { regrade } from "./regrade.ts";
 import { results } from "./results.ts";
 import { roster } from "./roster.ts";
 import { sign_in } from "./sign_in.ts";
 import { tickets } from "./tickets.ts";
 
 let me: Me | null = null;
+let by_proxy = false;
 let view: View | null = null;
 const may = (door: string): boolean => me?.may.includes(door) ?? false;
 
@@ -26,6 +28,7 @@ const places = (): Place[] => [
   { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
   { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(may) },
+  { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
 ];
 
@@ -62,7 +65,7 @@ async function show(): Promise<void> {
   const place = mine.find((p) => `#${p.name}` === location.hash) ?? mine[0];
   head(mine, place?.name ?? "");
   document.title = `${place?.title ?? tr("Sign in")} · ${me?.school ?? "Cavum"}`;
-  if (place === undefined) return put(sign_in(signed_in));
+  if (place === undefined) return put(sign_in(signed_in, by_proxy));
   const this_time = ++asked;
   try {
     const next = await place.open();
@@ -81,7 +84,8 @@ function signed_in(who: Me): void {
 }
 
 async function begin(): Promise<void> {
-  const { language, words } = await get<{ language: string; words: { [english: string]: string } }>("/api/words");
+  const { language, words, proxy } = await get<{ language: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
+  by_proxy = proxy;
   set_words(words, language === "de" ? "," : ".");
   document.documentElement.lang = language;
   document.getElementById("skip")!.textContent = tr("To the content");

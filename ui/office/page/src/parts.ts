@@ -31,6 +31,11 @@ export function input(label: string, attributes: { [name: string]: string } = {}
   return field(label, make("input", { type: "text", ...attributes }), hint);
 }
 
+/** For a code of the second factor. */
+export function code_field(): ReturnType<typeof input> {
+  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
+}
+
 export function select(label: string, choices: [string, string][], chosen = ""): HTMLSelectElement & { block: HTMLElement } {
   const list = make("select");
   for (const [value, text] of choices) list.append(Object.assign(make("option", { value }, text), { selected: value === chosen }));
@@ -117,6 +122,10 @@ export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("p
 /** "2026-11-21T09:00:00Z" in the reader's own time zone. */
 export function local_time(utc: string): string {
   return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+}
+/** What a control for a moment says, as UTC to the second. */
+export function utc(local: string): string {
+  return new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
 }
 export function time_zone(): string {
   return Intl.DateTimeFormat().resolvedOptions().timeZone;

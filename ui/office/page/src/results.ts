@@ -2,16 +2,16 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
+import { code_field, form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
 
 interface Result {
-  session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; verdict: string;
+  session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; makes_up: number | null; made_up_by: number | null; verdict: string;
   points: number | null; max: number | null; sha256: string; shown: boolean; appeal: boolean; id?: string; name?: string;
 }
 
 const states = (): { [state: string]: string } => ({
   released: tr("released"), "to decide": tr("waits for a decision"), questioned: tr("questioned: released by name only"), "not chosen": tr("another ending was chosen"),
-  erased: tr("erased"), ready: tr("ready for release"),
+  erased: tr("erased"), "made up": tr("does not count: a makeup sitting was given"), ready: tr("ready for release"),
 });
 
 export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
@@ -25,7 +25,7 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
-      [words[r.state] ?? r.state, ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
+      [words[r.state] ?? r.state, ...(r.makes_up !== null ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== null ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
       ...(reports ? [r.sha256 !== "" ? report_link(r.sha256) : ""] : []),
     ]);
     const headings = [tr("Entry"), ...(named ? [tr("Number"), tr("Name")] : []), tr("Pseudonym"), tr("Exam"), tr("Verdict"), tr("Points"), tr("State"), ...(reports ? [tr("Report")] : [])];
@@ -54,10 +54,6 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
       await show();
       say(tr("Taken back: entry {}.", entry));
     }, which.block, reason.block, code.block)];
-}
-
-function code_field(): ReturnType<typeof input> {
-  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
 }
 
 function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {

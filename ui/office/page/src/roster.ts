@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { field, form, input, say, select, table, time_zone, type View } from "./parts.ts";
+import { field, form, input, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
@@ -10,12 +10,12 @@ interface Preview {
   separator: string;
   rows: number;
   columns: Column[];
-  people: { id: string; name: string; accommodations: string }[];
+  people: { id: string; name: string; station: string; accommodations: string }[];
   problem: string;
   uses: string[];
 }
 interface Issued {
-  issued: { candidate: string; id: string; name: string }[];
+  issued: { candidate: string; id: string; name: string; station: string }[];
   refused: { id: string; name: string; why: string }[];
 }
 
@@ -29,6 +29,7 @@ const separators = (): { [sign: string]: string } => ({ ",": tr("comma"), ";": t
 const uses = (): { [name: string]: string } => ({
   id: tr("Candidate's number (id)"),
   name: tr("Name"),
+  station: tr("Station"),
   extra_time_percent: tr("Extra time, per cent"),
   extra_time_s: tr("Extra time, seconds"),
   left_handed: tr("Left-handed (yes or no)"),
@@ -88,7 +89,7 @@ class Roster {
   }
 
   private people(preview: Preview): HTMLElement {
-    return table(tr("Who gets a ticket"), [tr("Number"), tr("Name"), tr("Accommodations")], preview.people.map((p) => [p.id, p.name, p.accommodations]));
+    return table(tr("Who gets a ticket"), [tr("Number"), tr("Name"), tr("Station"), tr("Accommodations")], preview.people.map((p) => [p.id, p.name, p.station, p.accommodations]));
   }
 
   private async issue(): Promise<HTMLElement> {
@@ -100,13 +101,12 @@ class Roster {
     const word = make("input", { type: "checkbox", id: "begin-at-office" });
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
     const out = make("div");
-    const utc = (local: string): string => new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
     const asked = form(tr("Issue the tickets"), async () => {
       const done = await post<Issued>("/api/roster/issue", {
         ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, reason: reason.value,
       });
       say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
-      out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym")], done.issued.map((p) => [p.id, p.name, p.candidate])));
+      out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Station")], done.issued.map((p) => [p.id, p.name, p.candidate, p.station])));
       if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
     }, exam.block, from.block, until.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")), reason.block);
     return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);

@@ -2,11 +2,12 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
+import { with_makeup } from "./makeup.ts";
 import { act, form, local_time as local, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
 
 interface Ticket {
   entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean;
-  seat: string; id: string; name: string;
+  seat: string; id: string; name: string; became: string; why: string; makeup: string[];
 }
 interface Station { name: string; public_key: string; room: string; revoked: boolean }
 
@@ -20,9 +21,11 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
     const names = new Map(stations.map((s) => [s.public_key, s.name]));
     const rows = tickets.map((t) => {
       const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
-      const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.state;
+      const actions = make("div", { class: "row" }, cancel, ...(t.makeup.length > 0 && may("POST /api/tickets/makeup") ? [with_makeup(t, show)] : []));
+      const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.became === "missed" ? tr("missed; {}", t.state) : t.became !== "" ? tr("interrupted; {}", t.state)
+        : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
       const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
-      return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, cancel];
+      return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, actions.textContent === "" ? "" : actions];
     });
     const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), tr("Station"), tr("State"), tr("Action")];
     list.replaceChildren(table(tr("Tickets: {0}; times in {1}", tickets.length, time_zone()), headings, rows));
@@ -58,7 +61,10 @@ function seat_of(t: Ticket, stations: Station[]): HTMLElement {
   list.addEventListener("change", () => {
     post("/api/seats", { ticket: t.entry, station: list.value })
       .then(() => say(tr("{} has another station.", t.candidate)))
-      .catch((wrong: Error) => say(wrong.message, true));
+      .catch((wrong: Error) => {
+        list.value = t.seat;  // it stays where it was
+        say(wrong.message, true);
+      });
   });
   return list.block;
 }

@@ -1,0 +1,99 @@
+#include "grading/ledger/class_regrade.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+
+namespace cavum::ledger {
+namespace {
+
+using nlohmann::json;
+
+const FiledSession& session_in(const Registry& registry, std::uint64_t seq) {
+  for (const auto& s : registry.sessions)
+    if (s.seq == seq) return s;
+  throw Error(fmt::format("entry {}", seq), "is no session's", "make the plan anew");
+}
+
+/// Marked anew by the same already.
+bool is_entered(const LedgerContent& content, const FiledSession& s, const ClassRegrade& plan, const json& result) {
+  const Regrade* last = s.regrades.empty() ? nullptr : &s.regrades.back();
+  if (last == nullptr || last->seq != s.result_seq || s.result != result) return false;
+  const auto kept = kept_basis(content, *last);
+  return kept && kept->rubric_toml == plan.basis.rubric_toml && kept->scenario_toml == plan.basis.scenario_toml &&
+         kept->surfaces == plan.basis.surfaces;
+}
+
+bool are_the_same(const MarkedAnew& a, const MarkedAnew& b) {
+  return a.session == b.session && a.result_seq == b.result_seq && a.file_sha256 == b.file_sha256;
+}
+
+}  // namespace
+
+bool MarkedAnew::other_verdict() const { return text_in(before, "verdict") != text_in(after, "verdict"); }
+bool MarkedAnew::other_points() const { return member_of(before, "score") != member_of(after, "score"); }
+
+ClassRegrade plan_class_regrade(const Registry& registry, const std::string& exam, RegradeBasis basis) {
+  ClassRegrade plan{exam, std::move(basis), {}, 0};
+  for (const auto& s : registry.sessions) {
+    if (s.scenario_id != exam) continue;
+    if (s.motion_erased_by || !s.result.is_object()) {
+      ++plan.left_out;
+      continue;
+    }
+    const Regrade* counts = s.regrade(s.result_seq);
+    plan.sessions.push_back(
+        {s.seq, s.result_seq, s.candidate, s.file_sha256, counts != nullptr && !counts->person.empty(), s.shown_seq != 0, s.result, {}});
+  }
+  if (plan.sessions.empty()) throw Error("exam " + one_line(exam), "has no session that can be marked", "see `cavum ledger show`");
+  return plan;
+}
+
+pool::Work work_of(const ClassRegrade& plan, const std::string& ledger_folder) {
+  pool::Work work;
+  work.what = pool::What::regrade;
+  work.folder = ledger_folder;
+  work.rubric_toml = plan.basis.rubric_toml, work.scenario_toml = plan.basis.scenario_toml, work.surfaces = plan.basis.surfaces;
+  for (const auto& s : plan.sessions) work.sessions.push_back(fmt::format("sessions/{}.cavum", s.file_sha256));
+  return work;
+}
+
+void take_lines(ClassRegrade& plan, const std::vector<std::string>& lines, const std::string& ledger_folder) {
+  for (std::size_t i = 0; i < plan.sessions.size(); ++i) {
+    MarkedAnew& s = plan.sessions[i];
+    const json line = parse_json_or_null(lines.at(i), k_json_part);
+    if (!member_of(line, "result").is_object())
+      throw Error(fmt::format("entry {}", s.session), lines[i].empty() ? "could not be marked" : without_advice(text_in(line, "error")),
+                  "nothing was entered; correct the rubric or scenario, or mark the others by --session");
+    if (text_in(line, "sha256") != s.file_sha256)
+      throw Error(fmt::format("entry {}", s.session), "its recording is another one by now",
+                  fmt::format("see `cavum ledger verify {}`", ledger_folder));
+    s.after = member_of(line, "result");
+  }
+}
+
+std::size_t enter_class_regrade(Ledger& ledger, const ClassRegrade& plan, const std::string& reason) {
+  require_reason(reason);
+  const KeptParts parts = kept_parts(plan.basis);
+  return ledger.append_all(
+      "regrade",
+      [&](const LedgerContent& now) {
+        const Registry& registry = ledger.registry();
+        const ClassRegrade fresh = plan_class_regrade(registry, plan.exam, {});
+        if (!std::equal(fresh.sessions.begin(), fresh.sessions.end(), plan.sessions.begin(), plan.sessions.end(), are_the_same))
+          throw Error("exam " + one_line(plan.exam), "has other sessions or results by now than those that were marked",
+                      "nothing was entered; begin anew");
+        std::vector<json> bodies;
+        for (const auto& s : plan.sessions)
+          if (!is_entered(now, session_in(registry, s.session), plan, s.after))
+            bodies.push_back({{"session", s.session}, {"result", s.after}, {"by", parts.by}, {"reason", reason}});
+        return bodies;
+      },
+      parts.documents);
+}
+
+}  // namespace cavum::ledger

@@ -1,0 +1,208 @@
+// Makeup sittings: who gets one, what becomes of the first sitting, and that of two results of one candidate one counts.
+#include "grading/ledger/makeup.h"
+
+#include "grading/ledger/begin.h"
+#include "grading/ledger/decision.h"
+#include "grading/ledger/exports.h"
+#include "grading/ledger/release.h"
+#include "tests/grading/ledger/school.h"
+#include "tests/grading/ledger/short_exam.h"
+
+namespace cavum::ledger {
+namespace {
+
+using namespace testing_ledger;
+using nlohmann::json;
+
+class MakeupSitting : public testing::Test {
+ protected:
+  /// Entry of the ticket that was issued last.
+  [[nodiscard]] std::uint64_t last_entry() const { return read_ledger(school_.places()).entries.size() - 1; }
+  [[nodiscard]] Registry registry() const { return read_registry(read_ledger(school_.places())); }
+  [[nodiscard]] const IssuedTicket ticket_of(std::uint64_t entry) const {
+    for (const auto& t : registry().tickets)
+      if (t.seq == entry) return t;
+    return {};
+  }
+  std::string past_ticket(const std::string& candidate) const {
+    return school_.ticket(candidate, [](Ticket& t) { t.not_before_utc_ns -= 3 * k_hour_ns, t.not_after_utc_ns -= 2 * k_hour_ns; });
+  }
+  std::string make_up(std::uint64_t first, const std::string& became, const std::string& reason = "the lift stood still") const {
+    Ledger ledger = school_.ledger();
+    const std::int64_t now = read_clocks().utc_ns;
+    return issue_makeup(ledger, promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns),
+                        {first, became, reason});
+  }
+  std::string why_not(std::uint64_t first, const std::string& became, const std::string& reason = "x") const {
+    const std::size_t before = last_entry();
+    try {
+      static_cast<void>(make_up(first, became, reason));
+    } catch (const Error& e) {
+      EXPECT_EQ(last_entry(), before) << "nothing is entered";
+      return e.what();
+    }
+    ADD_FAILURE() << "was given";
+    return {};
+  }
+  /// The short exam: nothing is cut, so its points are those of an untouched tooth.
+  Filing file_short(const std::string& ticket) const {
+    static int n = 0;
+    const std::string path = school_.file("short-" + std::to_string(++n) + ".cavum");
+    sit_shortly(k_scenario, path, ticket);
+    Ledger ledger = school_.ledger();
+    return file_session(ledger, path);
+  }
+  Filing file(const std::string& path) const {
+    Ledger ledger = school_.ledger();
+    return file_session(ledger, path);
+  }
+  std::size_t release_all() const {
+    Ledger ledger = school_.ledger();
+    return release_results(ledger, {.all = true}).results.size();
+  }
+  std::string gradebook() const {
+    Identities identities(school_.places().identities());
+    int left_out = 0;
+    return moodle_csv(registry(), identities, left_out);
+  }
+  School school_;
+};
+
+TEST_F(MakeupSitting, TakesThePlaceOfAMissedOneAndTheGradebookSaysSo) {
+  const std::string first = past_ticket("4711");
+  const std::uint64_t entry = last_entry();
+  const std::string makeup = make_up(entry, k_missed);
+  EXPECT_EQ(parse_ticket(makeup, "", "t").candidate, parse_ticket(first, "", "t").candidate);
+  EXPECT_NE(parse_ticket(makeup, "", "t").nonce, parse_ticket(first, "", "t").nonce);
+  EXPECT_EQ(ticket_of(entry).made_up_by, last_entry());
+  EXPECT_EQ(ticket_of(last_entry()).first_became, k_missed);
+  EXPECT_EQ(read_ledger(school_.places()).entries.back().body["reason"], "the lift stood still");
+  const Filing filed = file(school_.sit(makeup));
+  ASSERT_TRUE(filed.seq) << filed.findings.front();
+  EXPECT_EQ(release_all(), 1u);
+  EXPECT_NE(gradebook().find(fmt::format("Makeup sitting, for the first was missed (entry {}).", entry)), std::string::npos) << gradebook();
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+}
+
+TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
+  const std::string first = school_.ticket("4711");
+  const std::uint64_t entry = last_entry();
+  const auto good = file(school_.sit(first));  // the better of the two
+  ASSERT_TRUE(good.seq);
+  const std::string makeup = make_up(entry, k_interrupted);
+  EXPECT_EQ(registry().sessions[0].made_up_by, last_entry());
+  EXPECT_EQ(release_all(), 0u) << "the first does not count";
+  const auto worse = file_short(makeup);
+  ASSERT_TRUE(worse.seq) << worse.findings.front();
+  Ledger ledger = school_.ledger();
+  EXPECT_THROW(release_results(ledger, {.with_findings = true, .sessions = {*good.seq}}), Error);
+  EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results, std::vector<std::uint64_t>{*worse.seq});
+  const auto shown = registry();
+  EXPECT_EQ(shown.sessions[0].shown_seq, 0u);
+  EXPECT_NE(shown.sessions[0].result["score"]["points"], shown.sessions[1].result["score"]["points"]) << "the test can tell them apart";
+  const std::string csv = gradebook();
+  EXPECT_NE(csv.find("\n4711," + shown.sessions[1].result["score"]["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find("was interrupted"), std::string::npos) << csv;
+  Identities identities(school_.places().identities());
+  EXPECT_EQ(lti_scores(registry(), identities).size(), 1u);
+  const json signed_ones = json::parse(signed_results(registry(), ledger))["results"];
+  EXPECT_EQ(signed_ones[0]["made_up_by"], *ticket_of(entry).made_up_by);
+  EXPECT_EQ(signed_ones[1]["makes_up"], entry);
+}
+
+TEST_F(MakeupSitting, LetsNothingBeBegunOrFiledWithTheFirstTicketAnyMore) {
+  const std::string first = school_.ticket("4711", [](Ticket& t) { t.begun_at_ledger = false; });
+  const std::uint64_t entry = last_entry();
+  const std::string path = school_.sit(first);  // the candidate kept it back
+  const std::string makeup = make_up(entry, k_interrupted);
+  Ledger ledger = school_.ledger();
+  EXPECT_THROW(static_cast<void>(let_begin(ledger, parse_ticket(first, "", "t").nonce, "")), Error);
+  const Filing refused = file(path);
+  EXPECT_FALSE(refused.seq);
+  expect_finding(refused.findings, {"a makeup sitting was given in its place"});
+  ASSERT_TRUE(file_short(makeup).seq);
+  FilingOptions all_the_same;
+  all_the_same.with_findings = true;
+  Ledger again = school_.ledger();
+  const auto questioned = file_session(again, path, all_the_same);
+  ASSERT_TRUE(questioned.seq);
+  EXPECT_THROW(release_results(again, {.with_findings = true, .sessions = {*questioned.seq}}), Error) << "not even by name";
+  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
+}
+
+TEST_F(MakeupSitting, IsNotGivenBesideAReleasedResult) {
+  const std::string first = school_.ticket("4711");
+  const std::uint64_t entry = last_entry();
+  const auto filed = file(school_.sit(first));
+  ASSERT_EQ(release_all(), 1u);
+  EXPECT_NE(why_not(entry, k_interrupted).find("take it back first"), std::string::npos);
+  Ledger ledger = school_.ledger();
+  retract_results(ledger, {*filed.seq}, "the power failed");
+  EXPECT_FALSE(make_up(entry, k_interrupted).empty());
+}
+
+TEST_F(MakeupSitting, IsGivenOnceWithAReasonAndToWhomItIsDue) {
+  static_cast<void>(school_.ticket("4711", [](Ticket& t) { t.not_before_utc_ns += 2 * k_hour_ns, t.not_after_utc_ns += 2 * k_hour_ns; }));
+  EXPECT_NE(why_not(last_entry(), k_missed).find("still to come"), std::string::npos);
+  static_cast<void>(school_.ticket("4712"));
+  const std::uint64_t running = last_entry();
+  EXPECT_NE(why_not(running, k_missed).find("was not missed"), std::string::npos) << "its time is not over";
+  EXPECT_NE(why_not(running, "ill").find("was not missed"), std::string::npos);
+  EXPECT_NE(why_not(running, k_interrupted, "").find("--reason"), std::string::npos);
+  EXPECT_NE(why_not(0, k_missed).find("is none"), std::string::npos);
+  static_cast<void>(past_ticket("4713"));
+  const std::uint64_t past = last_entry();
+  static_cast<void>(make_up(past, k_missed));
+  EXPECT_NE(why_not(past, k_missed).find("has a makeup already"), std::string::npos);
+  static_cast<void>(past_ticket("4714"));
+  const std::uint64_t cancelled = last_entry();
+  Ledger ledger = school_.ledger();
+  cancel_ticket(ledger, cancelled, "ill");
+  EXPECT_NE(why_not(cancelled, k_missed).find("was cancelled"), std::string::npos);
+  static_cast<void>(past_ticket("4715"));
+  const std::uint64_t beside = last_entry();
+  static_cast<void>(school_.ticket("4715"));
+  EXPECT_NE(why_not(beside, k_missed).find("has another ticket"), std::string::npos);
+}
+
+TEST_F(MakeupSitting, ThatWasCancelledBeforeItBeganGivesTheFirstBackAndOneThatWasBegunDoesNot) {
+  static_cast<void>(school_.ticket("4711"));
+  const std::uint64_t a = last_entry();
+  static_cast<void>(make_up(a, k_interrupted));
+  {
+    Ledger ledger = school_.ledger();
+    EXPECT_THROW(cancel_ticket(ledger, a, "x"), Error) << "it is made up";
+    cancel_ticket(ledger, last_entry(), "given to the wrong one");
+  }
+  EXPECT_FALSE(ticket_of(a).made_up_by);
+  const std::string b = make_up(a, k_interrupted);
+  const std::uint64_t begun = last_entry();
+  Ledger ledger = school_.ledger();
+  static_cast<void>(let_begin(ledger, parse_ticket(b, "", "t").nonce, ""));
+  cancel_ticket(ledger, begun, "the station died");
+  EXPECT_EQ(ticket_of(a).made_up_by, begun) << "who has begun a makeup does not go back to the first";
+  static_cast<void>(make_up(begun, k_interrupted));
+  EXPECT_EQ(ticket_of(last_entry()).first_sitting, a);
+  EXPECT_TRUE(registry().findings.empty());
+}
+
+TEST_F(MakeupSitting, OfTwoSittingsOneIsShownAlsoWhereAnEntryNamesBoth) {
+  const std::string first = school_.ticket("4711");
+  const std::uint64_t entry = last_entry();
+  const auto a = file(school_.sit(first));
+  const std::string makeup = make_up(entry, k_interrupted);
+  const auto b = file_short(makeup);
+  ASSERT_TRUE(a.seq && b.seq);
+  Ledger ledger = school_.ledger();
+  ledger.append("release", [&](const LedgerContent&) {  // as another program might write it
+    return json{{"results", {*a.seq, *b.seq}}};
+  });
+  const Registry r = registry();
+  EXPECT_EQ(r.sessions[0].shown_seq, 0u);
+  EXPECT_EQ(r.sessions[1].shown_seq, *b.seq);
+  ASSERT_EQ(r.remarks.size(), 1u);
+  EXPECT_NE(r.remarks[0].find("counts in its place"), std::string::npos);
+}
+
+}  // namespace
+}  // namespace cavum::ledger

@@ -1,0 +1,83 @@
+// The class list's column `station` is the seat: entered with the tickets, on card and sheet, and refused with its line where it cannot be.
+#include "tests/ui/office/opened.h"
+#include "ui/office/papers.h"
+
+namespace cavum::office {
+namespace {
+
+using namespace testing_office;
+using namespace testing_ledger;
+using nlohmann::json;
+
+class ListedSeats : public testing::Test {
+ protected:
+  void SetUp() override { enrol("Seat 2", "two"); }
+  void enrol(const std::string& name, const std::string& key_file) const {
+    const SigningKey key = load_signing_key(opened_.school().file(key_file + ".key"), "station");
+    ledger::Ledger ledger = opened_.school().ledger();
+    const std::string code = ledger::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
+    static_cast<void>(ledger::enrol_station(ledger, ledger::station_request(key, ledger.content().public_key, {}, code), 0, "request"));
+  }
+  Heard issue(const std::string& list, std::int64_t from_h = -1, std::int64_t until_h = 1) {
+    const std::int64_t now = read_clocks().utc_ns;
+    json asked = Opened::list(list);
+    asked.update(
+        {{"exam", "block_cavity"}, {"from", utc_text(now + from_h * k_hour_ns)}, {"until", utc_text(now + until_h * k_hour_ns)}, {"reason", "x"}});
+    return officer_.post("/api/roster/issue", asked);
+  }
+  std::string preview_problem(const std::string& list) { return officer_.post("/api/roster/preview", Opened::list(list)).json()["problem"]; }
+  /// Issues nothing, and says so with the line.
+  void expect_refused(const std::string& list, const std::string& told) {
+    const std::size_t before = opened_.content().entries.size();
+    const Heard heard = issue(list);
+    EXPECT_EQ(heard.status, 400) << list;
+    EXPECT_NE(heard.body.find(told), std::string::npos) << heard.body;
+    EXPECT_EQ(opened_.content().entries.size(), before) << "no ticket of them";
+  }
+  Opened opened_;
+  Visitor officer_ = opened_.signed_in(Role::officer);
+};
+
+TEST_F(ListedSeats, AreEnteredAndStandOnCardAndSheet) {
+  ASSERT_EQ(issue("id,Station\n4711,Seat 2\n4712,\n4713,Seat 1\n").status, 200);
+  const auto content = opened_.content();
+  EXPECT_EQ(content.entries.back().kind, "seats");
+  EXPECT_EQ(content.entries.back().body["account"], "The officer");
+  ledger::Ledger ledger = opened_.school().ledger();
+  std::map<std::string, std::string> places;
+  for (const auto& i : invited(ledger, read_clocks().utc_ns)) places[i.id] = i.station;
+  EXPECT_EQ(places, (std::map<std::string, std::string>{{"4711", "Seat 2"}, {"4712", ""}, {"4713", "Seat 1"}}));
+}
+
+TEST_F(ListedSeats, ThatCannotBeAreRefusedWithTheirLine) {
+  for (const auto& [list, told] : std::map<std::string, std::string>{
+           {"id,station\n1,Seat 1\n2,Seat 9\n", "the list:3: station: no station that is enrolled bears the name 'Seat 9'"},
+           {"id,station\n1,seat 1\n", "the list:2: station"},
+           {"id,station\n1,Seat 1\n2,\n3,Seat 1\n", "the list:4: station: 'Seat 1' is given to two candidates"}}) {
+    EXPECT_NE(preview_problem(list).find(told), std::string::npos) << preview_problem(list);
+    expect_refused(list, told);
+  }
+  ASSERT_EQ(issue("id,station\n4711,Seat 1\n").status, 200);
+  expect_refused("id,station\n4712,Seat 2\n4713,Seat 1\n", "the list:3: station: 'Seat 1' has another candidate at that time");
+  EXPECT_EQ(issue("id,station\n4713,Seat 1\n", 2, 3).status, 200) << "at another time it is free";
+  EXPECT_EQ(issue("id,station\n4711,Seat 1\n").json()["refused"].size(), 1u) << "his own seat is no other's";
+}
+
+TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
+  const json invited_now = officer_.get("/api/board").json()["stations"];
+  ASSERT_EQ(officer_.post("/api/stations/revoke", {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}}).status, 200);
+  expect_refused("id,station\n1,Seat 2\n", "no station that is enrolled");
+  enrol("Seat 1", "three");
+  expect_refused("id,station\n1,Seat 1\n", "two stations bear the name");
+}
+
+TEST_F(ListedSeats, ByHandNeitherHaveTwoAtOneTime) {
+  ASSERT_EQ(issue("id,station\n4711,Seat 1\n4712,Seat 2\n").status, 200);
+  const json tickets = officer_.get("/api/tickets").json()["tickets"];
+  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}}).status, 400);
+  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[1]["entry"]}, {"station", ""}}).status, 200);
+  EXPECT_EQ(officer_.post("/api/seats", {{"ticket", tickets[0]["entry"]}, {"station", tickets[1]["seat"]}}).status, 200);
+}
+
+}  // namespace
+}  // namespace cavum::office

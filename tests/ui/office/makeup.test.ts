@@ -1,0 +1,80 @@
+// A makeup sitting in a real browser, by keys: for who was interrupted, with the accommodations of the first ticket, and for who did not come.
+import assert from "node:assert/strict";
+import { readdirSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import type { Page } from "puppeteer-core";
+import { k_skip } from "../report_test/chromium.ts";
+import { close_office, control, desk, folder, go, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+
+before(async () => { if (!k_skip) await open_office("seat"); });
+after(close_office);
+
+async function issue(page: Page, list: string, from_h: number, until_h: number): Promise<void> {
+  await go(page, "Class list");
+  await type(page, "Paste the list, with its line of column names", list);
+  await press(page, "Read the list");
+  await said(page, "Who gets a ticket");
+  for (const [label, hours] of [["May begin from", from_h], ["May begin until", until_h]] as [string, number][])
+    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
+  await type(page, "Reason", "class of this year");
+  await press(page, "Issue the tickets");
+  await said(page, "Refused: 0.");
+}
+
+async function make_up(page: Page, code: string, became: string, granted: string): Promise<void> {
+  await page.focus(`[aria-label="Makeup sitting for ${code}"]`);
+  await page.keyboard.press("Enter");
+  await page.select(await control(page, "The first sitting"), became);
+  for (const [label, hours] of [["May begin from", -1], ["May begin until", 3]] as [string, number][])
+    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
+  await page.select(await control(page, "Accommodations"), granted);
+}
+
+test("makeup sittings by keys", { skip: k_skip }, async () => {
+  const officer = await desk("Anna Officer");
+  const { page } = officer;
+  await type(page, "Name of the station", "Seat 1");
+  await press(page, "Make a code");
+  await page.waitForSelector("section code");
+  station("seat", "enrol", "--code", await page.$eval("section code", (c) => c.textContent!));
+  await go(page, "Class list");
+  await type(page, "Paste the list, with its line of column names", "id,name,station\n4711,Anna A.,Seat 1\n4712,Bert B.,Seat 9\n");
+  await press(page, "Read the list");
+  await said(page, "no station that is enrolled bears the name 'Seat 9'");
+  await look(officer, "unknown-station");
+  await go(page, "Tickets");
+  await issue(page, "id,name,extra_time_percent,station\n4711,Anna A.,25,Seat 1\n", -1, 3);
+  await go(page, "Tickets");
+  await issue(page, "id,name,extra_time_percent\n4712,Bert B.,30\n", -3, -2);
+  await go(page, "Tickets");
+  await said(page, "4712");
+  assert.equal(await page.$eval('td[data-label="Station"] select', (s) => (s as HTMLSelectElement).selectedOptions[0].textContent), "Seat 1");
+  const codes = await page.$$eval("tbody tr", (all) => all.map((r) => r.children[2].textContent!));
+
+  await make_up(page, codes[0], "interrupted", "as before");
+  await type(page, "Reason", "the power failed");
+  await look(officer, "makeup-form");
+  await page.keyboard.press("Enter");
+  await said(page, `${codes[0]} has a makeup sitting: 25 % extra time.`);
+  await said(page, "interrupted; made up by entry");
+  await said(page, "which was interrupted. Reason: the power failed");
+
+  await make_up(page, codes[1], "missed", "these");
+  assert.equal(await page.$(`${await control(page, "Accommodations")} option[value="as before"]`), null, "what ran out is not kept");
+  await type(page, "Extra time, per cent", "30");
+  await type(page, "Reason", "ill, with a certificate");
+  await page.keyboard.press("Enter");
+  await said(page, `${codes[1]} has a makeup sitting: 30 % extra time.`);
+  await said(page, "missed; made up by entry");
+  await look(officer, "makeup-tickets");
+
+  station("seat", "tickets", "--out", join(folder, "tickets"));
+  const tickets = readdirSync(join(folder, "tickets")).filter((f) => f.endsWith(".ticket"));
+  assert.deepEqual(tickets.map((t) => t.slice(0, -7)).sort(), [...codes].sort(), "one ticket for each");
+  run("seat", ["exam", task, "--ticket", join(folder, "tickets", `${codes[1]}.ticket`), "--operator", "expert", "--out", join(folder, "e.cavum")]);
+  station("seat", "file", join(folder, "e.cavum"));
+  await go(page, "Results");
+  await said(page, "makeup sitting of ticket");
+  assert.deepEqual(officer.complaints, []);
+});

@@ -1,0 +1,235 @@
+#include "ui/office/regrades.h"
+
+#include <sys/resource.h>
+#include <sys/syscall.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <chrono>
+#include <filesystem>
+
+#include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+#include "grading/pool/makers.h"
+#include "scenarios/file/parse.h"
+#include "ui/office/desk_parts.h"
+
+namespace cavum::office {
+namespace {
+
+using nlohmann::json;
+
+constexpr const char* k_state_names[] = {"none", "marking", "ready", "failed", "counted", "lost"};
+constexpr char k_note_format[] = "cavum regrade note 1";
+constexpr std::size_t k_largest_rubric = 200U << 10, k_id_bytes = 8;
+
+/// Requests go first.
+void work_behind_requests() noexcept { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 10); }
+
+json points_of(const json& result) { return member_of(member_of(result, "score"), "points"); }
+json max_of(const json& result) { return member_of(member_of(result, "score"), "max"); }
+
+}  // namespace
+
+Regrades::Regrades(Desk& desk, std::string ledger_folder, std::string note)
+    : desk_(desk), ledger_folder_(std::move(ledger_folder)), note_(std::move(note)) {
+  read_note();
+}
+
+Regrades::~Regrades() { end_marking(); }
+
+void Regrades::end_marking() {
+  {
+    const std::lock_guard guard(lock_);
+    stop_ = true;
+  }
+  if (worker_.joinable()) worker_.join();
+}
+
+void Regrades::change(State state, const std::string& problem) {
+  state_ = state;
+  problem_ = problem;
+  ++version_;
+  changed_.notify_all();
+}
+
+json Regrades::begin(const json& asked, const Account& by) {
+  const std::lock_guard one(one_at_a_time_);
+  {
+    const std::lock_guard guard(lock_);
+    if (state_ == State::marking || (state_ == State::ready && by_ != by.name))
+      throw Error("the new rubric", "is not begun: another one is on its way", "wait until that one counts or is dropped");
+  }
+  ledger::RegradeBasis basis;
+  basis.rubric_toml = text_in(asked, "rubric");
+  if (basis.rubric_toml.empty() || basis.rubric_toml.size() > k_largest_rubric)
+    throw Error("the rubric", "is empty, or larger than 200 kB", "choose a file of a rubric (TOML)");
+  static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "the rubric"));
+  std::uint64_t entries = 0;
+  ledger::ClassRegrade plan = desk_.plan_regrade(text_in(asked, "exam"), std::move(basis), entries);
+  end_marking();
+  const std::lock_guard guard(lock_);
+  plan_ = std::move(plan);
+  id_ = ledger::random_hex(k_id_bytes);
+  by_ = by.name;
+  begun_ = utc_text(read_clocks().utc_ns);
+  rubric_sha256_ = to_hex(sha256(plan_.basis.rubric_toml));
+  entries_ = entries;
+  done_ = first_entry_ = counted_ = 0;
+  of_ = plan_.sessions.size();
+  left_s_ = -1;
+  stop_ = false;
+  write_note();
+  change(State::marking);
+  worker_ = std::thread([this] { mark(); });
+  return {{"id", id_}};
+}
+
+void Regrades::mark() {
+  work_behind_requests();
+  ledger::ClassRegrade plan;
+  {
+    const std::lock_guard guard(lock_);
+    plan = plan_;
+  }
+  const auto begun = std::chrono::steady_clock::now();
+  std::string problem;
+  try {
+    pool::Run run;
+    run.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
+    run.stop = [this] {
+      const std::lock_guard guard(lock_);
+      return stop_;
+    };
+    run.told = [&](std::size_t done, std::size_t of) {
+      const double s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
+      const std::lock_guard guard(lock_);
+      done_ = done;
+      left_s_ = s / static_cast<double>(done) * static_cast<double>(of - done);
+      ++version_;
+      changed_.notify_all();
+    };
+    const pool::Made made = pool::by_threads(ledger::work_of(plan, ledger_folder_), run);
+    if (run.stop()) return;
+    ledger::take_lines(plan, made.lines, ledger_folder_);
+  } catch (const std::bad_alloc&) {
+    problem = "there is not enough memory";
+  } catch (const std::exception& wrong) {
+    problem = without_advice(wrong.what());
+  }
+  const std::lock_guard guard(lock_);
+  if (stop_) return;
+  plan_ = std::move(plan);
+  change(problem.empty() ? State::ready : State::failed, problem);
+}
+
+void Regrades::require_ready(const json& asked, const Account& by) const {
+  const std::lock_guard guard(lock_);
+  if (state_ != State::ready || text_in(asked, "id") != id_)
+    throw Error("the new rubric", "is not the one that waits: it counts already, was dropped, or another was begun", "look at it again");
+  if (by_ != by.name) throw Error("the new rubric", "was looked at by somebody else", "who looked at it lets it count; or begin anew");
+}
+
+json Regrades::count(const json& asked, const Account& by) {
+  const std::lock_guard one(one_at_a_time_);
+  require_ready(asked, by);
+  const std::string reason = reason_in(asked);
+  std::uint64_t first = 0;
+  const std::size_t counted = desk_.count_regrade(plan_, reason, by, first);  // plan_ is changed by begin() alone
+  const std::lock_guard guard(lock_);
+  first_entry_ = first;
+  counted_ = counted;
+  change(State::counted);
+  return {{"counted", counted}, {"first_entry", first}};
+}
+
+json Regrades::drop(const json& asked, const Account& by) {
+  const std::lock_guard one(one_at_a_time_);
+  {
+    const std::lock_guard guard(lock_);
+    if (state_ == State::none || text_in(asked, "id") != id_) throw Error("the new rubric", "is not the one that was begun", "look at it again");
+    if (by_ != by.name && (state_ == State::marking || state_ == State::ready))
+      throw Error("the new rubric", "was begun by somebody else", "who began it drops it");
+  }
+  end_marking();
+  const std::lock_guard guard(lock_);
+  std::filesystem::remove(note_);
+  plan_ = {};
+  id_.clear();
+  change(State::none);
+  return json::object();
+}
+
+json Regrades::state(bool rows) const {
+  const std::lock_guard guard(lock_);
+  json out = {{"state", k_state_names[static_cast<int>(state_)]},
+              {"id", id_},
+              {"exam", plan_.exam},
+              {"by", by_},
+              {"begun", begun_},
+              {"done", done_},
+              {"of", of_},
+              {"left_s", left_s_ < 0 ? json() : json(left_s_)},
+              {"problem", problem_},
+              {"counted", counted_},
+              {"first_entry", first_entry_},
+              {"left_out", plan_.left_out}};
+  if (!rows || state_ != State::ready) return out;
+  json list = json::array();
+  for (const auto& s : plan_.sessions)
+    list.push_back({{"session", s.session},
+                    {"candidate", s.candidate},
+                    {"points_before", points_of(s.before)},
+                    {"max_before", max_of(s.before)},
+                    {"verdict_before", text_in(s.before, "verdict")},
+                    {"points", points_of(s.after)},
+                    {"max", max_of(s.after)},
+                    {"verdict", text_in(s.after, "verdict")},
+                    {"other_verdict", s.other_verdict()},
+                    {"other_points", s.other_points()},
+                    {"decided", s.decided},
+                    {"shown", s.shown}});
+  out["sessions"] = std::move(list);
+  return out;
+}
+
+std::uint64_t Regrades::wait(std::uint64_t seen, int patience_ms) const {
+  std::unique_lock guard(lock_);
+  changed_.wait_for(guard, std::chrono::milliseconds(patience_ms), [&] { return version_ != seen; });
+  return version_;
+}
+
+void Regrades::write_note() const {
+  write_private_text_file(note_, json{{"format", k_note_format},
+                                      {"id", id_},
+                                      {"exam", plan_.exam},
+                                      {"by", by_},
+                                      {"begun", begun_},
+                                      {"sessions", of_},
+                                      {"entries", entries_},
+                                      {"rubric_sha256", rubric_sha256_}}
+                                         .dump(1) +
+                                     "\n");
+}
+
+void Regrades::read_note() {
+  if (!std::filesystem::exists(note_)) return;
+  const json note = parse_json_or_null(read_text_file(note_), k_json_part);
+  if (text_in(note, "format") != k_note_format) return;  // cut off as the server ended: nothing had begun
+  id_ = text_in(note, "id");
+  by_ = text_in(note, "by");
+  begun_ = text_in(note, "begun");
+  plan_.exam = text_in(note, "exam");
+  of_ = static_cast<std::size_t>(whole_in(note, "sessions"));
+  entries_ = static_cast<std::uint64_t>(whole_in(note, "entries"));
+  rubric_sha256_ = text_in(note, "rubric_sha256");
+  counted_ = desk_.counted_regrades(plan_.exam, rubric_sha256_, by_, entries_, first_entry_);
+  done_ = counted_ > 0 ? of_ : 0;
+  state_ = counted_ > 0 ? State::counted : State::lost;
+}
+
+}  // namespace cavum::office

@@ -1,0 +1,67 @@
+// A new rubric over all of an exam at the office: marked in the background, looked at, and then counted by who asked for it, or dropped. One at a
+// time. What is marked lives in memory; a note on disk lets the office say after a restart whether it counts: it does whole, or not at all.
+#pragma once
+
+#include <condition_variable>
+#include <cstdint>
+#include <mutex>
+#include <nlohmann/json.hpp>
+#include <string>
+#include <thread>
+
+#include "grading/ledger/class_regrade.h"
+#include "ui/office/desk.h"
+
+namespace cavum::office {
+
+class Regrades {
+ public:
+  /// `note`: path of the file that outlives the server. Throws Error when it cannot be read.
+  Regrades(Desk& desk, std::string ledger_folder, std::string note);
+  /// Ends the marking between two sessions.
+  ~Regrades();
+  Regrades(const Regrades&) = delete;
+  Regrades& operator=(const Regrades&) = delete;
+
+  // Each throws Error in the words of what is wrong.
+  /// {"exam","rubric"}: the rubric's text, TOML. Marks in the background from now on. Throws Error while another one is marked.
+  [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const Account& by);
+  /// {"id","reason"}: what was looked at counts from now on. Only for who began it. `counted` is how many were entered.
+  [[nodiscard]] nlohmann::json count(const nlohmann::json& asked, const Account& by);
+  /// {"id"}: nothing of it counts; marking that runs is ended.
+  [[nodiscard]] nlohmann::json drop(const nlohmann::json& asked, const Account& by);
+  /// Throws Error unless `id` is a new rubric that waits and that this person began.
+  void require_ready(const nlohmann::json& asked, const Account& by) const;
+
+  /// "state": none, marking, ready, failed, counted or lost (the server ended before it counted); who, how far, and an estimate of what is left (s,
+  /// or null). With `rows` each session with points and verdict before and after, by pseudonyms.
+  [[nodiscard]] nlohmann::json state(bool rows) const;
+  /// Waits until something is another than at `seen`, `patience_ms` at most; returns the new number.
+  [[nodiscard]] std::uint64_t wait(std::uint64_t seen, int patience_ms) const;
+
+ private:
+  enum class State { none, marking, ready, failed, counted, lost };
+  void mark();
+  void end_marking();
+  void change(State state, const std::string& problem = {});
+  void write_note() const;
+  void read_note();
+
+  Desk& desk_;
+  std::string ledger_folder_, note_;
+  std::mutex one_at_a_time_;  // of begin, count and drop
+  mutable std::mutex lock_;   // of what follows
+  mutable std::condition_variable changed_;
+  std::uint64_t version_ = 1;
+  State state_ = State::none;
+  std::string id_, by_, begun_, problem_, rubric_sha256_;
+  ledger::ClassRegrade plan_;
+  std::uint64_t entries_ = 0;  // of the ledger when it began
+  std::size_t done_ = 0, of_ = 0;
+  std::uint64_t first_entry_ = 0, counted_ = 0;
+  double left_s_ = -1;
+  bool stop_ = false;
+  std::thread worker_;
+};
+
+}  // namespace cavum::office
