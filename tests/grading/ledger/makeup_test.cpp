@@ -19,7 +19,7 @@ class MakeupSitting : public testing::Test {
   /// Entry of the ticket that was issued last.
   [[nodiscard]] std::uint64_t last_entry() const { return read_ledger(school_.places()).entries.size() - 1; }
   [[nodiscard]] Registry registry() const { return read_registry(read_ledger(school_.places())); }
-  [[nodiscard]] const IssuedTicket ticket_of(std::uint64_t entry) const {
+  [[nodiscard]] IssuedTicket ticket_of(std::uint64_t entry) const {
     for (const auto& t : registry().tickets)
       if (t.seq == entry) return t;
     return {};
