@@ -112,6 +112,12 @@ bool Pattern::match_from(std::size_t literal, std::string_view rest, std::vector
   return false;
 }
 
+bool Pattern::quoted(std::size_t argument) const {
+  for (std::size_t i = 0; i < arguments_.size(); ++i)
+    if (arguments_[i] == argument && literals_[i].ends_with('\'') && literals_[i + 1].starts_with('\'')) return true;
+  return false;
+}
+
 std::optional<std::vector<std::string>> Pattern::match(std::string_view sentence) const {
   if (gaps() == 0) return sentence == literals_.front() ? std::optional(std::vector<std::string>{}) : std::nullopt;
   if (!sentence.starts_with(literals_.front()) || sentence.find(literals_[longest_]) == std::string_view::npos) return std::nullopt;

@@ -18,6 +18,8 @@ class Pattern {
   /// Letters of all of them.
   [[nodiscard]] std::size_t all_letters() const noexcept { return all_letters_; }
   [[nodiscard]] std::size_t gaps() const noexcept { return arguments_.size(); }
+  /// Whether an argument stands between quotation marks: '{}'.
+  [[nodiscard]] bool quoted(std::size_t argument) const;
   /// What stands in the gaps, by argument; nothing where the sentence is not of this message.
   [[nodiscard]] std::optional<std::vector<std::string>> match(std::string_view sentence) const;
   /// The message, or a translation of it, with texts in its gaps, whatever those say of form ("{:.2f}").

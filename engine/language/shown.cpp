@@ -12,6 +12,7 @@
 #include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/language/catalogue.h"
+#include "engine/language/numbers.h"
 #include "engine/language/say.h"
 
 namespace cavum {
@@ -42,55 +43,27 @@ std::map<std::string, std::string>& of_files() {
   return texts;
 }
 
-bool is_digit(char c) { return c >= '0' && c <= '9'; }
-
-/// Numbers with their units and signs and nothing else: "0.30 ± 0.02 mm".
-bool is_number(std::string_view text) {
-  static const std::unordered_set<std::string_view> k_beside{"mm", "mm²", "mm³", "mm2", "mm3", "s",   "ms", "µs", "N",  "%",    "°",      "±",   "/",
-                                                             "–",  "-",   "rpm", "min", "Hz",  "kHz", "x",  "×",  "µm", "N/mm", "N·s/mm", "mm/s"};
-  bool any = false;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t end = std::min(text.find(' ', at), text.size());
-    std::string_view word = text.substr(at, end - at);
-    at = end + 1;
-    if (word.empty() || k_beside.contains(word)) continue;
-    if (word.front() == '(') word.remove_prefix(1);
-    if (word.starts_with("\u2212")) word.remove_prefix(3);
-    if (word.starts_with("±")) word.remove_prefix(2);
-    if (!word.empty() && (word.front() == '+' || word.front() == '-')) word.remove_prefix(1);
-    while (!word.empty() && (word.back() == ',' || word.back() == ';' || word.back() == '%' || word.back() == ')')) word.remove_suffix(1);
-    if (word.ends_with("°")) word.remove_suffix(2);
-    const std::size_t dot = word.find('.');
-    if (word.empty() || !is_digit(word.front()) || !is_digit(word.back())) return false;
-    if (!std::all_of(word.begin(), word.end(), [](char c) { return is_digit(c) || c == '.'; }) ||
-        (dot != word.npos && word.find('.', dot + 1) != word.npos))
-      return false;
-    any = true;
-  }
-  return any;
-}
-
-std::string with_decimal_sign(std::string_view text) {
-  std::string out(text);
-  for (std::size_t i = 1; i + 1 < out.size(); ++i)
-    if (out[i] == '.' && is_digit(out[i - 1]) && is_digit(out[i + 1])) out[i] = catalogue().decimal_sign();
-  // a list of numbers keeps its parts apart
-  if (catalogue().decimal_sign() == ',')
-    for (std::size_t i = 1; i + 1 < out.size(); ++i)
-      if (out[i] == ',' && out[i + 1] == ' ') out[i] = ';';
-  return out;
-}
-
 bool has_letters(std::string_view text) {
   return std::any_of(text.begin(), text.end(), [](unsigned char c) { return std::isalpha(c) != 0; });
 }
 
-/// One word that no dictionary need hold: a name, an identifier, a path, a number with its unit. Several: names of people, each with a capital.
+/// English words of which no name is made: where one is left, the sentence is not translated.
+bool is_small_word(std::string_view word) {
+  static const std::unordered_set<std::string_view> k_small{"a",  "an", "and",  "at",   "by",  "for", "from", "has", "in",
+                                                            "is", "it", "its",  "no",   "not", "of",  "on",   "one", "only",
+                                                            "or", "so", "than", "that", "the", "to",  "was",  "with"};
+  return k_small.contains(word);
+}
+
+/// One word that no dictionary need hold: a name, an identifier, a path, a number with its unit. Several: names of people, each with a capital, an
+/// option with its value, a path with spaces.
 bool may_stand_as_it_is(std::string_view text) {
+  if ((text.starts_with("--") || text.starts_with("/")) && text.find(": ") == text.npos && text.find("; ") == text.npos) return true;
   bool capitals = true, several = false;
   for (std::size_t at = 0; at < text.size();) {
     const std::size_t end = std::min(text.find(' ', at), text.size());
     const std::string_view word = text.substr(at, end - at);
+    if (is_small_word(word)) return false;
     several = several || at > 0;
     capitals = capitals && (word.empty() || !has_letters(word) || !(word.front() >= 'a' && word.front() <= 'z'));
     at = end + 1;
@@ -118,8 +91,11 @@ bool whole(std::string_view text, int depth, std::string& out, std::size_t least
     const auto t = c.find(s.message);
     if (!t) continue;
     bool all_known = true;
-    for (auto& g : *gaps) {
-      bool known = may_stand_as_it_is(g);
+    for (std::size_t i = 0; i < gaps->size(); ++i) {
+      std::string& g = (*gaps)[i];
+      const bool quoted = s.pattern.quoted(i);  // what somebody wrote; of several words it may be a scenario's text
+      if (quoted && g.find(' ') == std::string::npos) continue;
+      bool known = quoted || may_stand_as_it_is(g);
       g = sentence(g, depth + 1, known);
       all_known = all_known && known;
     }
@@ -163,6 +139,24 @@ bool in_columns(std::string_view text, int depth, std::string& out) {
   return any;
 }
 
+/// From `at` the message of most parts, two at least, which holds `between` itself: "plug one in; a USB pedal is seen within a second". `end` is then
+/// where it ends.
+bool whole_of_several(std::string_view text, std::size_t at, std::string_view between, int depth, std::size_t& end, std::string& out) {
+  constexpr std::size_t k_most_parts = 8;
+  if (end == text.npos || (between != "; " && between != ": ")) return false;
+  std::vector<std::size_t> ends;
+  for (std::size_t e = text.find(between, end + between.size()); ends.size() < k_most_parts; e = text.find(between, e + between.size())) {
+    ends.push_back(e);
+    if (e == text.npos) break;
+  }
+  for (auto e = ends.rbegin(); e != ends.rend(); ++e)
+    if (!(at == 0 && *e == text.npos) && whole(text.substr(at, *e == text.npos ? *e : *e - at), depth + 1, out, k_telling_letters)) {
+      end = *e;
+      return true;
+    }
+  return false;
+}
+
 /// The parts that a text was put together from: sentences and items of a list each by itself, parts of a sentence only when all of them are known.
 bool in_parts(std::string_view text, int depth, std::string& out, bool some_suffice) {
   if (some_suffice && in_columns(text, depth, out)) return true;
@@ -173,12 +167,13 @@ bool in_parts(std::string_view text, int depth, std::string& out, bool some_suff
     bool any = false, every = true;
     std::string all;
     for (std::size_t at = 0;;) {
-      const std::size_t end = text.find(between, at);
-      const std::string_view part = text.substr(at, end == std::string_view::npos ? end : end - at);
-      bool known = false;
+      std::size_t end = text.find(between, at);
       std::string own;
+      bool known = whole_of_several(text, at, between, depth, end, own);
+      const std::string_view part = text.substr(at, end == std::string_view::npos ? end : end - at);
       const std::string joined = std::string(between).append(part);
-      if (at > 0 && (catalogue().knows(joined) || between == ", ") && whole(joined, depth + 1, own, 0, between)) {  // ", of it {} mm3 beyond"
+      if (known) {
+      } else if (at > 0 && (catalogue().knows(joined) || between == ", ") && whole(joined, depth + 1, own, 0, between)) {  // ", of it {} mm3 beyond"
         known = true;
         all.erase(all.size() - between.size());
       } else {
@@ -199,15 +194,40 @@ bool in_parts(std::string_view text, int depth, std::string& out, bool some_suff
   return false;
 }
 
+/// Sentences one after another, each said by a message of its own.
+bool in_sentences(std::string_view text, int depth, std::string& out) {
+  std::string all;
+  bool several = false;
+  for (std::size_t at = 0;;) {
+    std::size_t end = text.find(". ", at);
+    while (end != text.npos && (end + 2 >= text.size() || std::isupper(static_cast<unsigned char>(text[end + 2])) == 0))
+      end = text.find(". ", end + 2);
+    if (end == text.npos && !several) return false;
+    std::string own;
+    if (!whole(text.substr(at, end == text.npos ? end : end + 1 - at), depth + 1, own, k_telling_letters)) return false;
+    all += own;
+    if (end == text.npos) break;
+    several = true;
+    all += ' ';
+    at = end + 2;
+  }
+  out = std::move(all);
+  return true;
+}
+
 std::string sentence(std::string_view text, int depth, bool& known) {
   if (depth > k_deepest || text.empty() || text.starts_with(k_open)) return std::string(text);
   if (text.front() == ' ' || text.back() == ' ') {
-    std::string part;  // ", at " and the like
-    if (has_letters(text) && whole(text, depth, part, 0, text.front() == ' ' ? " " : "")) {
+    std::string part;  // ", at " and the like; two spaces or more put a line in, and are no beginning of " of {}"
+    const std::string_view begin = text.starts_with("  ") ? "  " : text.front() == ' ' ? " " : "";
+    if (has_letters(text) && whole(text, depth, part, 0, begin)) {
       known = true;
       return part;
     }
-    if (text.front() == ' ') return " " + sentence(text.substr(1), depth, known);
+    if (text.front() == ' ') {
+      const std::size_t spaces = std::min(text.find_first_not_of(' '), text.size());
+      return std::string(spaces, ' ') + sentence(text.substr(spaces), depth, known);
+    }
     return sentence(text.substr(0, text.size() - 1), depth, known) + " ";
   }
   if (is_number(text)) {
@@ -218,7 +238,7 @@ std::string sentence(std::string_view text, int depth, bool& known) {
   if (const std::size_t blank = text.find(' '); blank != std::string_view::npos && is_number(text.substr(0, blank))) {  // "0.80 mm2 of its wall"
     bool rest_known = false;
     std::string all;
-    if (whole(text, depth, all)) {
+    if (in_sentences(text, depth, all) || whole(text, depth, all)) {
       known = true;
       return all;
     }
@@ -228,15 +248,19 @@ std::string sentence(std::string_view text, int depth, bool& known) {
       return with_decimal_sign(text.substr(0, blank)) + " " + rest;
     }
   }
-  for (const std::string_view begin : {"- ", "\u2022 ", "* ", ": ", "; ", ", "})  // of a list, or of what follows another part
+  for (const std::string_view begin : {"- ", "\u2022 ", "* ", ": ", "; ", ", ", "cavum: "})  // of a list, of what follows another part, of an error
     if (text.starts_with(begin) && text.size() > begin.size()) {
       bool rest_is_known = false;
+      if (std::string part; begin.front() != 'c' && whole(text, depth, part, 0, begin)) {  // ", deepest {}"
+        known = true;
+        return part;
+      }
       const std::string rest = sentence(text.substr(begin.size()), depth + 1, rest_is_known);
       if (!rest_is_known) break;
       known = true;
       return std::string(begin) + rest;
     }
-  if (!has_letters(text)) return std::string(text);
+  if (!has_letters(text)) return with_decimal_signs_in(text);
   if (const auto remembered = memory().find(std::string(text));
       remembered != memory().end() && (remembered->second.known || remembered->second.depth <= depth)) {
     known = known || remembered->second.known;
@@ -247,11 +271,12 @@ std::string sentence(std::string_view text, int depth, bool& known) {
     known = true;
     return own->second;
   }
-  bool found = whole(text, depth, out, k_telling_letters);
+  bool found = in_sentences(text, depth, out) || whole(text, depth, out, k_telling_letters);
   if (const char last = text.back(); !found && (last == '.' || last == ')' || last == ',' || last == ';' || last == ':') && text.size() > 1) {
     out = sentence(text.substr(0, text.size() - 1), depth + 1, found);
     out += last;
   }
+  if (const auto colon = text.find(": "); !found && colon != text.npos) found = whole(text, depth, out, 0, text.substr(0, colon + 2));  // "note: {}"
   if (!found) found = in_parts(text, depth, out, false);
   if (!found) found = whole(text, depth, out);  // "{} at the {}" fits much that is put together of parts
   if (!found) found = in_parts(text, depth, out, true);
@@ -356,56 +381,4 @@ std::string shown_svg(std::string_view svg) {
   return out;
 }
 
-AsIs as_is(std::string_view text) {
-  std::string line = one_line(text);
-  // Hebrew, Arabic and their neighbours (U+0590 to U+08FF, presentation forms)
-  const auto turns = [&line] {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const auto a = static_cast<unsigned char>(line[i]), b = static_cast<unsigned char>(line[i + 1]);
-      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) || (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac)) return true;
-    }
-    return false;
-  };
-  if (turns()) line = k_isolate + line + k_isolate_end;
-  if (catalogue().kind() == Catalogue::Kind::pseudo) line = "\u27e8" + line + "\u27e9";
-  return {std::move(line)};
-}
-
-std::string with_isolates(std::string_view text, std::string (*safe)(std::string_view), std::string_view open, std::string_view close) {
-  constexpr std::size_t k_sign = std::char_traits<char>::length(k_isolate);
-  std::string out;
-  for (std::size_t at = 0; at < text.size();) {
-    const std::size_t from = text.find(k_isolate, at), to = from == text.npos ? from : text.find(k_isolate_end, from);
-    if (to == text.npos) return out + safe(text.substr(at));
-    out += safe(text.substr(at, from - at));
-    out.append(open).append(safe(text.substr(from + k_sign, to - from - k_sign))).append(close);
-    at = to + k_sign;
-  }
-  return out;
-}
-
-namespace language_detail {
-
-std::string translated(std::string_view english) {
-  std::string text(english);
-  if (catalogue().kind() == Catalogue::Kind::english) return text;
-  return catalogue().find(text).value_or(text);
-}
-
-std::string translated(std::string_view one, std::string_view many, long long count) {
-  const std::string a(one), b(many);
-  std::string text = count == 1 ? a : b;
-  if (catalogue().kind() == Catalogue::Kind::english) return text;
-  return catalogue().find(a, b, count).value_or(text);
-}
-
-std::string filled(const std::string& translation, std::string_view english, fmt::format_args arguments) {
-  try {
-    return fmt::vformat(translation, arguments);
-  } catch (const fmt::format_error&) {
-    return fmt::vformat(fmt::string_view(english.data(), english.size()), arguments);
-  }
-}
-
-}  // namespace language_detail
 }  // namespace cavum

@@ -72,21 +72,24 @@ class Sitting {
     return state_->finish != scenarios::Finish::running || static_cast<std::size_t>(state_->step) >= task_.scenario.steps.size();
   }
 
-  [[nodiscard]] Result hand_in(const Octree& after) {
+  [[nodiscard]] Result hand_in(const Octree& after, const std::function<void(const GradeInput&, const Result&)>& look) {
     runner_.end(*state_);
     std::vector<SessionEvent> events;
     for (std::uint32_t i = 0; i < state_->event_count; ++i) {
       const scenarios::ExamEvent& e = state_->events[i];
       events.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, task_.scenario, task_.tooth)});
     }
+    const auto marked = [&](const GradeInput& in) {
+      Result r = grade(in, task_.scenario.rubric);
+      if (look) look(in, r);
+      return r;
+    };
     if (!task_.apart)
-      return grade({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_, events, -1, nullptr, &task_.around},
-                   task_.scenario.rubric);
+      return marked({task_.scenario, task_.tooth, task_.zones, after, inputs_, records_, removed_, events, -1, nullptr, &task_.around});
     const WorkApart own = take_apart(*task_.apart, after, removed_);
     const GradeBeside beside{*task_.apart, task_.tooth, after, removed_};
-    return grade(
-        {task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_, own.removed, events, -1, nullptr, &task_.around, &beside},
-        task_.scenario.rubric);
+    return marked(
+        {task_.scenario, task_.apart->own, task_.zones, own.after, inputs_, records_, own.removed, events, -1, nullptr, &task_.around, &beside});
   }
 
  private:
@@ -124,7 +127,8 @@ Task make_task(const scenarios::Scenario& scenario, const Tooth& tooth, const sc
   return {scenario, tooth, zones, around, std::move(apart)};
 }
 
-Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wait_ticks) {
+Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wait_ticks,
+           const std::function<void(const GradeInput&, const Result&)>& look) {
   const Carved carved = cut ? carve(task.tooth, cut, box) : Carved{task.tooth.octree, {}};
   const Vec3 out = task.zones.approach();
   const Vec3 above = task.zones.target_high_mm() + out * 5.0;
@@ -137,7 +141,7 @@ Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wai
   }
   for (std::int64_t i = 0; i < k_lead_ticks; ++i) sitting.tick({above, false}, {});
   for (std::int64_t i = 0; i < wait_ticks && !sitting.done(); ++i) sitting.tick({above, false}, {});
-  return sitting.hand_in(carved.after);
+  return sitting.hand_in(carved.after, look);
 }
 
 }  // namespace cavum::grading

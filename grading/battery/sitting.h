@@ -33,6 +33,8 @@ inline constexpr double k_sitting_force_n = 0.5;
 
 /// Marks a piece of work by the scenario's own rubric. `wait_ticks`: before handing in, waits with the pedal off until all steps are done, at most
 /// for so long; the time limit ends the exam all the same. An empty `cut` removes nothing. Throws Error when a condition cannot be compiled.
-[[nodiscard]] Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wait_ticks);
+/// `look`, where it is given, sees what was marked, and its result, before that goes away.
+[[nodiscard]] Result sit(const Task& task, const Cut& cut, const CutBox& box, std::int64_t wait_ticks,
+                         const std::function<void(const GradeInput&, const Result&)>& look = {});
 
 }  // namespace cavum::grading

@@ -241,9 +241,9 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   }
   if (plan.last_seen) {
     const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
-    plan.lost_entries.insert(plan.lost_entries.begin(),
-                             fmt::format("entr{}: seen by {}", first == last ? fmt::format("y {}", first) : fmt::format("ies {} to {}", first, last),
-                                         plan.last_seen->what));
+    plan.lost_entries.insert(plan.lost_entries.begin(), first == last
+                                                            ? fmt::format("entry {}: seen by {}", first, plan.last_seen->what)
+                                                            : fmt::format("entries {} to {}: seen by {}", first, last, plan.last_seen->what));
   }
   return plan;
 }

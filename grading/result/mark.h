@@ -23,6 +23,8 @@ inline constexpr double k_care_counts_percent = 50.0;
 
 /// How a reason of the verdict begins that names a criterion beyond its critical limit.
 inline constexpr char k_critical_reason[] = "critical criterion ";
+/// How a reason ends that says which of two detectors counts: of use to examiners.
+inline constexpr char k_detectors_differ[] = ": the tissue decides";
 
 /// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
 void mark(Result& result, const scenarios::RubricSpec& rubric);

@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/figures.h"
 #include "engine/base/pose.h"
 #include "engine/base/text.h"
 #include "grading/result/loss.h"
@@ -22,10 +23,6 @@ constexpr double k_shown_points = 0.005, k_least_lean_deg = 6.0, k_degrees_of = 
 std::string mm(double v) { return fixed(v, 2) + " mm"; }
 std::string mm3(double v) { return fixed(v, 2) + " mm³"; }
 std::string percent_of(double part, double all) { return fixed(all > 0 ? 100 * part / all : 0, 0); }
-std::string clock_text(double s) {
-  const auto whole = static_cast<std::int64_t>(s);
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
 
 template <class Row>
 std::size_t largest(const Row& row, std::size_t count) {
@@ -137,8 +134,8 @@ class Teller {
                                                            percent_of(piece.part, all), there(p))
                                              : fmt::format("{} of roof was left over the pulp chamber, {}.", mm3(all), there(p));
     if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_least_covered_percent)
-      l.what += one_canal() ? fmt::format(" Hard tissue stands over {} % of the canal's mouth.", fixed(covered, 0))
-                            : fmt::format(" Hard tissue stands over {} % of the canals' mouths.", fixed(covered, 0));
+      l.what += " " + (one_canal() ? fmt::format("Hard tissue stands over {} % of the canal's mouth.", fixed(covered, 0))
+                                   : fmt::format("Hard tissue stands over {} % of the canals' mouths.", fixed(covered, 0)));
     l.instead = fmt::format("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
   }
   void canals(Lesson& l) const {
@@ -179,7 +176,7 @@ class Teller {
     l.where = m.worst_over;
     if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     l.what = fmt::format("The floor is up to {} too deep{}{}.", mm(std::max(0.0, m.max_over_mm)),
-                         m.worst_over.tick >= 0 ? ", deepest " + there(m.worst_over.site_mm) : "", when_at(m.worst_over));
+                         m.worst_over.tick >= 0 ? fmt::format(", deepest {}", there(m.worst_over.site_mm)) : "", when_at(m.worst_over));
     l.instead = "Slow down for the last half millimetre, press lightly, and measure the depth before each further layer.";
   }
   void elsewhere(Lesson& l) const {

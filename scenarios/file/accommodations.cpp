@@ -40,7 +40,7 @@ bool truth_in(const std::string& text, const std::string& where) {
 
 void require_sound(const Grant& g, const std::string& where) {
   const auto within = [&](const std::optional<double>& v, double most, const char* name) {
-    if (v && !(*v >= 0 && *v <= most)) throw Error(where, fmt::format("{} is {}", name, plain_number(*v)), "use 0 to " + plain_number(most));
+    if (v && !(*v >= 0 && *v <= most)) throw Error(where, fmt::format("{} cannot be {}", name, plain_number(*v)), "use 0 to " + plain_number(most));
   };
   within(g.extra_time_percent, k_most_percent, "extra time in percent");
   within(g.extra_time_s, k_most_s, "extra time in seconds");

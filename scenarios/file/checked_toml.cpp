@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numeric>
 
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 
 namespace cavum::scenarios {
@@ -48,9 +49,9 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
     }
   }
   if (closest != nullptr) return fmt::format("did you mean '{}'?", *closest);
-  std::string all = "use one of";
-  for (std::size_t i = 0; i < words.size(); ++i) all += (i == 0 ? " " : ", ") + words[i];
-  return all;
+  std::string all;
+  for (const auto& w : words) all += (all.empty() ? "" : ", ") + w;
+  return fmt::format("use one of {}", kept(all));
 }
 
 void ProblemList::add(const toml::source_region& at, const std::string& what, const std::string& what_to_do) {

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/base/error.h"
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
 #include "engine/tooth/tooth_notes.h"
@@ -331,7 +332,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     else
       words += (words.empty() ? "" : ", ") + std::string(t.word);
   }
-  if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + words);
+  if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + kept(words));
   if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())
     throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why),
                 "see `cavum tooth landmarks`, or choose another of " + words);

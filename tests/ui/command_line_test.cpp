@@ -259,7 +259,7 @@ TEST_F(CommandLine, LimitPauseAndExtraTimeAreExactToTheTickAndRecorded) {
   EXPECT_EQ(stored["score"], with["score"]);
   expect_refused(
       "exam " + path("pause.toml") + " --candidate A --motion " + path("break.csv") + " --extra-time-percent 900 --out " + path("no.cavum"),
-      {"extra time in percent is 900"});
+      {"extra time in percent cannot be 900"});
 }
 
 TEST_F(CommandLine, NoviceLosesPointsWithTheWallNamed) {

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/figures.h"
 #include "engine/instrument/diamond_point.h"
 #include "engine/language/language.h"
 #include "engine/language/shown.h"
@@ -13,6 +14,7 @@
 #include "ui/report/figures/motion_track.h"
 #include "ui/report/figures/packed_array.h"
 #include "ui/report/figures/tooth_grid.h"
+#include "ui/report/report_document.h"
 
 namespace cavum::report {
 namespace {
@@ -155,7 +157,7 @@ json report_data(const ReportSource& s) {
                          {"t_s", static_cast<double>(m.tick) * k_tick_s},
                          {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
                          {"site_mm", site(m.site_mm)},
-                         {"what", shown(m.what)},
+                         {"what", with_unit_signs(shown(for_reader(m.what, s)))},
                          {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
   data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;

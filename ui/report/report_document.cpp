@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/figures.h"
 #include "engine/base/text.h"
 #include "engine/language/language.h"
 #include "engine/language/say.h"
@@ -23,9 +24,7 @@ namespace {
 const std::string k_dash = "–";
 constexpr double k_no_points = 0.005;  // reads 0.00
 
-std::string with_unit(const std::string& number, const std::string& unit) {
-  return unit.empty() ? number : fmt::format("{} {}", number, unit_text(unit));
-}
+std::string with_unit(const std::string& number, const std::string& unit) { return unit.empty() ? number : fmt::format("{} {}", number, unit); }
 
 std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
   return points ? fmt::format("{} / {}", fixed(*points, 1), fixed(max.value_or(0), 1)) : k_dash;
@@ -102,7 +101,7 @@ void add_criteria(Document& d, const ReportSource& s) {
         !c.judged ? tr("not judged")
                   : fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
     const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
-    t.rows.push_back({{{c.title}, {shown_value(c)}, {limits}, {points}, {c.reason}}, c.judged && c.max - c.points > 1e-9});
+    t.rows.push_back({{{c.title}, {shown_value(c)}, {limits}, {points}, {for_reader(c.reason, s)}}, c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
@@ -157,24 +156,41 @@ void add_lessons(Document& d, const ReportSource& s) {
   if (drawn) d.blocks.push_back(key_to_sections(s));
 }
 
+std::string without_ticks(std::string text) {
+  for (std::size_t at = text.find(" (tick "); at != std::string::npos; at = text.find(" (tick ", at))
+    text.erase(at, std::min(text.find(')', at), text.size() - 1) + 1 - at);
+  return text;
+}
+
+/// A failed limit by its criterion's title: "critical criterion ID: ..." is what the file says.
+std::string with_title(const std::string& reason, const grading::Result& r) {
+  for (const auto& c : r.criteria)
+    if (const std::string begin = grading::k_critical_reason + c.id + ":"; reason.starts_with(begin))
+      return fmt::format("{}{}:{}", grading::k_critical_reason, c.title, reason.substr(begin.size()));
+  return reason;
+}
+
 /// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.
 std::vector<std::string> reasons_for(const ReportSource& s) {
-  if (s.reader == ReportReader::instructor) return s.result.verdict_reasons;
   std::vector<std::string> out;
+  if (s.reader == ReportReader::instructor) {
+    for (const auto& reason : s.result.verdict_reasons) out.push_back(with_title(without_ticks(for_reader(reason, s)), s.result));
+    return out;
+  }
   for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     if (!c.critical_failed) continue;
     out.push_back(tr("{}: {} ({}); this alone fails the exam", c.title, shown_value(c, false), limits_text(s.rubric.criteria[i], c.unit)));
   }
   for (const auto& reason : s.result.verdict_reasons)
-    if (!reason.starts_with(grading::k_critical_reason)) out.push_back(reason);
+    if (!reason.starts_with(grading::k_critical_reason) && !reason.ends_with(grading::k_detectors_differ)) out.push_back(for_reader(reason, s));
   return out;
 }
 
 /// A row of a moment: time, place, what, how much, points.
-TableRow moment_row(const grading::WhyItem& m) {
+TableRow moment_row(const grading::WhyItem& m, const ReportSource& s) {
   const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
-  std::string what = shown(m.what);
+  std::string what = shown(for_reader(m.what, s));
   if (m.end_tick > m.tick && m.tick >= 0) what += tr(" (until {} s)", fixed(static_cast<double>(m.end_tick) * k_tick_s, 2));
   return {{time_cell(m.tick, m.site_mm), {place_text(m.site_mm)}, {what}, {amount}, {m.points_lost ? fixed(*m.points_lost, 2) : ""}},
           m.points_lost && *m.points_lost > 0};
@@ -200,12 +216,12 @@ void add_moments(Document& d, const ReportSource& s) {
                   tr("Moments behind {}", c.title)};
     for (const auto& m : w.items) {
       const bool cost_nothing = m.points_lost && *m.points_lost < k_no_points;
-      if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m));
+      if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m, s));
     }
     if (w.left_out > 0)
       t.rows.push_back({{{k_dash},
                          {""},
-                         {tr("{} smaller moments together", w.left_out)},
+                         {trn("{} smaller moment", "{} smaller moments together", static_cast<long long>(w.left_out), w.left_out)},
                          {fixed(w.left_out_amount, 3)},
                          {w.left_out_points > 0 ? fixed(w.left_out_points, 2) : ""}},
                         w.left_out_points > 0});
@@ -366,17 +382,26 @@ std::string finish_words(const std::string& finish) {
   return tr("it was not finished");
 }
 
-std::string unit_text(const std::string& unit) {
-  if (unit == "mm3") return "mm³";
-  if (unit.starts_with("mm3 ")) return "mm³" + unit.substr(3);
-  return unit;
+std::string for_reader(std::string text, const ReportSource& s) {
+  if (s.reader == ReportReader::student) text = without_ticks(std::move(text));
+  const auto put = [&text](const std::string& said, const std::string& shown_as) {
+    if (const auto at = text.find(said); at != std::string::npos) text.replace(at, said.size(), shown_as);
+  };
+  const auto& steps = s.input.scenario.steps;
+  for (std::size_t i = 0; i < steps.size(); ++i) {
+    for (const char* what : {"step", "step,"})
+      if (!steps[i].instruction.empty()) put(fmt::format("{} '{}'", what, steps[i].id), fmt::format("{} '{}'", what, steps[i].instruction));
+    for (const char* what : {"started", "completed", "failed", "time limit"})
+      put(fmt::format("step {} ({})", what, steps[i].id), fmt::format("step {} ({})", what, i + 1));
+  }
+  return text;
 }
 
 namespace {
 
 /// Texts of the rooms below, numbers and units, which are still English: what is said here already stays as it is.
 void show_words(Document& d) {
-  const auto show = [](std::string& text) { text = shown(text); };
+  const auto show = [](std::string& text) { text = with_unit_signs(shown(text)); };
   struct Visit {
     decltype(show)& show_it;
     void operator()(Heading& b) const { show_it(b.text); }
@@ -445,7 +470,7 @@ Document report_document(const ReportSource& s) {
                                     p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
                                  tr("Perforation"), Paragraph::Kind::note});
   add_lessons(d, s);
-  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{note, tr("Note")});
+  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{for_reader(note, s), tr("Note")});
   const bool student = s.reader == ReportReader::student;
   if (student)
     add_marks(d, s);

@@ -10,6 +10,7 @@
 #include "engine/instrument/diamond_point.h"
 #include "engine/language/say.h"
 #include "scenarios/exam/runner.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {
@@ -33,16 +34,28 @@ std::string spaced(std::string kind) {
   return kind;
 }
 
+/// A step as its candidate knows it: by its number and its instruction. One that the scenario does not have keeps its identifier.
+struct Step {
+  AsIs name;
+  std::string text;  ///< English, of the scenario
+};
+Step step_of(const std::string& id, const scenarios::Scenario& scenario) {
+  for (std::size_t i = 0; i < scenario.steps.size(); ++i)
+    if (scenario.steps[i].id == id) return {as_is(std::to_string(i + 1)), scenario.steps[i].instruction};
+  return {as_is(id), ""};
+}
+
 ReportEvent event_of(const SessionEvent& e, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
   const json detail = parse_json_or_null(e.detail_json);
-  const std::string step = text_of(detail, "step");
+  const Step step = step_of(text_of(detail, "step"), input.scenario);
   const auto is = [&](scenarios::ExamEventKind kind) { return e.kind == scenarios::event_name(kind); };
   ReportEvent r{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, said("device"), shown(spaced(e.kind)), site_of(detail)};
   const auto say = [&](const char* kind, const std::string& text) { r.kind = kind, r.text = text; };
-  if (is(scenarios::ExamEventKind::step_started)) say(said("step"), tr("step \"{}\" begins", as_is(step)));
-  if (is(scenarios::ExamEventKind::step_completed)) say(said("step"), tr("step \"{}\" completed", as_is(step)));
-  if (is(scenarios::ExamEventKind::step_failed)) say(said("step"), tr("step \"{}\" failed", as_is(step)));
-  if (is(scenarios::ExamEventKind::step_time_limit)) say(said("limit"), tr("time limit of step \"{}\"", as_is(step)));
+  if (is(scenarios::ExamEventKind::step_started))
+    say(said("step"), step.text.empty() ? tr("step {} begins", step.name) : tr("step {} begins: {}", step.name, step.text));
+  if (is(scenarios::ExamEventKind::step_completed)) say(said("step"), tr("step {} completed", step.name));
+  if (is(scenarios::ExamEventKind::step_failed)) say(said("step"), tr("step {} failed", step.name));
+  if (is(scenarios::ExamEventKind::step_time_limit)) say(said("limit"), tr("time limit of step {}", step.name));
   if (is(scenarios::ExamEventKind::time_limit)) say(said("limit"), tr("time limit of the exam"));
   if (is(scenarios::ExamEventKind::over_speed)) say(said("violation"), tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm)));
   if (is(scenarios::ExamEventKind::point_not_allowed)) {
@@ -82,6 +95,7 @@ std::vector<ReportEvent> report_events(const grading::Result& result, const grad
 
 ReportSource report_source(const grading::Result& result, const grading::GradeInput& input, const grading::ReportFacts& facts,
                            const scenarios::RubricSpec& rubric) {
+  ui::show_texts_of(input.scenario);  // of which the events speak
   ReportSource s{.result = result, .input = input, .facts = facts, .rubric = rubric};
   constexpr double k_nothing = 1e-9;
   for (const auto& c : result.criteria)

@@ -1,6 +1,7 @@
 #include <fmt/core.h>
 #include <imgui.h>
 
+#include "engine/base/figures.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 

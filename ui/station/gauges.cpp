@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/figures.h"
 #include "engine/language/shown.h"
 #include "ui/station/window.h"
 
@@ -97,7 +98,7 @@ void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) 
   const double shown_s = limit_s > 0 ? limit_s - passed_s : passed_s;
   constexpr double k_soon_s = 60.0;
   const bool soon = limit_s > 0 && shown_s < k_soon_s;
-  const std::string text = clock_text(shown_s);
+  const std::string text = clock_text(limit_s > 0 ? std::ceil(shown_s) : shown_s);  // 0:00 means that time is up
   std::string label = shown(limit_s > 0 ? "time left" : "time");
   if (soon) label = shown("LAST MINUTE");
   if (standing) label = shown("CLOCK STANDS");

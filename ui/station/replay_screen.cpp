@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/figures.h"
 #include "engine/language/shown.h"
 #include "ui/station/gauges.h"
 #include "ui/station/screens.h"

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "engine/base/figures.h"
 #include "engine/language/say.h"
 #include "engine/language/shown.h"
 #include "grading/result/mark.h"

@@ -38,7 +38,7 @@ DoorAddress door_address() {
 
 int door_socket() { return ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
-Error door_is_shut() { return {"cavum station", "a locked exam runs at this station", "wait until it is over, or let the supervisor end it there"}; }
+Error door_is_shut() { return {"station", "a locked exam runs at this station", "wait until it is over, or let the supervisor end it there"}; }
 
 }  // namespace
 

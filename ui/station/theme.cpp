@@ -261,11 +261,6 @@ bool key_pressed(int key) {
 }
 bool key_held(int key) { return !is_covered() && ImGui::IsKeyDown(key); }
 
-std::string clock_text(double seconds) {
-  const auto whole = static_cast<long>(std::ceil(std::fmax(0.0, seconds)));
-  return fmt::format("{}:{:02}", whole / 60, whole % 60);
-}
-
 std::string number_text(const char* format, double value) {
   std::array<char, 120> text{};
   std::snprintf(text.data(), text.size(), format, value);

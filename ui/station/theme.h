@@ -50,8 +50,6 @@ bool side_button(const Theme& theme, const char* label, float width = 0.0F);
 /// Pressed in this frame, with nothing held beside it; a key of GLFW. Not for what lies under a question: its keys answer it alone.
 [[nodiscard]] bool key_pressed(int key);
 [[nodiscard]] bool key_held(int key);
-/// Minutes and seconds, "12:05".
-[[nodiscard]] std::string clock_text(double seconds);
 /// printf for one number, in the reader's language.
 [[nodiscard]] std::string number_text(const char* format, double value);
 

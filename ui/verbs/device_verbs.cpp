@@ -42,9 +42,9 @@ HidPedalInfo chosen(const std::vector<HidPedalInfo>& pedals, const std::string& 
     if (p.id() == id) return p;
     names += (names.empty() ? "" : ", ") + p.id();
   }
-  if (pedals.empty()) throw Error("cavum devices", "no foot pedal is plugged in", "plug one in; a USB pedal is seen within a second");
+  if (pedals.empty()) throw Error("devices", "no foot pedal is plugged in", "plug one in; a USB pedal is seen within a second");
   if (!id.empty()) throw Error("--pedal " + id, "is not plugged in", "name one of " + names);
-  if (pedals.size() > 1) throw Error("cavum devices", "there are several pedals", "choose with --pedal one of " + names);
+  if (pedals.size() > 1) throw Error("devices", "there are several pedals", "choose with --pedal one of " + names);
   return pedals[0];
 }
 

@@ -250,7 +250,7 @@ int run_new(const ExamArguments& o) {
   if (o.end) throw Error("--end", "closes an exam that was cut off", "say --resume, too");
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
-    throw Error("cavum exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
+    throw Error("exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
   require_places(o);
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
@@ -306,7 +306,7 @@ void require_same(const ExamArguments& o, const SessionSetup& held) {
 /// Takes up a killed exam with new motion, or closes it as it stands.
 int run_resumed(const ExamArguments& o) {
   if (o.motion.empty() && o.operator_name.empty() && o.device.empty() && !o.end)
-    throw Error("cavum exam --resume", "nothing to go on with",
+    throw Error("exam --resume", "nothing to go on with",
                 "give --motion, --operator or --device to continue, or --end to close the exam as it stands");
   require_places(o);
   const SessionReader reader(o.out);
@@ -389,12 +389,12 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
       exit_code = run_new(demonstration(*o));
       return;
     }
-    if (o->out.empty()) throw Error("cavum exam", "no session file to write is named", "add --out with a name such as exam.cavum");
+    if (o->out.empty()) throw Error("exam", "no session file to write is named", "add --out with a name such as exam.cavum");
     if (o->resume) {
       exit_code = run_resumed(*o);
     } else {
-      if (o->scenario.empty()) throw Error("cavum exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
-      if (o->candidate.empty() && o->ticket.empty()) throw Error("cavum exam", "no candidate given", "add --candidate with a pseudonym, or --ticket");
+      if (o->scenario.empty()) throw Error("exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+      if (o->candidate.empty() && o->ticket.empty()) throw Error("exam", "no candidate given", "add --candidate with a pseudonym, or --ticket");
       exit_code = run_new(*o);
     }
   });

@@ -1,4 +1,6 @@
 // `cavum ledger backup | restore`: a copy while the ledger is in use, and going on from one.
+#include <fmt/core.h>
+
 #include <iostream>
 
 #include "engine/base/text.h"
@@ -47,7 +49,9 @@ int ledger_restore(const LedgerOptions& o) {
                     {"compared", plan.compared}});
     return refused ? 1 : 0;
   }
-  std::cout << o.folder << ": a backup of " << plan.content.entries.size() << " entries\n";
+  std::cout << o.folder
+            << (plan.content.entries.size() == 1 ? ": a backup of one entry\n"
+                                                 : fmt::format(": a backup of {} entries\n", plan.content.entries.size()));
   for (const auto& f : plan.findings) std::cout << "  - " << one_line(f) << "\n";
   for (const auto& l : plan.lost_entries) std::cout << "  - lost: " << one_line(l) << "\n";
   for (const auto& m : plan.missing_sessions) std::cout << "  - session " << m << ": its file is not in the backup, or was changed\n";

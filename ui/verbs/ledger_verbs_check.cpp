@@ -50,8 +50,8 @@ int ledger_verify(const LedgerOptions& o) {
                     {"not_checked", check.not_checked},
                     {"remarks", check.remarks}});
   } else {
-    std::cout << one_line(o.folder) << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size() << " entries"
-              << (content.school.empty() ? "" : " of " + one_line(content.school))
+    std::cout << one_line(o.folder) << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size()
+              << (content.entries.size() == 1 ? " entry" : " entries") << (content.school.empty() ? "" : " of " + one_line(content.school))
               << (content.public_key.empty() ? ", whose they are could not be read" : ", key " + one_line(content.public_key)) << "\n";
     for (const auto& f : check.findings) std::cout << "  - " << one_line(f) << "\n";
     for (const auto& n : check.not_checked) std::cout << "  not checked: " << one_line(n) << "\n";

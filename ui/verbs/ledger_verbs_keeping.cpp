@@ -59,7 +59,7 @@ void ledger_erase(const LedgerOptions& o) {
   const bool names_some = !o.chosen_sessions.empty() || !o.before.empty();
   if (!names_some) {
     if (o.erase_motion || o.erase_results)
-      throw Error("cavum ledger erase", "needs to know of which sessions", "give --session for each, or --before");
+      throw Error("ledger erase", "needs to know of which sessions", "give --session for each, or --before");
     ledger.wipe();
     const auto removed = ledger::remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
@@ -70,7 +70,7 @@ void ledger_erase(const LedgerOptions& o) {
     }
     return;
   }
-  if (!o.erase_motion && !o.erase_results) throw Error("cavum ledger erase", "needs to know what", "give --motion, --results or both");
+  if (!o.erase_motion && !o.erase_results) throw Error("ledger erase", "needs to know what", "give --motion, --results or both");
   ledger::ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
   if (!o.before.empty()) wish.received_before = ledger::parse_utc(o.before, "--before");
   const json erased = ledger::erase(ledger, wish, o.reason);

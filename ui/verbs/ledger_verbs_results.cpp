@@ -28,7 +28,7 @@ using nlohmann::json;
 
 void ledger_release(const LedgerOptions& o) {
   if (!o.all && o.chosen.empty() && o.chosen_sessions.empty())
-    throw Error("cavum ledger release", "needs to know whose results", "give --all, --candidate for each, or --session for each");
+    throw Error("ledger release", "needs to know whose results", "give --all, --candidate for each, or --session for each");
   if (o.all && !(o.chosen.empty() && o.chosen_sessions.empty()))
     throw Error("--all", "is given with names", "give either --all, or --candidate and --session");
   ledger::Ledger ledger(o.folder, key_of(o));
@@ -128,9 +128,9 @@ int regrade_exam(const LedgerOptions& o) {
 
 int ledger_regrade(const LedgerOptions& o) {
   if (o.rubric.empty() && o.scenario.empty())
-    throw Error("cavum ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
+    throw Error("ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
   if (o.exam.empty() == (o.session_seq < 0))
-    throw Error("cavum ledger regrade", "needs to know what", "give --session, or --exam for all of an exam");
+    throw Error("ledger regrade", "needs to know what", "give --session, or --exam for all of an exam");
   if (o.reason.empty() && !o.preview) throw Error("--reason", "is no line of text", "say in one line of UTF-8 why the result changes");
   if (!o.exam.empty()) return regrade_exam(o);
   if (o.preview) throw Error("--preview", "is of a whole exam", "give it with --exam");
@@ -166,7 +166,7 @@ void ledger_decide(const LedgerOptions& o) {
     return;
   }
   if (o.verdict.empty() || o.person.empty() || o.reason.empty())
-    throw Error("cavum ledger decide --session", "needs verdict, person and reason", "give --verdict pass or fail, --person and --reason");
+    throw Error("ledger decide --session", "needs verdict, person and reason", "give --verdict pass or fail, --person and --reason");
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto& entry = ledger::enter_decision(ledger, static_cast<std::uint64_t>(o.session_seq), {o.verdict, o.person, o.reason});
   if (o.as_json)
@@ -218,7 +218,7 @@ void print_appeals(const LedgerOptions& o) {
 
 void ledger_appeal(const LedgerOptions& o) {
   if (o.session_seq < 0) return print_appeals(o);
-  if (o.reason.empty()) throw Error("cavum ledger appeal --session", "needs a reason", "give --reason");
+  if (o.reason.empty()) throw Error("ledger appeal --session", "needs a reason", "give --reason");
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto session = static_cast<std::uint64_t>(o.session_seq);
   const auto& entry =

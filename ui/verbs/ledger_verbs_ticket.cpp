@@ -24,7 +24,7 @@ using nlohmann::json;
 
 int ledger_ticket(const LedgerOptions& o) {
   if (o.candidate.empty() == o.candidates.empty())
-    throw Error("cavum ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
+    throw Error("ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
   ledger::require_candidate_id("--candidate", o.candidate);
   ledger::require_candidate_id("--name", o.name);
   const std::vector<ledger::Person> people = o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}}

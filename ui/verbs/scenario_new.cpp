@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/kept.h"
 #include "engine/base/scratch_folder.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/landmarks.h"
@@ -33,10 +34,10 @@ struct NewArguments {
   [[nodiscard]] bool on_the_block() const { return tooth == "block"; }
 };
 
-std::string tooth_words() {
-  std::string words;
-  for (const auto& t : scenarios::shipped_teeth()) words += std::string(t.word) + ", ";
-  return words + "block, or a tooth file (.cvt)";
+std::string tooth_names() {
+  std::string names;
+  for (const auto& t : scenarios::shipped_teeth()) names += std::string(t.word) + ", ";
+  return names + "block";
 }
 
 /// The file of the tooth that `--tooth` names.
@@ -44,7 +45,8 @@ std::string tooth_file(const NewArguments& o) {
   if (o.tooth.ends_with(".cvt")) return o.tooth;
   for (const auto& t : scenarios::shipped_teeth())
     if (t.word == o.tooth) return scenarios::find_data_file("teeth", std::string(t.file), o.out);
-  throw Error("--tooth " + o.tooth, "there is no such tooth to write a scenario for", "choose " + tooth_words());
+  throw Error("--tooth " + o.tooth, "there is no such tooth to write a scenario for",
+              fmt::format("choose {}, or a tooth file (.cvt)", kept(tooth_names())));
 }
 
 /// Words of before: a mesial box was the only one that there was.
@@ -170,7 +172,7 @@ int make_new(const NewArguments& o) {
 void add_scenario_new(CLI::App& scenario, int& exit_code) {
   const auto o = std::make_shared<NewArguments>();
   auto* news = scenario.add_subcommand("new", "Write a commented scenario to start from");
-  news->add_option("--tooth", o->tooth, tooth_words())->capture_default_str();
+  news->add_option("--tooth", o->tooth, tooth_names() + ", or a tooth file (.cvt)")->capture_default_str();
   news->add_option("--task", o->task,
                    fmt::format("on a tooth, whose landmarks the zones follow: {}; on the block: {}; left out: the first that there is",
                                fmt::join(scenarios::tooth_task_words(), ", "), fmt::join(scenarios::block_task_words(), ", ")));

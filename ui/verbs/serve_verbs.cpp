@@ -98,7 +98,7 @@ std::string proxy_secret(const std::string& path) {
 }
 
 void serve(const ServeArguments& o) {
-  if (o.ledger.empty()) throw Error("cavum serve", "needs to know which ledger", "name its folder; `cavum ledger init` makes one");
+  if (o.ledger.empty()) throw Error("serve", "needs to know which ledger", "name its folder; `cavum ledger init` makes one");
   if (o.certificate.empty() != o.certificate_key.empty())
     throw Error("--certificate", "and --certificate-key belong together", "give both, or neither: one is made then");
   const auto colon = o.listen.rfind(':');

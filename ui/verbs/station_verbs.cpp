@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/kept.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/ledger_key.h"
@@ -64,11 +65,11 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
   if (!o.replay.empty()) return;
   if (o.sitting.scenario.empty() && o.sitting.resume.empty())
-    throw Error("cavum station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+    throw Error("station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
   if (o.sitting.device.name.empty())
     throw Error(
-        "cavum station", "no device given",
-        "say what is in the candidate's hand: --device " + stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}));
+        "station", "no device given",
+        "say what is in the candidate's hand: --device " + kept(stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate})));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");

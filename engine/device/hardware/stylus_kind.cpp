@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/kept.h"
 #include "engine/device/hardware/falcon_stylus.h"
 #include "engine/device/hardware/inverse3_stylus.h"
 #include "engine/device/hardware/openhaptics_stylus.h"
@@ -68,7 +69,7 @@ StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds
 const StylusKind& StylusKinds::at(const std::string& id, const std::string& where, std::initializer_list<StylusHand> hands) const {
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
-  throw Error(where, "is no stylus that can be used here", fmt::format("name one of {}; `cavum devices` lists what is there", ids(hands)));
+  throw Error(where, "is no stylus that can be used here", fmt::format("name one of {}; `cavum devices` lists what is there", kept(ids(hands))));
 }
 
 std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {

@@ -6,13 +6,15 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/make/periodontium.h"
 
 namespace cavum {
 
 void check_choice(const char* name, double value, double low, double high) {
-  if (!(value >= low && value <= high)) throw Error(name, fmt::format("is {:f}", value), fmt::format("choose from {:f} to {:f}", low, high));
+  if (!(value >= low && value <= high))
+    throw Error(name, "the value is " + plain_number(value), fmt::format("choose from {} to {}", plain_number(low), plain_number(high)));
 }
 
 TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodontium_mm, const std::string& name) {

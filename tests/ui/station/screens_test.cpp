@@ -351,13 +351,5 @@ TEST(Theme, TellsItsSignsApartByLightnessInBothPalettes) {
   }
 }
 
-TEST(Theme, AClockRoundsUpSoThatZeroMeansTimeIsUp) {
-  EXPECT_EQ(clock_text(0.0), "0:00");
-  EXPECT_EQ(clock_text(0.2), "0:01");
-  EXPECT_EQ(clock_text(61.0), "1:01");
-  EXPECT_EQ(clock_text(3599.5), "60:00");
-  EXPECT_EQ(clock_text(-3.0), "0:00");
-}
-
 }  // namespace
 }  // namespace cavum::station

@@ -88,11 +88,13 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
                          {scenarios::View::horizontal, middle, through}};
   const auto over = worst(r, &grading::WallMeasures::max_over_mm, &grading::WallMeasures::worst_over);
   const auto under = worst(r, &grading::WallMeasures::max_under_mm, &grading::WallMeasures::worst_under);
-  const auto named = [&](const char* what, const Worst& w) {
+  const auto named = [&](bool too_much, const Worst& w) {
     const auto wall = static_cast<scenarios::Wall>(w.wall);
-    const std::string name = scenarios::wall_name(wall, r.shape.facing);
-    return wall == scenarios::Wall::floor ? fmt::format("worst {}, {} mm at the {}", what, fixed(w.mm, 2), name)
-                                          : fmt::format("worst {}, {} mm at the wall towards {}", what, fixed(w.mm, 2), name);
+    const std::string name = scenarios::wall_name(wall, r.shape.facing), mm = fixed(w.mm, 2);
+    if (wall == scenarios::Wall::floor)
+      return too_much ? fmt::format("worst overcut, {} mm at the {}", mm, name) : fmt::format("worst undercut, {} mm at the {}", mm, name);
+    return too_much ? fmt::format("worst overcut, {} mm at the wall towards {}", mm, name)
+                    : fmt::format("worst undercut, {} mm at the wall towards {}", mm, name);
   };
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
@@ -104,12 +106,12 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
           list.push_back({v, e.site_mm, "breakthrough in the force here"});
   add_beside(r.beside, list);
   if (over) {
-    list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named("overcut", *over)});
-    list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named("overcut", *over)});
+    list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named(true, *over)});
+    list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named(true, *over)});
   }
   if (under) {
-    list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named("undercut", *under)});
-    list.push_back({other(view_of(under->wall, r.shape.facing)), halfway(*under, r.shape.facing, 1), named("undercut", *under)});
+    list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named(false, *under)});
+    list.push_back({other(view_of(under->wall, r.shape.facing)), halfway(*under, r.shape.facing, 1), named(false, *under)});
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {

@@ -65,9 +65,9 @@ export class Clock {
   }
 }
 
-/** `1:05.3` for 65.3 s. */
+/** `1:05.3` for 65.39 s: as on any clock the tenth has begun, so that no second is named that the report's words do not name (clock_text of base/figures.h). */
 export function time_text(t_s: number): string {
-  const tenths = Math.round(t_s * 10);
+  const tenths = Math.floor(t_s * 10 + 1e-6);
   const minutes = Math.floor(tenths / 600);
   return `${minutes}:${fixed((tenths % 600) / 10, 1).padStart(4, "0")}`;
 }
