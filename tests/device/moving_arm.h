@@ -23,8 +23,8 @@ class MovingArm {
     stop_ = true;
     thread_.join();
   }
-  /// Moves it to where it stands now, by the force told until now. A device that calls this before it hears and tells is never ahead of its arm, however
-  /// late the arm's own thread is woken.
+  /// Moves it to where it stands now, by the force told until now. A device that calls this before it hears and tells is never ahead of its arm,
+  /// however late the arm's own thread is woken.
   void catch_up() {
     constexpr double k_longest_s = 0.05;
     const std::lock_guard lock(mutex_);

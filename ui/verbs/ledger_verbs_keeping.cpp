@@ -58,8 +58,7 @@ void ledger_erase(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
   const bool names_some = !o.chosen_sessions.empty() || !o.before.empty();
   if (!names_some) {
-    if (o.erase_motion || o.erase_results)
-      throw Error("ledger erase", "needs to know of which sessions", "give --session for each, or --before");
+    if (o.erase_motion || o.erase_results) throw Error("ledger erase", "needs to know of which sessions", "give --session for each, or --before");
     ledger.wipe();
     const auto removed = ledger::remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";

@@ -127,10 +127,8 @@ int regrade_exam(const LedgerOptions& o) {
 }
 
 int ledger_regrade(const LedgerOptions& o) {
-  if (o.rubric.empty() && o.scenario.empty())
-    throw Error("ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
-  if (o.exam.empty() == (o.session_seq < 0))
-    throw Error("ledger regrade", "needs to know what", "give --session, or --exam for all of an exam");
+  if (o.rubric.empty() && o.scenario.empty()) throw Error("ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
+  if (o.exam.empty() == (o.session_seq < 0)) throw Error("ledger regrade", "needs to know what", "give --session, or --exam for all of an exam");
   if (o.reason.empty() && !o.preview) throw Error("--reason", "is no line of text", "say in one line of UTF-8 why the result changes");
   if (!o.exam.empty()) return regrade_exam(o);
   if (o.preview) throw Error("--preview", "is of a whole exam", "give it with --exam");

@@ -349,12 +349,14 @@ wait exam
 until 1
 hold left
 hold pagedown
-until )" + std::string(k_in_time ? "2.5" : "12") + R"(
+until )" + std::string(k_in_time ? "2.5" : "12") +
+                             R"(
 release left
 release pagedown
 sleep 0.5
 key b
-until )" + (k_in_time ? "6" : "40") + R"(
+until )" + (k_in_time ? "6" : "40") +
+                             R"(
 key escape
 sleep 0.3
 key enter
