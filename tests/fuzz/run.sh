@@ -5,10 +5,10 @@ set -euo pipefail
 here=$(cd "$(dirname "$0")" && pwd)
 build=$1 runs=$2
 shift 2
-(($#)) || set -- session recording replay settings ticket receipt candidates marks scenario motion tooth mesh explain results notes entries ledger office volume
+(($#)) || set -- session recording replay settings ticket receipt candidates marks scenario motion tooth mesh explain results notes entries ledger volume
 declare -A longest=([session]=24000 [recording]=600 [replay]=140 [settings]=3000 [ticket]=3000 [receipt]=4000 [candidates]=2000 [marks]=2000
   [scenario]=5000 [motion]=2000 [tooth]=1200 [mesh]=1500
-  [explain]=2000 [results]=3000 [notes]=2000 [entries]=4000 [ledger]=400 [office]=4000 [volume]=1200)
+  [explain]=2000 [results]=3000 [notes]=2000 [entries]=4000 [ledger]=400 [volume]=1200)
 found=0
 printf '%-11s %10s %8s %8s %9s %8s  %s\n' fuzzer runs seconds per_s coverage corpus findings
 for name in "$@"; do

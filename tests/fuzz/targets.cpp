@@ -9,7 +9,10 @@ const std::vector<Target>& targets() {
         {"candidates", fuzz_candidates, candidates_seeds}, {"marks", fuzz_marks, marks_seeds}, {"scenario", fuzz_scenario, scenario_seeds},
         {"motion", fuzz_motion, motion_seeds}, {"tooth", fuzz_tooth, tooth_seeds}, {"mesh", fuzz_mesh, mesh_seeds},
         {"explain", fuzz_explain, explain_seeds}, {"results", fuzz_results, results_seeds}, {"notes", fuzz_notes, notes_seeds},
-        {"entries", fuzz_entries, entries_seeds}, {"ledger", fuzz_ledger, ledger_seeds}, {"office", fuzz_office, office_seeds},
+        {"entries", fuzz_entries, entries_seeds}, {"ledger", fuzz_ledger, ledger_seeds},
+#if defined(CAVUM_FUZZ_OFFICE)
+        {"office", fuzz_office, office_seeds},
+#endif
 #if defined(CAVUM_FUZZ_VOLUMES)
         {"volume", fuzz_volume, volume_seeds},
 #endif

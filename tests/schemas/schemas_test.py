@@ -193,6 +193,7 @@ class Scenarios(unittest.TestCase):
         full["accommodations"] = {"extra_time_percent": 25, "extra_time_s": 60, "left_handed": True, "high_contrast": False}
         full["rubric"]["criteria"][1]["critical_below"] = -1
         full["rubric"]["open_step_passes"] = True
+        full["rubric"]["review_within_bound"] = True
         full["rubric"]["bands"] = [{"name": "acceptable"}, {"name": "marginal", "most": 2}, {"name": "critical", "most": 0}]
         criterion = full["rubric"]["criteria"][1]
         criterion["bands"] = [criterion["full"] + share * (criterion["zero"] - criterion["full"]) for share in (0.25, 0.5)]

@@ -20,7 +20,8 @@
 
 #include "ui/office/http_server.h"
 
-namespace cavum::office::http_talk {
+namespace cavum::office {
+namespace http_talk {
 
 namespace asio = boost::asio;
 namespace http = boost::beast::http;
@@ -167,4 +168,5 @@ class Talk {
   boost::beast::flat_buffer buffer_;
 };
 
-}  // namespace cavum::office::http_talk
+}  // namespace http_talk
+}  // namespace cavum::office
