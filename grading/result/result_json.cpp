@@ -300,7 +300,7 @@ std::string volumes_text(const Result& r) {
   for (const scenarios::Zone z :
        {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
     s += volume(scenarios::zone_name(z), zone(z));
-  s += volume("outside", r.volumes.outside()) + volume("  of it protected", zone(scenarios::Zone::protected_));
+  s += volume("outside", r.volumes.outside()) + volume("outside, protected", zone(scenarios::Zone::protected_));
   s += fmt::format("  {}{} ± {}\n", padded("dice", 22), fixed(r.volumes.dice, 3), fixed(r.volumes.dice_bound, 3));
   return s;
 }
