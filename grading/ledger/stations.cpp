@@ -19,7 +19,7 @@ using nlohmann::json;
 
 constexpr char k_request_format[] = "cavum station request 1";
 constexpr char k_code_alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";  // Crockford's base 32
-constexpr std::size_t k_code_digits = 20, k_most_devices = 8, k_longest_name = 80;
+constexpr std::size_t k_code_digits = 20, k_most_devices = 8, k_longest_station_name = 80;
 constexpr std::int64_t k_late_ns = 86'400'000'000'000;  // a station that ran out may hand in for a day
 
 Bytes request_message(const json& facts) {
@@ -175,9 +175,9 @@ std::string station_request(const SigningKey& key, const std::string& school, co
 }
 
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
-  if (name.empty() || name.size() > k_longest_name || !is_plain_text(name))
-    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_name))),
-                fmt::format("give one line of at most {} bytes", k_longest_name));
+  if (name.empty() || name.size() > k_longest_station_name || !is_plain_text(name))
+    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_station_name))),
+                fmt::format("give one line of at most {} bytes", k_longest_station_name));
   std::string code = new_station_code();
   const std::string code_key = to_hex(key_of_code(code).public_key);
   ledger.append("station", [&](const LedgerContent&) -> json {
@@ -199,8 +199,8 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::i
 }
 
 const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room) {
-  if (room.size() > k_longest_name || !is_plain_text(room))
-    throw Error("the room", "is no line of text", fmt::format("give one line of at most {} bytes", k_longest_name));
+  if (room.size() > k_longest_station_name || !is_plain_text(room))
+    throw Error("the room", "is no line of text", fmt::format("give one line of at most {} bytes", k_longest_station_name));
   return ledger.append("station", [&](const LedgerContent&) -> json {
     const Station* s = ledger.registry().stations.of(public_key);
     if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(public_key), "is none that is enrolled", "choose one of the list");

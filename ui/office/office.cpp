@@ -13,6 +13,7 @@
 #include "engine/language/shown.h"
 #include "engine/session/session.h"
 #include "ui/office/desk.h"
+#include "ui/office/lti_office.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
 #include "ui/office/reports.h"
@@ -65,13 +66,21 @@ struct Office::Parts {
       : accounts(o.home + "/accounts.json"),
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
-        site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id()}),
+        lti(desk, o.home, o.student_report, [this](const std::string& name) { return accounts.of(name); }),
+        site({[this](const std::string& name) {
+                auto account = accounts.of(name);
+                return account ? account : lti.reader(name);
+              },
+              [this](const std::string& key) { return desk.station_problem(key); },
+              steady_s, utc_now_ns, desk.ledger_id(), [this](const std::string& cookie) { return lti.has_come(cookie); }}),
         reports(o.report) {
     serve_pages();
     serve_people();
     serve_desk();
     serve_stations();
+    lti.serve(
+        site, [this](const std::string& code, const Account& by) { require_code(code, by); },
+        [this](const Account& account) { return cookie_field(site.sign_ins().begin(account, steady_s()), k_absolute_end_s); });
     site.require_complete();
     server = std::make_unique<HttpServer>(
         o.address, o.port, o.certificate, [this](const Head& head) { return site.welcome(head); }, o.limits);
@@ -131,6 +140,7 @@ struct Office::Parts {
       site.on("POST", path, [this, act](const Call& c) {
         Reply reply = json_reply(act(c.json(), c.by->account));
         board.touch();
+        lti.nudge();
         return reply;
       });
     };
@@ -259,6 +269,7 @@ struct Office::Parts {
   Desk desk;
   Board board;
   Inbox inbox;
+  LtiOffice lti;
   Site site;
   Reports reports;
   Tries tries;
