@@ -70,7 +70,7 @@ class Platform {
     ASSERT_FALSE(port_.empty()) << "platform.py did not begin: it needs python3-cryptography";
   }
 
-  test::Folder folder_;
+  testing_basics::Folder folder_;
   std::string tool_, port_;
   pid_t pid_ = 0;
 };

@@ -338,6 +338,8 @@ class Handler(http.server.BaseHTTPRequestHandler):
             if refused.status not in (401, 404, 409) or parts.path == "/token":
                 p.violations.append(f"{self.command} {parts.path}: {refused}")
             return self.reply(refused.status, json.dumps({"error": str(refused)}).encode())
+        except OSError:  # the office has hung up
+            self.close_connection = True
         except Exception as wrong:  # what it sent cannot even be read
             p.violations.append(f"{self.command} {parts.path}: {type(wrong).__name__} {wrong}")
             return self.reply(400)
