@@ -80,6 +80,8 @@ class Desk {
   [[nodiscard]] std::string criteria();
 
   // For learning platforms (desk_lti.cpp).
+  /// How many entries the ledger has now.
+  [[nodiscard]] std::size_t entries();
   /// The school's own numbers of all whom the ledger knows.
   [[nodiscard]] std::set<std::string> numbers();
   [[nodiscard]] std::vector<ledger::ScoreDue> scores_due(const std::string& exam, const std::string& line_item, bool again);

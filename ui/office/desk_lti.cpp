@@ -20,6 +20,11 @@ bool is_own(ledger::Identities& identities, const ledger::FiledSession& s, const
 
 }  // namespace
 
+std::size_t Desk::entries() {
+  Turn turn(*this);
+  return turn.book.content().entries.size();
+}
+
 std::set<std::string> Desk::numbers() {
   Turn turn(*this);
   std::set<std::string> out;

@@ -63,9 +63,6 @@ void LtiCourses::note(const LtiLaunch& launch) {
   LtiCourse told{launch.platform.issuer, launch.platform.client_id, launch.context, launch.exam, launch.title,
                  text_in(launch.grades, "lineitems"), text_in(launch.grades, "lineitem"), {}, {}, {}};
   if (told.exam.empty()) return;
-  // an address elsewhere is none of this platform's
-  if (!launch.platform.may_ask(told.lineitems)) told.lineitems.clear();
-  if (!launch.platform.may_ask(told.lineitem)) told.lineitem.clear();
   if (told.lineitems.empty() && told.lineitem.empty()) return;
   if (const json& scopes = member_of(launch.grades, "scope"); scopes.is_array())
     for (const json& s : scopes)
@@ -79,7 +76,7 @@ void LtiCourses::note(const LtiLaunch& launch) {
     told.learners = before.learners;
     told.item = before.item;
   }
-  if (!told.lineitem.empty()) told.item = told.lineitem;
+  if (launch.platform.may_ask(told.lineitem)) told.item = told.lineitem;
   if (!launch.teaches && !launch.id.empty()) told.learners[launch.id] = launch.sub;
   const bool same = found != courses.end() && before.learners == told.learners && before.item == told.item && before.scopes == told.scopes &&
                     before.lineitems == told.lineitems && before.lineitem == told.lineitem && before.title == told.title;

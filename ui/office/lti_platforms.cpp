@@ -50,7 +50,7 @@ std::string origin_of(const std::string& address) {
 bool LtiPlatform::may_ask(const std::string& address) const {
   const std::string origin = origin_of(address);
   return !origin.empty() && (origin == origin_of(issuer) || origin == origin_of(auth_endpoint) || origin == origin_of(token_endpoint) ||
-                             origin == origin_of(jwks_url));
+                             origin == origin_of(jwks_url) || std::find(hosts.begin(), hosts.end(), origin) != hosts.end());
 }
 
 json json_of(const LtiPlatform& p) {
@@ -65,6 +65,7 @@ json json_of(const LtiPlatform& p) {
           {"jwks_url", p.jwks_url},
           {"key_set", p.key_set},
           {"claim", p.claim},
+          {"hosts", p.hosts},
           {"certificate", p.certificate},
           {"accounts", p.accounts}};
 }
@@ -90,6 +91,8 @@ LtiPlatform platform_in(const json& given) {
   if (!std::regex_match(p.claim, k_claim))
     throw Error("the platform's 'claim'", "is none that candidates can be matched by", "say sub, custom.NAME or lis.NAME");
   p.certificate = text_in(given, "certificate");
+  if (const json& list = member_of(given, "hosts"); list.is_array())
+    for (const json& h : list) p.hosts.push_back(origin_of(address_in({{"hosts", h}}, "hosts", true)));
   if (const json& list = member_of(given, "deployments"); list.is_array())
     for (const json& d : list)
       if (d.is_string() && !d.get<std::string>().empty() && d.get<std::string>().size() <= 255) p.deployments.push_back(d);

@@ -24,12 +24,13 @@ struct LtiPlatform {
   std::string jwks_url;        ///< empty: `key_set` stands in its place
   nlohmann::json key_set;      ///< {"keys":[…]}, or null
   std::string claim = "sub";   ///< by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`; its value is the number of the class list
+  std::vector<std::string> hosts;  ///< further origins of its services ("https://school.example"), where these stand elsewhere than its endpoints
   std::string certificate;     ///< PEM of the authority, or of the server itself, that is trusted for it; empty: those that this computer trusts
   std::map<std::string, std::string> accounts;  ///< of the office, by the platform's `sub`
   [[nodiscard]] bool is(const std::string& other_issuer, const std::string& other_client) const {
     return issuer == other_issuer && client_id == other_client;
   }
-  /// Whether the office may ask this address: https, and the host and port of an endpoint that was set up.
+  /// Whether the office may ask this address: https, and the host and port of an endpoint, or of `hosts`.
   [[nodiscard]] bool may_ask(const std::string& address) const;
 };
 [[nodiscard]] nlohmann::json json_of(const LtiPlatform& platform);

@@ -94,22 +94,30 @@ void LtiSender::send_again() {
 
 void LtiSender::run() {
   while (!ends_) {
-    bool again = false;
+    bool asked = false, again = false;
     {
       std::unique_lock guard(lock_);
       wake_.wait_for(guard, k_look, [&] { return nudged_ || ends_; });
+      asked = nudged_;
       again = again_;
       nudged_ = again_ = false;
     }
     if (ends_) return;
     try {
-      round(again);
+      round(asked, again);
     } catch (const std::exception&) {  // a file that cannot be read: whoever looks at the page is told
     }
   }
 }
 
-void LtiSender::round(bool again) {
+void LtiSender::round(bool asked, bool again) {
+  const std::size_t entries = desk_.entries();
+  {
+    const std::lock_guard guard(lock_);
+    const bool tries = std::any_of(troubles_.begin(), troubles_.end(), [](const auto& one) { return Steady::now() >= one.second.next; });
+    if (!asked && !tries && entries == seen_entries_) return;
+  }
+  seen_entries_ = entries;
   const std::vector<LtiCourse> courses = courses_.all();
   if (courses.empty()) return;
   const std::vector<LtiPlatform> platforms = platforms_.all();
@@ -158,7 +166,7 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
     if (score["userId"] == "") continue;
     const PlatformAnswer answer = ask(platform, course, "POST", below(item, "/scores"), {{"Content-Type", k_score_type}}, score.dump());
     if (is_passing(answer.status))
-      throw PlatformUnreachable(origin_of(item), fmt::format("answers {} {}", answer.status, words_of(answer)), "it is tried again later");
+      throw PlatformUnreachable(origin_of(item), fmt::format(said("answers {} {}"), answer.status, words_of(answer)), said("it is tried again later"));
     desk_.enter_passback(d, platform.issuer, item, answer.status, words_of(answer));
   }
 }
@@ -173,7 +181,7 @@ PlatformAnswer LtiSender::ask(const LtiPlatform& platform, const LtiCourse& cour
     if (answer.status != 401) break;
     tokens_.clear();  // it has ended before its time
   }
-  if (answer.status == 401) throw PlatformUnreachable(origin_of(address), "takes none of its own tokens (401)", "look at the tool's settings there");
+  if (answer.status == 401) throw PlatformUnreachable(origin_of(address), said("takes none of its own tokens (401)"), said("look at the tool's settings there"));
   return answer;
 }
 
@@ -193,8 +201,8 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
                                              {{"Content-Type", "application/x-www-form-urlencoded"}, {"Accept", "application/json"}}, body);
   const std::string text = text_in(answer.body, "access_token");
   if (!is_good(answer.status) || text.empty() || text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=") != std::string::npos)
-    throw PlatformUnreachable(origin_of(platform.token_endpoint), fmt::format("gives no token: {} {}", answer.status, words_of(answer)),
-                              "look at client id and key set there; it is tried again later");
+    throw PlatformUnreachable(origin_of(platform.token_endpoint), fmt::format(said("gives no token: {} {}"), answer.status, words_of(answer)),
+                              said("look at client id and key set there; it is tried again later"));
   const std::int64_t lasts_s = std::clamp<std::int64_t>(whole_in(answer.body, "expires_in"), 0, 3600);
   token = {text, Steady::now() + std::chrono::seconds(lasts_s) - k_before_end};
   return token.text;
@@ -207,7 +215,7 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   for (int i = 0; i < k_most_pages && !page.empty(); ++i) {
     const PlatformAnswer answer = ask(platform, course, "GET", page, {{"Accept", k_items_type}});
     if (answer.status != 200 || !answer.body.is_array())
-      throw PlatformUnreachable(origin_of(page), fmt::format("does not show its columns: {} {}", answer.status, words_of(answer)), "it is tried again later");
+      throw PlatformUnreachable(origin_of(page), fmt::format(said("does not show its columns: {} {}"), answer.status, words_of(answer)), said("it is tried again later"));
     for (const json& one : answer.body)  // a platform may pass over what was asked for
       if (text_in(one, "resourceId") == course.exam && text_in(one, "tag") == k_tag && platform.may_ask(text_in(one, "id"))) return text_in(one, "id");
     page = next_page(answer.link);
@@ -217,7 +225,7 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   const PlatformAnswer made = ask(platform, course, "POST", course.lineitems, {{"Content-Type", k_item_type}, {"Accept", k_item_type}}, wanted.dump());
   const std::string id = text_in(made.body, "id");
   if (!is_good(made.status) || !platform.may_ask(id))
-    throw PlatformUnreachable(origin_of(course.lineitems), fmt::format("makes no column: {} {}", made.status, words_of(made)), "it is tried again later");
+    throw PlatformUnreachable(origin_of(course.lineitems), fmt::format(said("makes no column: {} {}"), made.status, words_of(made)), said("it is tried again later"));
   return id;
 }
 

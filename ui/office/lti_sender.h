@@ -32,7 +32,8 @@ class LtiSender {
 
  private:
   void run();
-  void round(bool again);
+  /// `asked`: also where the ledger is as it was.
+  void round(bool asked, bool again);
   void send(const LtiPlatform& platform, const LtiCourse& course, bool again);
   [[nodiscard]] std::string token_of(const LtiPlatform& platform, const LtiCourse& course);
   [[nodiscard]] std::string item_of(const LtiPlatform& platform, const LtiCourse& course, double maximum);
@@ -56,6 +57,7 @@ class LtiSender {
   std::condition_variable wake_;
   std::map<std::string, Trouble> troubles_;  // by platform and course
   bool nudged_ = false, again_ = false;
+  std::size_t seen_entries_ = 0;  // of the thread alone
   std::atomic<bool> ends_ = false;
   std::thread thread_;  // last: it uses the rest
 };

@@ -24,6 +24,7 @@
 #include "ui/office/station_client.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/print_json.h"
+#include "ui/verbs/platform_options.h"
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
 
@@ -36,6 +37,7 @@ struct ServeArguments {
   std::string ledger, key, listen = "127.0.0.1:8443", certificate, certificate_key, add_account, remove_account, role;
   std::vector<std::string> exams, names;
   bool accounts = false, second_factor = false, simulated = false;
+  PlatformArguments platforms;
 };
 
 std::string office_home() { return station_path("office"); }
@@ -111,6 +113,7 @@ void serve(const ServeArguments& o) {
   }
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
+  options.student_report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording, "student"); };
   const Interrupt interrupt;
   const office::Office office(options);
   std::cout << "the office of " << one_line(office.school()) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
@@ -219,6 +222,7 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
   serve_verb->add_flag("--second-factor", o->second_factor, "with --add-account: a secret for an authenticator app, which a release asks for");
   serve_verb->add_option("--remove-account", o->remove_account, "remove an account: who is signed in with it is out at once");
   serve_verb->add_flag("--accounts", o->accounts, "list the accounts");
+  add_platform_options(*serve_verb, o->platforms);
   serve_verb->callback([o, &exit_code] {
     if (!o->add_account.empty())
       add_account(*o);
@@ -226,7 +230,7 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
       office::Accounts(office_home() + "/accounts.json").remove(o->remove_account);
     else if (o->accounts)
       list_accounts();
-    else
+    else if (!set_up_platforms(o->platforms, office_home()))
       serve(*o);
     exit_code = 0;
   });

@@ -232,6 +232,9 @@ TEST_F(Launches, ASetUpNeedsAddressesOfHttpsAndOneSourceOfKeys) {
   for (const char* name : {"office", "issuer", "auth_endpoint", "token_endpoint", "jwks_url"})
     for (const char* wrong : {"http://moodle.example/", "moodle.example", "https://", "https://a b/", "https://a/#x", "https://a:99999/", "javascript:1"})
       EXPECT_THROW(static_cast<void>(platform_in(with(name, wrong))), Error) << name << " " << wrong;
+  EXPECT_THROW(static_cast<void>(platform_in(with("hosts", {"http://school.example"}))), Error);
+  EXPECT_TRUE(platform_in(with("hosts", {"https://School.example/"})).may_ask("https://school.example/api/lti"));
+  EXPECT_FALSE(platform_in(right).may_ask("https://school.example/api/lti"));
   EXPECT_THROW(static_cast<void>(platform_in(with("deployments", json::array()))), Error);
   EXPECT_THROW(static_cast<void>(platform_in(with("claim", "name"))), Error) << "never by name";
   EXPECT_THROW(static_cast<void>(platform_in(with("key_set", {{"keys", json::array()}}))), Error) << "two sources of keys";
