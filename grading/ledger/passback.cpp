@@ -79,7 +79,8 @@ const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const st
   std::string words = one_line(answer).substr(0, k_longest_answer);
   words.resize(whole_characters(words));
   return ledger.append("passback", [&](const LedgerContent&) -> json {
-    return {{"session", sent.session}, {"result", sent.result}, {"platform", platform}, {"line_item", line_item}, {"status", status}, {"answer", words}};
+    return {{"session", sent.session}, {"result", sent.result}, {"platform", platform},
+            {"line_item", line_item},  {"status", status},      {"answer", words}};
   });
 }
 
@@ -92,7 +93,8 @@ Passback passback_in(const LedgerEntry& e) {
              text_in(e.body, "line_item"),
              static_cast<int>(whole_in(e.body, "status")),
              text_in(e.body, "answer")};
-  if (p.platform.empty() || p.line_item.empty() || p.line_item.size() > k_longest_place) throw Error("passback", "does not say where to", "use an intact copy");
+  if (p.platform.empty() || p.line_item.empty() || p.line_item.size() > k_longest_place)
+    throw Error("passback", "does not say where to", "use an intact copy");
   return p;
 }
 

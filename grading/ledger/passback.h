@@ -26,8 +26,8 @@ struct ScoreDue {
 /// Of the candidates of `exam`, whoever has a released result, or had one that was sent to this column and was taken back since; what was answered
 /// before, with the same result, is left out, and with `again` only what was accepted. Simulated operators are left out. A result that waits for a
 /// person's decision has no points here, even where it was released as it is.
-[[nodiscard]] std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities, const std::string& exam,
-                                               const std::string& line_item, bool again = false);
+[[nodiscard]] std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities,
+                                               const std::string& exam, const std::string& line_item, bool again = false);
 
 /// Enters what a platform has answered: `status` of HTTP, and its words, one line.
 const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,

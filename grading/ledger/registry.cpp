@@ -96,13 +96,13 @@ class RegistryReader {
   void apply(const LedgerContent& content, const LedgerEntry& e) {
     content_ = &content;
     static const std::map<std::string, void (RegistryReader::*)(const LedgerEntry&)> k_kinds = {
-        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
-        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
-        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
-        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing},
-        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},   {"announce", &RegistryReader::day},
-        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},       {"incident", &RegistryReader::day},
-        {"seats", &RegistryReader::seats},       {"passback", &RegistryReader::passback}};
+        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},    {"cancel", &RegistryReader::cancel},
+        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session},  {"regrade", &RegistryReader::regrade},
+        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station},  {"key", &RegistryReader::nothing},
+        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},      {"restore", &RegistryReader::nothing},
+        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},    {"announce", &RegistryReader::day},
+        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},        {"incident", &RegistryReader::day},
+        {"seats", &RegistryReader::seats},      {"passback", &RegistryReader::passback}};
     const auto kind = k_kinds.find(e.kind);
     try {
       if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));

@@ -24,8 +24,16 @@ std::vector<LtiCourse> LtiCourses::read() const {
     throw Error(path_, "is no file of courses", "remove it: each course is in it again once somebody opens its link");
   std::vector<LtiCourse> out;
   for (const json& one : read["courses"]) {
-    LtiCourse c{text_in(one, "issuer"), text_in(one, "client_id"), text_in(one, "context"), text_in(one, "exam"), text_in(one, "title"),
-                text_in(one, "lineitems"), text_in(one, "lineitem"), text_in(one, "item"), {}, {}};
+    LtiCourse c{text_in(one, "issuer"),
+                text_in(one, "client_id"),
+                text_in(one, "context"),
+                text_in(one, "exam"),
+                text_in(one, "title"),
+                text_in(one, "lineitems"),
+                text_in(one, "lineitem"),
+                text_in(one, "item"),
+                {},
+                {}};
     if (const json& scopes = member_of(one, "scopes"); scopes.is_array())
       for (const json& s : scopes)
         if (s.is_string()) c.scopes.push_back(s);
@@ -60,8 +68,16 @@ std::vector<LtiCourse> LtiCourses::all() const {
 }
 
 void LtiCourses::note(const LtiLaunch& launch) {
-  LtiCourse told{launch.platform.issuer, launch.platform.client_id, launch.context, launch.exam, launch.title,
-                 text_in(launch.grades, "lineitems"), text_in(launch.grades, "lineitem"), {}, {}, {}};
+  LtiCourse told{launch.platform.issuer,
+                 launch.platform.client_id,
+                 launch.context,
+                 launch.exam,
+                 launch.title,
+                 text_in(launch.grades, "lineitems"),
+                 text_in(launch.grades, "lineitem"),
+                 {},
+                 {},
+                 {}};
   if (told.exam.empty()) return;
   if (told.lineitems.empty() && told.lineitem.empty()) return;
   if (const json& scopes = member_of(launch.grades, "scope"); scopes.is_array())

@@ -19,9 +19,7 @@ struct LtiCourse {
   std::string item;                              ///< the column that scores go to; empty: not yet found
   std::vector<std::string> scopes;               ///< what the platform allows
   std::map<std::string, std::string> learners;   ///< `sub` by the school's own number, of those who came
-  [[nodiscard]] bool is(const LtiCourse& o) const {
-    return issuer == o.issuer && client_id == o.client_id && context == o.context && exam == o.exam;
-  }
+  [[nodiscard]] bool is(const LtiCourse& o) const { return issuer == o.issuer && client_id == o.client_id && context == o.context && exam == o.exam; }
 };
 
 /// The file. Any thread.

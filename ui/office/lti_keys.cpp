@@ -42,8 +42,12 @@ constexpr unsigned k_own_bits = 3072;
 constexpr int k_fewest_bits = 2048, k_most_bits = 8192;
 constexpr std::size_t k_longest_token = 64U << 10, k_kid_bytes = 16;
 
-Error key_error() { return {"the office's key for learning platforms", said("cannot be used"), said("have a new one made: cavum serve --new-lti-key")}; }
-Error token_error(const std::string& what) { return {said("the platform's token"), what, "open the link on the platform again; if it stays, tell the office"}; }
+Error key_error() {
+  return {"the office's key for learning platforms", said("cannot be used"), said("have a new one made: cavum serve --new-lti-key")};
+}
+Error token_error(const std::string& what) {
+  return {said("the platform's token"), what, "open the link on the platform again; if it stays, tell the office"};
+}
 
 std::string bytes_of(const BIGNUM* n) {
   std::string out(static_cast<std::size_t>(BN_num_bytes(n)), '\0');
@@ -77,7 +81,8 @@ RsaKey public_key(const json& jwk) {
   const Params params(OSSL_PARAM_BLD_to_param(builder.get()));
   const RsaContext context(EVP_PKEY_CTX_new_from_name(nullptr, "RSA", nullptr));
   EVP_PKEY* made = nullptr;
-  if (!params || !context || EVP_PKEY_fromdata_init(context.get()) != 1 || EVP_PKEY_fromdata(context.get(), &made, EVP_PKEY_PUBLIC_KEY, params.get()) != 1)
+  if (!params || !context || EVP_PKEY_fromdata_init(context.get()) != 1 ||
+      EVP_PKEY_fromdata(context.get(), &made, EVP_PKEY_PUBLIC_KEY, params.get()) != 1)
     return {};
   return RsaKey(made);
 }
@@ -150,10 +155,12 @@ json public_key_set(const std::vector<LtiKey>& keys) {
   for (const LtiKey& k : keys) {
     const RsaKey key = private_key(k);
     BIGNUM *n = nullptr, *e = nullptr;
-    const bool read = EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_N, &n) == 1 && EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_E, &e) == 1;
+    const bool read =
+        EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_N, &n) == 1 && EVP_PKEY_get_bn_param(key.get(), OSSL_PKEY_PARAM_RSA_E, &e) == 1;
     const Big modulus(n), exponent(e);
     if (!read) throw key_error();
-    out.push_back({{"kty", "RSA"}, {"use", "sig"}, {"alg", "RS256"}, {"kid", k.kid}, {"n", to_base64url(bytes_of(n))}, {"e", to_base64url(bytes_of(e))}});
+    out.push_back(
+        {{"kty", "RSA"}, {"use", "sig"}, {"alg", "RS256"}, {"kid", k.kid}, {"n", to_base64url(bytes_of(n))}, {"e", to_base64url(bytes_of(e))}});
   }
   return {{"keys", out}};
 }
@@ -200,9 +207,8 @@ void require_signed(const ReadToken& token, const json& keys) {
   if (jwk == nullptr) throw token_error(said("is signed by a key that is not the platform's"));
   if (twice) throw token_error(said("is signed by a key whose name stands twice in the platform's key set"));
   const json &use = member_of(*jwk, "use"), &algorithm = member_of(*jwk, "alg");
-  const RsaKey key = text_in(*jwk, "kty") == "RSA" && (use.is_null() || use == "sig") && (algorithm.is_null() || algorithm == "RS256")
-                         ? public_key(*jwk)
-                         : RsaKey();
+  const RsaKey key =
+      text_in(*jwk, "kty") == "RSA" && (use.is_null() || use == "sig") && (algorithm.is_null() || algorithm == "RS256") ? public_key(*jwk) : RsaKey();
   if (!key) throw token_error(said("is signed by a key that is none for RS256, or has fewer than 2048 bits"));
   const Digest digest(EVP_MD_CTX_new());
   const bool good = digest && EVP_DigestVerifyInit(digest.get(), nullptr, EVP_sha256(), nullptr, key.get()) == 1 &&

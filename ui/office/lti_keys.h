@@ -1,5 +1,5 @@
-// Tokens of learning platforms: JSON Web Signatures (RFC 7515) by RS256 and by nothing else, and the keys behind them (RFC 7517). No header of a token
-// chooses how it is checked: another algorithm, a key that it brings or an address of one is refused or passed over.
+// Tokens of learning platforms: JSON Web Signatures (RFC 7515) by RS256 and by nothing else, and the keys behind them (RFC 7517). No header of a
+// token chooses how it is checked: another algorithm, a key that it brings or an address of one is refused or passed over.
 #pragma once
 
 #include <cstdint>

@@ -21,7 +21,9 @@ constexpr char k_grades_claim[] = "https://purl.imsglobal.org/spec/lti-ags/claim
 constexpr char k_membership[] = "http://purl.imsglobal.org/vocab/lis/v2/membership#";
 constexpr std::size_t k_longest_sub = 255, k_most_used = 200'000, k_random_bytes = 32;
 
-Error launch_error(const std::string& what) { return {said("this launch"), what, said("open the link on the platform again; if it stays, tell the office")}; }
+Error launch_error(const std::string& what) {
+  return {said("this launch"), what, said("open the link on the platform again; if it stays, tell the office")};
+}
 
 int digit_of(char c) {
   if (c >= '0' && c <= '9') return c - '0';
@@ -141,10 +143,10 @@ LtiLogin LtiLogins::begin(const LtiPlatforms& platforms, const std::map<std::str
 LtiLaunch LtiLogins::finish(const LtiPlatforms& platforms, const std::map<std::string, std::string>& fields, const std::string& cookie,
                             const KeysOf& keys_of, std::int64_t now_s) {
   const std::string state = field_in(fields, "state");
-  if (cookie.empty())
-    throw launch_error(said("came back without the cookie of its login: this browser keeps none here, or another window began it"));
+  if (cookie.empty()) throw launch_error(said("came back without the cookie of its login: this browser keeps none here, or another window began it"));
   const std::string text = cookie.substr(0, cookie.find('.')), right = sealed(text);
-  if (right.size() != cookie.size() || sodium_memcmp(right.data(), cookie.data(), right.size()) != 0) throw launch_error(said("has the cookie of no login of this office"));
+  if (right.size() != cookie.size() || sodium_memcmp(right.data(), cookie.data(), right.size()) != 0)
+    throw launch_error(said("has the cookie of no login of this office"));
   const json kept = parse_json_or_null(from_base64url(text).value_or(""));
   if (state.empty() || text_in(kept, "state") != state) throw launch_error(said("belongs to another login than this browser's"));
   if (whole_in(kept, "until") < now_s) throw launch_error(said("took too long"));

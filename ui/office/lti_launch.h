@@ -27,13 +27,13 @@ struct LtiLogin {
 struct LtiLaunch {
   LtiPlatform platform;
   std::string deployment, sub;
-  std::string id;            ///< of the candidate, by the claim that was agreed on; empty: the platform does not tell
-  std::string name;          ///< for people; may be empty
-  bool teaches = false;      ///< an instructor's; else a learner's
+  std::string id;             ///< of the candidate, by the claim that was agreed on; empty: the platform does not tell
+  std::string name;           ///< for people; may be empty
+  bool teaches = false;       ///< an instructor's; else a learner's
   std::string context, link;  ///< ids of course and link; of the context empty where there is none
-  std::string title;         ///< of the course, for people
-  std::string exam;          ///< scenario id, of the link's own parameter `exam`; empty: none in particular
-  nlohmann::json grades;     ///< the claim of Assignment and Grade Services; null: none
+  std::string title;          ///< of the course, for people
+  std::string exam;           ///< scenario id, of the link's own parameter `exam`; empty: none in particular
+  nlohmann::json grades;      ///< the claim of Assignment and Grade Services; null: none
 };
 
 /// Seconds that a login may take, that clocks may differ by, and that a token may be old.

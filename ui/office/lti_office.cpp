@@ -37,7 +37,8 @@ std::string paragraph(const std::string& text) { return "<p>" + xml_text(text) +
 /// It opens in a window of its own, where cookies of this office are no third party's.
 std::string in_a_window(const std::string& fields) {
   return paragraph(tr("Cavum opens in a window of its own: inside the platform's page, browsers keep no sign-in.")) +
-         "<p><a target=\"_blank\" rel=\"noopener\" href=\"/lti/login?" + xml_text(fields) + "\">" + xml_text(tr("Open Cavum in a new window")) + "</a></p>";
+         "<p><a target=\"_blank\" rel=\"noopener\" href=\"/lti/login?" + xml_text(fields) + "\">" + xml_text(tr("Open Cavum in a new window")) +
+         "</a></p>";
 }
 
 bool is_framed(const Head& head) {
@@ -124,8 +125,8 @@ Reply LtiOffice::framed(int status, const std::string& html) const {
     for (const std::string& origin : {origin_of(p.issuer), origin_of(p.auth_endpoint)})
       if (places.find(origin + " ") == std::string::npos) places += origin + " ";
   Reply reply{status, "text/html; charset=utf-8", html};
-  reply.fields.emplace_back("Content-Security-Policy",
-                            "default-src 'none'; style-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors " + (places.empty() ? "'none'" : places));
+  reply.fields.emplace_back("Content-Security-Policy", "default-src 'none'; style-src 'self'; form-action 'none'; base-uri 'none'; frame-ancestors " +
+                                                           (places.empty() ? "'none'" : places));
   return reply;
 }
 
@@ -139,8 +140,9 @@ Reply LtiOffice::login(const Call& call, const std::string& fields) {
 }
 
 Reply LtiOffice::launch(const Call& call) {
-  const LtiLaunch come = logins_.finish(platforms_, form_fields(call.body), cookie_named(call.head.field("cookie"), k_login_cookie),
-                                        [this](const LtiPlatform& p, const std::string& kid) { return keys_.of(p, kid); }, utc_s());
+  const LtiLaunch come = logins_.finish(
+      platforms_, form_fields(call.body), cookie_named(call.head.field("cookie"), k_login_cookie),
+      [this](const LtiPlatform& p, const std::string& kid) { return keys_.of(p, kid); }, utc_s());
   courses_.note(come);
   sender_.nudge();
   const std::string login_over = cookie_to_keep(k_login_cookie, "", 0, "None");
@@ -164,7 +166,8 @@ Reply LtiOffice::launch(const Call& call) {
     const std::int64_t now = clock_s();
     std::erase_if(visits_, [&](const auto& one) { return now - one.second.since_s > k_visit_s; });
     if (visits_.size() >= k_most_visits)
-      visits_.erase(std::min_element(visits_.begin(), visits_.end(), [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
+      visits_.erase(
+          std::min_element(visits_.begin(), visits_.end(), [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
     visits_[to_hex(sha256(cookie))] = {come.id, come.name, come.exam, come.platform.issuer, come.platform.client_id, now};
   }
   Reply reply = go_to(303, "/lti/result");

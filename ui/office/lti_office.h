@@ -15,16 +15,17 @@ namespace cavum::office {
 
 /// A learner who has come, for an hour.
 struct LtiVisit {
-  std::string id;       ///< the school's own number; empty: the platform did not tell
-  std::string name;     ///< for people
-  std::string exam;     ///< of the link; empty: none in particular
+  std::string id;    ///< the school's own number; empty: the platform did not tell
+  std::string name;  ///< for people
+  std::string exam;  ///< of the link; empty: none in particular
   std::string issuer, client_id;
   std::int64_t since_s = 0;
 };
 
 class LtiOffice {
  public:
-  /// `home`: the office's folder. `report`: the student's report of a recording. `sign_in`: begins a sign-in for an account, and gives its cookie field.
+  /// `home`: the office's folder. `report`: the student's report of a recording. `sign_in`: begins a sign-in for an account, and gives its cookie
+  /// field.
   LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account);
 
   /// Puts handlers behind the doors of LTI. `require_code` throws where the second factor's code in a request is not good.

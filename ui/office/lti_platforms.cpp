@@ -82,7 +82,8 @@ LtiPlatform platform_in(const json& given) {
   p.token_audience = line_in(given, "token_audience", false);
   p.jwks_url = address_in(given, "jwks_url", false);
   p.key_set = member_of(given, "key_set");
-  if (p.key_set.is_string()) p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
+  if (p.key_set.is_string())
+    p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
   if (p.jwks_url.empty() == p.key_set.is_null())
     throw Error("the platform's keys", p.jwks_url.empty() ? "are missing" : "stand there twice", "give jwks_url or key_set, and not both");
   if (!p.key_set.is_null() && !member_of(p.key_set, "keys").is_array())
@@ -143,7 +144,8 @@ std::optional<LtiPlatform> LtiPlatforms::of(const std::string& issuer, const std
 void LtiPlatforms::set(LtiPlatform platform) {
   const std::lock_guard guard(lock_);
   File file = read();
-  const auto same = std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(platform.issuer, platform.client_id); });
+  const auto same =
+      std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(platform.issuer, platform.client_id); });
   if (same == file.platforms.end()) {
     file.platforms.push_back(std::move(platform));
   } else {
@@ -193,7 +195,10 @@ void LtiPlatforms::rotate() {
 }
 
 json shown_addresses(const LtiPlatform& p) {
-  return {{"tool", p.office + "/lti/launch"}, {"login", p.office + "/lti/login"}, {"redirect", p.office + "/lti/launch"}, {"keys", p.office + "/lti/jwks"}};
+  return {{"tool", p.office + "/lti/launch"},
+          {"login", p.office + "/lti/login"},
+          {"redirect", p.office + "/lti/launch"},
+          {"keys", p.office + "/lti/jwks"}};
 }
 
 }  // namespace cavum::office

@@ -20,12 +20,12 @@ struct LtiPlatform {
   std::string issuer, client_id;         ///< together they name the platform
   std::vector<std::string> deployments;  ///< ids; any other is refused
   std::string auth_endpoint, token_endpoint;
-  std::string token_audience;  ///< `aud` of what we sign for the token endpoint; empty: that endpoint itself
-  std::string jwks_url;        ///< empty: `key_set` stands in its place
-  nlohmann::json key_set;      ///< {"keys":[…]}, or null
-  std::string claim = "sub";   ///< by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`; its value is the number of the class list
+  std::string token_audience;      ///< `aud` of what we sign for the token endpoint; empty: that endpoint itself
+  std::string jwks_url;            ///< empty: `key_set` stands in its place
+  nlohmann::json key_set;          ///< {"keys":[…]}, or null
+  std::string claim = "sub";       ///< by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`; its value is the number of the class list
   std::vector<std::string> hosts;  ///< further origins of its services ("https://school.example"), where these stand elsewhere than its endpoints
-  std::string certificate;     ///< PEM of the authority, or of the server itself, that is trusted for it; empty: those that this computer trusts
+  std::string certificate;         ///< PEM of the authority, or of the server itself, that is trusted for it; empty: those that this computer trusts
   std::map<std::string, std::string> accounts;  ///< of the office, by the platform's `sub`
   [[nodiscard]] bool is(const std::string& other_issuer, const std::string& other_client) const {
     return issuer == other_issuer && client_id == other_client;

@@ -124,7 +124,8 @@ void LtiSender::round(bool asked, bool again) {
   const auto known = desk_.numbers();
   courses_.keep_only([&](const std::string& id) { return known.contains(id); });
   for (const LtiCourse& course : courses) {
-    const auto platform = std::find_if(platforms.begin(), platforms.end(), [&](const LtiPlatform& p) { return p.is(course.issuer, course.client_id); });
+    const auto platform =
+        std::find_if(platforms.begin(), platforms.end(), [&](const LtiPlatform& p) { return p.is(course.issuer, course.client_id); });
     if (platform == platforms.end() || ends_) continue;
     const std::string key = key_of(*platform, course);
     {
@@ -151,7 +152,8 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
   const std::vector<LtiCourse> all = courses_.all();
   std::erase_if(due, [&](const ledger::ScoreDue& d) { return user_in(course, all, platform.claim, d.id).empty(); });
   if (due.empty()) return;
-  if (!allows(course, k_score_scope)) throw Error(course.title, "its platform lets this tool send no scores", "allow it in the tool's settings there");
+  if (!allows(course, k_score_scope))
+    throw Error(course.title, "its platform lets this tool send no scores", "allow it in the tool's settings there");
   if (item.empty()) {
     double maximum = 0;
     for (const auto& d : due) maximum = std::max(maximum, d.score.value("scoreMaximum", 0.0));
@@ -166,7 +168,8 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
     if (score["userId"] == "") continue;
     const PlatformAnswer answer = ask(platform, course, "POST", below(item, "/scores"), {{"Content-Type", k_score_type}}, score.dump());
     if (is_passing(answer.status))
-      throw PlatformUnreachable(origin_of(item), fmt::format(said("answers {} {}"), answer.status, words_of(answer)), said("it is tried again later"));
+      throw PlatformUnreachable(origin_of(item), fmt::format(said("answers {} {}"), answer.status, words_of(answer)),
+                                said("it is tried again later"));
     desk_.enter_passback(d, platform.issuer, item, answer.status, words_of(answer));
   }
 }
@@ -181,7 +184,8 @@ PlatformAnswer LtiSender::ask(const LtiPlatform& platform, const LtiCourse& cour
     if (answer.status != 401) break;
     tokens_.clear();  // it has ended before its time
   }
-  if (answer.status == 401) throw PlatformUnreachable(origin_of(address), said("takes none of its own tokens (401)"), said("look at the tool's settings there"));
+  if (answer.status == 401)
+    throw PlatformUnreachable(origin_of(address), said("takes none of its own tokens (401)"), said("look at the tool's settings there"));
   return answer;
 }
 
@@ -195,12 +199,14 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
                        {"iat", now_s},
                        {"exp", now_s + k_assertion_s},
                        {"jti", ledger::random_hex(k_jti_bytes)}};
-  const std::string body = "grant_type=client_credentials&client_assertion_type=" + url_encoded("urn:ietf:params:oauth:client-assertion-type:jwt-bearer") +
-                           "&client_assertion=" + url_encoded(sign_token(claims, platforms_.keys().front())) + "&scope=" + url_encoded(scopes_of(course));
+  const std::string body =
+      "grant_type=client_credentials&client_assertion_type=" + url_encoded("urn:ietf:params:oauth:client-assertion-type:jwt-bearer") +
+      "&client_assertion=" + url_encoded(sign_token(claims, platforms_.keys().front())) + "&scope=" + url_encoded(scopes_of(course));
   const PlatformAnswer answer = ask_platform(platform, "POST", platform.token_endpoint,
                                              {{"Content-Type", "application/x-www-form-urlencoded"}, {"Accept", "application/json"}}, body);
   const std::string text = text_in(answer.body, "access_token");
-  if (!is_good(answer.status) || text.empty() || text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=") != std::string::npos)
+  if (!is_good(answer.status) || text.empty() ||
+      text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=") != std::string::npos)
     throw PlatformUnreachable(origin_of(platform.token_endpoint), fmt::format(said("gives no token: {} {}"), answer.status, words_of(answer)),
                               said("look at client id and key set there; it is tried again later"));
   const std::int64_t lasts_s = std::clamp<std::int64_t>(whole_in(answer.body, "expires_in"), 0, 3600);
@@ -215,17 +221,21 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   for (int i = 0; i < k_most_pages && !page.empty(); ++i) {
     const PlatformAnswer answer = ask(platform, course, "GET", page, {{"Accept", k_items_type}});
     if (answer.status != 200 || !answer.body.is_array())
-      throw PlatformUnreachable(origin_of(page), fmt::format(said("does not show its columns: {} {}"), answer.status, words_of(answer)), said("it is tried again later"));
+      throw PlatformUnreachable(origin_of(page), fmt::format(said("does not show its columns: {} {}"), answer.status, words_of(answer)),
+                                said("it is tried again later"));
     for (const json& one : answer.body)  // a platform may pass over what was asked for
-      if (text_in(one, "resourceId") == course.exam && text_in(one, "tag") == k_tag && platform.may_ask(text_in(one, "id"))) return text_in(one, "id");
+      if (text_in(one, "resourceId") == course.exam && text_in(one, "tag") == k_tag && platform.may_ask(text_in(one, "id")))
+        return text_in(one, "id");
     page = next_page(answer.link);
   }
   if (maximum <= 0) throw Error(course.title, "has no result with points yet", "its column is made with the first");
   const json wanted = {{"label", "Cavum " + course.exam}, {"scoreMaximum", maximum}, {"resourceId", course.exam}, {"tag", k_tag}};
-  const PlatformAnswer made = ask(platform, course, "POST", course.lineitems, {{"Content-Type", k_item_type}, {"Accept", k_item_type}}, wanted.dump());
+  const PlatformAnswer made =
+      ask(platform, course, "POST", course.lineitems, {{"Content-Type", k_item_type}, {"Accept", k_item_type}}, wanted.dump());
   const std::string id = text_in(made.body, "id");
   if (!is_good(made.status) || !platform.may_ask(id))
-    throw PlatformUnreachable(origin_of(course.lineitems), fmt::format(said("makes no column: {} {}"), made.status, words_of(made)), said("it is tried again later"));
+    throw PlatformUnreachable(origin_of(course.lineitems), fmt::format(said("makes no column: {} {}"), made.status, words_of(made)),
+                              said("it is tried again later"));
   return id;
 }
 

@@ -1,5 +1,5 @@
-// Sends scores to learning platforms (Assignment and Grade Services 2.0), in a thread of its own: what is due by the ledger, once each; a platform that
-// is down is tried again later and later. What a platform has answered is an entry of the ledger.
+// Sends scores to learning platforms (Assignment and Grade Services 2.0), in a thread of its own: what is due by the ledger, once each; a platform
+// that is down is tried again later and later. What a platform has answered is an entry of the ledger.
 #pragma once
 
 #include <atomic>

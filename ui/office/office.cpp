@@ -71,8 +71,8 @@ struct Office::Parts {
                 auto account = accounts.of(name);
                 return account ? account : lti.reader(name);
               },
-              [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id(), [this](const std::string& cookie) { return lti.has_come(cookie); }}),
+              [this](const std::string& key) { return desk.station_problem(key); }, steady_s, utc_now_ns, desk.ledger_id(),
+              [this](const std::string& cookie) { return lti.has_come(cookie); }}),
         reports(o.report) {
     serve_pages();
     serve_people();

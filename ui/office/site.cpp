@@ -142,7 +142,8 @@ std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_uni
 
 std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& body_sha256) {
   if (door.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
-    return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt : std::optional(error_reply(415, "send a form"));
+    return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt
+                                                                                            : std::optional(error_reply(415, "send a form"));
   // a page of another place cannot send this type without asking first, and is refused then
   if (door.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
   if (const std::string origin = call.head.field("origin"); !origin.empty() && door.changes() && origin != "https://" + call.head.field("host"))

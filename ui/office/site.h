@@ -42,7 +42,7 @@ struct Knows {
   std::function<std::optional<Account>(const std::string& name)> account;     ///< as it is now
   std::function<std::string(const std::string& public_key)> station_problem;  ///< empty: it is an enrolled one's
   std::function<std::int64_t()> now_s, utc_ns;
-  std::string ledger;  ///< id
+  std::string ledger;                                        ///< id
   std::function<bool(const std::string& cookie)> came = {};  ///< whose cookie is that of somebody from a learning platform; empty: nobody's
 };
 

@@ -30,7 +30,8 @@ void list_platforms(office::LtiPlatforms& platforms) {
               << "\n  candidates are matched by: " << p.claim << "\n";
     const auto addresses = office::shown_addresses(p);
     std::cout << "  for its administrator:\n";
-    for (const auto& [what, name] : {std::pair{"tool URL", "tool"}, {"initiate login URL", "login"}, {"redirection URI", "redirect"}, {"public keyset URL", "keys"}})
+    for (const auto& [what, name] :
+         {std::pair{"tool URL", "tool"}, {"initiate login URL", "login"}, {"redirection URI", "redirect"}, {"public keyset URL", "keys"}})
       std::cout << "    " << what << ": " << addresses[name].get<std::string>() << "\n";
     for (const auto& [sub, account] : p.accounts) std::cout << "  " << one_line(sub) << " is the account of " << one_line(account) << "\n";
   }
@@ -40,7 +41,8 @@ void list_platforms(office::LtiPlatforms& platforms) {
 }  // namespace
 
 void add_platform_options(CLI::App& verb, PlatformArguments& o) {
-  verb.add_option("--platform", o.set, "set up a learning platform (LTI 1.3), or change it: a JSON file as docs/lti.md has it")->check(CLI::ExistingFile);
+  verb.add_option("--platform", o.set, "set up a learning platform (LTI 1.3), or change it: a JSON file as docs/lti.md has it")
+      ->check(CLI::ExistingFile);
   verb.add_flag("--platforms", o.list, "list the platforms, with what their administrators type in there");
   verb.add_option("--remove-platform", o.remove, "remove the platform of that issuer: who came from there is out at once");
   verb.add_option("--of-platform", o.of, "the platform, by its issuer, of the person whom --link names");

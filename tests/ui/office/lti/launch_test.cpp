@@ -115,8 +115,9 @@ TEST_F(Launches, TakeNoLongerThanTenMinutes) {
   const auto at = login.address.find("&state=") + 7;
   const auto finish = [&](LtiLogins& of, std::int64_t when) {
     try {
-      static_cast<void>(of.finish(platforms(), {{"state", login.address.substr(at, 64)}, {"id_token", "x"}}, login.cookie,
-                                  [](const LtiPlatform&, const std::string&) { return json(); }, when));
+      static_cast<void>(of.finish(
+          platforms(), {{"state", login.address.substr(at, 64)}, {"id_token", "x"}}, login.cookie,
+          [](const LtiPlatform&, const std::string&) { return json(); }, when));
     } catch (const Error& e) {
       return std::string(e.what());
     }
@@ -136,8 +137,9 @@ TEST_F(Launches, LeadNowhereButHere) {
     return out.replace(out.find(tool), tool.size(), url_encoded(target));
   };
   for (const std::string& target :
-       {std::string("https://elsewhere.example/"), opened_->address() + ".elsewhere.example/lti/launch", opened_->address() + "@elsewhere.example/lti/launch",
-        opened_->address() + "/", std::string("//elsewhere.example/lti/launch"), std::string("javascript:alert(1)"), opened_->address() + "/lti/launch#x"}) {
+       {std::string("https://elsewhere.example/"), opened_->address() + ".elsewhere.example/lti/launch",
+        opened_->address() + "@elsewhere.example/lti/launch", opened_->address() + "/", std::string("//elsewhere.example/lti/launch"),
+        std::string("javascript:alert(1)"), opened_->address() + "/lti/launch#x"}) {
     const Heard heard = b.ask("GET", "/lti/login?" + with(target));
     EXPECT_EQ(heard.status, 400) << target;
     EXPECT_FALSE(heard.fields.contains("location")) << target;
@@ -201,7 +203,8 @@ TEST_F(Launches, AskNoHostThatWasNotSetUp) {
   for (const std::string& address :
        {"http://127.0.0.1:" + port + "/jwks", "https://127.0.0.1:" + std::to_string(opened_->port()) + "/", std::string("https://169.254.169.254/"),
         std::string("https://127.0.0.1/jwks"), "https://x@127.0.0.1:" + port + "/jwks", "https://127.0.0.1:" + port + "@elsewhere.example/",
-        std::string("file:///etc/passwd"), "https://127.0.0.1:" + port + ".elsewhere.example/", "https://127.0.0.1:" + port + "/\r\nX: y", std::string()})
+        std::string("file:///etc/passwd"), "https://127.0.0.1:" + port + ".elsewhere.example/", "https://127.0.0.1:" + port + "/\r\nX: y",
+        std::string()})
     EXPECT_THROW(static_cast<void>(ask_platform(p, "GET", address)), Error) << address;
   platform_->control({{"jwks", "redirect"}});
   PlatformKeys keys;
@@ -230,7 +233,8 @@ TEST_F(Launches, ASetUpNeedsAddressesOfHttpsAndOneSourceOfKeys) {
     return out;
   };
   for (const char* name : {"office", "issuer", "auth_endpoint", "token_endpoint", "jwks_url"})
-    for (const char* wrong : {"http://moodle.example/", "moodle.example", "https://", "https://a b/", "https://a/#x", "https://a:99999/", "javascript:1"})
+    for (const char* wrong :
+         {"http://moodle.example/", "moodle.example", "https://", "https://a b/", "https://a/#x", "https://a:99999/", "javascript:1"})
       EXPECT_THROW(static_cast<void>(platform_in(with(name, wrong))), Error) << name << " " << wrong;
   EXPECT_THROW(static_cast<void>(platform_in(with("hosts", {"http://school.example"}))), Error);
   EXPECT_TRUE(platform_in(with("hosts", {"https://School.example/"})).may_ask("https://school.example/api/lti"));

@@ -60,8 +60,8 @@ class Platform {
       ::dup2(out[1], STDOUT_FILENO);
       ::close(out[0]);
       const std::string program = std::string(CAVUM_SOURCE_DIR) + "/tests/ui/office/lti/platform.py", key = folder_.file("key.pem");
-      ::execlp("python3", "python3", program.c_str(), "--certificate", certificate_file().c_str(), "--key", key.c_str(), "--tool", tool_.c_str(), "--port",
-               port.c_str(), static_cast<char*>(nullptr));
+      ::execlp("python3", "python3", program.c_str(), "--certificate", certificate_file().c_str(), "--key", key.c_str(), "--tool", tool_.c_str(),
+               "--port", port.c_str(), static_cast<char*>(nullptr));
       ::_exit(127);
     }
     ::close(out[1]);

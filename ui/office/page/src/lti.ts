@@ -70,7 +70,7 @@ function changes(now: SetUp, show: (now: SetUp) => void): HTMLElement[] {
     show(await post<SetUp>("/api/lti/set", { platform, code: code.value }));
     say(tr("Set up. Give the platform's administrator the addresses above."));
   }, name.block, issuer.block, client.block, deployments.block, auth.block, token.block, keys.block, key_set.block, claim.block, audience.block, hosts.block, certificate.block, code.block);
-  const out = [make("details", {}, make("summary", {}, tr("Set up a platform, or change one")), set)];
+  const out: HTMLElement[] = [make("details", {}, make("summary", {}, tr("Set up a platform, or change one")), set)];
   if (now.platforms.length > 0) out.push(link(now, show), remove(now, show));
   out.push(new_key(now, show));
   return out;
