@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <regex>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
@@ -119,15 +120,21 @@ void LtiSender::round(bool asked, bool again) {
   }
   seen_entries_ = entries;
   const std::vector<LtiCourse> courses = courses_.all();
-  if (courses.empty()) return;
+  if (courses.empty()) {
+    const std::lock_guard guard(lock_);
+    troubles_.clear();
+    return;
+  }
   const std::vector<LtiPlatform> platforms = platforms_.all();
   const auto known = desk_.numbers();
   courses_.keep_only([&](const std::string& id) { return known.contains(id); });
+  std::set<std::string> here;
   for (const LtiCourse& course : courses) {
     const auto platform =
         std::find_if(platforms.begin(), platforms.end(), [&](const LtiPlatform& p) { return p.is(course.issuer, course.client_id); });
     if (platform == platforms.end() || ends_) continue;
     const std::string key = key_of(*platform, course);
+    here.insert(key);
     {
       const std::lock_guard guard(lock_);
       if (const auto found = troubles_.find(key); found != troubles_.end() && Steady::now() < found->second.next) continue;
@@ -144,6 +151,8 @@ void LtiSender::round(bool asked, bool again) {
       trouble.next = Steady::now() + trouble.pause;
     }
   }
+  const std::lock_guard guard(lock_);
+  std::erase_if(troubles_, [&](const auto& one) { return !here.contains(one.first); });  // of platforms that were removed
 }
 
 void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool again) {
