@@ -7,6 +7,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "engine/session/session.h"
 
 namespace cavum::ledger {
 namespace {
@@ -45,6 +46,13 @@ std::string doubts_of(const FiledSession& s) {
 }
 
 }  // namespace
+
+std::string utc_ms_text(std::int64_t utc_ns) {
+  std::string seconds = utc_text(utc_ns);
+  seconds.pop_back();
+  const auto ms = utc_ns / 1'000'000 % 1000;
+  return fmt::format("{}.{:03}Z", seconds, ms);
+}
 
 ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales) {
   const auto known = own_scales.find(session.scenario_id);

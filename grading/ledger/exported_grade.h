@@ -17,4 +17,7 @@ struct ExportedGrade {
 /// Of a released result (`shown` is an object).
 [[nodiscard]] ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales);
 
+/// "2026-11-21T09:00:00.250Z": milliseconds, as LTI wants: a platform keeps the score with the later time.
+[[nodiscard]] std::string utc_ms_text(std::int64_t utc_ns);
+
 }  // namespace cavum::ledger

@@ -36,14 +36,6 @@ std::string number_of(const FiledSession& s, Identities& identities) {
   return identity ? identity->id : "";
 }
 
-/// Milliseconds, as LTI wants: a platform keeps the score with the later time.
-std::string utc_ms(std::int64_t utc_ns) {
-  std::string seconds = utc_text(utc_ns);
-  seconds.pop_back();
-  const auto ms = utc_ns / 1'000'000 % 1000;
-  return fmt::format("{}.{}{}Z", seconds, ms < 10 ? "00" : ms < 100 ? "0" : "", ms);
-}
-
 Bytes results_message(const json& facts) {
   const std::string text = "CVRESULT" + facts.dump();
   return {text.begin(), text.end()};
@@ -120,7 +112,7 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
     const bool shown = s->shown.is_object();
     const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
     json score = {{"userId", key.second},
-                  {"timestamp", utc_ms(shown ? s->released_utc_ns : s->received_utc_ns)},
+                  {"timestamp", utc_ms_text(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},
                   {"gradingProgress", shown    ? "FullyGraded"
                                       : review ? "PendingManual"

@@ -10,6 +10,7 @@
 #include "engine/base/json_reader.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/passback.h"
 
 namespace cavum::ledger {
 
@@ -109,13 +110,13 @@ class RegistryReader {
   void apply(const LedgerContent& content, const LedgerEntry& e) {
     content_ = &content;
     static const std::map<std::string, void (RegistryReader::*)(const LedgerEntry&)> k_kinds = {
-        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},   {"cancel", &RegistryReader::cancel},
-        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session}, {"regrade", &RegistryReader::regrade},
-        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station}, {"key", &RegistryReader::nothing},
-        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},     {"restore", &RegistryReader::nothing},
-        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},   {"announce", &RegistryReader::day},
-        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},       {"incident", &RegistryReader::day},
-        {"seats", &RegistryReader::seats}};
+        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},    {"cancel", &RegistryReader::cancel},
+        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session},  {"regrade", &RegistryReader::regrade},
+        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station},  {"key", &RegistryReader::nothing},
+        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},      {"restore", &RegistryReader::nothing},
+        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},    {"announce", &RegistryReader::day},
+        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},        {"incident", &RegistryReader::day},
+        {"seats", &RegistryReader::seats},      {"passback", &RegistryReader::passback}};
     const auto kind = k_kinds.find(e.kind);
     try {
       if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));
@@ -302,6 +303,13 @@ class RegistryReader {
       return;
     }
     say(e, "answers an appeal that is not open");
+  }
+
+  void passback(const LedgerEntry& e) {
+    Passback p = passback_in(e);
+    const FiledSession& s = r_.sessions.at(by_session_.at(p.session));
+    if (p.result != 0 && p.result != s.seq && s.regrade(p.result) == nullptr) say(e, "sends a result that is not the session's");
+    r_.passbacks.push_back(std::move(p));
   }
 
   void day(const LedgerEntry& e) { apply_day_entry(r_.day, e, *content_); }

@@ -100,11 +100,22 @@ struct IssuedTicket {
   /// Neither used, cancelled nor made up, and good at this time or later.
   [[nodiscard]] bool live(std::int64_t utc_ns) const { return !used_by && !cancelled_by && !made_up_by && ticket.not_after_utc_ns >= utc_ns; }
 };
+/// A score that a learning platform has answered (passback.h).
+struct Passback {
+  std::uint64_t seq = 0;
+  std::int64_t utc_ns = 0;
+  std::uint64_t session = 0, result = 0;  ///< entries; result 0: the platform was to clear its score
+  std::string platform, line_item;        ///< issuer; address of the column
+  int status = 0;                         ///< of HTTP
+  std::string answer;
+  [[nodiscard]] bool accepted() const;
+};
 struct Registry {
   StationRegister stations;
   ExamDay day;
   std::vector<IssuedTicket> tickets;
   std::vector<FiledSession> sessions;
+  std::vector<Passback> passbacks;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.
   std::vector<std::string> findings;
   /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once; of a sitting when another one counts.

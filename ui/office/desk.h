@@ -6,11 +6,14 @@
 #include <map>
 #include <mutex>
 #include <nlohmann/json.hpp>
+#include <set>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "grading/ledger/class_regrade.h"
 #include "grading/ledger/ledger.h"
+#include "grading/ledger/passback.h"
 #include "ui/office/accounts.h"
 #include "ui/office/board.h"
 #include "ui/office/inbox.h"
@@ -87,6 +90,20 @@ class Desk {
   [[nodiscard]] Recording recording(const std::string& file_sha256);
   [[nodiscard]] std::string gradebook();
   [[nodiscard]] std::string criteria();
+
+  // For learning platforms (desk_lti.cpp).
+  /// How many entries the ledger has now.
+  [[nodiscard]] std::size_t entries();
+  /// The school's own numbers of all whom the ledger knows.
+  [[nodiscard]] std::set<std::string> numbers();
+  [[nodiscard]] std::vector<ledger::ScoreDue> scores_due(const std::string& exam, const std::string& line_item, bool again);
+  void enter_passback(const ledger::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status, const std::string& answer);
+  /// Sessions whose last score in this column was accepted, and refused.
+  [[nodiscard]] std::pair<int, int> passbacks(const std::string& line_item);
+  /// Released results of the candidate of that number, of one exam or all: {exam, verdict, points, max, released, sha256}.
+  [[nodiscard]] nlohmann::json own_results(const std::string& number, const std::string& exam);
+  /// A recording of his whose result is released. Throws Error when there is none.
+  [[nodiscard]] Recording own_recording(const std::string& number, const std::string& file_sha256);
 
   /// Why requests of this key are not taken, in words; empty: it is an enrolled station's.
   [[nodiscard]] std::string station_problem(const std::string& public_key);

@@ -10,7 +10,7 @@ namespace cavum::office {
 namespace {
 
 constexpr std::size_t k_hash_digits = 64;
-constexpr std::uint64_t k_small = 16U << 10, k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20;
+constexpr std::uint64_t k_small = 16U << 10, k_launch = 128U << 10, k_rubric = 512U << 10, k_seats = 1U << 20, k_roster = 4U << 20;
 
 constexpr unsigned bits(auto... roles) { return (0U | ... | static_cast<unsigned>(roles)); }
 constexpr unsigned k_officer = bits(Role::officer), k_examiner = bits(Role::examiner), k_staff = bits(Role::officer, Role::examiner),
@@ -62,6 +62,18 @@ constexpr Door k_doors[] = {
     {"GET", "/api/report/*", Asks::person, k_staff, 0},
     {"GET", "/api/gradebook.csv", Asks::person, k_officer, 0},
     {"GET", "/api/criteria.csv", Asks::person, k_results, 0},
+    {"GET", "/api/lti", Asks::person, k_officer, 0},
+    {"POST", "/api/lti/set", Asks::person, k_officer, k_seats},
+    {"POST", "/api/lti/remove", Asks::person, k_officer, k_small},
+    {"POST", "/api/lti/link", Asks::person, k_officer, k_small},
+    {"POST", "/api/lti/new-key", Asks::person, k_officer, k_small},
+    {"POST", "/api/lti/send", Asks::person, k_officer, k_small},
+    {"GET", "/lti/jwks", Asks::nobody, 0, 0},
+    {"GET", "/lti/login", Asks::nobody, 0, 0},
+    {"POST", "/lti/login", Asks::form, 0, k_small},
+    {"POST", "/lti/launch", Asks::form, 0, k_launch},
+    {"GET", "/lti/result", Asks::came, 0, 0},
+    {"GET", "/lti/report/*", Asks::came, 0, 0},
     {"GET", "/station/hello", Asks::nobody, 0, 0},
     {"POST", "/station/enrol", Asks::nobody, 0, k_small},
     {"GET", "/station/tickets", Asks::station, 0, 0},

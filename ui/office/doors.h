@@ -19,7 +19,8 @@ enum class Role : unsigned { officer = 1, examiner = 2, invigilator = 4, reader 
 [[nodiscard]] std::span<const Role> all_roles() noexcept;
 
 /// Who has to be known before a door opens: nobody, a person who signed in, or an enrolled station that signed the request.
-enum class Asks { nobody, person, station };
+/// One who came from a learning platform has a cookie of his own; a form that a platform's page sends is let in as it is, and its handler checks it.
+enum class Asks { nobody, person, station, came, form };
 
 struct Door {
   std::string_view method;

@@ -16,6 +16,7 @@
 #include "engine/session/session.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
+#include "ui/office/lti_office.h"
 #include "ui/office/one_time_code.h"
 #include "ui/office/page_files.h"
 #include "ui/office/pieces.h"
@@ -81,8 +82,13 @@ struct Office::Parts {
         pieces(
             o.home + "/" + desk.ledger_id() + "/pieces", [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); },
             [] { return utc_now_ns() / 1'000'000'000; }),
-        site({[this](const std::string& name) { return accounts.of(name); }, [this](const std::string& key) { return desk.station_problem(key); },
-              steady_s, utc_now_ns, desk.ledger_id(), o.proxy}),
+        lti(desk, o.home, o.student_report, [this](const std::string& name) { return accounts.of(name); }),
+        site({[this](const std::string& name) {
+                auto account = accounts.of(name);
+                return account ? account : lti.reader(name);
+              },
+              [this](const std::string& key) { return desk.station_problem(key); }, steady_s, utc_now_ns, desk.ledger_id(), o.proxy,
+              [this](const std::string& cookie) { return lti.has_come(cookie); }}),
         proxied(o.proxy.has_value()),
         reports(o.report),
         regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
@@ -90,6 +96,9 @@ struct Office::Parts {
     serve_people();
     serve_desk();
     serve_stations();
+    lti.serve(
+        site, [this](const std::string& code, const Account& by) { require_code(code, by); },
+        [this](const Account& account) { return cookie_field(site.sign_ins().begin(account, steady_s()), k_absolute_end_s); });
     site.require_complete();
     server = std::make_unique<HttpServer>(
         o.address, o.port, o.certificate, [this](const Head& head) { return site.welcome(head); }, o.limits);
@@ -165,6 +174,7 @@ struct Office::Parts {
       site.on("POST", path, [this, act](const Call& c) {
         Reply reply = json_reply(act(c.json(), c.by->account));
         board.touch();
+        lti.nudge();
         return reply;
       });
     };
@@ -337,6 +347,7 @@ struct Office::Parts {
   Board board;
   Inbox inbox;
   Pieces pieces;
+  LtiOffice lti;
   Site site;
   bool proxied = false;
   Reports reports;

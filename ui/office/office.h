@@ -25,6 +25,8 @@ struct OfficeOptions {
   ledger::FilingOptions filing;
   /// The instructor's report (HTML) of the recording at a path, which the ledger holds; it may take seconds. Throws Error.
   std::function<std::string(const std::string& recording)> report;
+  /// The same for the student whom it is about: of the released result alone.
+  std::function<std::string(const std::string& recording)> student_report;
   HttpLimits limits;
   std::optional<ProxySignOn> proxy = {};  ///< who signs in by the school's own accounts; none: nobody
 };

@@ -18,25 +18,30 @@ namespace {
 
 constexpr std::size_t k_cookie_digits = 64;
 
-/// Of `name=value; name=value`; empty when it is not there, or twice.
-std::string cookie_in(const std::string& field) {
+bool equal(const std::string& a, const std::string& b) { return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0; }
+
+/// Of a sign-in or a visit; empty when it is none.
+std::string cookie_in(const std::string& field, std::string_view name) {
+  std::string found = cookie_named(field, name);
+  return found.size() == k_cookie_digits ? found : "";
+}
+
+}  // namespace
+
+std::string cookie_named(const std::string& field, std::string_view name) {
   std::string found;
   bool twice = false;
   for (std::size_t at = 0; at < field.size();) {
     const auto end = std::min(field.find(';', at), field.size());
     const std::string_view one = without_blanks(std::string_view(field).substr(at, end - at));
-    if (one.starts_with(std::string(k_cookie) + "=")) {
+    if (one.starts_with(name) && one.size() > name.size() && one[name.size()] == '=') {
       twice = twice || !found.empty();
-      found = std::string(one.substr(sizeof k_cookie));
+      found = std::string(one.substr(name.size() + 1));
     }
     at = end + 1;
   }
-  return twice || found.size() != k_cookie_digits ? "" : found;
+  return twice ? "" : found;
 }
-
-bool equal(const std::string& a, const std::string& b) { return a.size() == b.size() && sodium_memcmp(a.data(), b.data(), a.size()) == 0; }
-
-}  // namespace
 
 nlohmann::json Call::json() const { return parse_json(body, "the request", {8U << 20, 100'000, 16}); }
 
@@ -139,13 +144,20 @@ std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& bod
   const ProxyWord proxied = proxy_word(call.head, knows_.proxy);
   if (proxied.refused) return error_reply(403, "a field of this request is the proxy's alone, and the proxy did not send it");
   call.proxied_as = proxied.known_as;
+  if (door.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
+    return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt
+                                                                                            : std::optional(error_reply(415, "send a form"));
   // a page of another place cannot send this type without asking first, and is refused then
   if (door.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
   if (const std::string origin = call.head.field("origin"); !origin.empty() && door.changes() && origin != "https://" + call.head.field("host"))
     return error_reply(403, "another page asks this");
   switch (door.asks) {
     case Asks::nobody:
+    case Asks::form:
       return std::nullopt;
+    case Asks::came:
+      call.cookie = cookie_in(call.head.field("cookie"), k_visit_cookie);
+      return knows_.came && knows_.came(call.cookie) ? std::nullopt : std::optional(error_reply(401, "open the link on the platform again"));
     case Asks::person:
       return refuse_person(door, call);
     case Asks::station:
@@ -155,7 +167,7 @@ std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& bod
 }
 
 std::optional<Reply> Site::refuse_person(const Door& door, Call& call) {
-  call.cookie = cookie_in(call.head.field("cookie"));
+  call.cookie = cookie_in(call.head.field("cookie"), k_cookie);
   call.by = sign_ins_.of(call.cookie, knows_.now_s());
   if (call.by && knows_.account(call.by->account.name) != call.by->account) {  // removed, or given another password or role
     sign_ins_.end(call.cookie);

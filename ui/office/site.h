@@ -21,7 +21,7 @@ namespace cavum::office {
 struct Call {
   Head head;
   std::string body;                           ///< empty where a handler takes it part by part
-  std::string cookie;                         ///< of the sign-in
+  std::string cookie;                         ///< of the sign-in, or of who came from a learning platform
   std::optional<SignedIn> by;                 ///< the person; where a door asks for one
   std::string proxied_as;                     ///< who it is, as the proxy says; empty: it does not
   std::string station;                        ///< key of the station; where a door asks for one
@@ -44,8 +44,9 @@ struct Knows {
   std::function<std::optional<Account>(const std::string& name)> account;     ///< as it is now
   std::function<std::string(const std::string& public_key)> station_problem;  ///< empty: it is an enrolled one's
   std::function<std::int64_t()> now_s, utc_ns;
-  std::string ledger;                     ///< id
-  std::optional<ProxySignOn> proxy = {};  ///< none: nobody signs in by a proxy
+  std::string ledger;                                        ///< id
+  std::optional<ProxySignOn> proxy = {};                     ///< none: nobody signs in by a proxy
+  std::function<bool(const std::string& cookie)> came = {};  ///< whose cookie is that of somebody from a learning platform; empty: nobody's
 };
 
 class Site {
@@ -82,8 +83,11 @@ class Site {
 
 /// The cookie of the sign-in: its name keeps browsers from taking it over anything but HTTPS, or for another path or host.
 inline constexpr char k_cookie[] = "__Host-cavum";
+inline constexpr char k_visit_cookie[] = "__Host-cavum-visit";  ///< of who came from a learning platform
 inline constexpr char k_token_field[] = "x-cavum-token";
 
+/// Of `name=value; name=value`; empty when it is not there, or twice.
+[[nodiscard]] std::string cookie_named(const std::string& field, std::string_view name);
 /// {"error": ...} in the reader's language.
 [[nodiscard]] Reply error_reply(int status, const std::string& english);
 [[nodiscard]] Reply json_reply(const nlohmann::json& body, int status = 200);

@@ -205,8 +205,9 @@ int run_all(const ReportArguments& o) {
 
 }  // namespace
 
-std::string filed_report(const std::string& ledger_folder, const std::string& recording) {
+std::string filed_report(const std::string& ledger_folder, const std::string& recording, const std::string& reader) {
   ReportArguments o;
+  o.reader = reader;
   o.session = recording;
   o.ledger = ledger_folder;
   const report::ReportLedger ledger(ledger_folder);

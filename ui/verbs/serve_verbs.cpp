@@ -24,6 +24,7 @@
 #include "ui/office/station_client.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/print_json.h"
+#include "ui/verbs/platform_options.h"
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
 
@@ -37,6 +38,7 @@ struct ServeArguments {
                            proxy_secret, proxy_header = "X-Auth-Request-Email";
   std::vector<std::string> exams, names;
   bool accounts = false, second_factor = false, simulated = false;
+  PlatformArguments platforms;
 };
 
 std::string office_home() { return station_path("office"); }
@@ -125,6 +127,7 @@ void serve(const ServeArguments& o) {
   if (!o.proxy_address.empty()) options.proxy = office::proxy_sign_on(o.proxy_address, proxy_secret(o.proxy_secret), o.proxy_header);
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
+  options.student_report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording, "student"); };
   const Interrupt interrupt;
   const office::Office office(options);
   std::cout << "the office of " << one_line(office.school()) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
@@ -239,6 +242,7 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
   serve_verb->add_option("--known-as", o->known_as, "with --add-account: what the proxy calls the person, letter by letter");
   serve_verb->add_option("--remove-account", o->remove_account, "remove an account: who is signed in with it is out at once");
   serve_verb->add_flag("--accounts", o->accounts, "list the accounts");
+  add_platform_options(*serve_verb, o->platforms);
   serve_verb->callback([o, &exit_code] {
     if (!o->add_account.empty())
       add_account(*o);
@@ -246,7 +250,7 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
       office::Accounts(office_home() + "/accounts.json").remove(o->remove_account);
     else if (o->accounts)
       list_accounts();
-    else
+    else if (!set_up_platforms(o->platforms, office_home()))
       serve(*o);
     exit_code = 0;
   });

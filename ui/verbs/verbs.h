@@ -15,8 +15,8 @@ void add_session_verbs(CLI::App& app, int& exit_code);
 void add_grade_verbs(CLI::App& app, int& exit_code);
 /// After the ledger's: `ledger report` is one of them.
 void add_report_verbs(CLI::App& app, int& exit_code);
-/// The instructor's report (HTML) of a recording that a ledger holds. Throws Error.
-[[nodiscard]] std::string filed_report(const std::string& ledger_folder, const std::string& recording);
+/// The report (HTML) for an instructor or a student of a recording that a ledger holds. Throws Error, also where a student may not see it.
+[[nodiscard]] std::string filed_report(const std::string& ledger_folder, const std::string& recording, const std::string& reader = "instructor");
 void add_scan_verbs(CLI::App& app, int& exit_code);
 void add_rig_verbs(CLI::App& app, int& exit_code);
 void add_device_verbs(CLI::App& app, int& exit_code);

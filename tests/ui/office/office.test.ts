@@ -144,6 +144,18 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await type(page, "Code of your app", code(1));
   await press(page, "Release all that are ready");
   await said(page, "Released: 2.");
+
+  // Learning platforms: what is typed in is looked at, and changes nothing without a code.
+  await go(page, "Learning platforms");
+  await said(page, "No course is known yet.");
+  await page.click("details summary");
+  const typed: [string, string][] = [["Name of the platform", "Moodle"], ["Issuer", "https://moodle.example"], ["Client ID", "c1"], ["Deployment IDs", "1, 2"],
+    ["Authentication request URL", "https://moodle.example/auth"], ["Access token URL", "https://moodle.example/token"], ["Public keyset URL of the platform", "https://moodle.example/jwks"]];
+  for (const [label, text] of typed) await type(page, label, text);
+  await look(officer, "platforms");
+  await page.type("details[open] input[autocomplete=one-time-code]", "000000");
+  await press(page, "Set it up");
+  await said(page, "is not good, or was used before");
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   for (const one of [officer, invigilator, reader, examiner]) assert.deepEqual(one.complaints, []);

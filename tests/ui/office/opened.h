@@ -46,6 +46,7 @@ class Opened {
     o.filing.simulated = rehearsal_;
     o.proxy = proxy_;
     o.report = [](const std::string& recording) { return "<p>" + recording + "</p><script>1</script>"; };
+    o.student_report = [](const std::string& recording) { return "<p>student's " + recording + "</p><script>1</script>"; };
     if (port_ != 0) o.port = port_;  // where it was before
     office::make_certificate(o.certificate, {"127.0.0.1", "localhost"});
     office_ = std::make_unique<office::Office>(o);

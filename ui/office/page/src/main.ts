@@ -5,6 +5,7 @@ import { get, post, Refused, set_token, type Me } from "./api.ts";
 import { appeals } from "./appeals.ts";
 import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
+import { platforms } from "./lti.ts";
 import { act, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
 import { regrade } from "./regrade.ts";
@@ -29,6 +30,7 @@ const places = (): Place[] => [
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
   { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(may) },
   { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
+  { name: "platforms", title: tr("Learning platforms"), door: "GET /api/lti", open: () => platforms(me?.second_factor ?? false) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
 ];
 

@@ -1,0 +1,101 @@
+#include "grading/ledger/passback.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+#include "grading/ledger/exported_grade.h"
+
+namespace cavum::ledger {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_longest_answer = 300, k_longest_place = 2000;
+constexpr int k_first_good = 200, k_last_good = 299;
+
+/// What is known of one candidate.
+struct Candidate {
+  const FiledSession* counts = nullptr;  // the last attempt that is released; null: none is
+  std::uint64_t last_session = 0;
+  std::int64_t changed_utc_ns = 0;  // when something was last released, or taken back
+  const Passback* sent = nullptr;   // the last one to this column
+};
+
+json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales) {
+  json score = {{"timestamp", utc_ms_text(c.changed_utc_ns)}, {"activityProgress", "Completed"}};
+  if (c.counts == nullptr) {
+    score["gradingProgress"] = "Pending";  // without scoreGiven: the platform clears what it has
+  } else if (text_in(c.counts->shown, "verdict") == "review") {
+    score["gradingProgress"] = "PendingManual";
+  } else {
+    const ExportedGrade grade = exported_grade(*c.counts, scales);
+    score["gradingProgress"] = "FullyGraded";
+    score["scoreGiven"] = grade.grade;
+    score["scoreMaximum"] = grade.max;
+    score["comment"] = grade.feedback;
+  }
+  return score;
+}
+
+}  // namespace
+
+bool Passback::accepted() const { return status >= k_first_good && status <= k_last_good; }
+
+std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities, const std::string& exam,
+                                 const std::string& line_item, bool again) {
+  std::map<std::string, Candidate> candidates;
+  std::map<std::uint64_t, std::string> whose;
+  for (const auto& s : registry.sessions) {
+    whose[s.seq] = s.candidate;
+    if (s.scenario_id != exam || !s.simulated.empty()) continue;
+    Candidate& c = candidates[s.candidate];
+    c.last_session = s.seq;
+    if (s.shown.is_object()) c.counts = &s;
+    c.changed_utc_ns = std::max(c.changed_utc_ns, s.released_utc_ns);
+    if (s.retracted_by) c.changed_utc_ns = std::max(c.changed_utc_ns, content.entries.at(*s.retracted_by).utc_ns);
+  }
+  for (const auto& p : registry.passbacks)
+    if (const auto found = whose.find(p.session); p.line_item == line_item && found != whose.end() && candidates.contains(found->second))
+      candidates[found->second].sent = &p;
+  const auto scales = own_scales(registry);
+  std::vector<ScoreDue> out;
+  for (const auto& [pseudonym, c] : candidates) {
+    const std::uint64_t result = c.counts == nullptr ? 0 : c.counts->shown_seq;
+    const bool known = c.sent != nullptr && c.sent->result == result && (c.sent->accepted() || !again);
+    if (known || (result == 0 && (c.sent == nullptr || c.changed_utc_ns == 0))) continue;
+    const auto identity = identities.of_pseudonym(pseudonym);
+    if (!identity || identity->id.empty()) continue;  // forgotten
+    out.push_back({c.counts == nullptr ? c.last_session : c.counts->seq, result, identity->id, score_of(c, scales)});
+  }
+  return out;
+}
+
+const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
+                                  const std::string& answer) {
+  std::string words = one_line(answer).substr(0, k_longest_answer);
+  words.resize(whole_characters(words));
+  return ledger.append("passback", [&](const LedgerContent&) -> json {
+    return {{"session", sent.session}, {"result", sent.result}, {"platform", platform},
+            {"line_item", line_item},  {"status", status},      {"answer", words}};
+  });
+}
+
+Passback passback_in(const LedgerEntry& e) {
+  Passback p{e.seq,
+             e.utc_ns,
+             require_whole<std::uint64_t>(e.body, "session", "passback"),
+             require_whole<std::uint64_t>(e.body, "result", "passback"),
+             text_in(e.body, "platform"),
+             text_in(e.body, "line_item"),
+             static_cast<int>(whole_in(e.body, "status")),
+             text_in(e.body, "answer")};
+  if (p.platform.empty() || p.line_item.empty() || p.line_item.size() > k_longest_place)
+    throw Error("passback", "does not say where to", "use an intact copy");
+  return p;
+}
+
+}  // namespace cavum::ledger

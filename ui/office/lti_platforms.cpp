@@ -1,0 +1,204 @@
+#include "ui/office/lti_platforms.h"
+
+#include <algorithm>
+#include <filesystem>
+#include <regex>
+
+#include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/text.h"
+#include "engine/session/session.h"
+
+namespace cavum::office {
+namespace {
+
+using nlohmann::json;
+
+constexpr char k_platforms_format[] = "cavum platforms 1";
+constexpr std::size_t k_longest_field = 1000, k_kept_keys = 2;
+
+std::string line_in(const json& given, const char* name, bool needed) {
+  const json& value = member_of(given, name);
+  std::string text = text_in(given, name);
+  if ((!value.is_null() && !value.is_string()) || text.size() > k_longest_field || !is_plain_text(text) || (needed && text.empty()))
+    throw Error(fmt::format("the platform's '{}'", name), "is no line of text", "copy it from the platform's page of this tool");
+  return text;
+}
+
+std::string address_in(const json& given, const char* name, bool needed) {
+  std::string text = line_in(given, name, needed);
+  if (!text.empty() && origin_of(text).empty())
+    throw Error(fmt::format("the platform's '{}'", name), "is no address of https", "give one such as https://moodle.example/mod/lti/certs.php");
+  return text;
+}
+
+}  // namespace
+
+std::string origin_of(const std::string& address) {
+  static const std::regex k_address(R"((https://(?:[A-Za-z0-9.-]+|\[[0-9A-Fa-f:.]+\])(?::([0-9]{1,5}))?)(?:[/?][!-~]*)?)");
+  std::smatch found;
+  if (address.size() > 2000 || address.find_first_of("#\\\"<>^`{|}") != std::string::npos || !std::regex_match(address, found, k_address)) return "";
+  if (found[2].matched && (std::stoi(found[2]) == 0 || std::stoi(found[2]) > 65'535)) return "";
+  std::string origin = found[1];
+  for (char& c : origin)
+    if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
+  return origin.ends_with(":443") ? origin.substr(0, origin.size() - 4) : origin;
+}
+
+bool LtiPlatform::may_ask(const std::string& address) const {
+  const std::string origin = origin_of(address);
+  return !origin.empty() && (origin == origin_of(issuer) || origin == origin_of(auth_endpoint) || origin == origin_of(token_endpoint) ||
+                             origin == origin_of(jwks_url) || std::find(hosts.begin(), hosts.end(), origin) != hosts.end());
+}
+
+json json_of(const LtiPlatform& p) {
+  return {{"name", p.name},
+          {"office", p.office},
+          {"issuer", p.issuer},
+          {"client_id", p.client_id},
+          {"deployments", p.deployments},
+          {"auth_endpoint", p.auth_endpoint},
+          {"token_endpoint", p.token_endpoint},
+          {"token_audience", p.token_audience},
+          {"jwks_url", p.jwks_url},
+          {"key_set", p.key_set},
+          {"claim", p.claim},
+          {"hosts", p.hosts},
+          {"certificate", p.certificate},
+          {"accounts", p.accounts}};
+}
+
+LtiPlatform platform_in(const json& given) {
+  static const std::regex k_claim("sub|(custom|lis)\\.[A-Za-z0-9_]{1,100}");
+  LtiPlatform p;
+  p.name = line_in(given, "name", true);
+  p.office = origin_of(address_in(given, "office", true));
+  p.issuer = address_in(given, "issuer", true);
+  p.client_id = line_in(given, "client_id", true);
+  p.auth_endpoint = address_in(given, "auth_endpoint", true);
+  p.token_endpoint = address_in(given, "token_endpoint", true);
+  p.token_audience = line_in(given, "token_audience", false);
+  p.jwks_url = address_in(given, "jwks_url", false);
+  p.key_set = member_of(given, "key_set");
+  if (p.key_set.is_string())
+    p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
+  if (p.jwks_url.empty() == p.key_set.is_null())
+    throw Error("the platform's keys", p.jwks_url.empty() ? "are missing" : "stand there twice", "give jwks_url or key_set, and not both");
+  if (!p.key_set.is_null() && !member_of(p.key_set, "keys").is_array())
+    throw Error("the platform's 'key_set'", "is no key set", R"(give {"keys": […]} as the platform writes it)");
+  if (const std::string claim = line_in(given, "claim", false); !claim.empty()) p.claim = claim;
+  if (!std::regex_match(p.claim, k_claim))
+    throw Error("the platform's 'claim'", "is none that candidates can be matched by", "say sub, custom.NAME or lis.NAME");
+  p.certificate = text_in(given, "certificate");
+  if (const json& list = member_of(given, "hosts"); list.is_array())
+    for (const json& h : list) p.hosts.push_back(origin_of(address_in({{"hosts", h}}, "hosts", true)));
+  if (const json& list = member_of(given, "deployments"); list.is_array())
+    for (const json& d : list)
+      if (d.is_string() && !d.get<std::string>().empty() && d.get<std::string>().size() <= 255) p.deployments.push_back(d);
+  if (p.deployments.empty()) throw Error("the platform's 'deployments'", "are missing", "give the deployment id that the platform shows");
+  return p;
+}
+
+struct LtiPlatforms::File {
+  std::vector<LtiPlatform> platforms;
+  std::vector<LtiKey> keys;
+};
+
+LtiPlatforms::File LtiPlatforms::read() const {
+  if (!std::filesystem::exists(path_)) return {};
+  const json read = parse_json(read_text_file(path_), path_);
+  if (text_in(read, "format") != k_platforms_format || !member_of(read, "platforms").is_array() || !member_of(read, "keys").is_array())
+    throw Error(path_, "is no file of learning platforms", "restore it, or remove it and set them up anew");
+  File file;
+  for (const json& one : read["platforms"]) {
+    file.platforms.push_back(platform_in(one));
+    if (const json& linked = member_of(one, "accounts"); linked.is_object())
+      for (const auto& [sub, account] : linked.items())
+        if (account.is_string()) file.platforms.back().accounts[sub] = account;
+  }
+  for (const json& k : read["keys"]) file.keys.push_back({text_in(k, "kid"), text_in(k, "pem"), whole_in(k, "made_utc_ns")});
+  return file;
+}
+
+void LtiPlatforms::write(const File& file) const {
+  json platforms = json::array(), keys = json::array();
+  for (const auto& p : file.platforms) platforms.push_back(json_of(p));
+  for (const auto& k : file.keys) keys.push_back({{"kid", k.kid}, {"pem", k.pem}, {"made_utc_ns", k.made_utc_ns}});
+  make_private_folder(std::filesystem::path(path_).parent_path().string());
+  write_private_text_file(path_, json{{"format", k_platforms_format}, {"platforms", platforms}, {"keys", keys}}.dump(1) + "\n");
+}
+
+std::vector<LtiPlatform> LtiPlatforms::all() const {
+  const std::lock_guard guard(lock_);
+  return read().platforms;
+}
+
+std::optional<LtiPlatform> LtiPlatforms::of(const std::string& issuer, const std::string& client_id) const {
+  for (auto& p : all())
+    if (p.is(issuer, client_id)) return p;
+  return std::nullopt;
+}
+
+void LtiPlatforms::set(LtiPlatform platform) {
+  const std::lock_guard guard(lock_);
+  File file = read();
+  const auto same =
+      std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(platform.issuer, platform.client_id); });
+  if (same == file.platforms.end()) {
+    file.platforms.push_back(std::move(platform));
+  } else {
+    platform.accounts = same->accounts;
+    *same = std::move(platform);
+  }
+  write(file);
+}
+
+void LtiPlatforms::remove(const std::string& issuer, const std::string& client_id) {
+  const std::lock_guard guard(lock_);
+  File file = read();
+  if (std::erase_if(file.platforms, [&](const LtiPlatform& p) { return p.is(issuer, client_id); }) == 0)
+    throw Error("platform " + one_line(issuer), "is not set up", "see `cavum serve --platforms`");
+  write(file);
+}
+
+void LtiPlatforms::link(const std::string& issuer, const std::string& client_id, const std::string& sub, const std::string& account) {
+  if (sub.empty() || sub.size() > 255) throw Error("the person's 'sub'", "is none", "copy it from the platform");
+  const std::lock_guard guard(lock_);
+  File file = read();
+  const auto same = std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(issuer, client_id); });
+  if (same == file.platforms.end()) throw Error("platform " + one_line(issuer), "is not set up", "see `cavum serve --platforms`");
+  if (account.empty())
+    same->accounts.erase(sub);
+  else
+    same->accounts[sub] = account;
+  write(file);
+}
+
+std::vector<LtiKey> LtiPlatforms::keys() {
+  const std::lock_guard guard(lock_);
+  File file = read();
+  if (file.keys.empty()) {
+    file.keys.push_back(new_lti_key(read_clocks().utc_ns));
+    write(file);
+  }
+  return file.keys;
+}
+
+void LtiPlatforms::rotate() {
+  const std::lock_guard guard(lock_);
+  File file = read();
+  file.keys.insert(file.keys.begin(), new_lti_key(read_clocks().utc_ns));
+  if (file.keys.size() > k_kept_keys) file.keys.resize(k_kept_keys);
+  write(file);
+}
+
+json shown_addresses(const LtiPlatform& p) {
+  return {{"tool", p.office + "/lti/launch"},
+          {"login", p.office + "/lti/login"},
+          {"redirect", p.office + "/lti/launch"},
+          {"keys", p.office + "/lti/jwks"}};
+}
+
+}  // namespace cavum::office
