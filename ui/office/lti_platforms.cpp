@@ -87,7 +87,7 @@ LtiPlatform platform_in(const json& given) {
   if (p.jwks_url.empty() == p.key_set.is_null())
     throw Error("the platform's keys", p.jwks_url.empty() ? "are missing" : "stand there twice", "give jwks_url or key_set, and not both");
   if (!p.key_set.is_null() && !member_of(p.key_set, "keys").is_array())
-    throw Error("the platform's 'key_set'", "is no key set", R"(give {"keys": […]} as the platform writes it)");
+    throw Error("the platform's 'key_set'", "is no key set", "give the whole key set as the platform writes it");
   if (const std::string claim = line_in(given, "claim", false); !claim.empty()) p.claim = claim;
   if (!std::regex_match(p.claim, k_claim))
     throw Error("the platform's 'claim'", "is none that candidates can be matched by", "say sub, custom.NAME or lis.NAME");

@@ -6,10 +6,12 @@
 #include <sys/wait.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 
 #include "engine/device/simulated_stylus.h"
+#include "engine/statistics/order.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 #include "tests/engine/support/faulty_device.h"
@@ -296,7 +298,12 @@ TEST(RealTime, RunsAt4KilohertzToo) {
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
   EXPECT_GE(seconds, 0.499) << "never faster than real time";
   EXPECT_LE(seconds, 0.499 + k_patience_s);
-  EXPECT_NEAR(length(run.ticks.back().output.rendered_force_n), 0.64, 0.02);
+  // after a late tick the force comes back within milliseconds, and the last of them may stand there
+  std::vector<double> force_n;
+  for (auto tick = run.ticks.begin() + static_cast<std::ptrdiff_t>(run.ticks.size() / 2); tick != run.ticks.end(); ++tick)
+    force_n.push_back(length(tick->output.rendered_force_n));
+  EXPECT_NEAR(quantile(force_n, 0.5), 0.64, 0.02);
+  EXPECT_LE(*std::max_element(force_n.begin(), force_n.end()), 0.66);
 }
 
 /// What `start` does in a process of its own that has room for only so many stacks of 256 MB: 0 it ran, 1 Error with the stream
