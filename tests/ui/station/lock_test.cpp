@@ -216,7 +216,7 @@ const double k_kept_back_mm = pointer_omni().coulomb_n / HandModel{}.stiffness_n
 class PointerByHand : public StationByHand {
  protected:
   [[nodiscard]] pid_t start_slow(bool slow) const {
-    std::string script = "type M7\ngo device-check\nsleep 1\nkey space 0.6\ngo briefing\nkey enter\nwait exam\n";
+    std::string script = k_to_exam_by_hand;
     for (int i = 0; i < 70; ++i) script += slow ? "stall 0.1\n" : "sleep 0.1\n";
     return start(script + "key escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n", "--device mouse --practice");
   }

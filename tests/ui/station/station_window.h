@@ -80,5 +80,7 @@ class StationWindow : public ::testing::Test {
 };
 
 constexpr const char* k_to_exam = "type T5\ngo device-check\ngo briefing\nkey enter\nwait exam\n";
+/// The same with mouse and keyboard as the stylus.
+constexpr const char* k_to_exam_by_hand = "type M7\ngo device-check\nsleep 1\nkey space 0.6\ngo briefing\nkey enter\nwait exam\n";
 
 }  // namespace cavum::station

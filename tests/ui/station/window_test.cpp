@@ -308,14 +308,7 @@ TEST_F(StationWindow, OpenHiddenStalledOrAbsentTheTicksAreTheSame) {
 
 TEST_F(StationWindow, MouseAndKeyboardCutByTheSamePhysics) {
   const std::string way_down = k_in_time ? "2.5" : "25";  // the hand moves a tenth of a second's way a picture at most
-  const std::string script = R"(type M7
-go device-check
-sleep 1
-key space 0.6
-go briefing
-key enter
-wait exam
-hold space
+  const std::string script = std::string(k_to_exam_by_hand) + R"(hold space
 hold pagedown
 until )" + way_down + R"(
 picture 9-mouse-left-handed
@@ -339,14 +332,7 @@ key enter
 }
 
 TEST_F(StationWindow, BBringsALostPointBackToWhereItBegan) {
-  const std::string script = R"(type M8
-go device-check
-sleep 1
-key space 0.6
-go briefing
-key enter
-wait exam
-until 1
+  const std::string script = std::string(k_to_exam_by_hand) + R"(until 1
 hold left
 hold pagedown
 until )" + std::string(k_in_time ? "2.5" : "12") +
@@ -377,14 +363,7 @@ TEST_F(StationWindow, PausesAsOftenAsTheScenarioPermits) {
   std::string scenario = read_text_file(k_scenario);
   scenario.insert(scenario.find("time_limit_s"), "gauges = [\"speed\", \"depth\"]\npauses = { count = 1, longest_s = 60, button = 1 }\n");
   write_text_file(folder_.file("paused.toml"), scenario);
-  const std::string script = R"(type P1
-go device-check
-sleep 1
-key space 0.6
-go briefing
-key enter
-wait exam
-until 1
+  const std::string script = std::string(k_to_exam_by_hand) + R"(until 1
 key p
 sleep 1.5
 picture 10-pause

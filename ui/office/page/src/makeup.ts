@@ -1,28 +1,13 @@
 // A makeup sitting for who missed an exam, or whose exam was interrupted: a form below its ticket.
-import { button, make } from "../report_src/dom.ts";
+import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
-import { form, input, say, select, time_zone, utc } from "./parts.ts";
+import { form, input, opens_form, say, select, time_zone, utc } from "./parts.ts";
 
 interface First { entry: number; candidate: string; at_station: boolean; makeup: string[] }
 
 export function with_makeup(t: First, show: () => Promise<void>): HTMLElement {
-  const block = make("div");
-  const open = button(tr("Makeup"), { "aria-expanded": "false", "aria-label": tr("Makeup sitting for {}", t.candidate) }, () => {
-    const asked = fields(t, show);
-    asked.querySelector(".row:last-child")!.append(button(tr("Back"), {}, () => {
-      asked.remove();
-      open.hidden = false;
-      open.setAttribute("aria-expanded", "false");
-      open.focus();
-    }));
-    open.hidden = true;
-    open.setAttribute("aria-expanded", "true");
-    block.append(asked);
-    asked.querySelector("select")!.focus();
-  });
-  block.append(open);
-  return block;
+  return opens_form(tr("Makeup"), { "aria-label": tr("Makeup sitting for {}", t.candidate) }, () => fields(t, show));
 }
 
 function fields(t: First, show: () => Promise<void>): HTMLFormElement {

@@ -92,13 +92,12 @@ async function run(control: HTMLButtonElement, does: () => Promise<void>): Promi
   }
 }
 
-/** Asks why in a form below a button, and does it then. */
-export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>): HTMLElement {
+/** A button that opens a form below itself; Back closes it. */
+export function opens_form(text: string, attributes: { [name: string]: string }, make_form: () => HTMLFormElement): HTMLElement {
   const block = make("div");
   const open = button(text, { "aria-expanded": "false", ...attributes }, () => {
-    const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-    const asked = form(text, async () => does(reason.value), reason.block);
-    asked.querySelector(".row")!.append(button(tr("Back"), {}, () => {
+    const asked = make_form();
+    asked.querySelector(".row:last-child")!.append(button(tr("Back"), {}, () => {
       asked.remove();
       open.hidden = false;
       open.setAttribute("aria-expanded", "false");
@@ -107,10 +106,18 @@ export function with_reason(text: string, attributes: { [name: string]: string }
     open.hidden = true;
     open.setAttribute("aria-expanded", "true");
     block.append(asked);
-    reason.focus();
+    asked.querySelector<HTMLElement>("input, select")!.focus();
   });
   block.append(open);
   return block;
+}
+
+/** Asks why in a form below a button, and does it then. */
+export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>): HTMLElement {
+  return opens_form(text, attributes, () => {
+    const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+    return form(text, async () => does(reason.value), reason.block);
+  });
 }
 
 /** To the tooth in three dimensions and the replay of a recording, in a window of its own. */
