@@ -133,13 +133,13 @@ test("the address names a moment, and events and points lost are stepped through
   await press(page, "Previous event");
   await press(page, "Previous event");
   assert.equal(await scrubber_s(page), 2);
-  await press(page, "Next point lost");
-  assert.equal(await scrubber_s(page), 9);
-  await press(page, "Next point lost");
+  await press(page, "Next point lost"); // past the moment that cost nothing, at 9 s
   assert.equal(await scrubber_s(page), 11);
   assert.equal(await page.evaluate(() => document.querySelector(".player .event")!.textContent), "0:11.0 Overcut, walls: 0.30 mm beyond the distal wall (−28.5 points)");
   const losses = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".losses span")].map((e) => `${e.style.left} ${e.style.width}`));
-  assert.deepEqual(losses, ["45% max(3px, 5%)", "55% max(3px, 17.5%)"]);
+  assert.deepEqual(losses, ["55% max(3px, 17.5%)", "85% "]);
+  await press(page, "Next point lost");
+  assert.equal(await scrubber_s(page), 17);
   const ticks = await page.evaluate(() => [...document.querySelectorAll<HTMLElement>(".ticks:not(.losses) span")].map((e) => `${e.style.left} ${e.title}`));
   assert.deepEqual(ticks, ["10% 0:02.0 Outline begun", "45% 0:09.0 Pause of 1.0 s", "62.5% 0:12.5 Force above 1.5 N", "90% 0:18.0 Floor reached"]);
   nothing_wrong(opened);

@@ -197,6 +197,7 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
   data.moments = [
     { criterion: "Overcut, walls", t_s: 11, to_t_s: 14.5, site_mm: [-1.5, 0, 1.8], what: "0.30 mm beyond the distal wall", points_lost: 28.5 },
     { criterion: "Idle", t_s: 9, to_t_s: 10, site_mm: null, what: "nothing was done", points_lost: null },
+    { criterion: "Floor", t_s: 17, to_t_s: null, site_mm: [0, 0, 0.9], what: "0.10 mm too deep", points_lost: 2 },
   ];
   return data;
 }
