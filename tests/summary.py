@@ -1,8 +1,8 @@
 """summary.py TESTS_XML RESULTS_DIR WALL_S: what `./dev test` says at its end. TESTS_XML is CTest's report, RESULTS_DIR holds one report of each GoogleTest
 program, WALL_S is how long all of it took.
 
-Prints how many tests there were, which long ones the commit drew, each one that was skipped with its reason, the ten slowest, and whether the whole took
-longer than it may.
+Prints how many tests there were, which long ones the commit drew, each one that was skipped with its reason, the ten slowest, whether the whole took
+longer than it may, and last what failed: where only the end of a long output is kept, it still says which test and why.
 """
 import os
 import pathlib
@@ -13,6 +13,7 @@ import draw
 
 BUDGET_S = 540  # of an everyday run on two quiet cores
 LONG_S = 5.0    # a test that takes as long belongs in long_tests.txt: on a quiet core 2 s, and machines are noisy
+LINES_OF_A_FAILURE = 12
 
 
 def read_times(tests_xml, results):
@@ -28,6 +29,29 @@ def read_times(tests_xml, results):
             for reason in case.iter("skipped"):
                 skipped[name] = (reason.text or reason.get("message") or "").strip().splitlines()[-1:]
     return programs, times, skipped
+
+
+def failures(tests_xml, results):
+    """(test, what it said) of each failure; of a GoogleTest program each of its tests, or that it ended without a report."""
+    found = []
+    for case in tree.parse(tests_xml).iter("testcase"):
+        if case.get("status") != "fail":
+            continue
+        report = pathlib.Path(results) / f"{case.get('name')}.xml"
+        output = case.findtext("system-out") or ""
+        of_program = []
+        if "[==========]" in output and report.exists():
+            for one in tree.parse(report).iter("testcase"):
+                of_program += [(f"{report.stem}: {one.get('classname')}.{one.get('name')}", f.get("message") or "") for f in one.iter("failure")]
+        found += of_program or [(case.get("name"), "\n".join(output.strip().splitlines()[-LINES_OF_A_FAILURE:]))]
+    return found
+
+
+def say_failed(found):
+    for name, said in found:
+        print(f"FAILED {name}")
+        for line in said.strip().splitlines()[:LINES_OF_A_FAILURE]:
+            print(f"    {line[:200]}")
 
 
 def say_drawn(times):
@@ -69,3 +93,4 @@ if __name__ == "__main__":
         print(f"  {seconds:7.1f} s  {name}")
     print("seconds by program:", ", ".join(f"{name} {seconds:.0f}" for name, seconds in sorted(programs.items(), key=lambda pair: -pair[1])))
     say_budget(float(sys.argv[3]))
+    say_failed(failures(sys.argv[1], sys.argv[2]))

@@ -69,6 +69,10 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   }
   g.grade = g.points;
   g.feedback = fmt::format("{}Verdict: {}.", doubts_of(session), g.verdict);
+  if (verdict == "review") {
+    g.grade = nullptr;
+    g.feedback += fmt::format(" No grade before a person has decided: the {} points do not count yet.", points_of(points, max));
+  }
   if (g.by_another_rubric) g.feedback += fmt::format(" Marked by another rubric: {}.", points_of(points, max));
 
   const auto reaches = [&](double percent) { return g.points.get<double>() >= 0.01 * percent * g.max.get<double>() - k_rounding; };

@@ -7,7 +7,7 @@
 namespace cavum::ledger {
 
 struct ExportedGrade {
-  nlohmann::json grade;            ///< the points, or 0 where the exam was failed although the points would pass by themselves
+  nlohmann::json grade;            ///< the points; 0 where the exam was failed although they would pass by themselves; null of a `review`
   nlohmann::json points;           ///< out of max
   nlohmann::json max;              ///< the exam's own
   bool by_another_rubric = false;  ///< one with another maximum: points are scaled, and its criteria are others

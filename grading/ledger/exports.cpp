@@ -120,8 +120,12 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
     if (const std::string mark = simulated_mark(*s); !mark.empty()) score["comment"] = mark;
     if (shown) {
       const ExportedGrade g = exported_grade(*s, scales);
-      score["scoreGiven"] = g.grade;
-      score["scoreMaximum"] = g.max;
+      if (g.grade.is_null()) {  // released undecided
+        score["gradingProgress"] = "PendingManual";
+      } else {
+        score["scoreGiven"] = g.grade;
+        score["scoreMaximum"] = g.max;
+      }
       score["comment"] = simulated_mark(*s) + g.feedback;
     }
     out.push_back({{"resourceId", s->scenario_id}, {"score", std::move(score)}});

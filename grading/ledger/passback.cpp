@@ -29,10 +29,9 @@ json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales
   json score = {{"timestamp", utc_ms_text(c.changed_utc_ns)}, {"activityProgress", "Completed"}};
   if (c.counts == nullptr) {
     score["gradingProgress"] = "Pending";  // without scoreGiven: the platform clears what it has
-  } else if (text_in(c.counts->shown, "verdict") == "review") {
+  } else if (const ExportedGrade grade = exported_grade(*c.counts, scales); grade.grade.is_null()) {
     score["gradingProgress"] = "PendingManual";
   } else {
-    const ExportedGrade grade = exported_grade(*c.counts, scales);
     score["gradingProgress"] = "FullyGraded";
     score["scoreGiven"] = grade.grade;
     score["scoreMaximum"] = grade.max;

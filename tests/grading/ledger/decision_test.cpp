@@ -37,6 +37,10 @@ class LeftToAPerson : public testing::Test {
     int left_out = 0;
     return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out);
   }
+  json lti() const {
+    Identities identities(school_.places().identities());
+    return lti_scores(read_registry(read_ledger(school_.places())), identities).at(0).at("score");
+  }
   School school_{*shared_};
   std::uint64_t entry_ = 0;
 
@@ -96,11 +100,16 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
   Ledger ledger = school_.ledger();
   EXPECT_EQ(release_results(ledger, {.sessions = {entry_}}).to_decide, 1u);
   EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results.size(), 1u);
-  EXPECT_NE(moodle().find(",review,"), std::string::npos);
+  EXPECT_NE(moodle().find(",,review,"), std::string::npos) << "no grade: a gradebook would count it as the final one";
+  EXPECT_NE(moodle().find("No grade before a person has decided"), std::string::npos);
+  EXPECT_EQ(lti()["gradingProgress"], "PendingManual");
+  EXPECT_FALSE(lti().contains("scoreGiven"));
   enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
   EXPECT_NE(moodle().find(",review,"), std::string::npos) << "the old one stands until the new one is released";
   release_results(ledger, {.all = true});
   EXPECT_NE(moodle().find(",pass,"), std::string::npos);
+  EXPECT_EQ(lti()["gradingProgress"], "FullyGraded");
+  EXPECT_EQ(lti()["scoreGiven"], session().shown["score"]["points"]);
 }
 
 TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {

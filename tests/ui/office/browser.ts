@@ -140,7 +140,8 @@ export async function go(page: Page, title: string): Promise<void> {
   await page.waitForFunction((old) => document.querySelector("h1")?.textContent !== old, {}, before);
 }
 export async function said(page: Page, words: string): Promise<void> {
-  await until(async () => (await page.$eval("body", (b) => b.innerText)).includes(words), `'${words}' on the page: ${await page.$eval("body", (b) => b.innerText)}`);
+  const text = (): Promise<string> => page.$eval("body", (b) => b.innerText);
+  await until(async () => (await text()).includes(words), `'${words}' on the page`, async () => `, where there is: ${await text()}`);
 }
 
 export async function look({ page }: Desk, name: string): Promise<void> {

@@ -14,7 +14,7 @@ after(close_office);
 
 const text = (page: Page): Promise<string> => page.$eval("main", (m) => m.innerText);
 async function gone(page: Page, words: string): Promise<void> {
-  await until(async () => !(await text(page)).includes(words), `no '${words}' on the page`);
+  await until(async () => !(await text(page)).includes(words), `no '${words}' on the page`, async () => `, where there is: ${await text(page)}`);
 }
 /** Tickets of the list, by the candidates' numbers. */
 async function codes(page: Page): Promise<Map<string, string>> {

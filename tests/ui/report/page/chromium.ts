@@ -60,11 +60,11 @@ export async function settled(page: Page): Promise<void> {
   });
 }
 
-/** Waits until something is true; the page's rules forbid the waiting that evaluates strings. */
-export async function until(what: () => Promise<boolean>, said: string): Promise<void> {
+/** Waits until something is true; the page's rules forbid the waiting that evaluates strings. `instead` tells what there was at the end of a wait in vain. */
+export async function until(what: () => Promise<boolean>, said: string, instead: () => Promise<string> = async () => ""): Promise<void> {
   const end = Date.now() + 120_000;
   while (!(await what())) {
-    if (Date.now() > end) throw new Error(`waited two minutes for: ${said}`);
+    if (Date.now() > end) throw new Error(`waited two minutes for: ${said} ${await instead()}`);
     await new Promise((done) => setTimeout(done, 50));
   }
 }
