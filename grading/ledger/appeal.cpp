@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "engine/base/json_fields.h"
 #include "grading/ledger/regrade.h"
 
 namespace cavum::ledger {
@@ -17,7 +18,20 @@ const FiledSession& appealed(const Registry& registry, std::uint64_t session) {
   return *found;
 }
 
+/// What a candidate reads first of a result.
+json essence(const json& result) {
+  if (!result.is_object()) return {};
+  return {member_of(result, "verdict"), member_of(member_of(result, "score"), "points")};
+}
+
 }  // namespace
+
+bool changed_since(const FiledSession& session, const Appeal& appeal) {
+  const json* then = &session.filed;
+  for (const auto& r : session.regrades)
+    if (r.seq < appeal.seq) then = &r.result;
+  return session.result_seq > appeal.seq && essence(session.result) != essence(*then);
+}
 
 const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason) {
   require_reason(reason);
@@ -40,8 +54,11 @@ const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, const st
     const std::string where = fmt::format("--session {}", session);
     const Appeal* open = s.open_appeal();
     if (open == nullptr) throw Error(where, "no appeal is open", "see `cavum ledger appeal` without --session");
-    if (outcome == k_changed && s.result_seq < open->seq)
+    const bool changed = changed_since(s, *open);
+    if (outcome == k_changed && !changed)
       throw Error(where, "no other result was entered since the appeal", "enter it first: `cavum ledger regrade` or `cavum ledger decide`");
+    if (outcome == k_stands && changed)
+      throw Error(where, "another result was entered since the appeal", "look at that one; if it is right, answer that the result was changed");
     return json{{"session", session}, {"answers", open->seq}, {"outcome", outcome}, {"reason", reason}};
   });
 }

@@ -35,7 +35,10 @@ bool are_the_same(const MarkedAnew& a, const MarkedAnew& b) {
 }  // namespace
 
 bool MarkedAnew::other_verdict() const { return text_in(before, "verdict") != text_in(after, "verdict"); }
-bool MarkedAnew::other_points() const { return member_of(before, "score") != member_of(after, "score"); }
+bool MarkedAnew::other_points() const {
+  const json &then = member_of(before, "score"), &now = member_of(after, "score");
+  return member_of(then, "points") != member_of(now, "points") || member_of(then, "max") != member_of(now, "max");
+}
 
 ClassRegrade plan_class_regrade(const Registry& registry, const std::string& exam, RegradeBasis basis) {
   ClassRegrade plan{exam, std::move(basis), {}, 0};

@@ -87,7 +87,10 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
                                                             : "another pass mark " + marks,
                               points_of(points, max));
   } else if (verdict == "pass" && !reaches(own_percent)) {
-    g.feedback += result.contains("decision") ? " Passed by a person's decision." : fmt::format(" Passed by another pass mark {}.", marks);
+    g.grade = std::round(0.01 * own_percent * g.max.get<double>() * 1e6) / 1e6;
+    g.feedback += fmt::format(" Passed by {}: the {} points count as the pass mark, {}.",
+                              result.contains("decision") ? "a person's decision" : "another pass mark " + marks, points_of(points, max),
+                              plain_number(g.grade.get<double>()));
   }
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())

@@ -1,5 +1,5 @@
 // What a gradebook is told of a released result: it adds up and compares with its own pass mark, which is the exam's, so a failure must not read as a
-// pass there, and all of one exam must be on one scale. What was changed for that is said in the feedback.
+// pass there, nor a pass as a failure, and all of one exam must be on one scale. What was changed for that is said in the feedback.
 #pragma once
 
 #include "grading/ledger/exam_scale.h"
@@ -7,7 +7,8 @@
 namespace cavum::ledger {
 
 struct ExportedGrade {
-  nlohmann::json grade;            ///< the points; 0 where the exam was failed although they would pass by themselves; null of a `review`
+  nlohmann::json grade;  ///< the points; 0 where they would pass and the exam was failed; the pass mark where they would fail and it was passed; null
+                         ///< of a `review`
   nlohmann::json points;           ///< out of max
   nlohmann::json max;              ///< the exam's own
   bool by_another_rubric = false;  ///< one with another maximum: points are scaled, and its criteria are others

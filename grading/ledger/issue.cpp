@@ -32,10 +32,15 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, A
     const Registry& registry = ledger.registry();  // as it is under the lock
     const IssuedTicket* live = registry.live_ticket(candidate, ticket.exam, read_clocks().utc_ns);
     if (live != nullptr && another == Another::refuse)
-      throw TicketIsLive("candidate " + candidate,
-                         fmt::format("has a ticket for {} that is good until {} (entry {})", one_line(ticket.exam),
-                                     utc_text(live->ticket.not_after_utc_ns), live->seq),
-                         "cancel it with `cavum ledger cancel`, or add --another");
+      throw AnotherTicket("candidate " + candidate,
+                          fmt::format("has a ticket for {} that is good until {} (entry {})", one_line(ticket.exam),
+                                      utc_text(live->ticket.not_after_utc_ns), live->seq),
+                          "cancel it with `cavum ledger cancel`, or add --another");
+    const auto sat = std::find_if(registry.sessions.begin(), registry.sessions.end(),
+                                  [&](const FiledSession& s) { return s.candidate == candidate && s.scenario_id == ticket.exam; });
+    if (sat != registry.sessions.end() && another == Another::refuse)
+      throw AnotherTicket("candidate " + candidate, fmt::format("has sat {} (entry {})", one_line(ticket.exam), sat->seq),
+                          "give a makeup sitting for it, or add --another: of several attempts the last one that is released counts");
     return without_grant(text);
   });
   return text;

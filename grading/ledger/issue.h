@@ -17,15 +17,16 @@ namespace cavum::ledger {
 /// A ticket for this exam as it was made ready, without candidate and number.
 [[nodiscard]] Ticket promise(const scenarios::ExamSetup& setup, const LedgerContent& ledger, std::int64_t not_before_utc_ns,
                              std::int64_t not_after_utc_ns);
-/// Thrown by issue(): the candidate has a ticket for the exam already.
-class TicketIsLive : public Error {
+/// Thrown by issue(): the candidate has a ticket for the exam already, or has sat it.
+class AnotherTicket : public Error {
  public:
   using Error::Error;
 };
-/// Has a candidate a second live ticket for an exam?
+/// Does a candidate get a second ticket for an exam?
 enum class Another { refuse, allow };
-/// Gives it to a candidate under a number of its own, and enters it. Returns its signed text. Throws TicketIsLive when the candidate has one
-/// for the exam that is still good (live_ticket), unless `another` allows it.
+/// Gives it to a candidate under a number of its own, and enters it. Returns its signed text. Throws AnotherTicket when the candidate has one
+/// for the exam that is still good (live_ticket), or a session of it is filed (of several attempts the last one that is released counts, so a
+/// second one may take the place of a released result), unless `another` allows it.
 [[nodiscard]] std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, Another another = Another::refuse);
 /// Enters that the ticket of entry `seq` does not count. Throws Error when it is no ticket's entry, was used or cancelled before, or `reason` is no
 /// line of text.

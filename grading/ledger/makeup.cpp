@@ -45,7 +45,7 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
       throw Error(where, may.empty() ? why_not : "was not missed: it was begun, or its time is not over", "look at the list of tickets again");
     for (const auto& t : registry.tickets)
       if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
-        throw TicketIsLive("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
+        throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
                            "cancel that one first");
     ticket.candidate = first->ticket.candidate;
     ticket.nonce = random_hex(16);

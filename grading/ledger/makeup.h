@@ -23,7 +23,7 @@ struct MakeupWish {
   std::string reason;       ///< one line, kept for ever
 };
 /// Issues `ticket` (without candidate and number) as the makeup of another. Returns its signed text. Throws Error when the first gets none, or
-/// TicketIsLive when the candidate has a further good ticket for the exam.
+/// AnotherTicket when the candidate has a further good ticket for the exam.
 [[nodiscard]] std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish);
 
 }  // namespace cavum::ledger

@@ -191,7 +191,7 @@ void SchoolDay::issue_ticket() {
   known_[id] = pseudonym;
   try {
     static_cast<void>(ledger::issue(ledger, morning_.promise, pseudonym));
-  } catch (const ledger::TicketIsLive&) {
+  } catch (const ledger::AnotherTicket&) {
     ++counts_["second live ticket refused"];
     return;
   }

@@ -74,12 +74,12 @@ json Desk::issue(const json& asked, const Account& by) {
     ticket.grant = scenarios::notes_of(person.grant);
     std::sort(ticket.grant.begin(), ticket.grant.end());
     try {
-      const std::string text = ledger::issue(turn.book, ticket, candidate);
+      const std::string text = ledger::issue(turn.book, ticket, candidate, wish.another ? ledger::Another::allow : ledger::Another::refuse);
       write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
       if (!stations[i].empty()) seats.push_back({turn.book.content().entries.size() - 1, stations[i]});
       issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}, {"station", person.station}});
-    } catch (const ledger::TicketIsLive& live) {  // the others get theirs
-      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(live.what())}});
+    } catch (const ledger::AnotherTicket& has) {  // the others get theirs
+      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(has.what())}});
     }
   }
   if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));

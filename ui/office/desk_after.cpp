@@ -59,6 +59,9 @@ json Desk::results(bool names) {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
+  std::map<std::pair<std::string, std::string>, std::uint64_t> counting;  // of several attempts the last one that is released
+  for (const auto& s : registry.sessions)
+    if (s.shown.is_object()) counting[{s.candidate, s.scenario_id}] = s.seq;
   json out = json::array();
   for (const auto& s : registry.sessions) {
     json row = {{"session", s.seq},
@@ -76,6 +79,9 @@ json Desk::results(bool names) {
     const json& score = member_of(s.result, "score");
     row["points"] = member_of(score, "points");
     row["max"] = member_of(score, "max");
+    if (s.shown.is_object() && s.shown_seq != s.result_seq)  // what is out is not what will be
+      row["out"] = {{"verdict", text_in(s.shown, "verdict")}, {"points", member_of(member_of(s.shown, "score"), "points")}};
+    if (const auto last = counting.find({s.candidate, s.scenario_id}); s.shown.is_object() && last->second != s.seq) row["later"] = last->second;
     if (names) put_name(row, people, s.candidate);
     out.push_back(std::move(row));
   }
@@ -126,7 +132,7 @@ json Desk::appeals() {
                      {"sha256", recording_sha256(s)},
                      {"reason", a.reason},
                      {"open", !a.closed_by.has_value()},
-                     {"changed", s.result_seq > a.seq},
+                     {"changed", ledger::changed_since(s, a)},
                      {"outcome", a.outcome},
                      {"answer", a.answer}});
     }

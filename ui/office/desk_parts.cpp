@@ -78,6 +78,7 @@ IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
   if (wish.until_utc_ns <= wish.from_utc_ns)
     throw Error("the last moment", "is not after the first", "give the last moment at which the exam may begin");
   wish.begun_at_ledger = member_of(asked, "begin_at_office") == true;
+  wish.another = member_of(asked, "another") == true;
   wish.reason = reason_in(asked);
   return wish;
 }

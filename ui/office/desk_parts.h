@@ -32,9 +32,10 @@ struct IssueWish {
   std::string scenario;  ///< file
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
   bool begun_at_ledger = false;
+  bool another = false;  ///< also to those who have a ticket that is good, or have sat the exam
   std::string reason;
 };
-/// {"exam","from","until","begin_at_office","reason"}: the exam by its id, one of `exams`. Throws Error.
+/// {"exam","from","until","begin_at_office","another","reason"}: the exam by its id, one of `exams`. Throws Error.
 [[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
 
 /// What a request grants, as notes of a session: `accommodations` is "none", "these" (with extra_time_percent, extra_time_s, left_handed,

@@ -90,7 +90,7 @@ void add_ticket(LedgerCommand& ledger) {
   v->add_option("--model", o->model, "force model")->capture_default_str();
   v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
   add_grant_options(v, o->grant);
-  v->add_flag("--another", o->another, "also to a candidate who has a ticket for this exam that is still good");
+  v->add_flag("--another", o->another, "also to a candidate who has a ticket for this exam that is still good, or has sat it");
   v->add_flag("--begin-at-ledger", o->begin_at_ledger, "the exam counts only when the ledger let it begin (`cavum ledger begin`)");
   v->add_option("--out", o->out, "ticket to write, or the folder for a class")->required();
   v->add_flag("--overwrite", o->overwrite, "write over a file that is there");

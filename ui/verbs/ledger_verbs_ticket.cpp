@@ -59,7 +59,7 @@ int ledger_ticket(const LedgerOptions& o) {
     const std::string granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, ticket.grant, "the ticket"));
     try {
       write_school_file(o, file, ledger::issue(ledger, ticket, candidate, o.another ? ledger::Another::allow : ledger::Another::refuse) + "\n");
-    } catch (const ledger::TicketIsLive& live) {  // of a class the others get theirs
+    } catch (const ledger::AnotherTicket& live) {  // of a class the others get theirs
       if (!folder) throw;
       std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(live.what()).c_str());
       ++refused;

@@ -141,7 +141,11 @@ TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
   open_appeal(ledger, entry_, "the floor was probed twice");
   EXPECT_TRUE(holds_text(refusal([&] { open_appeal(ledger, entry_, "again"); }), "an appeal is open"));
   EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
+  enter_regrade(ledger, entry_, session().result, {}, "measured once more, and the same came out");
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
   EXPECT_EQ(refusal(again), "");
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_stands, "no"); }), "another result was entered"))
+      << "its trail would say that it stands, and the next release would give out another verdict";
   answer_appeal(ledger, entry_, k_changed, "a second examiner measured");
   EXPECT_TRUE(holds_text(refusal(again), "was decided by Dr. Two")) << "the appeal is answered";
   const FiledSession s = session();

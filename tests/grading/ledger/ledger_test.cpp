@@ -248,8 +248,14 @@ TEST_F(Released, AFailureByAnotherPassMarkIsNoPassByTheExamsOwn) {
   EXPECT_EQ(told_of(registry, identities).field("block_cavity"), "59.0");
   s.shown["score"]["pass_percent"] = 50.0;
   s.shown["verdict"] = "pass";
-  EXPECT_NE(told_of(registry, identities).field("block_cavity feedback").find("Passed by another pass mark (50 %, the exam's own is 60 %)."),
-            std::string::npos);
+  const Told passed = told_of(registry, identities);
+  EXPECT_EQ(passed.field("block_cavity"), "60.0") << "a platform whose pass mark is the exam's would read 59 as a failure";
+  EXPECT_EQ(passed.score["scoreGiven"], 60.0);
+  EXPECT_EQ(passed.field("block_cavity points"), "59.0");
+  const std::string words = passed.field("block_cavity feedback");
+  EXPECT_NE(words.find("Passed by another pass mark (50 %, the exam's own is 60 %): the 59.0 of 100 points count as the pass mark, 60."),
+            std::string::npos)
+      << words;
 }
 
 TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
@@ -262,11 +268,11 @@ TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
   s.shown["criteria"] = json::array(
       {{{"id", "removed"}, {"points", 4.0}, {"max", 10.0}, {"reason", "short"}}, {{"id", "other"}, {"points", 6.0}, {"max", 10.0}, {"reason", "b"}}});
   const Told told = told_of(registry, identities);
-  EXPECT_EQ(told.field("block_cavity"), "50.0");
+  EXPECT_EQ(told.field("block_cavity"), "60.0") << "passed, so no less than the exam's own pass mark";
   EXPECT_EQ(told.field("block_cavity points"), "50.0");
   EXPECT_EQ(told.field("block_cavity removed"), "") << "points of another rubric are no points of this one";
   EXPECT_EQ(told.field("block_cavity other"), "no column block_cavity other");
-  EXPECT_EQ(told.score["scoreGiven"], 50.0);
+  EXPECT_EQ(told.score["scoreGiven"], 60.0);
   EXPECT_EQ(told.score["scoreMaximum"], 100.0);
   EXPECT_NE(told.field("block_cavity feedback").find("Marked by another rubric: 10.0 of 20."), std::string::npos);
   s.shown["verdict"] = "fail";  // by the other rubric's single-criterion rule: 50 of 100 is short of 60, and over its own 40 %
@@ -281,7 +287,7 @@ TEST_F(Released, TheLastReleasedAttemptStandsUntilANewerOneIsReleased) {
   later.released = false;
   later.shown = json();
   later.shown_seq = 0;
-  later.result["score"]["points"] = 33.5;
+  later.result["score"]["points"] = 73.5;
   later.received_utc_ns += 1'000'000'000;
   registry.sessions.push_back(later);
   const double first = registry.sessions.at(0).shown["score"]["points"].get<double>();
@@ -294,8 +300,8 @@ TEST_F(Released, TheLastReleasedAttemptStandsUntilANewerOneIsReleased) {
   released.shown = released.result;
   released.released_utc_ns = registry.sessions.front().released_utc_ns + 5'000'000'000;
   told = told_of(registry, identities);
-  EXPECT_EQ(told.field("block_cavity"), "33.5");
-  EXPECT_EQ(told.score["scoreGiven"], 33.5);
+  EXPECT_EQ(told.field("block_cavity"), "73.5");
+  EXPECT_EQ(told.score["scoreGiven"], 73.5);
   EXPECT_GT(told.score["timestamp"].get<std::string>(), before) << "a platform keeps the later one";
 }
 

@@ -49,7 +49,7 @@ TEST_F(Promised, ACandidateHasOneLiveTicketForAnExamUnlessAPersonSaysOtherwise) 
   const std::string candidate = identities.enrol("4711", "", t.exam, ledger.key());
   static_cast<void>(issue(ledger, t, candidate));
   const auto entries = ledger.content().entries.size();
-  EXPECT_THROW(static_cast<void>(issue(ledger, t, candidate)), TicketIsLive);
+  EXPECT_THROW(static_cast<void>(issue(ledger, t, candidate)), AnotherTicket);
   EXPECT_EQ(ledger.content().entries.size(), entries) << "nothing is entered";
   EXPECT_NO_THROW(static_cast<void>(issue(ledger, t, candidate, Another::allow)));
   Ticket past = t;
@@ -77,6 +77,17 @@ TEST_F(Promised, AUsedTicketIsNotCancelled) {
   ASSERT_TRUE(file(school_.sit(school_.ticket("4711"))).seq);
   Ledger ledger = school_.ledger();
   EXPECT_NE(error_of([&] { cancel_ticket(ledger, k_first_entries, "late"); }).find("was used"), std::string::npos);
+}
+
+TEST_F(Promised, WhoHasSatAnExamGetsNoOtherTicketForItUnlessAPersonSaysSo) {
+  const std::string ticket = school_.ticket("4711");
+  ASSERT_TRUE(file(school_.sit(ticket)).seq);
+  Ledger ledger = school_.ledger();
+  const std::uint64_t session = read_registry(ledger.content()).sessions.at(0).seq;
+  const Ticket t = parse_ticket(ticket, "", "t");
+  const std::string why = error_of([&] { static_cast<void>(issue(ledger, t, t.candidate)); });
+  EXPECT_NE(why.find("has sat block_cavity (entry " + std::to_string(session) + ")"), std::string::npos) << why;
+  EXPECT_NO_THROW(static_cast<void>(issue(ledger, t, t.candidate, Another::allow)));
 }
 
 TEST_F(Promised, AnExamThatTheLedgerLetBeginIsFiled) {

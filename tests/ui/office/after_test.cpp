@@ -24,6 +24,7 @@ class AfterTheExam : public testing::Test {
     session_ = filed["entry"];
   }
   [[nodiscard]] ledger::LedgerEntry last() const { return opened_.content().entries.back(); }
+  [[nodiscard]] std::string who_sat() const { return ledger::read_registry(opened_.content()).sessions.at(0).candidate; }
   [[nodiscard]] json appeal() const { return examiner_.get("/api/appeals").json()["appeals"][0]; }
 
   Opened opened_;
@@ -65,6 +66,40 @@ TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
   EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
   EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "ready");
   EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+}
+
+TEST_F(AfterTheExam, WhatIsOutIsShownBesideWhatWouldGoOutNext) {
+  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  const json released = officer_.get("/api/results").json()["results"][0];
+  EXPECT_FALSE(released.contains("out"));
+  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
+  const std::string other = released["verdict"] == "pass" ? "fail" : "pass";
+  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", other}, {"reason", "a wall is thin"}}).status, 200);
+  EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 400) << "it was changed";
+  const json row = officer_.get("/api/results").json()["results"][0];
+  EXPECT_EQ(row["verdict"], other);
+  EXPECT_EQ(row["state"], "ready");
+  EXPECT_EQ(row["out"], (json{{"verdict", released["verdict"]}, {"points", released["points"]}}));
+}
+
+TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastThatIsReleasedCounts) {
+  const json refused = opened_.issue(officer_, "4711\n4712\n").json();
+  ASSERT_EQ(refused["issued"].size(), 1u);
+  EXPECT_EQ(refused["issued"][0]["id"], "4712");
+  EXPECT_NE(refused["refused"][0]["why"].get<std::string>().find("has sat block_cavity"), std::string::npos) << refused;
+  ASSERT_EQ(opened_.issue(officer_, "4711\n", false, true).json()["issued"].size(), 1u);
+  auto station = opened_.station();
+  std::string again;
+  for (const json& t : station.tickets())
+    if (ledger::parse_ticket(t["text"], "", "t").candidate == who_sat()) again = t["text"];
+  const Bytes image = read_file(opened_.school().sit(again));
+  station.hand_in(image);
+  const json filed = Opened::outcome(station, to_hex(sha256(image)));
+  ASSERT_EQ(filed["state"], "filed") << filed;
+  ASSERT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 2);
+  const json results = officer_.get("/api/results").json()["results"];
+  EXPECT_EQ(results[0]["later"], filed["entry"]);
+  EXPECT_FALSE(results[1].contains("later"));
 }
 
 TEST_F(AfterTheExam, AReportRunsItsOwnScriptAloneAndReachesNothingOfTheOffice) {

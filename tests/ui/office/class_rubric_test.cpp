@@ -90,6 +90,19 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   EXPECT_EQ(count(begun, 1).status, 400) << "once";
 }
 
+TEST_F(ClassRubric, AnotherPassMarkAloneGivesNobodyOtherPoints) {
+  const std::string scenario = read_text_file(k_scenario);
+  std::string own = scenario.substr(scenario.find("[rubric]"));
+  own.replace(own.find("pass_percent = 60"), 17, "pass_percent = 55");
+  static_cast<void>(begin(own));
+  const json state = waited(eva_);
+  ASSERT_EQ(state["state"], "ready") << state;
+  for (const json& row : state["sessions"]) {
+    EXPECT_EQ(row["points"], row["points_before"]);
+    EXPECT_EQ(row["other_points"], false);
+  }
+}
+
 TEST_F(ClassRubric, CountsOnlyForWhoLookedAtItWithReasonAndCode) {
   EXPECT_EQ(officer_.post("/api/regrade/begin", {{"exam", k_exam}, {"rubric", k_new_rubric}}).status, 403);
   const std::size_t before = entries();

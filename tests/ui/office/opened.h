@@ -89,13 +89,14 @@ class Opened {
     return {{"base64", out}, {"answers", answers}};
   }
   /// Tickets of an hour around now for these numbers.
-  [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers, bool begin_at_office = false) const {
+  [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers, bool begin_at_office = false, bool another = false) const {
     const std::int64_t now = read_clocks().utc_ns;
     nlohmann::json asked = list("id\n" + numbers);
     asked.update({{"exam", "block_cavity"},
                   {"from", utc_text(now - testing_ledger::k_hour_ns)},
                   {"until", utc_text(now + testing_ledger::k_hour_ns)},
                   {"begin_at_office", begin_at_office},
+                  {"another", another},
                   {"reason", "the class of this year"}});
     return officer.post("/api/roster/issue", asked);
   }

@@ -7,6 +7,8 @@ import { code_field, form, input, report_link, say, select, table, verdict_words
 interface Result {
   session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; makes_up: number | null; made_up_by: number | null; verdict: string;
   points: number | null; max: number | null; sha256: string; shown: boolean; appeal: boolean; id?: string; name?: string;
+  out?: { verdict: string; points: number };  // what was released, where another result has come since
+  later?: number;                             // the attempt that counts instead
 }
 
 const states = (): { [state: string]: string } => ({
@@ -15,17 +17,20 @@ const states = (): { [state: string]: string } => ({
 });
 
 export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
+  let rehearsed = false;
   const list = make("div"), taking = make("div"), reports = may("GET /api/report/*");
   const show = async (): Promise<void> => {
     const { results } = await get<{ results: Result[] }>("/api/results");
     if (may("POST /api/retract") && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
     if (results.length === 0) return void list.replaceChildren(make("p", {}, tr("Nothing is filed yet.")));
+    rehearsed = results.some((r) => r.simulated !== "");
     const named = results.some((r) => r.id !== undefined);
     const words = states();
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
-      [words[r.state] ?? r.state, ...(r.makes_up !== null ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== null ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
+      [words[r.state] ?? r.state, ...(r.out ? [tr("still out: {0}, {1} points", verdict_words()[r.out.verdict] ?? r.out.verdict, fixed(r.out.points, 1))] : []),
+        ...(r.later !== undefined ? [tr("a later attempt counts: entry {}", r.later)] : []), ...(r.makes_up !== null ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== null ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
       ...(reports ? [r.sha256 !== "" ? report_link(r.sha256) : ""] : []),
     ]);
     const headings = [tr("Entry"), ...(named ? [tr("Number"), tr("Name")] : []), tr("Pseudonym"), tr("Exam"), tr("Verdict"), tr("Points"), tr("State"), ...(reports ? [tr("Report")] : [])];
@@ -38,6 +43,7 @@ export async function results(may: (door: string) => boolean, second_factor: boo
   if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
   if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
   root.append(make("h2", {}, tr("Files")), files);
+  if (rehearsed) root.append(make("p", { class: "hint" }, tr("No gradebook holds what a simulated hand has sat.")));
   return { root };
 }
 

@@ -99,16 +99,18 @@ class Roster {
     const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
     const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);
     const word = make("input", { type: "checkbox", id: "begin-at-office" });
+    const another = make("input", { type: "checkbox", id: "another-attempt" });
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
     const out = make("div");
     const asked = form(tr("Issue the tickets"), async () => {
       const done = await post<Issued>("/api/roster/issue", {
-        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, reason: reason.value,
+        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, another: another.checked, reason: reason.value,
       });
       say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
       out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Station")], done.issued.map((p) => [p.id, p.name, p.candidate, p.station])));
       if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
-    }, exam.block, from.block, until.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")), reason.block);
+    }, exam.block, from.block, until.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")),
+    make("label", { class: "beside", for: another.id }, another, tr("Also to those who have a good ticket for it, or have sat it: of several attempts the last one that is released counts")), reason.block);
     return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);
   }
 }
