@@ -90,6 +90,7 @@ struct Office::Parts {
               [this](const std::string& key) { return desk.station_problem(key); }, steady_s, utc_now_ns, desk.ledger_id(), o.proxy,
               [this](const std::string& cookie) { return lti.has_come(cookie); }}),
         proxied(o.proxy.has_value()),
+        rehearsal(o.filing.simulated),
         reports(o.report),
         regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
     serve_pages();
@@ -223,7 +224,7 @@ struct Office::Parts {
       });
     };
     static constexpr char k_csv[] = "text/csv; charset=utf-8", k_pdf[] = "application/pdf";
-    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(); });
+    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(rehearsal); });
     paper("/api/criteria.csv", "criteria.csv", k_csv, [this] { return desk.criteria(); });
     paper("/api/cards.pdf", "cards.pdf", k_pdf, [this] { return desk.cards(); });
     paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
@@ -349,7 +350,7 @@ struct Office::Parts {
   Pieces pieces;
   LtiOffice lti;
   Site site;
-  bool proxied = false;
+  bool proxied = false, rehearsal = false;
   Reports reports;
   Regrades regrades;
   Tries tries;
