@@ -156,7 +156,8 @@ export async function look({ page }: Desk, name: string): Promise<void> {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= width, `${name} scrolls sideways at ${width}: ${wide}`);
     assert.deepEqual(await violations(page, axe), [], `${name} at ${width}`);
-    await page.screenshot({ path: join(pictures, `${name}-${width}.png`) as `${string}.png`, fullPage: true });
+    const height = Math.min(4000, await page.evaluate(() => document.documentElement.scrollHeight));  // of a long list its beginning
+    await page.screenshot({ path: join(pictures, `${name}-${width}.png`) as `${string}.png`, clip: { x: 0, y: 0, width, height }, captureBeyondViewport: true });
   }
   await page.setViewport({ width: 1280, height: 900 });
 }

@@ -115,8 +115,8 @@ export async function screen(): Promise<{ display: string; child: ChildProcess }
 export function open_window(display: string, home: string, p: Person, code: string): ChildProcess {
   const script = join(folder, home, "script");
   mkdirSync(join(folder, home, "exams"), { recursive: true });
-  writeFileSync(script, `wait sign-in\nsleep 3\ntype ${code}\ngo device-check\ngo briefing\nkey enter\nwait exam\nuntil 6\nkey home\nwait result\nsleep 600\n`);
-  return spawn(cavum, ["station", task, "--device", "simulated", "--operator", p.hand, "--seed", String(p.seed), "--width", "640", "--height", "480", "--out", join(folder, home, "exams"),
+  writeFileSync(script, `wait sign-in\nsleep 3\ntype ${code}\ngo device-check\ngo briefing\nkey enter\nwait exam\nwait result\nsleep 600\n`);
+  return spawn(cavum, ["station", task, "--device", "simulated", "--operator", p.hand, "--seed", String(p.seed), "--width", "640", "--height", "480", "--effects", "5", "--out", join(folder, home, "exams"),
     "--server", address, "--certificate", join(folder, "school/office/certificate.pem"), "--script", script],
   { env: { ...process.env, CAVUM_HOME: join(folder, home), LANGUAGE: "en", DISPLAY: display }, stdio: "ignore" });
 }

@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { field, form, input, local_time, say, select, table, time_zone, utc, type View } from "./parts.ts";
+import { field, form, input, local_span, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
@@ -83,7 +83,7 @@ class Roster {
         this.answers[i] = list.value;
         this.look().catch((wrong: Error) => say(wrong.message, true));
       });
-      return [c.heading, c.samples.filter((s) => s !== "").join(", "), list.block];
+      return [c.heading, c.samples.join("; "), list.block];
     });
     return table(tr("Columns of the list"), [tr("Column"), tr("First values"), tr("Use")], rows);
   }
@@ -115,7 +115,7 @@ class Roster {
       });
       say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
       out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("May begin"), tr("Station")],
-        done.issued.map((p) => [p.id, p.name, p.candidate, tr("{0} to {1}", local_time(p.not_before), local_time(p.not_after)), p.station])));
+        done.issued.map((p) => [p.id, p.name, p.candidate, local_span(p.not_before, p.not_after), p.station])));
       if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
     }, exam.block, from.block, until.block, at_once.block, apart.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")), reason.block);
     return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);
