@@ -33,8 +33,8 @@ struct IssueWish {
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
   bool begun_at_ledger = false;
   std::string reason;
-  std::size_t at_once = 0;     ///< candidates of a sitting, in the list's order; 0: all in one
-  std::int64_t apart_ns = 0;   ///< from the beginning of a sitting to the next one's
+  std::size_t at_once = 0;    ///< candidates of a sitting, in the list's order; 0: all in one
+  std::int64_t apart_ns = 0;  ///< from the beginning of a sitting to the next one's
 };
 /// {"exam","from","until","begin_at_office","reason"}: the exam by its id, one of `exams`. With "at_once" (1 to 10,000) sittings follow each other
 /// "minutes_apart" (1 to 10,080). Throws Error.

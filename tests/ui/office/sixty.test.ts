@@ -34,8 +34,9 @@ after(async () => {
 
 async function tickets_page(page: Page): Promise<Map<string, Row>> {
   await go(page, "Tickets");
+  await page.$eval("main table", (t) => t.setAttribute("data-old", ""));
   await press(page, "Look again");
-  await until(async () => (await page.$$("tbody tr")).length >= 60, "the tickets");
+  await page.waitForSelector("main table:not([data-old])");
   return tickets_of(page);
 }
 /** Sits and files; the station says so to the board. */
@@ -48,7 +49,8 @@ async function whole(home: string, p: Person): Promise<void> {
 }
 /** The next sitting has its seats, by one press; who sits where. */
 async function seat_them(page: Page, sitting: Person[], room = ""): Promise<Map<string, string>> {
-  await tickets_page(page);
+  const begins = (await tickets_page(page)).get(sitting[0].id)!.may_begin;
+  await page.select(await control(page, "Sitting"), await page.$eval(await control(page, "Sitting"), (s, b) => [...(s as HTMLSelectElement).options].find((o) => o.text.startsWith(b))!.value, begins));
   if (room !== "") await page.select(await control(page, "Room"), room);
   await press(page, "Seat them");
   await said(page, "Seated: ");
