@@ -221,6 +221,10 @@ test("no network, a ticket cancelled by keys, a late candidate, a ticket at two 
   at = await seat_them(page, people.slice(24, 32));
   await in_pairs(people.slice(24, 32).filter((p) => p !== ill), (p) => whole(home_of(at.get(p.id)!), p));
 
+  await said(hall, offline.name);
+  await file(alone, recordings.get(offline.id)!);  // the network is back
+  await gone(hall, offline.name);
+
   at = await seat_them(page, people.slice(32, 40));
   const others = people.slice(32, 40).filter((p) => p !== late);
   for (const p of others) reports(home_of(at.get(p.id)!), codes.get(p.id)!);
@@ -229,9 +233,6 @@ test("no network, a ticket cancelled by keys, a late candidate, a ticket at two 
   await in_pairs(others, (p) => whole(home_of(at.get(p.id)!), p));
   await whole(home_of(at.get(late.id)!), late);
   await gone(hall, late.name);
-  await file(alone, recordings.get(offline.id)!);  // the network is back
-  await gone(hall, offline.name);
-
   at = await seat_them(page, people.slice(40, 48));
   const [one, two] = people.slice(40, 42).map((p) => ({ home: home_of(at.get(p.id)!), code: codes.get(p.id)!, p }));
   for (const s of people.slice(40, 48)) reports(home_of(at.get(s.id)!), codes.get(s.id)!);

@@ -48,7 +48,7 @@ function card(s: Station, now_ns: number): HTMLElement {
   if (s.said.step !== "") lines.append(make("p", {}, s.said.step));
   if (s.said.left_s >= 0) lines.append(make("p", {}, tr("{} left", clock(s.said.left_s))));
   if (s.hold !== 0) lines.append(make("p", { class: s.said.held || s.said.state !== "exam" ? "" : "wrong" }, s.said.held ? tr("Stands still: paused by the office") : s.said.state === "exam" ? tr("Paused by the office, and has not stopped yet") : tr("Paused by the office")));
-  if (s.unread > 0) lines.append(make("p", {}, tr("Announcements not read yet: {}", s.unread)));
+  if (s.unread > 0 && s.said.state !== "free") lines.append(make("p", {}, tr("Announcements not read yet: {}", s.unread)));
   if (s.twins.length > 0) {
     element.classList.add("alarm");
     const who = s.said.refused !== "" ? s.said.refused : s.said.candidate;

@@ -142,11 +142,11 @@ export function opens_form(text: string, attributes: { [name: string]: string },
   return block;
 }
 
-/** Asks why in a form below a button, and does it then. */
-export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>): HTMLElement {
+/** Asks why in a form below a button, and does it then; `sends` is on the form's own button. */
+export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>, sends = text): HTMLElement {
   return opens_form(text, attributes, () => {
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-    return form(text, async () => does(reason.value), reason.block);
+    return form(sends, async () => does(reason.value), reason.block);
   });
 }
 
