@@ -2,7 +2,7 @@
 // is held row by row against what the test knows by itself. Takes minutes: CAVUM_DEEP=1. A picture of each page and state, at 1280 and at 390 pixels, is kept.
 import assert from "node:assert/strict";
 import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, readdirSync } from "node:fs";
+import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
@@ -68,6 +68,7 @@ async function cancel(page: Page, code: string, reason: string): Promise<void> {
 async function download(page: Page, words: string, name: string): Promise<string> {
   const to = join(folder, "downloads");
   mkdirSync(to, { recursive: true });
+  rmSync(join(to, name), { force: true });
   const session = await page.createCDPSession();
   await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: to, browserContextId: page.browserContext().id });
   await (await page.waitForSelector(`::-p-xpath(//a[normalize-space()="${words}"])`))!.click();
@@ -282,9 +283,9 @@ async function release(page: Page, reason: string): Promise<void> {
   await press(page, "Release all that are ready");
 }
 /** The gradebook as a person fetches it, by candidates' numbers. */
-async function gradebook(page: Page, name = "gradebook.csv"): Promise<Map<string, { [heading: string]: string }>> {
+async function gradebook(page: Page): Promise<Map<string, { [heading: string]: string }>> {
   await go(page, "Results");
-  const rows = csv(readFileSync(await download(page, "Gradebook (CSV for Moodle), with names: what is released", name), "utf8"));
+  const rows = csv(readFileSync(await download(page, "Gradebook (CSV for Moodle), with names: what is released", "gradebook.csv"), "utf8"));
   const by_code = new Map([...codes].map(([id, code]) => [code, id]));
   return new Map(rows.map((r) => [by_code.get(r["ID number"].replace("SIMULATED ", ""))!, r]));
 }
@@ -319,7 +320,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   await release(page, "board of November");
   await said(page, "Released: 56. Questioned: 0. Waiting for a decision: 1.");
   await photo(officer, "results-released");
-  let book = await gradebook(page, "first.csv");
+  let book = await gradebook(page);
   assert.equal(book.size, 56);
   assert.ok(!book.has(open), "what waits for a decision is in no gradebook");
 
@@ -344,7 +345,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   await photo(officer, "results-taking-back");
   await fields[1].press("Enter");
   await said(page, "Taken back: entry");
-  assert.ok(!(await gradebook(page, "second.csv")).has(wrong), "what was taken back is in no gradebook");
+  assert.ok(!(await gradebook(page)).has(wrong), "what was taken back is in no gradebook");
   await appeal(wrong, "the wrong block was mounted");
   await go(eva.page, "Appeals");
   const answer = async (id: string, button: string, words: string): Promise<void> => {
@@ -413,7 +414,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   final.set(missed.id, sealed().get(missed.id)!.verdict);
 
   // every one of the 60 once: in the gradebook, cancelled, or absent
-  book = await gradebook(page, "last.csv");
+  book = await gradebook(page);
   const points = sealed();
   for (const p of people) {
     const row = book.get(p.id);
@@ -428,7 +429,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   assert.equal(book.size, 58);
   const exported = join(folder, "exported.csv");
   run("school", ["ledger", "export", join(folder, "ledger"), "--format", "moodle", "--with-simulated", "--out", exported]);
-  assert.equal(readFileSync(exported, "utf8"), readFileSync(join(folder, "downloads/last.csv"), "utf8"));
+  assert.equal(readFileSync(exported, "utf8"), readFileSync(join(folder, "downloads/gradebook.csv"), "utf8"));
   const criteria = csv(readFileSync(await download(page, "Every criterion (CSV), pseudonyms alone", "criteria.csv"), "utf8"));
   tell(`criteria: ${Object.keys(criteria[0]).join()}`);
   assert.deepEqual([...new Set(criteria.map((r) => r.candidate))].sort(), [...recordings.keys()].map((id) => codes.get(id)!).sort());
