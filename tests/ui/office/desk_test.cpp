@@ -72,6 +72,25 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_TRUE(ledger::read_registry(content).findings.empty());
 }
 
+TEST(Desk, AGradebookOfARehearsalHasWhatNoHandMovedMarkedAndUnderNoNumber) {
+  Opened opened;
+  opened.rehearse();
+  opened.close();
+  opened.open();
+  const Visitor officer = opened.signed_in(Role::officer);
+  const std::string candidate = opened.issue(officer, "4711\n").json()["issued"][0]["candidate"];
+  auto station = opened.station();
+  const Bytes image = read_file(
+      opened.school().sit(station.tickets()[0]["text"], "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); }));
+  station.hand_in(image);
+  const json filed = Opened::outcome(station, to_hex(sha256(image)));
+  ASSERT_EQ(filed["state"], "filed") << filed;
+  ASSERT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "rehearsal"}, {"code", opened.code()}}).json()["released"], 1);
+  const auto book = [&] { return opened.signed_in(Role::officer).get("/api/gradebook.csv").body; };
+  EXPECT_NE(book().find("\nSIMULATED " + candidate + ","), std::string::npos) << book();
+  EXPECT_EQ(book().find("4711"), std::string::npos);
+}
+
 TEST(Desk, NothingIsIssuedWhileAColumnWaitsForItsAnswer) {
   const Opened opened;
   const Visitor officer = opened.signed_in(Role::officer);
