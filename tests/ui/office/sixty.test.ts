@@ -86,7 +86,7 @@ test("before: class list, stations, sittings, seats, papers", { skip }, async ()
   await photo(officer, "list-column-asked");
   assert.equal((await page.$$("::-p-xpath(//button[.='Issue the tickets'])")).length, 0, "nothing is issued while a column waits");
   await pass_over(page);
-  await say_times(page, -60, 9);
+  await say_times(page, -60, 7);
   await type(page, "Candidates in a sitting", "8");
   await type(page, "Minutes from one sitting to the next", "2");
   await type(page, "Reason", "class of this year");
@@ -337,6 +337,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   await appeal(stands, "the hollow was opened before");
   await photo(officer, "appeals");
   await go(page, "Results");
+  await page.click("main details summary");
   await page.select(await control(page, "Released result"), rows.get(wrong)!.session);
   const back = (await page.$("::-p-xpath(//form[.//button[.='Take it back']])"))!;
   const fields = await back.$$("input");

@@ -23,7 +23,7 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     const named = results.some((r) => r.id !== undefined);
     const words = states();
     const of_state = Object.keys(words).map((s): [string, number] => [words[s], results.filter((r) => r.state === s).length]).filter(([, n]) => n > 0);
-    counts.replaceChildren(...of_state.map(([word, n]) => make("li", {}, make("b", {}, String(n)), ` ${word}`)));
+    counts.replaceChildren(...of_state.map(([word, n]) => make("li", {}, `${word}: `, make("b", {}, String(n)))));
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
@@ -39,7 +39,7 @@ export async function results(may: (door: string) => boolean, second_factor: boo
   const files = make("ul");
   if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
   if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
-  root.append(make("h2", {}, tr("Files")), files, list, taking);
+  root.append(make("h2", {}, tr("Files")), files, taking, list);
   return { root };
 }
 
@@ -50,12 +50,12 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
   which.required = true;
   const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
   const code = code_field();
-  return [make("h2", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
+  return [make("details", {}, make("summary", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
     form(tr("Take it back"), async () => {
       const { entry } = await post<{ entry: number }>("/api/retract", { sessions: [Number(which.value)], reason: reason.value, code: code.value });
       await show();
       say(tr("Taken back: entry {}.", entry));
-    }, which.block, reason.block, code.block)];
+    }, which.block, reason.block, code.block))];
 }
 
 function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {
