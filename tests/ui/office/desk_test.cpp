@@ -127,5 +127,19 @@ TEST(Desk, TheBoardIsToldLive) {
   EXPECT_NE(told.find("Outline"), std::string::npos);
 }
 
+TEST(Desk, TheBoardIsToldThatATicketRanOutByTheClockAlone) {
+  const Opened opened;
+  const Visitor officer = opened.signed_in(Role::officer);
+  const std::int64_t now = read_clocks().utc_ns;
+  json asked = Opened::list("id\n4711\n");
+  asked.update({{"exam", "block_cavity"}, {"from", utc_text(now - k_hour_ns)}, {"until", utc_text(now + 5'000'000'000)}, {"reason", "class"}});
+  ASSERT_EQ(officer.post("/api/roster/issue", asked).status, 200);
+  Wire wire(opened.port());
+  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + officer.cookie + "\r\n\r\n");
+  const std::string told = wire.hear_for(std::chrono::seconds(20));  // nothing happens meanwhile
+  EXPECT_NE(told.find("\"live\":1"), std::string::npos) << told;
+  EXPECT_NE(told.find("\"run out\":1"), std::string::npos) << told;
+}
+
 }  // namespace
 }  // namespace cavum::office
