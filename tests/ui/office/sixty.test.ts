@@ -8,7 +8,7 @@ import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
 import { add_account, close_office, control, desk, examine_with, folder, go, look, open_office, press, run, said, station, task, type, type Desk } from "./browser.ts";
-import { csv, file, fresh_code, gone, home_of, in_pairs, invite, open_window, pass_over, paste, people, place, reports, say_times, screen, seats, sit, start, tab_to, text, tickets_of, write_keys, type Person, type Row } from "./hall.ts";
+import { csv, file, fresh_code, gone, home_of, in_pairs, invite, open_window, pass_over, paste, people, place, reports, say_times, screen, seats, sit, tab_to, tickets_of, write_keys, type Person, type Row } from "./hall.ts";
 
 const skip = k_skip || (process.env.CAVUM_DEEP ? false : "an exam day of 60 candidates takes some minutes; CAVUM_DEEP=1 runs it");
 const cavum = process.env.CAVUM_BINARY!;
