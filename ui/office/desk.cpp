@@ -64,12 +64,21 @@ json Desk::issue(const json& asked, const Account& by) {
   ledger::Identities identities = ledger::sound_identities(turn.book);
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
+  const std::size_t at_once = wish.at_once == 0 ? roster.people.size() : wish.at_once;
+  const auto time_of = [&](std::size_t i) {
+    const std::int64_t later_ns = static_cast<std::int64_t>(i / at_once) * wish.apart_ns;
+    return ledger::TimeSpan{wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns};
+  };
+  std::vector<std::string> stations;  // all before the first ticket: a name that is none refuses the list
+  for (std::size_t i = 0; i < roster.people.size(); ++i)
+    stations.push_back(ledger::stations_of(turn.book.registry(), identities, {roster.people[i]}, time_of(i), k_list).front());
   json issued = json::array(), refused = json::array();
-  const auto stations =
-      ledger::stations_of(turn.book.registry(), identities, roster.people, ledger::TimeSpan{wish.from_utc_ns, wish.until_utc_ns}, k_list);
   std::vector<ledger::Seat> seats;
   for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const auto& person = roster.people[i];
+    const ledger::TimeSpan when = time_of(i);
+    ticket.not_before_utc_ns = when.from_utc_ns;
+    ticket.not_after_utc_ns = when.until_utc_ns;
     const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
     ticket.grant = scenarios::notes_of(person.grant);
     std::sort(ticket.grant.begin(), ticket.grant.end());
@@ -77,7 +86,12 @@ json Desk::issue(const json& asked, const Account& by) {
       const std::string text = ledger::issue(turn.book, ticket, candidate, wish.another ? ledger::Another::allow : ledger::Another::refuse);
       write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
       if (!stations[i].empty()) seats.push_back({turn.book.content().entries.size() - 1, stations[i]});
-      issued.push_back({{"candidate", candidate}, {"id", person.id}, {"name", person.name}, {"station", person.station}});
+      issued.push_back({{"candidate", candidate},
+                        {"id", person.id},
+                        {"name", person.name},
+                        {"station", person.station},
+                        {"not_before", utc_text(when.from_utc_ns)},
+                        {"not_after", utc_text(when.until_utc_ns)}});
     } catch (const ledger::AnotherTicket& has) {  // the others get theirs
       refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(has.what())}});
     }

@@ -88,7 +88,8 @@ class Desk {
   [[nodiscard]] nlohmann::json filed_exams();
   /// A filed recording. Throws Error when there is none, or it was erased.
   [[nodiscard]] Recording recording(const std::string& file_sha256);
-  [[nodiscard]] std::string gradebook();
+  /// What is released, for Moodle; in a `rehearsal` also what no hand moved, marked, under no number of a candidate.
+  [[nodiscard]] std::string gradebook(bool rehearsal);
   [[nodiscard]] std::string criteria();
 
   // For learning platforms (desk_lti.cpp).

@@ -98,11 +98,11 @@ json Desk::release(const json& asked, const Account& by) {
   return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
 }
 
-std::string Desk::gradebook() {
+std::string Desk::gradebook(bool rehearsal) {
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
   int left_out = 0;
-  return ledger::moodle_csv(turn.book.registry(), identities, left_out);
+  return ledger::moodle_csv(turn.book.registry(), identities, left_out, rehearsal);
 }
 
 std::string Desk::criteria() {

@@ -80,6 +80,15 @@ IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
   wish.begun_at_ledger = member_of(asked, "begin_at_office") == true;
   wish.another = member_of(asked, "another") == true;
   wish.reason = reason_in(asked);
+  if (!member_of(asked, "at_once").is_null()) {
+    constexpr std::int64_t k_most = 10'000, k_week_min = 10'080, k_minute_ns = 60'000'000'000;
+    const auto at_once = require_whole<std::int64_t>(asked, "at_once", "the sittings"),
+               apart_min = require_whole<std::int64_t>(asked, "minutes_apart", "the sittings");
+    if (at_once < 1 || at_once > k_most || apart_min < 1 || apart_min > k_week_min)
+      throw Error("the sittings", "are of no number of candidates, or too far apart", "say 1 to 10,000 candidates, and 1 to 10,080 minutes");
+    wish.at_once = static_cast<std::size_t>(at_once);
+    wish.apart_ns = apart_min * k_minute_ns;
+  }
   return wish;
 }
 

@@ -34,8 +34,11 @@ struct IssueWish {
   bool begun_at_ledger = false;
   bool another = false;  ///< also to those who have a ticket that is good, or have sat the exam
   std::string reason;
+  std::size_t at_once = 0;    ///< candidates of a sitting, in the list's order; 0: all in one
+  std::int64_t apart_ns = 0;  ///< from the beginning of a sitting to the next one's
 };
-/// {"exam","from","until","begin_at_office","another","reason"}: the exam by its id, one of `exams`. Throws Error.
+/// {"exam","from","until","begin_at_office","another","reason"}: the exam by its id, one of `exams`. With "at_once" (1 to 10,000) sittings follow
+/// each other "minutes_apart" (1 to 10,080). Throws Error.
 [[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
 
 /// What a request grants, as notes of a session: `accommodations` is "none", "these" (with extra_time_percent, extra_time_s, left_handed,

@@ -90,6 +90,7 @@ struct Office::Parts {
               [this](const std::string& key) { return desk.station_problem(key); }, steady_s, utc_now_ns, desk.ledger_id(), o.proxy,
               [this](const std::string& cookie) { return lti.has_come(cookie); }}),
         proxied(o.proxy.has_value()),
+        rehearsal(o.filing.simulated),
         reports(o.report),
         regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
     serve_pages();
@@ -187,7 +188,7 @@ struct Office::Parts {
     get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
     site.on("GET", "/api/board/events", [this](const Call& c) {
       return events(
-          c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); });
+          c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); }, true);
     });
     post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
     post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
@@ -223,7 +224,7 @@ struct Office::Parts {
       });
     };
     static constexpr char k_csv[] = "text/csv; charset=utf-8", k_pdf[] = "application/pdf";
-    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(); });
+    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(rehearsal); });
     paper("/api/criteria.csv", "criteria.csv", k_csv, [this] { return desk.criteria(); });
     paper("/api/cards.pdf", "cards.pdf", k_pdf, [this] { return desk.cards(); });
     paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
@@ -253,11 +254,12 @@ struct Office::Parts {
     });
   }
 
-  /// What `say` says whenever `wait` gives another number, four times a second at most, and a comment in between, so that a line that is dead is
-  /// noticed.
-  [[nodiscard]] Reply events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<json()> say) {
+  /// What `say` says whenever `wait` gives another number, four times a second at most; after a silence a comment, so that a line that is dead is
+  /// noticed, or, with `by_time`, what `say` says then: tickets run out by the clock alone.
+  [[nodiscard]] Reply events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<json()> say,
+                             bool by_time = false) {
     Reply reply{200, "text/event-stream"};
-    reply.events = [this, call, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
+    reply.events = [this, call, by_time, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
       std::uint64_t seen = 0;
       std::int64_t spoken_s = steady_s();
       while (site.still(call)) {
@@ -269,7 +271,7 @@ struct Office::Parts {
           std::this_thread::sleep_for(k_between_events);
         } else if (steady_s() - spoken_s >= k_silence_s) {
           spoken_s = steady_s();
-          if (!write(":\n\n")) return;
+          if (!write(by_time ? "data: " + json_reply(say()).body + "\n\n" : std::string(":\n\n"))) return;
         } else if (!write("")) {
           return;
         }
@@ -349,7 +351,7 @@ struct Office::Parts {
   Pieces pieces;
   LtiOffice lti;
   Site site;
-  bool proxied = false;
+  bool proxied = false, rehearsal = false;
   Reports reports;
   Regrades regrades;
   Tries tries;

@@ -92,7 +92,8 @@ void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<s
   for (std::size_t c = 0; c < rows[0].fields.size(); ++c) {
     std::string& heading = rows[0].fields[c];
     RosterColumn column{heading, "", false, {}};
-    for (std::size_t r = 1; r < rows.size() && column.samples.size() < k_samples; ++r) column.samples.push_back(rows[r].fields[c]);
+    for (std::size_t r = 1; r < rows.size() && column.samples.size() < k_samples; ++r)
+      if (!rows[r].fields[c].empty()) column.samples.push_back(rows[r].fields[c]);
     column.known = std::find(known.begin(), known.end(), small_letters_of(heading)) != known.end();
     if (column.known) column.use = small_letters_of(heading);
     if (c < answers.size() && (answers[c] == k_pass_over || std::find(known.begin(), known.end(), answers[c]) != known.end()))

@@ -19,7 +19,7 @@ struct RosterColumn {
   std::string heading;
   std::string use;                   ///< a name of ledger::people_columns(), k_pass_over, or empty: nobody has answered yet
   bool known = false;                ///< by its heading
-  std::vector<std::string> samples;  ///< of its first rows
+  std::vector<std::string> samples;  ///< its first values that are not empty
 };
 struct Roster {
   std::string encoding;  ///< UTF-8, UTF-16 or Windows-1252

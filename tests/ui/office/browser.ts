@@ -59,6 +59,13 @@ export function serve_with(options: (folder: string) => string[]): void {
   more = options;
 }
 
+/** Of the next office's exam: its pass mark, and what stands below the rest of the scenario. */
+let pass_percent = 99, more_toml = "";
+export function examine_with(mark: number, toml: string): void {
+  pass_percent = mark;
+  more_toml = toml;
+}
+
 /** Opens an office with an account of each role and a folder for each station. */
 export async function open_office(...seats: string[]): Promise<void> {
   folder = mkdtempSync(join(tmpdir(), "cavum-office-"));
@@ -66,7 +73,7 @@ export async function open_office(...seats: string[]): Promise<void> {
   // its pass mark lies where an expert's sum is: the program leaves the verdict to a person
   const block = readFileSync(join(source, "tests/replay/block_cavity.toml"), "utf8");
   task = join(folder, "border_cavity.toml");
-  writeFileSync(task, block.replace('id = "block_cavity"', 'id = "border_cavity"').replace("pass_percent = 60", "pass_percent = 99"));
+  writeFileSync(task, block.replace('id = "block_cavity"', 'id = "border_cavity"').replace("pass_percent = 60", `pass_percent = ${pass_percent}`) + more_toml);
   copyFileSync(join(source, "tests/replay/block.cvt"), join(folder, "block.cvt"));
   run("school", ["ledger", "init", join(folder, "ledger"), "--school", "School of Dentistry"]);
   secret = add_account("Anna Officer", "officer", true);
@@ -150,7 +157,8 @@ export async function look({ page }: Desk, name: string): Promise<void> {
     const wide = await page.evaluate(() => document.documentElement.scrollWidth);
     assert.ok(wide <= width, `${name} scrolls sideways at ${width}: ${wide}`);
     assert.deepEqual(await violations(page, axe), [], `${name} at ${width}`);
-    await page.screenshot({ path: join(pictures, `${name}-${width}.png`) as `${string}.png`, fullPage: true });
+    const height = Math.min(4000, await page.evaluate(() => document.documentElement.scrollHeight));  // of a long list its beginning
+    await page.screenshot({ path: join(pictures, `${name}-${width}.png`) as `${string}.png`, clip: { x: 0, y: 0, width, height }, captureBeyondViewport: true });
   }
   await page.setViewport({ width: 1280, height: 900 });
 }

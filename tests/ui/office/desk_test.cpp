@@ -72,6 +72,25 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_TRUE(ledger::read_registry(content).findings.empty());
 }
 
+TEST(Desk, AGradebookOfARehearsalHasWhatNoHandMovedMarkedAndUnderNoNumber) {
+  Opened opened;
+  opened.rehearse();
+  opened.close();
+  opened.open();
+  const Visitor officer = opened.signed_in(Role::officer);
+  const std::string candidate = opened.issue(officer, "4711\n").json()["issued"][0]["candidate"];
+  auto station = opened.station();
+  const Bytes image = read_file(
+      opened.school().sit(station.tickets()[0]["text"], "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); }));
+  station.hand_in(image);
+  const json filed = Opened::outcome(station, to_hex(sha256(image)));
+  ASSERT_EQ(filed["state"], "filed") << filed;
+  ASSERT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "rehearsal"}, {"code", opened.code()}}).json()["released"], 1);
+  const auto book = [&] { return opened.signed_in(Role::officer).get("/api/gradebook.csv").body; };
+  EXPECT_NE(book().find("\nSIMULATED " + candidate + ","), std::string::npos) << book();
+  EXPECT_EQ(book().find("4711"), std::string::npos);
+}
+
 TEST(Desk, NothingIsIssuedWhileAColumnWaitsForItsAnswer) {
   const Opened opened;
   const Visitor officer = opened.signed_in(Role::officer);
@@ -106,6 +125,20 @@ TEST(Desk, TheBoardIsToldLive) {
   station.report({{"state", "exam"}, {"step", "Outline"}});
   const std::string told = Visitor(invigilator).get("/api/board").body;
   EXPECT_NE(told.find("Outline"), std::string::npos);
+}
+
+TEST(Desk, TheBoardIsToldThatATicketRanOutByTheClockAlone) {
+  const Opened opened;
+  const Visitor officer = opened.signed_in(Role::officer);
+  const std::int64_t now = read_clocks().utc_ns;
+  json asked = Opened::list("id\n4711\n");
+  asked.update({{"exam", "block_cavity"}, {"from", utc_text(now - k_hour_ns)}, {"until", utc_text(now + 5'000'000'000)}, {"reason", "class"}});
+  ASSERT_EQ(officer.post("/api/roster/issue", asked).status, 200);
+  Wire wire(opened.port());
+  wire.send("GET /api/board/events HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + officer.cookie + "\r\n\r\n");
+  const std::string told = wire.hear_for(std::chrono::seconds(20));  // nothing happens meanwhile
+  EXPECT_NE(told.find("\"live\":1"), std::string::npos) << told;
+  EXPECT_NE(told.find("\"run out\":1"), std::string::npos) << told;
 }
 
 }  // namespace

@@ -63,6 +63,29 @@ TEST_F(ListedSeats, ThatCannotBeAreRefusedWithTheirLine) {
   EXPECT_EQ(issue("id,station\n4711,Seat 1\n").json()["refused"].size(), 1u) << "his own seat is no other's";
 }
 
+TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
+  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000, minute = 60'000'000'000;
+  json asked = Opened::list("id\n1\n2\n3\n4\n5\n");
+  asked.update({{"exam", "block_cavity"}, {"from", utc_text(from)}, {"until", utc_text(from + 5 * minute)}, {"reason", "x"}});
+  for (const auto& [at_once, apart] : std::vector<std::pair<json, json>>{{0, 30}, {2, 0}, {2, json()}, {"2", 30}, {2, 100000}}) {
+    json wrong = asked;
+    wrong.update({{"at_once", at_once}, {"minutes_apart", apart}});
+    EXPECT_EQ(officer_.post("/api/roster/issue", wrong).status, 400) << wrong;
+  }
+  EXPECT_EQ(officer_.get("/api/tickets").json()["tickets"].size(), 0u) << "nothing by halves";
+  asked.update({{"at_once", 2}, {"minutes_apart", 30}});
+  const json issued = officer_.post("/api/roster/issue", asked).json()["issued"];
+  ASSERT_EQ(issued.size(), 5u);
+  const json tickets = officer_.get("/api/tickets").json()["tickets"];
+  for (std::size_t i = 0; i < 5; ++i) {
+    const std::int64_t later = static_cast<std::int64_t>(i / 2) * 30 * minute;
+    EXPECT_EQ(tickets[i]["id"], std::to_string(i + 1));
+    EXPECT_EQ(tickets[i]["not_before"], utc_text(from + later)) << i;
+    EXPECT_EQ(tickets[i]["not_after"], utc_text(from + later + 5 * minute)) << i;
+    EXPECT_EQ(issued[i]["not_before"], tickets[i]["not_before"]);
+  }
+}
+
 TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
   const json invited_now = officer_.get("/api/board").json()["stations"];
   ASSERT_EQ(officer_.post("/api/stations/revoke", {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}}).status, 200);

@@ -132,6 +132,7 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   // A retraction, and the release of what is ready then: of the changed result, too.
   await go(page, "Results");
   const first = await page.evaluate(async () => (await (await fetch("/api/results")).json()).results.find((r: { verdict: string; state: string }) => r.state === "released") as { session: number });
+  await page.click("main details summary");
   await page.select(await control(page, "Released result"), String(first.session));
   const back = await page.evaluateHandle(() => [...document.querySelectorAll("form")].find((f) => f.textContent!.includes("Take it back"))!);
   const fields = await back.$$("input");

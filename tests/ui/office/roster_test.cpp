@@ -50,6 +50,7 @@ TEST(Roster, AsksAboutEachColumnThatItDoesNotKnow) {
   EXPECT_EQ(asked.columns[1].use, "name") << "whatever its capitals";
   for (const int c : {0, 2, 3}) EXPECT_EQ(asked.columns[static_cast<std::size_t>(c)].use, "");
   EXPECT_EQ(asked.columns[3].samples, (std::vector<std::string>{"3", "4"}));
+  EXPECT_EQ(asked.columns[2].samples, (std::vector<std::string>{"25"})) << "of who has none nothing is shown";
   EXPECT_FALSE(read_roster(text, {"id", "", "extra_time_percent", ""}).ready()) << "one waits";
   const Roster answered = read_roster(text, {"id", "", "extra_time_percent", k_pass_over});
   ASSERT_TRUE(answered.ready()) << answered.problem;

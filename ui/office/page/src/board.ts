@@ -47,8 +47,8 @@ function card(s: Station, now_ns: number): HTMLElement {
   if (s.said.candidate !== "") lines.append(make("p", {}, make("code", {}, s.said.candidate)));
   if (s.said.step !== "") lines.append(make("p", {}, s.said.step));
   if (s.said.left_s >= 0) lines.append(make("p", {}, tr("{} left", clock(s.said.left_s))));
-  if (s.hold !== 0) lines.append(make("p", { class: s.said.held || s.said.state !== "exam" ? "" : "wrong" }, s.said.held ? tr("Stands still: paused by the office") : tr("Paused by the office")));
-  if (s.unread > 0) lines.append(make("p", {}, tr("Announcements not read yet: {}", s.unread)));
+  if (s.hold !== 0) lines.append(make("p", { class: s.said.held || s.said.state !== "exam" ? "" : "wrong" }, s.said.held ? tr("Stands still: paused by the office") : s.said.state === "exam" ? tr("Paused by the office, and has not stopped yet") : tr("Paused by the office")));
+  if (s.unread > 0 && s.said.state !== "free") lines.append(make("p", {}, tr("Announcements not read yet: {}", s.unread)));
   if (s.twins.length > 0) {
     element.classList.add("alarm");
     const who = s.said.refused !== "" ? s.said.refused : s.said.candidate;
@@ -74,7 +74,7 @@ export async function board(may: (door: string) => boolean): Promise<View> {
   const announcements = new Announcements();
   const attendance = new Attendance();
   const root = make("div", {}, make("h1", {}, tr("Exam day")), line, pauses.root, make("h2", {}, tr("Tickets")), counts, make("h2", {}, tr("Stations")), cards,
-    attendance.root, announcements.root, make("h2", {}, tr("Exams that were handed in")), inbox);
+    announcements.root, attendance.root, make("h2", {}, tr("Exams that were handed in")), inbox);
   const revocation = may("POST /api/stations/revoke") ? new Revocation() : null;
   const placing = may("POST /api/stations/room") ? new Placing() : null;
   let shown: Shown | null = null;

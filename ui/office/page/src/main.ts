@@ -6,7 +6,7 @@ import { appeals } from "./appeals.ts";
 import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
 import { platforms } from "./lti.ts";
-import { act, say, type View } from "./parts.ts";
+import { act, look_for_nothing, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
 import { regrade } from "./regrade.ts";
 import { results } from "./results.ts";
@@ -69,6 +69,7 @@ async function show(): Promise<void> {
   document.title = `${place?.title ?? tr("Sign in")} · ${me?.school ?? "Cavum"}`;
   if (place === undefined) return put(sign_in(signed_in, by_proxy));
   const this_time = ++asked;
+  look_for_nothing();
   try {
     const next = await place.open();
     if (this_time === asked) put(next);

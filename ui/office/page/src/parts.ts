@@ -42,8 +42,37 @@ export function select(label: string, choices: [string, string][], chosen = ""):
   return field(label, list);
 }
 
-/** One line for each row; on a narrow screen a card, each cell with its heading. */
-export function table(caption: string, headings: string[], rows: (Node | string)[][]): HTMLTableElement {
+const k_long = 10;
+/** What is looked for in long tables, by their headings: kept while a view is open, for its tables are made anew. */
+const looked_for = new Map<string, string>();
+export function look_for_nothing(): void {
+  looked_for.clear();
+}
+
+/** What a row says to who reads it: of a list to choose from what is chosen. */
+function words_of(row: HTMLTableRowElement): string {
+  return [...row.cells].map((c) => c.querySelector("select")?.selectedOptions[0]?.text ?? c.textContent ?? "").join(" ").toLowerCase();
+}
+
+/** A field above a long table that leaves the rows in which all words stand. */
+function searched(long: HTMLTableElement, key: string): HTMLElement {
+  const words = input(tr("Find in the list"), { type: "search", autocomplete: "off", spellcheck: "false" });
+  const count = make("p", { class: "hint", role: "status" });
+  const rows = [...long.tBodies[0].rows];
+  const show = (): void => {
+    looked_for.set(key, words.value);
+    const wanted = words.value.toLowerCase().split(/\s+/).filter((w) => w !== "");
+    for (const row of rows) row.hidden = !wanted.every((w) => words_of(row).includes(w));
+    count.textContent = wanted.length === 0 ? "" : tr("Shown: {0} of {1}", rows.filter((r) => !r.hidden).length, rows.length);
+  };
+  words.value = looked_for.get(key) ?? "";
+  words.addEventListener("input", show);
+  show();
+  return make("div", {}, words.block, count, long);
+}
+
+/** One line for each row; on a narrow screen a card, each cell with its heading. A long one can be searched. */
+export function table(caption: string, headings: string[], rows: (Node | string)[][]): HTMLElement {
   const body = make("tbody");
   for (const row of rows) {
     const line = make("tr");
@@ -51,7 +80,8 @@ export function table(caption: string, headings: string[], rows: (Node | string)
     body.append(line);
   }
   const head = make("tr", {}, ...headings.map((h) => make("th", { scope: "col" }, h)));
-  return make("table", { class: "stack" }, make("caption", {}, caption), make("thead", {}, head), body);
+  const element = make("table", { class: "stack" }, make("caption", {}, caption), make("thead", {}, head), body);
+  return rows.length > k_long ? searched(element, headings.join()) : element;
 }
 
 /** Says what happened, for eyes and screen readers. */
@@ -112,11 +142,11 @@ export function opens_form(text: string, attributes: { [name: string]: string },
   return block;
 }
 
-/** Asks why in a form below a button, and does it then. */
-export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>): HTMLElement {
+/** Asks why in a form below a button, and does it then; `sends` is on the form's own button. */
+export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>, sends = text): HTMLElement {
   return opens_form(text, attributes, () => {
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-    return form(text, async () => does(reason.value), reason.block);
+    return form(sends, async () => does(reason.value), reason.block);
   });
 }
 
@@ -129,6 +159,11 @@ export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("p
 /** "2026-11-21T09:00:00Z" in the reader's own time zone. */
 export function local_time(utc: string): string {
   return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+}
+/** From one moment to another; the day once where both are on it. */
+export function local_span(from: string, until: string): string {
+  const same_day = new Date(from).toDateString() === new Date(until).toDateString();
+  return tr("{0} to {1}", local_time(from), same_day ? new Date(until).toLocaleTimeString([], { timeStyle: "short" }) : local_time(until));
 }
 /** What a control for a moment says, as UTC to the second. */
 export function utc(local: string): string {

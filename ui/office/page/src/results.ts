@@ -17,15 +17,15 @@ const states = (): { [state: string]: string } => ({
 });
 
 export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
-  let rehearsed = false;
-  const list = make("div"), taking = make("div"), reports = may("GET /api/report/*");
+  const list = make("div"), taking = make("div"), counts = make("ul", { class: "counts" }), reports = may("GET /api/report/*");
   const show = async (): Promise<void> => {
     const { results } = await get<{ results: Result[] }>("/api/results");
     if (may("POST /api/retract") && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
     if (results.length === 0) return void list.replaceChildren(make("p", {}, tr("Nothing is filed yet.")));
-    rehearsed = results.some((r) => r.simulated !== "");
     const named = results.some((r) => r.id !== undefined);
     const words = states();
+    const of_state = Object.keys(words).map((s): [string, number] => [words[s], results.filter((r) => r.state === s).length]).filter(([, n]) => n > 0);
+    counts.replaceChildren(...of_state.map(([word, n]) => make("li", {}, `${word}: `, make("b", {}, String(n)))));
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
@@ -37,13 +37,12 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     list.replaceChildren(table(tr("Results: {}", results.length), headings, rows));
   };
   await show();
-  const root = make("div", {}, make("h1", {}, tr("Results")), list);
-  if (may("POST /api/release")) root.append(release(second_factor, show), taking);
+  const root = make("div", {}, make("h1", {}, tr("Results")), counts);
+  if (may("POST /api/release")) root.append(release(second_factor, show));
   const files = make("ul");
   if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
   if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
-  root.append(make("h2", {}, tr("Files")), files);
-  if (rehearsed) root.append(make("p", { class: "hint" }, tr("No gradebook holds what a simulated hand has sat.")));
+  root.append(make("h2", {}, tr("Files")), files, taking, list);
   return { root };
 }
 
@@ -54,12 +53,12 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
   which.required = true;
   const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
   const code = code_field();
-  return [make("h2", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
+  return [make("details", {}, make("summary", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
     form(tr("Take it back"), async () => {
       const { entry } = await post<{ entry: number }>("/api/retract", { sessions: [Number(which.value)], reason: reason.value, code: code.value });
       await show();
       say(tr("Taken back: entry {}.", entry));
-    }, which.block, reason.block, code.block)];
+    }, which.block, reason.block, code.block))];
 }
 
 function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {

@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { field, form, input, say, select, table, time_zone, utc, type View } from "./parts.ts";
+import { field, form, input, local_span, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
@@ -15,7 +15,7 @@ interface Preview {
   uses: string[];
 }
 interface Issued {
-  issued: { candidate: string; id: string; name: string; station: string }[];
+  issued: { candidate: string; id: string; name: string; station: string; not_before: string; not_after: string }[];
   refused: { id: string; name: string; why: string }[];
 }
 
@@ -83,7 +83,7 @@ class Roster {
         this.answers[i] = list.value;
         this.look().catch((wrong: Error) => say(wrong.message, true));
       });
-      return [c.heading, c.samples.filter((s) => s !== "").join(", "), list.block];
+      return [c.heading, c.samples.join("; "), list.block];
     });
     return table(tr("Columns of the list"), [tr("Column"), tr("First values"), tr("Use")], rows);
   }
@@ -98,18 +98,27 @@ class Roster {
     const zone = tr("In your computer's time zone, {}.", time_zone());
     const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
     const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);
+    const at_once = input(tr("Candidates in a sitting"), { type: "number", min: "1", max: "10000", step: "1" }, tr("As many as there are stations, in the order of the list. Empty: all in one sitting."));
+    const apart = input(tr("Minutes from one sitting to the next"), { type: "number", min: "1", max: "10080", step: "1" }, tr("Each later sitting may begin that much later."));
+    apart.block.hidden = true;
+    at_once.addEventListener("input", () => {
+      apart.block.hidden = at_once.value === "";
+      apart.required = at_once.value !== "";
+    });
+    const sittings = (): { at_once?: number; minutes_apart?: number } => (at_once.value === "" ? {} : { at_once: Number(at_once.value), minutes_apart: Number(apart.value) });
     const word = make("input", { type: "checkbox", id: "begin-at-office" });
     const another = make("input", { type: "checkbox", id: "another-attempt" });
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
     const out = make("div");
     const asked = form(tr("Issue the tickets"), async () => {
       const done = await post<Issued>("/api/roster/issue", {
-        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, another: another.checked, reason: reason.value,
+        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), ...sittings(), begin_at_office: word.checked, another: another.checked, reason: reason.value,
       });
       say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
-      out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Station")], done.issued.map((p) => [p.id, p.name, p.candidate, p.station])));
+      out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("May begin"), tr("Station")],
+        done.issued.map((p) => [p.id, p.name, p.candidate, local_span(p.not_before, p.not_after), p.station])));
       if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
-    }, exam.block, from.block, until.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")),
+    }, exam.block, from.block, until.block, at_once.block, apart.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")),
     make("label", { class: "beside", for: another.id }, another, tr("Also to those who have a good ticket for it, or have sat it: of several attempts the last one that is released counts")), reason.block);
     return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);
   }

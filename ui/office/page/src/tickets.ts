@@ -3,7 +3,7 @@ import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
 import { with_makeup } from "./makeup.ts";
-import { act, form, local_time as local, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
+import { act, form, local_span, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
 
 interface Ticket {
   entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean;
@@ -25,7 +25,7 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
       const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.became === "missed" ? tr("missed; {}", t.state) : t.became !== "" ? tr("interrupted; {}", t.state)
         : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
       const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
-      return [t.id, t.name, t.candidate, t.exam, tr("{0} to {1}", local(t.not_before), local(t.not_after)), seat, state, actions.textContent === "" ? "" : actions];
+      return [t.id, t.name, t.candidate, t.exam, local_span(t.not_before, t.not_after), seat, state, actions.textContent === "" ? "" : actions];
     });
     const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), tr("Station"), tr("State"), tr("Action")];
     list.replaceChildren(table(tr("Tickets: {0}; times in {1}", tickets.length, time_zone()), headings, rows));
@@ -51,7 +51,7 @@ function with_cancel(t: Ticket, show: () => Promise<void>): HTMLElement {
     await post("/api/tickets/cancel", { entry: t.entry, reason });
     await show();
     say(tr("The ticket of {} does not count any more.", t.candidate));
-  });
+  }, tr("Cancel the ticket"));
 }
 
 function seat_of(t: Ticket, stations: Station[]): HTMLElement {
@@ -69,22 +69,29 @@ function seat_of(t: Ticket, stations: Station[]): HTMLElement {
   return list.block;
 }
 
-/** A sitting is all tickets of one exam and time; each is seated with one press. */
+/** A sitting is all tickets of one exam and time; who has no seat in it gets one with one press. */
 function seatings(live: Ticket[], stations: Station[], show: () => Promise<void>): HTMLElement[] {
   const key = (t: Ticket): string => JSON.stringify([t.exam, t.not_before, t.not_after]);
   const open = live.filter((t) => t.seat === "");
+  if (open.length === 0) return [];
+  const keys = [...new Set(open.map(key))].sort((a, b) => (JSON.parse(a) as string[])[1].localeCompare((JSON.parse(b) as string[])[1]));
   const rooms = [...new Set(stations.filter((s) => !s.revoked && s.room !== "").map((s) => s.room))].sort();
-  return [...new Set(open.map(key))].map((k) => {
+  const sitting = select(tr("Sitting"), keys.map((k): [string, string] => {
     const [exam, not_before, not_after] = JSON.parse(k) as [string, string, string];
-    const room = select(tr("Room"), [["", tr("any")], ...rooms.map((r): [string, string] => [r, r])]);
-    const without = open.filter((t) => key(t) === k).length;
-    return make("section", { class: "card", "aria-label": tr("Seats of {}", exam) },
-      make("h2", {}, tr("{0}, {1} to {2}", exam, local(not_before), local(not_after))),
-      make("p", {}, tr("Without a station: {0} of {1}", without, live.filter((t) => key(t) === k).length)),
-      form(tr("Seat them"), async () => {
-        const done = await post<{ seated: number; left: number }>("/api/seats", { sitting: { exam, not_before, not_after }, room: room.value });
-        await show();
-        say(tr("Seated: {0}. Without a station still: {1}.", done.seated, done.left), done.left > 0);
-      }, room.block));
-  });
+    return [k, `${local_span(not_before, not_after)}, ${exam}`];
+  }));
+  const room = select(tr("Room"), [["", tr("any")], ...rooms.map((r): [string, string] => [r, r])]);
+  const without = make("p");
+  const count = (): void => {
+    const here = (t: Ticket): boolean => key(t) === sitting.value;
+    without.textContent = tr("Without a station: {0} of {1}", open.filter(here).length, live.filter(here).length);
+  };
+  sitting.addEventListener("change", count);
+  count();
+  return [make("section", { class: "card", "aria-label": tr("Seats") }, make("h2", {}, tr("Seats")), form(tr("Seat them"), async () => {
+    const [exam, not_before, not_after] = JSON.parse(sitting.value) as [string, string, string];
+    const done = await post<{ seated: number; left: number }>("/api/seats", { sitting: { exam, not_before, not_after }, room: room.value });
+    await show();
+    say(tr("Seated: {0}. Without a station still: {1}.", done.seated, done.left), done.left > 0);
+  }, sitting.block, without, room.block))];
 }
