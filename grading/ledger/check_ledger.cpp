@@ -150,8 +150,8 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
 /// Who has a ticket and is no longer among the identities, though no entry says that he was forgotten.
 void say_missing(const LedgerPlaces& places, const LedgerContent& content, Identities& identities, LedgerCheck& out) {
   std::map<std::string, std::uint64_t> missing;  // and the entry of the first ticket
-  for (const auto& e : content.entries)
-    if (const std::string who = text_in(e.body, "candidate"); e.kind == "ticket" && !identities.of_pseudonym(who)) missing.try_emplace(who, e.seq);
+  for (const IssuedTicket& t : read_registry(content).tickets)
+    if (!identities.of_pseudonym(t.ticket.candidate)) missing.try_emplace(t.ticket.candidate, t.seq);
   if (missing.empty()) return;
   for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
     if (e.kind == "forget") missing.erase(text_in(e.body, "candidate"));
