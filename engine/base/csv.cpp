@@ -20,6 +20,18 @@ std::string_view text_of_comment(std::string_view s) {
   return without_blanks(s);
 }
 
+/// What `sep=;` or `"sep=;"` names; 0: the line is none of these.
+char named_separator(std::string_view line) {
+  if (line.size() == 7 && line.front() == '"' && line.back() == '"') line = line.substr(1, 5);
+  constexpr std::string_view k_names = "sep=", k_capitals = "SEP=";
+  if (line.size() != k_names.size() + 1) return 0;
+  for (std::size_t i = 0; i < k_names.size(); ++i)
+    if (line[i] != k_names[i] && line[i] != k_capitals[i]) return 0;
+  const char c = line.back();
+  const bool word = (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+  return word || c == '"' || (c < ' ' && c != '\t') || c > '~' ? '\0' : c;
+}
+
 /// Of comma, semicolon, tab and, where a form has them, bar the one that stands most often outside quotes; the earlier of equals.
 char separator_of(std::string_view heading, const CsvForm& form) {
   constexpr std::string_view k_separators = ",;\t|";
@@ -59,6 +71,11 @@ CsvReader::Line CsvReader::next() {
   while (at_ < text_.size()) {
     line_ = next_;
     const std::string_view line = text_.substr(at_, std::min(text_.find_first_of(k_line_ends, at_), text_.size()) - at_);
+    if (line_ == 1 && separator_ == 0 && (separator_ = named_separator(line)) != 0) {
+      at_ += line.size();
+      end_line();
+      continue;
+    }
     const std::string_view content = without_blanks(line);
     if (content.empty() || content.front() == '#') {
       at_ += line.size();
@@ -137,7 +154,8 @@ void CsvReader::check_row() {
     columns_ = fields_.size();
     return;
   }
-  if (fields_.size() != columns_) fail(fmt::format("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), "complete the row");
+  if (fields_.size() != columns_ && !form_.uneven)
+    fail(fmt::format("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), "complete the row");
   if (rows_++ == form_.most_rows) fail(fmt::format("is beyond the limit of {} rows", form_.most_rows), "split the table");
 }
 

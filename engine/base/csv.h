@@ -19,13 +19,15 @@ struct CsvForm {
   bool quotes = true;                 ///< false: a quote is a character like any other
   bool plain_text = true;             ///< refuses fields that are no UTF-8, or hold a control character
   bool bars = false;                  ///< a bar (|) may part the fields, too
+  bool uneven = false;                ///< gives rows with more or fewer fields than the heading has as they are
 };
 
 /// Throws Error(where, ...) for a text that begins as UTF-16 does.
 void refuse_utf16(std::string_view text, const std::string& where);
 
 /// Goes through a table. The first row is the heading: what stands there most often, outside quotes, of comma, semicolon and tab (`bars`: or bar)
-/// parts the fields of all rows, and each row has as many fields.
+/// parts the fields of all rows, and each row has as many fields. A first line `sep=;`, as spreadsheets write and read it, names what parts them
+/// instead: any ASCII character that is no letter, digit or quote.
 class CsvReader {
  public:
   enum class Line { row, comment, end };

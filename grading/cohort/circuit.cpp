@@ -41,24 +41,6 @@ std::vector<double> values_of(const std::vector<StudyMark>& marks) {
   return values;
 }
 
-CircuitStudy studied(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut) {
-  const VarianceStudy study(std::move(design), marks);
-  CircuitStudy s;
-  s.design = study.design();
-  s.components = study.estimate(values_of(marks));
-  s.plan = std::move(plan);
-  s.range = dependability_range(study, s.components, s.plan, candidates, k_range_draws, k_range_seed);
-  s.as_sat = dependability(s.design, s.components, s.plan, candidates);
-  s.at_cut = cut_decision(s.as_sat, s.components.mean, cut);
-  CircuitPlan wanted = s.plan;
-  for (int n = 1; n <= k_most_tasks; ++n) {
-    wanted.conditions[0] = n;
-    s.by_tasks.push_back(dependability(s.design, s.components, wanted, candidates));
-    if (!s.tasks_for_enough && s.by_tasks.back().phi >= k_enough_phi) s.tasks_for_enough = n;
-  }
-  return s;
-}
-
 /// Runs what may be refused, and keeps why.
 template <class Result, class Make>
 void when_possible(Result& out, std::string& why_not, const Make& make) {
@@ -90,8 +72,8 @@ CircuitStudy study_of_people(const std::vector<CircuitMark>& marks, std::size_t 
   const bool nested = mean_partners(exams_of_judge) <= 1;
   std::vector<StudyMark> list;
   for (const auto& m : marks) list.push_back({{m.candidate, m.exam, m.judge}, m.percent});
-  return studied(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), list,
-                 {{static_cast<double>(exams), judges}}, candidates, cut);
+  return study_circuit(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), list,
+                       {{static_cast<double>(exams), judges}}, candidates, cut);
 }
 
 /// Severities of facet 2 (of three: candidate, exam, station or judge), with their names.
@@ -129,9 +111,14 @@ class Collected {
       program.push_back(m);
       verdict[{m.candidate, number}] = session->result.value("verdict", "");
     }
-    for (const HumanMark& h : by_people)
-      if (const auto at = person_of.find(h.candidate); at != person_of.end())
+    for (const HumanMark& h : by_people) {
+      if (const auto at = person_of.find(h.candidate); at != person_of.end()) {
         people.push_back({at->second, marked.of(exam), 0, judges.of(h.judge), 100 * h.points / points});
+        continue;
+      }
+      const auto known = identities_.of_pseudonym(h.candidate);
+      figures_.marks_left_out.push_back({exam, known ? known->id : h.candidate, h.judge});
+    }
   }
   [[nodiscard]] double cut_percent() const { return mean(pass_percent_); }
 
@@ -176,6 +163,25 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
 
 }  // namespace
 
+CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut) {
+  const VarianceStudy study(std::move(design), marks);
+  CircuitStudy s;
+  s.design = study.design();
+  s.components = study.estimate(values_of(marks));
+  require_differences(s.design, s.components);
+  s.plan = std::move(plan);
+  s.range = dependability_range(study, s.components, s.plan, candidates, k_range_draws, k_range_seed);
+  s.as_sat = dependability(s.design, s.components, s.plan, candidates);
+  s.at_cut = cut_decision(s.as_sat, s.components.mean, cut);
+  CircuitPlan wanted = s.plan;
+  for (int n = 1; n <= k_most_tasks; ++n) {
+    wanted.conditions[0] = n;
+    s.by_tasks.push_back(dependability(s.design, s.components, wanted, candidates));
+    if (!s.tasks_for_enough && s.by_tasks.back().phi >= k_enough_phi) s.tasks_for_enough = n;
+  }
+  return s;
+}
+
 CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
                                const std::map<std::string, std::vector<HumanMark>>& marks) {
   if (exams.size() < 2) throw Error("a circuit", "has two exams at least", "name them with --exams A,B");
@@ -196,7 +202,7 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
   }
   for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
   when_possible(f.program, f.why_no_program, [&] {
-    return studied(crossed_design({"candidate", "exam"}), by_exam, {{n_exams}}, candidates, f.cut_percent);
+    return study_circuit(crossed_design({"candidate", "exam"}), by_exam, {{n_exams}}, candidates, f.cut_percent);
   });
   if (all.people.empty())
     f.why_no_people = "no marks of people";

@@ -25,6 +25,8 @@ struct CircuitStudy {
   std::vector<Dependability> by_tasks;  ///< with 1, 2, ... k_most_tasks exams, raters as they were
   std::optional<int> tasks_for_enough;  ///< the fewest exams with a phi of k_enough_phi; none within k_most_tasks
 };
+/// `candidates`: how many; `cut`: what passes, in the marks' unit. Throws what VarianceStudy and require_differences throw.
+[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut);
 inline constexpr double k_enough_phi = 0.80;
 inline constexpr int k_most_tasks = 40;
 
@@ -40,13 +42,18 @@ struct RosterRow {
   double raw = 0.0;                ///< mean of those that were sat
   std::optional<double> adjusted;  ///< the same under stations and exams of middle severity
 };
+/// A person's mark of somebody who has no session of the exam that counts.
+struct MarkLeftOut {
+  std::string exam, candidate, judge;  ///< candidate: the school's own number, or what the file has
+};
 
 struct CircuitFigures {
   std::vector<std::string> exams;
   std::size_t candidates = 0, complete = 0;  ///< who sat any, all
   std::size_t unknown = 0;                   ///< sessions whose candidate nobody knows any more: left out
   std::size_t simulated = 0;                 ///< sessions of simulated operators, counted among people
-  double cut_percent = 0.0;                  ///< mean over the exams of what passes
+  std::vector<MarkLeftOut> marks_left_out;
+  double cut_percent = 0.0;  ///< mean over the exams of what passes
   std::optional<CircuitStudy> program, people;
   std::string why_no_program, why_no_people;  ///< where there is none
   std::vector<NamedSeverity> stations, judges;

@@ -12,14 +12,17 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr int k_tasks_in_words = 12;
+constexpr std::size_t k_names_in_words = 5;
 
 Json coefficients(const Dependability& d) {
   return {{"g", d.g}, {"phi", d.phi}, {"relative_sem_percent", d.relative_sem}, {"absolute_sem_percent", d.absolute_sem}};
 }
 
 Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not) {
-  if (!s) return {{"why_not", why_not}};
-  Json j{{"mean_percent", s->components.mean}, {"components", Json::array()}};
+  if (!s)
+    return {{"why_not", why_not}, {"mean_percent", nullptr}, {"components", nullptr},       {"as_sat", nullptr},
+            {"at_cut", nullptr},  {"by_exams", nullptr},     {"exams_for_phi_080", nullptr}};
+  Json j{{"why_not", nullptr}, {"mean_percent", s->components.mean}, {"components", Json::array()}};
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
     j["components"].push_back({{"effect", s->design.effect_name(k)}, {"variance", s->components.variance[k]}, {"standard_error", s->range.error[k]}});
   j["as_sat"] = coefficients(s->as_sat);
@@ -63,6 +66,15 @@ std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, 
                                      : fmt::format("\n  for phi 0.80: more than {} exams\n", k_most_tasks));
 }
 
+std::string left_out_text(const std::vector<MarkLeftOut>& marks) {
+  if (marks.empty()) return "";
+  std::string names;
+  for (std::size_t i = 0; i < std::min(marks.size(), k_names_in_words); ++i)
+    names += fmt::format("{}{} ({})", i > 0 ? ", " : "", one_line(marks[i].candidate), one_line(marks[i].exam));
+  if (marks.size() > k_names_in_words) names += fmt::format(" and {} more", marks.size() - k_names_in_words);
+  return fmt::format("people's marks left out: {}, of candidates without a session of that exam that counts: {}\n", marks.size(), names);
+}
+
 std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not) {
   if (!why_not.empty()) return fmt::format("{}: not compared: {}\n", what, why_not);
   std::string text;
@@ -83,11 +95,14 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
     roster.push_back(
         {{"candidate", r.candidate}, {"exams", by_exam}, {"raw_percent", r.raw}, {"adjusted_percent", r.adjusted ? Json(*r.adjusted) : Json()}});
   }
+  Json left_out = Json::array();
+  for (const MarkLeftOut& m : f.marks_left_out) left_out.push_back({{"exam", m.exam}, {"candidate", m.candidate}, {"judge", m.judge}});
   return {{"exams", f.exams},
           {"candidates", f.candidates},
           {"complete", f.complete},
           {"unknown", f.unknown},
           {"simulated", f.simulated},
+          {"marks_left_out", left_out},
           {"cut_percent", f.cut_percent},
           {"program", study_json(f.program, f.why_no_program)},
           {"people", study_json(f.people, f.why_no_people)},
@@ -101,6 +116,7 @@ std::string to_text(const CircuitFigures& f) {
                                  f.candidates, f.complete);
   if (f.simulated > 0) text += fmt::format("{} sessions are of simulated operators, and count among people\n", f.simulated);
   if (f.unknown > 0) text += fmt::format("{} sessions left out: nobody knows any more whose they are\n", f.unknown);
+  text += left_out_text(f.marks_left_out);
   if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
   text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);
   text += study_text("people's marks", f.people, f.why_no_people, f.cut_percent);

@@ -92,8 +92,9 @@ SeverityStudy study_severity(std::span<const StudyMark> marks) {
     study.persons[m.level[0]].raw += m.value / count[m.level[0]];
     study.persons[m.level[0]].adjusted += own / count[m.level[0]];
   }
-  double squares = 0;
+  double squares = 0, largest = 0;
   for (const StudyMark& m : marks) {
+    largest = std::max(largest, std::fabs(m.value));
     double rest = m.value - study.persons[m.level[0]].adjusted;
     for (std::size_t f = 1; f < facets; ++f) rest -= effect[columns.of(m, f)];
     squares += rest * rest;
@@ -104,13 +105,14 @@ SeverityStudy study_severity(std::span<const StudyMark> marks) {
   study.residual_sd = std::sqrt(squares / free);
   for (std::size_t f = 0; f + 1 < columns.first.size(); ++f) {
     const std::size_t levels = columns.first[f + 1] - columns.first[f];
-    const double critical = critical_of(levels);
+    const double critical = critical_of(levels), rounding = 1e-9 * largest;
     std::vector<Severity> of_facet;
     for (std::size_t i = columns.first[f]; i < columns.first[f + 1]; ++i) {
       // The constraint added 1 to each pair of the facet, which the inverse gives back as 1/levels² in each place: no part of the error.
       const double own = std::max(0.0, (*inverse)[i][i] - 1.0 / static_cast<double>(levels * levels));
       const double error = study.residual_sd * std::sqrt(own);
-      of_facet.push_back({static_cast<std::size_t>(marks_of[i]), -effect[i], error, levels > 1 && std::fabs(effect[i]) > critical * error});
+      of_facet.push_back(
+          {static_cast<std::size_t>(marks_of[i]), -effect[i], error, levels > 1 && std::fabs(effect[i]) > std::max(critical * error, rounding)});
     }
     study.facets.push_back(std::move(of_facet));
   }

@@ -116,12 +116,17 @@ VarianceComponents VarianceStudy::estimate(std::span<const double> values) const
   const double middle = mean(values);
   std::vector<double> from_middle(values.begin(), values.end());  // the sums of squares then lose no digits
   for (double& v : from_middle) v -= middle;
+  double mean_square = 0;
+  for (const double v : from_middle) mean_square += v * v / static_cast<double>(marks_);
+  const double rounding = 1e-12 * mean_square + 1e-24 * middle * middle;
   const std::size_t n = design_.effects.size();
   std::vector<double> t(n + 1);
   for (std::size_t i = 0; i < n; ++i) t[i] = sum_of_squares(group_[i], size_[i], from_middle);
   VarianceComponents found{std::vector<double>(n), middle};
-  for (std::size_t k = 0; k < n; ++k)
+  for (std::size_t k = 0; k < n; ++k) {
     for (std::size_t i = 0; i <= n; ++i) found.variance[k] += inverse_[k][i] * t[i];
+    if (std::fabs(found.variance[k]) <= rounding) found.variance[k] = 0;
+  }
   return found;
 }
 
@@ -165,10 +170,23 @@ Dependability dependability(const StudyDesign& design, const VarianceComponents&
   return d;
 }
 
+void require_differences(const StudyDesign& design, const VarianceComponents& components) {
+  const auto there = [&](bool of_persons) {
+    for (std::size_t k = 0; k < design.effects.size(); ++k)
+      if (((design.effects[k] & 1U) != 0) == of_persons && components.variance[k] > 0) return true;
+    return false;
+  };
+  if (there(true)) return;
+  if (!there(false))
+    throw Error("these marks", "are all alike: nothing varies, and nothing tells how dependable they are", "study marks that differ");
+  throw Error("these marks", "differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are",
+              "study candidates who differ");
+}
+
 CutDecision cut_decision(const Dependability& d, double mean_mark, double cut) {
   CutDecision c;
   const double away = mean_mark - cut;
-  const double signal = std::max(0.0, d.universe + away * away - d.of_the_mean);
+  const double signal = d.universe + std::max(0.0, away * away - d.of_the_mean);
   c.phi_at_cut = signal + d.absolute > 0 ? signal / (signal + d.absolute) : 0.0;
   constexpr int k_steps = 2000;
   constexpr double k_tails = 8;

@@ -45,7 +45,7 @@ class VarianceStudy {
   [[nodiscard]] const StudyDesign& design() const noexcept { return design_; }
   [[nodiscard]] std::size_t marks() const noexcept { return marks_; }
   /// Henderson's first method (Biometrics 9 (1953) 226; Brennan's analogous ANOVA): sums of squares are set equal to what they are expected to be.
-  /// Balanced: the components of the analysis of variance. `values`: one for each mark, in their order.
+  /// Balanced: the components of the analysis of variance. `values`: one for each mark, in their order. What rounding leaves is 0.
   [[nodiscard]] VarianceComponents estimate(std::span<const double> values) const;
   /// Values drawn from normal distributions of these variances, on this study's conditions.
   [[nodiscard]] std::vector<double> draw(const VarianceComponents& from, std::uint64_t seed) const;
@@ -77,9 +77,14 @@ struct Dependability {
 /// Components below 0 count as 0. Throws Error when the plan has another number of facets, or fewer than one condition.
 [[nodiscard]] Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons);
 
+/// Throws Error where no component with the persons in it is above 0: g is then 0 by 0, and there is nothing to study.
+void require_differences(const StudyDesign& design, const VarianceComponents& components);
+
 /// How surely one circuit tells who is above `cut` (unit of the marks), for normal marks.
 struct CutDecision {
-  double phi_at_cut = 0.0;   ///< Brennan and Kane, J. Educational Measurement 14 (1977) 277: dependability of a distance from the cut
+  /// Dependability of a distance from the cut: Brennan and Kane, J. Educational Measurement 14 (1977) 277. Never below phi: the square of the
+  /// distance between mean and cut, estimated less the mean's error variance, counts as 0 where that is below 0.
+  double phi_at_cut = 0.0;
   double consistency = 0.0;  ///< share of candidates whom two such circuits would pass or fail alike: Peng and Subkoviak, same journal 17 (1980) 359
   double accuracy = 0.0;     ///< share whom it passes or fails as endless circuits would
 };

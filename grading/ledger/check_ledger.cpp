@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <filesystem>
+#include <map>
 #include <optional>
 #include <set>
 
@@ -146,6 +147,20 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
     if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
 }
 
+/// Who has a ticket and is no longer among the identities, though no entry says that he was forgotten.
+void say_missing(const LedgerPlaces& places, const LedgerContent& content, Identities& identities, LedgerCheck& out) {
+  std::map<std::string, std::uint64_t> missing;  // and the entry of the first ticket
+  for (const IssuedTicket& t : read_registry(content).tickets)
+    if (!identities.of_pseudonym(t.ticket.candidate)) missing.try_emplace(t.ticket.candidate, t.seq);
+  if (missing.empty()) return;
+  for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
+    if (e.kind == "forget") missing.erase(text_in(e.body, "candidate"));
+  for (const auto& [who, seq] : missing)
+    out.findings.push_back(fmt::format(
+        "identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
+        one_line(who), seq));
+}
+
 }  // namespace
 
 LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
@@ -188,7 +203,7 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       check.findings.push_back(public_key_path + ": is no school's public key, 64 hexadecimal digits; copy it again from the school's computer");
     }
   }
-  const std::string of_identities = "whether names were exchanged among the identities: ";
+  const std::string of_identities = "whether names were exchanged among the identities, or taken out: ";
   std::optional<SigningKey> key;
   if (std::filesystem::exists(key_path)) {
     known = true;
@@ -220,6 +235,7 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
         if (const std::string who = text_in(e.body, "candidate"); e.kind == "forget" && identities.of_pseudonym(who))
           check.findings.push_back(fmt::format(
               "identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it", one_line(who), e.seq));
+      say_missing(places, content, identities, check);
     } catch (const Error& e) {
       check.findings.emplace_back(e.what());
     }

@@ -147,6 +147,24 @@ double number_of(const std::string& field, const std::string& at) {
   if (!number) throw Error(at, fmt::format("'{}' is no number", field), "write it with a decimal point, or leave it empty");
   return *number;
 }
+/// As a person or a spreadsheet writes a percentage: 25, 25%, 25 %, 25,0.
+double percent_of(const std::string& field, const std::string& at) {
+  std::string text = field;
+  if (text.ends_with('%')) {
+    text.pop_back();
+    for (const std::string_view blank : {"\u00a0", "\u202f"})  // no-break spaces
+      if (text.ends_with(blank)) text.resize(text.size() - blank.size());
+    text = without_blanks(text);
+  }
+  if (text.find('.') == std::string::npos)
+    if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
+  const auto number = number_in_field(text);
+  if (!number) throw Error(at, fmt::format("'{}' is no percentage", field), "write it as 25, or leave it empty");
+  if (*number > 0 && *number < 1)
+    throw Error(at, fmt::format("'{}' is less than one percent", field),
+                fmt::format("write {} if the exam is to be longer by {} percent", plain_number(100 * *number), plain_number(100 * *number)));
+  return *number;
+}
 bool yes_of(const std::string& field, const std::string& at) {
   const std::string word = small_letters(field);
   if (word == "yes" || word == "true" || word == "1") return true;
@@ -158,7 +176,7 @@ constexpr Column k_columns[] = {
     {"id", [](Person& p, const std::string& f, const std::string&) { p.id = f; }},
     {"name", [](Person& p, const std::string& f, const std::string&) { p.name = f; }},
     {"station", [](Person& p, const std::string& f, const std::string&) { p.station = f; }},
-    {"extra_time_percent", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_percent = number_of(f, at); }},
+    {"extra_time_percent", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_percent = percent_of(f, at); }},
     {"extra_time_s", [](Person& p, const std::string& f, const std::string& at) { p.grant.extra_time_s = number_of(f, at); }},
     {"left_handed", [](Person& p, const std::string& f, const std::string& at) { p.grant.left_handed = yes_of(f, at); }},
     {"high_contrast", [](Person& p, const std::string& f, const std::string& at) { p.grant.high_contrast = yes_of(f, at); }}};
@@ -185,7 +203,53 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
   return columns;
 }
 
+void require_all_fields(const CsvRow& row, std::size_t columns, const std::string& at) {
+  if (row.fields.size() != columns) throw Error(at, fmt::format("has {} fields for {} columns", row.fields.size(), columns), "complete the row");
+}
+
+Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, const std::string& at) {
+  require_all_fields(row, columns.size(), at);
+  Person p;
+  for (std::size_t c = 0; c < columns.size(); ++c)
+    if (columns[c] != nullptr && !row.fields[c].empty()) columns[c]->put(p, row.fields[c], fmt::format("{}: {}", at, columns[c]->name));
+  if (p.id.empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
+  require_candidate_id(at + ": id", p.id);
+  require_candidate_id(at + ": name", p.name);
+  require_candidate_id(at + ": station", p.station);
+  scenarios::require_sound(p.grant, at);
+  p.line = row.line;
+  return p;
+}
+
+/// What is wrong with a list, row by row: it is told at once, so that it is put right at once.
+class Mistakes {
+ public:
+  explicit Mistakes(std::string where) : where_(std::move(where)) {}
+  template <class Check>
+  void unless(const Check& check) {
+    try {
+      check();
+    } catch (const Error& wrong) {
+      ++number_;
+      if (texts_.size() < k_most) texts_.emplace_back(wrong.what());
+    }
+  }
+  void tell() {
+    if (number_ > texts_.size()) texts_.push_back(fmt::format("{}: has {} mistakes more; put these right first", where_, number_ - texts_.size()));
+    if (number_ > 0) throw ListMistakes(where_, std::move(texts_));
+  }
+
+ private:
+  static constexpr std::size_t k_most = 20;
+  std::string where_;
+  std::size_t number_ = 0;
+  std::vector<std::string> texts_;
+};
+
 }  // namespace
+
+ListMistakes::ListMistakes(const std::string& where, std::vector<std::string> texts)
+    : Error(where, fmt::format("has {} mistakes", texts.size()), fmt::format("the first: {}", texts.at(0))), texts_(std::move(texts)) {}
 
 std::vector<std::string> people_columns() {
   std::vector<std::string> names;
@@ -194,7 +258,13 @@ std::vector<std::string> people_columns() {
 }
 
 std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over) {
-  return parse_people(parse_csv(text, where), where, passed_over);
+  return parse_people(parse_csv(text, where, {.uneven = true}), where, passed_over);
+}
+
+void require_whole_rows(const std::vector<CsvRow>& rows, const std::string& where) {
+  Mistakes mistakes(where);
+  for (const CsvRow& row : rows) mistakes.unless([&] { require_all_fields(row, rows[0].fields.size(), fmt::format("{}:{}", where, row.line)); });
+  mistakes.tell();
 }
 
 std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where, const std::vector<std::string>& passed_over) {
@@ -202,22 +272,17 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
   const auto columns = columns_of(rows[0].fields, fmt::format("{}:{}", where, rows[0].line), passed_over);
   std::vector<Person> people;
   std::set<std::string> seen, stations;
-  for (std::size_t i = 1; i < rows.size(); ++i) {
-    const std::string at = fmt::format("{}:{}", where, rows[i].line);
-    Person p;
-    for (std::size_t c = 0; c < columns.size(); ++c)
-      if (columns[c] != nullptr && !rows[i].fields[c].empty()) columns[c]->put(p, rows[i].fields[c], fmt::format("{}: {}", at, columns[c]->name));
-    if (p.id.empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
-    require_candidate_id(at + ": id", p.id);
-    require_candidate_id(at + ": name", p.name);
-    scenarios::require_sound(p.grant, at);
-    if (!seen.insert(p.id).second) throw Error(at, fmt::format("'{}' stands there a second time", p.id), "leave one of them");
-    require_candidate_id(at + ": station", p.station);
-    if (!p.station.empty() && !stations.insert(p.station).second)
-      throw Error(at + ": station", fmt::format("'{}' is given to two candidates", p.station), "give each a station of his own");
-    p.line = rows[i].line;
-    people.push_back(std::move(p));
-  }
+  Mistakes mistakes(where);
+  for (std::size_t i = 1; i < rows.size(); ++i)
+    mistakes.unless([&] {
+      const std::string at = fmt::format("{}:{}", where, rows[i].line);
+      Person p = person_of(rows[i], columns, at);
+      if (!seen.insert(p.id).second) throw Error(at, fmt::format("'{}' stands there a second time", p.id), "leave one of them");
+      if (!p.station.empty() && !stations.insert(p.station).second)
+        throw Error(at + ": station", fmt::format("'{}' is given to two candidates", p.station), "give each a station of his own");
+      people.push_back(std::move(p));
+    });
+  mistakes.tell();
   if (people.empty()) throw Error(where, "names no candidate", "write one on each line below the heading");
   return people;
 }

@@ -93,7 +93,7 @@ void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<s
     std::string& heading = rows[0].fields[c];
     RosterColumn column{heading, "", false, {}};
     for (std::size_t r = 1; r < rows.size() && column.samples.size() < k_samples; ++r)
-      if (!rows[r].fields[c].empty()) column.samples.push_back(rows[r].fields[c]);
+      if (c < rows[r].fields.size() && !rows[r].fields[c].empty()) column.samples.push_back(rows[r].fields[c]);
     column.known = std::find(known.begin(), known.end(), small_letters_of(heading)) != known.end();
     if (column.known) column.use = small_letters_of(heading);
     if (c < answers.size() && (answers[c] == k_pass_over || std::find(known.begin(), known.end(), answers[c]) != known.end()))
@@ -114,7 +114,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
   Roster roster;
   try {
     const std::string text = decoded(bytes, roster.encoding);
-    CsvReader in(text, k_list, {.bars = true});
+    CsvReader in(text, k_list, {.bars = true, .uneven = true});
     std::vector<CsvRow> rows;
     while (in.next_row()) rows.push_back({in.line(), {in.fields().begin(), in.fields().end()}});
     if (rows.empty()) throw Error("the list", "is empty", "paste a line of column names, and a line for each candidate below");
@@ -124,6 +124,10 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     read_columns(roster, rows, answers, passed_over);
     if (std::all_of(roster.columns.begin(), roster.columns.end(), [](const RosterColumn& c) { return !c.use.empty(); }))
       roster.people = ledger::parse_people(rows, k_list, passed_over);
+    else
+      ledger::require_whole_rows(rows, k_list);
+  } catch (const ledger::ListMistakes& wrong) {
+    for (const std::string& text : wrong.texts()) roster.problem += (roster.problem.empty() ? "" : "\n") + text;
   } catch (const Error& wrong) {
     roster.problem = wrong.what();
   }

@@ -23,11 +23,11 @@ struct RosterColumn {
 };
 struct Roster {
   std::string encoding;  ///< UTF-8, UTF-16 or Windows-1252
-  char separator = ',';  ///< comma, semicolon, tab or bar
+  char separator = ',';  ///< comma, semicolon, tab, bar, or what a first line `sep=` names
   std::size_t rows = 0;  ///< below the heading
   std::vector<RosterColumn> columns;
   std::vector<ledger::Person> people;  ///< when every column is answered, and nothing is wrong
-  std::string problem;                 ///< why there are none, in words; empty: a column waits for its answer, or all is well
+  std::string problem;                 ///< why there are none, a line for each mistake; empty: a column waits for its answer, or all is well
   [[nodiscard]] bool ready() const noexcept { return !people.empty(); }
 };
 /// `bytes` as they were sent; `answers` by the columns' places, an empty text for none. Throws nothing of what is wrong with the list: it says so.

@@ -21,6 +21,7 @@
 #include "engine/language/language.h"
 #include "engine/language/say.h"
 #include "engine/servo/servo.h"
+#include "grading/ledger/issue.h"
 #include "scenarios/file/parse.h"
 #include "ui/parts/terminal.h"
 #include "ui/verbs/help_in_language.h"
@@ -92,6 +93,9 @@ int main(int argc, char** argv) {
     return 2;
   } catch (const cavum::scenarios::ProblemsError& e) {
     for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(p.text()).c_str());
+    return 2;
+  } catch (const cavum::ledger::ListMistakes& e) {
+    for (const auto& text : e.texts()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(text).c_str());
     return 2;
   } catch (const std::bad_alloc&) {
     std::fprintf(stderr, "cavum: %s\n", "memory: there is not enough; close other programs, and try again");

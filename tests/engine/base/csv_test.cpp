@@ -29,6 +29,23 @@ TEST(Csv, Utf16IsRefusedByName) {
             std::string::npos);
 }
 
+TEST(Csv, AFirstLineMayNameTheSeparator) {
+  for (const std::string c : {"\t", "|", ":", "~", "^"})
+    for (const std::string& first : {"sep=" + c, "SEP=" + c, "\"sep=" + c + "\"", "\xef\xbb\xbfsep=" + c}) {
+      const std::string text = first + "\r\nid" + c + "name\r\n1" + c + "B, A; C\r\n";
+      const auto rows = parse_csv(text, "c.csv");
+      ASSERT_EQ(rows.size(), 2u) << text;
+      EXPECT_EQ(rows[0].fields, (Fields{"id", "name"})) << text;
+      EXPECT_EQ(rows[1].fields, (Fields{"1", "B, A; C"})) << text;
+      EXPECT_EQ(rows[1].line, 3);
+    }
+  EXPECT_EQ(parse_csv("sep=;\nid;a,b,c\n1;2\n", "c.csv")[0].fields, (Fields{"id", "a,b,c"})) << "and not what stands there most often";
+  EXPECT_EQ(parse_csv("sep=,\nid,a;b;c\n1,2\n", "c.csv")[0].fields, (Fields{"id", "a;b;c"}));
+  EXPECT_EQ(parse_csv("sep=\n1\n", "c.csv")[0].fields, (Fields{"sep="})) << "names none";
+  EXPECT_EQ(parse_csv("sep=x\n1\n", "c.csv").size(), 2u) << "a heading";
+  EXPECT_EQ(parse_csv("id\nsep=;\n", "c.csv").size(), 2u) << "in the first line only";
+}
+
 TEST(Csv, IsReadAsSpreadsheetsWriteIt) {
   const auto rows = parse_csv("\xef\xbb\xbfid;name\r\n1;\"Lee; \"\"Ann\"\"\"\r\n# nobody\r\n\r\n 2 ;Müller\n", "c.csv");
   ASSERT_EQ(rows.size(), 3u);

@@ -34,6 +34,14 @@ TEST(SeverityOfConditions, WhoSatAtTheSevereStationAloneIsHelped) {
   EXPECT_NEAR(s.persons[3].adjusted, 69.5, 1e-12);
 }
 
+TEST(SeverityOfConditions, WhatRoundingLeavesIsNoSeverity) {
+  std::vector<StudyMark> marks;
+  for (std::uint32_t p = 0; p < 7; ++p)
+    for (std::uint32_t station = 0; station < 3; ++station) marks.push_back({{p, station}, 100.0 / 3 + 0.1 * p});
+  const SeverityStudy study = study_severity(marks);
+  for (const Severity& s : study.facets[0]) EXPECT_FALSE(s.beyond_chance) << s.severity << " ± " << s.error;
+}
+
 TEST(SeverityOfConditions, StationsThatShareNobodyAreNotCompared) {
   EXPECT_THROW((void)study_severity(std::vector<StudyMark>{{{0, 0}, 80}, {{1, 0}, 70}, {{2, 1}, 60}, {{3, 1}, 65}}), Error);
   EXPECT_THROW((void)study_severity(std::vector<StudyMark>{{{0, 0}, 80}, {{0, 1}, 70}}), Error) << "nothing is left for chance";

@@ -174,6 +174,14 @@ TEST(Generalisability, TwoDecisionsAgreeAsTheBivariateNormalHasIt) {
   EXPECT_NEAR(cut_decision(sure, 70, 69).consistency, 1, 1e-12);
 }
 
+TEST(Generalisability, PhiAtTheCutIsNeverBelowPhi) {
+  // Mean 1 above the cut, known to a variance of 4: the distance's square less that is -3, and counts as 0.
+  const Dependability d{.universe = 9, .absolute = 4, .of_the_mean = 4, .phi = 9.0 / 13, .absolute_sem = 2};
+  EXPECT_NEAR(cut_decision(d, 61, 60).phi_at_cut, d.phi, 1e-12);
+  EXPECT_NEAR(cut_decision(d, 62, 60).phi_at_cut, d.phi, 1e-12) << "a square of 4 less 4";
+  EXPECT_NEAR(cut_decision(d, 63, 60).phi_at_cut, (9.0 + 9 - 4) / (9 + 9 - 4 + 4), 1e-12) << "beyond: less the mean's error variance";
+}
+
 /// Candidates by tasks by raters of known components.
 struct KnownComponents {
   std::uint32_t persons, tasks, raters;

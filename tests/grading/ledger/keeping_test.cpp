@@ -88,6 +88,22 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
   EXPECT_TRUE(again.findings.empty()) << again.findings[0];
 }
 
+TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
+  const std::string names = school_.places().identities(), candidate = text_in(content().entries.at(session_).body, "candidate");
+  const auto findings = [&] {
+    LedgerCheck check = check_ledger(school_.places(), false);
+    check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
+    return check.findings;
+  };
+  EXPECT_TRUE(findings().empty());
+  Identities(names).forget(candidate);
+  expect_finding(findings(), {candidate, "is missing, and no entry says that he was forgotten"});
+  EXPECT_EQ(findings().size(), 1u) << "once, however many tickets";
+  Ledger ledger = school_.ledger();
+  forget(ledger, {candidate}, {});
+  EXPECT_TRUE(findings().empty()) << "an entry says it";
+}
+
 TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHas) {
   const std::string candidate = text_in(content().entries.at(session_).body, "candidate"), backup = school_.file("backup");
   static_cast<void>(back_up(school_.places(), backup, true));

@@ -511,6 +511,44 @@ TEST(People, BringTheirAccommodations) {
   EXPECT_EQ(together(all, people[1].grant).high_contrast, true);
 }
 
+TEST(People, HavePercentagesAsSpreadsheetsWriteThem) {
+  const auto percent = [](const std::string& field) {
+    return parse_people("id;extra_time_percent\n1;" + field + "\n", "class.csv").at(0).grant.extra_time_percent;
+  };
+  for (const char* field : {"25", "25%", "25 %", "25,0", "25.0", "25,0 %", "25\u00a0%", "\"25 %\"", "+25"}) EXPECT_EQ(percent(field), 25.0) << field;
+  EXPECT_EQ(percent("12,5"), 12.5);
+  EXPECT_EQ(percent("0"), 0.0);
+  EXPECT_EQ(percent("1"), 1.0);
+  for (const auto& [field, told] :
+       {std::pair{"0.25", "'0.25' is less than one percent; write 25 if the exam is to be longer by 25 percent"}, std::pair{"0,5", "write 50 if"},
+        std::pair{"0.25%", "is less than one percent"}, std::pair{"%", "is no percentage"}, std::pair{"25%%", "is no percentage"},
+        std::pair{"1.000,5", "is no percentage"}, std::pair{"1,2,3", "is no percentage"}, std::pair{"2 5 %", "is no percentage"}}) {
+    const std::string refusal = testing_basics::error_of([f = field, &percent] { static_cast<void>(percent(f)); });
+    EXPECT_NE(refusal.find(told), std::string::npos) << field << ": " << refusal;
+  }
+}
+
+TEST(People, AllMistakesOfAListAreToldAtOnce) {
+  const auto mistakes = [](const std::string& text) {
+    try {
+      static_cast<void>(parse_people(text, "class.csv"));
+    } catch (const ListMistakes& wrong) {
+      return wrong.texts();
+    }
+    return std::vector<std::string>();
+  };
+  const auto told = mistakes("id,name,extra_time_percent\n1,A,much\n2\n3,C,25\n3,D,\n,E,\n6,F,9000\n");
+  ASSERT_EQ(told.size(), 5u);
+  const char* const starts[] = {"class.csv:2: extra_time_percent", "class.csv:3: has 1 fields for 3 columns",
+                                "class.csv:5: '3' stands there a second", "class.csv:6: has no id",
+                                "class.csv:7: extra time in percent cannot be 9000"};
+  for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(told[i].find(starts[i]), 0u) << told[i];
+  std::string many = "id,left_handed\n";
+  for (int i = 0; i < 23; ++i) many += std::to_string(i) + ",perhaps\n";
+  ASSERT_EQ(mistakes(many).size(), 21u);
+  EXPECT_EQ(mistakes(many).back().find("class.csv: has 3 mistakes more"), 0u) << mistakes(many).back();
+}
+
 TEST(People, WithAColumnThatNobodyReadsAreRefusedNotShortened) {
   const auto refusal = [](const std::string& text, const std::vector<std::string>& passed_over = {}) {
     return testing_basics::error_of([&] { static_cast<void>(parse_people(text, "class.csv", passed_over)); });
@@ -520,7 +558,7 @@ TEST(People, WithAColumnThatNobodyReadsAreRefusedNotShortened) {
                                    {"id,station\n1,Seat 3\n2,\n3,Seat 3\n", "class.csv:4: station: 'Seat 3' is given to two candidates"},
                                    {"id,name,ID\n1,a,2\n", "the column 'id' twice"},
                                    {"name\na\n", "is no heading of candidates"},
-                                   {"id,extra_time_percent\n1,a quarter\n", "class.csv:2: extra_time_percent: 'a quarter' is no number"},
+                                   {"id,extra_time_percent\n1,a quarter\n", "class.csv:2: extra_time_percent: 'a quarter' is no percentage"},
                                    {"id,extra_time_percent\n1,-5\n", "class.csv:2"},
                                    {"id,left_handed\n1,perhaps\n", "neither yes nor no"}})
     EXPECT_NE(refusal(text).find(told), std::string::npos) << refusal(text);

@@ -59,11 +59,36 @@ TEST(Roster, AsksAboutEachColumnThatItDoesNotKnow) {
   EXPECT_FALSE(read_roster(text, {"something", "", "extra_time_percent", k_pass_over}).ready()) << "no such use";
 }
 
+TEST(Roster, TakesTheSeparatorThatASpreadsheetNames) {
+  for (const char separator : {';', ',', '\t', '|', ':'}) {
+    std::string text = "sep=;\r\nid;name;extra_time_percent\r\n4711;B;25 %\r\n";
+    std::replace(text.begin(), text.end(), ';', separator);
+    const Roster r = read_roster(text, {});
+    ASSERT_TRUE(r.ready()) << r.problem;
+    EXPECT_EQ(r.separator, separator);
+    EXPECT_EQ(r.rows, 1u);
+    EXPECT_EQ(r.people[0].grant.extra_time_percent, 25.0);
+  }
+}
+
+TEST(Roster, TellsAllMistakesEachOnALine) {
+  const Roster r = read_roster("id;name\n1\n2;B;C\n3;C\n3;D\n", {});
+  EXPECT_FALSE(r.ready());
+  EXPECT_EQ(std::count(r.problem.begin(), r.problem.end(), '\n'), 2) << r.problem;
+  for (const char* line : {"the list:2: has 1", "\nthe list:3: has 3", "\nthe list:5: '3' stands"})
+    EXPECT_NE(r.problem.find(line), std::string::npos) << line;
+  const Roster asked = read_roster("id;Place\n1\n2;B\n3;C;D\n", {});
+  EXPECT_EQ(asked.columns.size(), 2u);
+  EXPECT_EQ(asked.columns[1].samples, (std::vector<std::string>{"B", "C"}));
+  EXPECT_NE(asked.problem.find("the list:2: has 1 fields for 2 columns"), std::string::npos) << "also while a column waits";
+  EXPECT_NE(asked.problem.find("\nthe list:4: has 3"), std::string::npos) << asked.problem;
+}
+
 TEST(Roster, SaysWhatIsWrong) {
   const std::pair<std::string, std::string> wrong[] = {{"", "is empty"},
                                                        {"id\n", "names no candidate"},
                                                        {"id\n1\n1\n", "a second time"},
-                                                       {"id,extra_time_percent\n1,much\n", "is no number"},
+                                                       {"id,extra_time_percent\n1,much\n", "is no percentage"},
                                                        {"id,extra_time_percent\n1,9000\n", "use 0 to 400"},
                                                        {"id,name\n1\n", "for 2 columns"},
                                                        {"name\nA\n", "is no heading of candidates"}};

@@ -111,6 +111,21 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
     EXPECT_NEAR(judge["severity_percent"].get<double>(), judge["name"] == "severe" ? 5 : -5, 1e-6);
   EXPECT_EQ(people["people"]["components"].size(), 7u) << "candidates, exams, judges and what they do together";
 
+  // Marks all alike are no study; a mark of somebody who did not sit the exam is told by name.
+  std::string alike = "candidate,judge,points\nnobody,A,50\n";
+  for (const auto& row : j["roster"])
+    for (const char* judge : {"A", "B"}) alike += fmt::format("{},{},50\n", row["candidate"].get<std::string>(), judge);
+  for (const char* name : {"a.csv", "b.csv"}) write_text_file(path(name), alike);
+  const std::string of_alike =
+      "cohort circuit " + path("L") + " --exams block_cavity,harder --marks block_cavity=" + path("a.csv") + " --marks harder=" + path("b.csv");
+  const auto nothing = json::parse(run(of_alike + " --json").out);
+  EXPECT_NE(nothing["people"]["why_not"].get<std::string>().find("are all alike"), std::string::npos) << nothing["people"];
+  EXPECT_TRUE(nothing["people"].at("as_sat").is_null());
+  ASSERT_EQ(nothing["marks_left_out"].size(), 2u);
+  EXPECT_EQ(nothing["marks_left_out"][0]["candidate"], "nobody");
+  const std::string in_words = run(of_alike).out;
+  EXPECT_NE(in_words.find("nobody (block_cavity), nobody (harder)"), std::string::npos) << in_words;
+
   for (const auto& [line, error] :
        {std::pair{"--exams harder", "a circuit: has two exams at least"}, std::pair{"--exams harder,harder", "a circuit: names an exam twice"},
         std::pair{"--exams harder,unknown", "was sat by nobody"},

@@ -62,11 +62,12 @@ class Roster {
     this.answers = preview.columns.map((c) => c.use);
     this.found.replaceChildren(make("h2", { tabindex: "-1" }, tr("What was found")));
     if (preview.columns.length > 0) {
-      this.found.append(make("p", {}, tr("Candidates: {0}; encoding: {1}; fields parted by: {2}", preview.rows, preview.encoding, separators()[preview.separator] ?? "?")));
+      this.found.append(make("p", {}, tr("Candidates: {0}; encoding: {1}; fields parted by: {2}", preview.rows, preview.encoding, separators()[preview.separator] ?? preview.separator)));
       this.found.append(this.columns(preview));
     }
     const open = preview.columns.filter((c) => c.use === "").length;
-    if (preview.problem !== "") this.found.append(make("p", { class: "wrong" }, preview.problem));
+    if (preview.problem !== "")
+      for (const line of preview.problem.split("\n")) this.found.append(make("p", { class: "wrong" }, line));
     if (open > 0) this.found.append(make("p", { class: "wrong", id: "open-columns" }, tr("Columns that wait for your answer: {}. Use each, or pass it over.", open)));
     if (preview.people.length > 0) this.found.append(this.people(preview), await this.issue());
     this.found.querySelector("h2")!.focus();
