@@ -144,6 +144,17 @@ export async function said(page: Page, words: string): Promise<void> {
   await until(async () => (await text()).includes(words), `'${words}' on the page`, async () => `, where there is: ${await text()}`);
 }
 
+/** A station of this folder and name is enrolled, by an officer at the board. */
+export async function invite(page: Page, home: string, name: string): Promise<void> {
+  await type(page, "Name of the station", name);
+  const before = /S(-\w{4}){5}/.exec(await page.$eval("main", (m) => m.innerText))?.[0] ?? "";
+  await press(page, "Make a code");
+  let code = before;
+  await until(async () => (code = /S(-\w{4}){5}/.exec(await page.$eval("main", (m) => m.innerText))?.[0] ?? before) !== before, "a code");
+  station(home, "enrol", "--code", code);
+  await said(page, name);
+}
+
 export async function look({ page }: Desk, name: string): Promise<void> {
   for (const width of [1280, 390]) {
     await page.setViewport({ width, height: width === 390 ? 844 : 900 });

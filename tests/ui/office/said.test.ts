@@ -1,0 +1,52 @@
+// What the pages say once something was done, refused, or is over: of which station, of which recording, and why somebody is out.
+import assert from "node:assert/strict";
+import { after, before, test } from "node:test";
+import type { Page } from "puppeteer-core";
+import { k_skip, until } from "../report_test/chromium.ts";
+import { close_office, desk, invite, open_office, press, said, type } from "./browser.ts";
+
+const seats = ["seat1", "seat2", "seat3"];
+before(async () => {
+  if (k_skip) return;
+  await open_office(...seats);
+});
+after(close_office);
+
+/** Stations whose key is revoked, as the board's cards say. */
+const dead = (page: Page): Promise<string[]> => page.$$eval(".cards .card", (all) => all.filter((c) => c.innerText.includes("Key revoked")).map((c) => c.querySelector("h3")!.innerText));
+
+test("two stations are revoked one after the other, each by its name", { skip: k_skip }, async () => {
+  const { page, complaints } = await desk("Anna Officer");
+  for (const [i, home] of seats.entries()) await invite(page, home, `Seat ${i + 1}`);
+  const revoked: string[] = [];
+  page.on("request", (r) => { if (r.url().endsWith("/api/stations/revoke")) revoked.push((JSON.parse(r.postData()!) as { reason: string }).reason); });
+  for (const name of ["Seat 2", "Seat 3"]) {
+    const section = (await page.waitForSelector("::-p-xpath(//section[h2=\"Revoke a station's key\"])"))!;
+    await press(page, "Revoke");
+    const list = (await section.$("select"))!;
+    assert.equal(await list.evaluate((l) => l.value), "", "no station is chosen by itself");
+    await list.select(...(await list.$$eval("option", (all, n) => all.filter((o) => o.textContent === n).map((o) => o.value), name)));
+    await type(page, "Reason", `${name} was stolen`);
+    await press(page, "Revoke");
+    await said(page, `What ${name} sends from now on does not count.`);
+    assert.equal(await section.$("form"), null, "the form is closed");
+    await until(async () => (await dead(page)).includes(name), `${name} is dead on the board`);
+  }
+  assert.deepEqual(revoked, ["Seat 2 was stolen", "Seat 3 was stolen"]);
+  assert.deepEqual(await dead(page), ["Seat 2", "Seat 3"]);
+
+  // what is said covers no button that was just pressed
+  await press(page, "Revoke");
+  const section = (await page.$("::-p-xpath(//section[h2=\"Revoke a station's key\"])"))!;
+  await (await section.$("select"))!.select(await section.$$eval("option", (all) => all.find((o) => o.textContent === "Seat 1")!.value));
+  await type(page, "Reason", "x");
+  await page.$eval("section form input[maxlength='2000']", (e) => ((e as HTMLInputElement).value = "ä".repeat(1500)));  // more bytes than the office takes
+  await press(page, "Revoke");
+  await page.waitForSelector("#said.wrong-said:not(:empty)");
+  const on_top = await page.$$eval("form button.main", (all) => {
+    const last = all[all.length - 1], at = last.getBoundingClientRect();
+    return document.elementFromPoint(at.x + at.width / 2, at.y + at.height / 2) === last;
+  });
+  assert.ok(on_top, "the next click is the button's");
+  assert.deepEqual(complaints, []);
+});
