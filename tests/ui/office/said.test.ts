@@ -1,9 +1,11 @@
 // What the pages say once something was done, refused, or is over: of which station, of which recording, and why somebody is out.
 import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
-import { close_office, desk, invite, open_office, press, said, type } from "./browser.ts";
+import { close_office, desk, folder, invite, look, open_office, press, said, station, type } from "./browser.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => {
@@ -48,5 +50,25 @@ test("two stations are revoked one after the other, each by its name", { skip: k
     return document.elementFromPoint(at.x + at.width / 2, at.y + at.height / 2) === last;
   });
   assert.ok(on_top, "the next click is the button's");
+  assert.deepEqual(complaints, []);
+});
+
+test("of what was refused the station is said, and no folder of the server", { skip: k_skip }, async () => {
+  const officer = await desk("Anna Officer");
+  const { page, complaints } = officer;
+  const file = join(folder, "no_exam.cavum");
+  writeFileSync(file, `SQLite format 3\0${"no exam ".repeat(100)}`);
+  assert.throws(() => station("seat1", "file", file), "it is not filed");
+  await said(page, "Refused");
+  const row = await page.$$eval("table.stack tbody tr", (all) => all.map((r) => [...r.children].map((c) => c.textContent!)).find((cells) => cells[0] === "Seat 1")!);
+  assert.notEqual(row[2], "", "why");
+  assert.ok(!(await page.$eval("main", (m) => m.innerText)).includes("/"), await page.$eval("main", (m) => m.innerText));
+  await look(officer, "day-refused");
+  await page.setViewport({ width: 390, height: 844 });
+  const wide = await page.$eval("table.stack td[data-label=Why]", (cell) => {
+    cell.textContent = "/a_long_word".repeat(40);
+    return document.documentElement.scrollWidth;
+  });
+  assert.ok(wide <= 390, `a long word scrolls sideways: ${wide}`);
   assert.deepEqual(complaints, []);
 });

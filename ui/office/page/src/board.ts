@@ -13,7 +13,7 @@ interface Shown {
   tickets: { [group: string]: number };
   holds: Hold[];
   announcements: Announcement[];
-  inbox: { waiting: number; trouble: string; refused: { sha256: string; findings: string[] }[] };
+  inbox: { waiting: number; trouble: string; refused: { sha256: string; station: string; candidate: string; findings: string[] }[] };
 }
 
 const silent_s = 15;
@@ -93,7 +93,8 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     inbox.replaceChildren(make("p", {}, tr("Waiting to be verified and filed: {}", what.inbox.waiting)));
     if (what.inbox.trouble !== "") inbox.append(make("p", { class: "wrong" }, what.inbox.trouble));
     if (what.inbox.refused.length > 0)
-      inbox.append(table(tr("Refused"), [tr("Recording"), tr("Why")], what.inbox.refused.map((r) => [make("code", {}, r.sha256.slice(0, 16)), r.findings.join("; ")])));
+      inbox.append(table(tr("Refused"), [tr("Station"), tr("Candidate"), tr("Why"), tr("Recording")], what.inbox.refused.map((r) =>
+        [r.station === "" ? tr("unknown") : r.station, r.candidate, r.findings.join("; "), make("code", {}, r.sha256.slice(0, 16))])));
     revocation?.take(what.stations);
     placing?.take(what.stations);
     pauses.take(what.holds, what.stations);
