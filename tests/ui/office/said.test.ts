@@ -5,7 +5,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
-import { close_office, desk, folder, invite, look, open_office, press, said, station, type } from "./browser.ts";
+import { add_account, close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => {
@@ -70,5 +70,40 @@ test("of what was refused the station is said, and no folder of the server", { s
     return document.documentElement.scrollWidth;
   });
   assert.ok(wide <= 390, `a long word scrolls sideways: ${wide}`);
+  assert.deepEqual(complaints, []);
+});
+
+test("who decides second hears of the first, and sees what is left", { skip: k_skip }, async () => {
+  const file = join(folder, "border.cavum");
+  run("seat1", ["exam", task, "--candidate", "K7", "--operator", "expert", "--seed", "3", "--out", file]);
+  assert.throws(() => run("school", ["ledger", "add", join(folder, "ledger"), file, "--with-findings", "--simulated"]), "it was found that it has no ticket");
+  add_account("Emil Examiner", "examiner");
+  const both = [await desk("Eva Examiner"), await desk("Emil Examiner")];
+  for (const { page } of both) {
+    await go(page, "Decisions");
+    await page.select(await control(page, "Verdict"), "pass");
+    await type(page, "Reason", "looked at it");
+  }
+  const [first, second] = both.map((d) => d.page);
+  await press(first, "Decide");
+  await said(first, "Decided: entry");
+  await press(second, "Decide");
+  await said(second, "was decided by Eva Examiner");
+  await said(second, "Nothing waits for a decision.");
+  assert.ok(!/cavum|--/.test(await second.$eval("#said", (s) => s.textContent!)), "no word of the command line");
+  for (const { complaints } of both) assert.deepEqual(complaints, []);
+});
+
+test("who is out hears why", { skip: k_skip }, async () => {
+  const { page, complaints } = await desk("Anna Officer");
+  await said(page, "Exam day");
+  await (await page.createCDPSession()).send("Network.clearBrowserCookies");
+  await page.click("nav a[href='#tickets']");
+  await said(page, "Your session has ended. Sign in again.");
+  await type(page, "Name", "Anna Officer");
+  await type(page, "Password", "something else");
+  await page.keyboard.press("Enter");
+  await said(page, "do not belong together");
+  assert.ok(!(await page.$eval("body", (b) => b.innerText)).includes("Your session has ended"));
   assert.deepEqual(complaints, []);
 });
