@@ -220,7 +220,8 @@ TEST_F(OverTheNetwork, OfARefusedExamTheCandidateIsSaid) {
   station.hand_in(second);
   const std::string hash = to_hex(sha256(second));
   ASSERT_EQ(Opened::outcome(station, hash)["state"], "refused");
-  const json shown = officer_.get("/api/board").json()["inbox"]["refused"][0];
+  const json shown = officer_.get("/api/board").json()["inbox"]["refused"].back();  // the newest
+  EXPECT_EQ(shown["sha256"], hash);
   EXPECT_EQ(shown["candidate"], t["candidate"]);
   EXPECT_EQ(shown["station"], "Seat 1");
   for (const char* kind : {".json", ".cavum"}) std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + kind);
