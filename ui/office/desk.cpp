@@ -195,7 +195,12 @@ json Desk::board(const Board& board, const Inbox& inbox) {
     n = n.get<int>() + 1;
   }
   json refused = json::array();
-  for (const auto& [hash, findings] : inbox.refused()) refused.push_back({{"sha256", hash}, {"findings", findings}});
+  for (const auto& [hash, exam] : inbox.refused()) {
+    const auto& all = registry.stations.stations;
+    const auto from = std::find_if(all.begin(), all.end(), [&key = exam.station](const ledger::Station& s) { return s.public_key == key; });
+    refused.push_back(
+        {{"sha256", hash}, {"findings", exam.findings}, {"candidate", exam.candidate}, {"station", from == all.end() ? "" : from->name}});
+  }
   return {{"utc_ns", now},
           {"stations", stations},
           {"tickets", tickets},

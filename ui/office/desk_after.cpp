@@ -1,7 +1,10 @@
 // What the desk does with results: the queue, decisions, release, appeals, and what goes to other systems.
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/text.h"
 #include "grading/ledger/appeal.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
@@ -33,6 +36,18 @@ std::vector<std::uint64_t> sessions_in(const json& asked) {
   return out;
 }
 
+/// Two people may have looked at one result at once; whoever comes second is told, in the page's words. Throws Error.
+void require_undecided(const ledger::Registry& registry, std::uint64_t session) {
+  const ledger::FiledSession* s = session_of(registry, session);
+  if (s == nullptr || s->undecided() || s->open_appeal() != nullptr) return;
+  const ledger::Regrade* last = s->regrade(s->result_seq);
+  throw Error(one_line(s->candidate),
+              last != nullptr && !last->person.empty()
+                  ? fmt::format("was decided by {} (entry {}): {}", last->person, last->seq, text_in(s->result, "verdict"))
+                  : "waits for no decision",
+              "nothing was changed; after an appeal it can be decided anew");
+}
+
 }  // namespace
 
 json Desk::queue() {
@@ -52,6 +67,7 @@ json Desk::queue() {
 json Desk::decide(const json& asked, const Account& by) {
   const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
   Turn turn(*this, {by.name, "", ""});
+  require_undecided(turn.book.registry(), session);
   return {{"entry", ledger::enter_decision(turn.book, session, {text_in(asked, "verdict"), by.name, reason_in(asked)}).seq}};
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 #include <sys/socket.h>
 
+#include <algorithm>
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/ssl/ssl_stream.hpp>
@@ -45,10 +46,13 @@ asio::ssl::context make_context(const CertificateFiles& files) {
 }  // namespace
 
 struct HttpServer::Parts {
+  /// How far a connection has come. Whoever is known keeps its place; of the others the least gives way when there is no more room.
+  enum class Stage { silent, speaks, known, leaves };
   /// Of a connection, for whoever watches the clock: its socket is shut when the time is over, which ends every read and write on it.
   struct Open {
     int socket = -1;
     Steady::time_point deadline;
+    Stage stage = Stage::silent;
   };
 
   Parts(const std::string& address, std::uint16_t port, const CertificateFiles& files, Welcome handler, const HttpLimits& allowed)
@@ -88,8 +92,8 @@ struct HttpServer::Parts {
         continue;
       }
       std::unique_lock guard(lock);
-      if (open.size() >= limits.most_connections) continue;  // closed as it came
-      const auto place = open.insert(open.end(), {socket.native_handle(), Steady::now() + std::chrono::seconds(limits.handshake_s)});
+      if (!room(guard)) continue;  // closed as it came
+      const auto place = open.insert(open.end(), {socket.native_handle(), Steady::now() + std::chrono::seconds(limits.handshake_s), Stage::silent});
       guard.unlock();
       try {
         std::thread([this, place, moved = std::move(socket)]() mutable { serve(std::move(moved), place); }).detach();
@@ -97,6 +101,18 @@ struct HttpServer::Parts {
         forget(place);
       }
     }
+  }
+
+  /// Makes room for one more, where there is none, and nobody's address counts: the oldest of those that have not said a byte leaves, or else of
+  /// those whose first head was not read yet. False: all that are here are known.
+  bool room(std::unique_lock<std::mutex>& guard) {
+    const auto free = [&] { return open.size() < limits.most_connections; };
+    if (free()) return true;
+    const auto least = std::min_element(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.stage < b.stage; });
+    if (least->stage >= Stage::known) return false;
+    least->stage = Stage::leaves;
+    ::shutdown(least->socket, SHUT_RDWR);
+    return ended.wait_for(guard, k_watch, free);
   }
 
   void watch() {
@@ -108,9 +124,14 @@ struct HttpServer::Parts {
     }
   }
 
+  /// Time for who is known; the others keep what they had when they came.
   void allow(std::list<Open>::iterator place, std::int64_t seconds) {
     const std::lock_guard guard(lock);
-    place->deadline = Steady::now() + std::chrono::seconds(seconds);
+    if (place->stage == Stage::known) place->deadline = Steady::now() + std::chrono::seconds(seconds);
+  }
+  void reach(std::list<Open>::iterator place, Stage stage) {
+    const std::lock_guard guard(lock);
+    place->stage = std::max(place->stage, stage);
   }
   void forget(std::list<Open>::iterator place) {
     const std::lock_guard guard(lock);
@@ -125,10 +146,16 @@ struct HttpServer::Parts {
         error_code wrong;
         const std::string address = stream.next_layer().remote_endpoint(wrong).address().to_string();
         stream.next_layer().set_option(Tcp::no_delay(true), wrong);
+        stream.next_layer().wait(Tcp::socket::wait_read, wrong);
+        reach(place, Stage::speaks);
         stream.handshake(asio::ssl::stream_base::server, wrong);
         if (!wrong) {
           const std::function<void(std::int64_t)> allows = [&](std::int64_t seconds) { allow(place, seconds); };
-          http_talk::Talk<Tls>(stream, {welcome, limits, address, allows, stopping}).run();
+          const Welcome knows = [&](const Head& head) {
+            reach(place, Stage::known);
+            return welcome(head);
+          };
+          http_talk::Talk<Tls>(stream, {knows, limits, address, allows, stopping}).run();
         }
         allow(place, limits.handshake_s);
         if (!wrong) stream.shutdown(wrong);

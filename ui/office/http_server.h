@@ -53,8 +53,8 @@ using Welcome = std::function<std::unique_ptr<Exchange>(const Head&)>;
 struct HttpLimits {
   std::size_t most_connections = 512;
   std::uint32_t head_bytes = 8192;
-  int handshake_s = 10;  ///< until TLS stands
-  int head_s = 20;       ///< from the reply before to the end of the next head
+  int handshake_s = 10;  ///< until TLS stands and the first head is read
+  int head_s = 20;       ///< from a reply to the end of the next head
   int body_s = 20;       ///< of a body, and a second more for each `slowest_bytes_s`
   int slowest_bytes_s = 64 << 10;
   int write_s = 30;  ///< of a reply, and as above

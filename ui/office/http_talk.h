@@ -93,6 +93,7 @@ class Talk {
                wrong != http::error::partial_message)
         static_cast<void>(write(refused(400, "this is no request of HTTP/1.1"), false));
       if (wrong) return;
+      head_alone_ = parser.get().method() == http::verb::head;
       goes_on = answer(parser);
     }
   }
@@ -103,9 +104,11 @@ class Talk {
 
   /// False: the connection ends.
   bool answer(http::request_parser<http::buffer_body>& parser) {
-    const auto head = head_of(parser.get(), needs_.address);
+    auto head = head_of(parser.get(), needs_.address);
     if (!head) return write(refused(400, "a field stands twice, or this is no path"), false);
+    if (parser.get().version() == k_http_1_1 && !head->fields.contains("host")) return write(refused(400, "say for whom this is (Host)"), false);
     if (parser.chunked()) return write(refused(411, "say how long the body is (Content-Length)"), false);
+    if (head_alone_) head->method = "GET";  // answered as that is, without what would come after the head
     const std::unique_ptr<Exchange> exchange = needs_.welcome(*head);
     const std::uint64_t length = parser.content_length() ? *parser.content_length() : 0;
     if (exchange->refusal() != nullptr) return write(*exchange->refusal(), length == 0 && parser.keep_alive());
@@ -140,8 +143,12 @@ class Talk {
     http::response<http::string_body> out(header_of(reply), reply.body);
     out.keep_alive(keep_alive);
     out.prepare_payload();
+    http::response_serializer<http::string_body> serializer(out);
     error_code wrong;
-    http::write(stream_, out, wrong);
+    if (head_alone_)
+      http::write_header(stream_, serializer, wrong);
+    else
+      http::write(stream_, serializer, wrong);
     return !wrong && keep_alive;
   }
 
@@ -152,7 +159,7 @@ class Talk {
     needs_.allow(needs_.limits.write_s);
     error_code wrong;
     http::write_header(stream_, serializer, wrong);
-    if (wrong) return false;
+    if (wrong || head_alone_) return false;
     reply.events([&](std::string_view event) {
       if (needs_.stopping) return false;
       needs_.allow(needs_.limits.write_s);
@@ -166,6 +173,7 @@ class Talk {
   Stream& stream_;
   Needs needs_;
   boost::beast::flat_buffer buffer_;
+  bool head_alone_ = false;  // HEAD
 };
 
 }  // namespace http_talk

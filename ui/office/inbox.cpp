@@ -14,6 +14,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
 
@@ -26,19 +27,29 @@ constexpr char k_part[] = ".part";
 constexpr auto k_before_again = std::chrono::seconds(5);
 constexpr std::size_t k_hash_letters = 64;
 
-/// Why a file is no exam that was closed, in words; none: it is one.
-std::optional<std::string> unreadable(const std::string& path) {
+/// What a file says of itself; with findings, it is no exam that was closed.
+Handed facts_of(const std::string& path) {
+  constexpr std::size_t k_longest_candidate = 200;
+  Handed facts;
   try {
-    std::vector<std::string> findings;
-    const Bytes image = read_session_image(path, findings);
+    const Bytes image = read_session_image(path, facts.findings);
     const SessionReader session(image, path);
-    if (session.closed()) return std::nullopt;
-    return session.findings().empty() ? "was never closed" : "is damaged: " + session.findings().front();
+    const bool closed = session.closed();
+    facts.findings.clear();
+    if (!closed) facts.findings.push_back(session.findings().empty() ? "was never closed" : "is damaged: " + session.findings().front());
+    if (closed) facts.station = to_hex(session.seal()->public_key);
+    const std::string candidate = session.setup().candidate;
+    if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    return e.what();
+    if (facts.findings.empty()) facts.findings.emplace_back(e.what());
   }
+  return facts;
+}
+
+void replace_all(std::string& text, const std::string& from, const std::string& to) {
+  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
 }
 
 }  // namespace
@@ -90,13 +101,15 @@ Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, l
   for (const auto& file : std::filesystem::directory_iterator(folder_ + "/refused")) {
     if (file.path().extension() != ".json") continue;
     const std::string hash = file.path().stem().string();
-    const json findings = parse_json_or_null(read_text_file(file.path().string()));
+    const json kept = parse_json_or_null(read_text_file(file.path().string()));
     Handed& h = handed_[hash];
     if (h.state == Handed::State::waiting) continue;
     h.state = Handed::State::refused;
-    if (findings.is_array())
-      for (const auto& f : findings)
-        if (f.is_string()) h.findings.push_back(f);
+    for (const auto& f : kept.is_array() ? kept : member_of(kept, "findings"))  // older: the findings alone
+      if (f.is_string()) h.findings.push_back(without_places(f, hash));
+    const auto word = [&](const char* name) { return member_of(kept, name).is_string() ? member_of(kept, name).get<std::string>() : ""; };
+    h.station = word("station");
+    h.candidate = word("candidate");
     refused_.push_back(hash);
   }
   worker_ = std::thread([this] { work(); });
@@ -113,16 +126,16 @@ Inbox::~Inbox() {
 
 std::unique_ptr<Arriving> Inbox::receive(const std::string& sha256) const { return std::make_unique<Arriving>(folder_, sha256); }
 
-void Inbox::adopt(const std::string& path, const std::string& sha256) {
+void Inbox::adopt(const std::string& path, const std::string& sha256, const std::string& station) {
   if (!put_in_place(path, path_of(sha256))) ::unlink(path.c_str());  // handed in by another one meanwhile: either file is it
-  add(sha256);
+  add(sha256, station);
 }
 
-void Inbox::add(const std::string& sha256) {
+void Inbox::add(const std::string& sha256, const std::string& station) {
   const std::lock_guard guard(lock_);
   Handed& h = handed_[sha256];
   if (h.state == Handed::State::waiting) return;
-  h = {Handed::State::waiting, 0, {}};
+  h = {Handed::State::waiting, 0, {}, station};
   std::erase(refused_, sha256);
   queue_.push_back(sha256);
   come_.notify_all();
@@ -139,10 +152,10 @@ std::size_t Inbox::waiting() const {
   return queue_.size();
 }
 
-std::vector<std::pair<std::string, std::vector<std::string>>> Inbox::refused() const {
+std::vector<std::pair<std::string, Handed>> Inbox::refused() const {
   const std::lock_guard guard(lock_);
-  std::vector<std::pair<std::string, std::vector<std::string>>> out;
-  for (const auto& hash : refused_) out.emplace_back(hash, handed_.at(hash).findings);
+  std::vector<std::pair<std::string, Handed>> out;
+  for (const auto& hash : refused_) out.emplace_back(hash, handed_.at(hash));
   return out;
 }
 
@@ -174,8 +187,9 @@ bool Inbox::file(const std::string& hash) {
   std::string trouble;
   try {
     keep_memory_reserve();
-    if (const auto why = unreadable(path_of(hash))) {
-      refuse(hash, {*why});
+    Handed facts = facts_of(path_of(hash));
+    if (!facts.findings.empty()) {
+      refuse(hash, std::move(facts));
       return true;
     }
     if (!ledger_) ledger_ = std::make_unique<ledger::Ledger>(ledger_folder_, school_);
@@ -188,7 +202,8 @@ bool Inbox::file(const std::string& hash) {
     } else {
       const ledger::Filing filing = ledger::file_session(*ledger_, path_of(hash), options_, grounds_);
       if (!filing.seq) {
-        refuse(hash, filing.findings);
+        facts.findings = filing.findings;
+        refuse(hash, std::move(facts));
         return true;
       }
       entry = filing.seq;
@@ -199,7 +214,7 @@ bool Inbox::file(const std::string& hash) {
     trouble_.clear();
     return true;
   } catch (const std::exception& e) {  // the disk, the ledger, memory: nothing that the exam is to blame for, and it stays where it lies
-    trouble = e.what();
+    trouble = without_places(e.what(), hash);
     ledger_.reset();
   }
   const std::lock_guard guard(lock_);
@@ -207,13 +222,26 @@ bool Inbox::file(const std::string& hash) {
   return false;
 }
 
-void Inbox::refuse(const std::string& hash, const std::vector<std::string>& findings) {
-  write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), json(findings).dump(1) + "\n");
+void Inbox::refuse(const std::string& hash, Handed why) {
+  why.state = Handed::State::refused;
+  for (std::string& f : why.findings) f = without_places(f, hash);
+  if (const std::string sender = of(hash).station; !sender.empty()) why.station = sender;
+  const json kept{{"findings", why.findings}, {"station", why.station}, {"candidate", why.candidate}};
+  write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::filesystem::rename(path_of(hash), fmt::format("{}/refused/{}.cavum", folder_, hash));
   const std::lock_guard guard(lock_);
-  handed_[hash] = {Handed::State::refused, 0, findings};
+  handed_[hash] = std::move(why);
   refused_.push_back(hash);
   trouble_.clear();
+}
+
+std::string Inbox::without_places(std::string text, const std::string& hash) const {
+  const std::string file = path_of(hash);
+  if (text.starts_with(file + ": ")) text.erase(0, file.size() + 2);
+  replace_all(text, file, "the recording");
+  replace_all(text, folder_, "the inbox");
+  replace_all(text, ledger_folder_, "the ledger");
+  return text;
 }
 
 }  // namespace cavum::office

@@ -42,8 +42,10 @@ class Arriving {
 /// What became of an exam that was handed in.
 struct Handed {
   enum class State { unknown, waiting, filed, refused } state = State::unknown;
-  std::uint64_t entry = 0;            ///< of the ledger, when it is filed
-  std::vector<std::string> findings;  ///< why it was refused
+  std::uint64_t entry = 0;                 ///< of the ledger, when it is filed
+  std::vector<std::string> findings = {};  ///< why it was refused
+  std::string station = {};                ///< key of who handed it in, or of who sealed it; empty: neither is known
+  std::string candidate = {};              ///< of one that was refused and can be read; else empty
 };
 
 class Inbox {
@@ -56,14 +58,14 @@ class Inbox {
 
   [[nodiscard]] std::unique_ptr<Arriving> receive(const std::string& sha256) const;
   /// A file of the same disk, with this hash, becomes one that is to be filed.
-  void adopt(const std::string& path, const std::string& sha256);
-  /// It lies on disk: to be filed.
-  void add(const std::string& sha256);
+  void adopt(const std::string& path, const std::string& sha256, const std::string& station);
+  /// It lies on disk, handed in by this station: to be filed.
+  void add(const std::string& sha256, const std::string& station);
   /// Of this program's time; the ledger knows what was filed before.
   [[nodiscard]] Handed of(const std::string& sha256) const;
   [[nodiscard]] std::size_t waiting() const;
-  /// Hashes and findings of what was refused, the newest last.
-  [[nodiscard]] std::vector<std::pair<std::string, std::vector<std::string>>> refused() const;
+  /// What was refused, by hash, the newest last.
+  [[nodiscard]] std::vector<std::pair<std::string, Handed>> refused() const;
   /// Why nothing can be filed at the moment, in words; empty: nothing is wrong.
   [[nodiscard]] std::string trouble() const;
 
@@ -71,7 +73,9 @@ class Inbox {
   void work();
   /// False: the disk or the ledger refused, and it is tried again.
   [[nodiscard]] bool file(const std::string& sha256);
-  void refuse(const std::string& sha256, const std::vector<std::string>& findings);
+  void refuse(const std::string& sha256, Handed why);
+  /// For people elsewhere: without this computer's folders.
+  [[nodiscard]] std::string without_places(std::string text, const std::string& sha256) const;
   [[nodiscard]] std::string path_of(const std::string& sha256) const { return folder_ + "/" + sha256 + ".cavum"; }
 
   std::string folder_, ledger_folder_;

@@ -58,17 +58,18 @@ std::optional<std::pair<std::uint64_t, std::uint64_t>> place_in(const std::strin
 /// A recording that a station hands in.
 class TakesSession : public Taker {
  public:
-  TakesSession(Inbox& inbox, const std::string& sha256) : inbox_(inbox), sha256_(sha256), file_(inbox.receive(sha256)) {}
+  TakesSession(Inbox& inbox, const std::string& sha256, const std::string& station)
+      : inbox_(inbox), sha256_(sha256), station_(station), file_(inbox.receive(sha256)) {}
   void take(std::string_view part) override { file_->take(part); }
   Reply done() override {
     file_->keep();
-    inbox_.add(sha256_);
+    inbox_.add(sha256_, station_);
     return json_reply({{"state", "waiting"}}, 202);
   }
 
  private:
   Inbox& inbox_;
-  std::string sha256_;
+  std::string sha256_, station_;
   std::unique_ptr<Arriving> file_;
 };
 
@@ -80,7 +81,8 @@ struct Office::Parts {
         desk(o.ledger_folder, o.school, {o.home}, o.exams),
         inbox(o.home + "/" + desk.ledger_id() + "/inbox", o.ledger_folder, o.school, o.filing, [this] { board.touch(); }),
         pieces(
-            o.home + "/" + desk.ledger_id() + "/pieces", [this](const std::string& path, const std::string& sha256) { inbox.adopt(path, sha256); },
+            o.home + "/" + desk.ledger_id() + "/pieces",
+            [this](const std::string& path, const std::string& sha256, const std::string& station) { inbox.adopt(path, sha256, station); },
             [] { return utc_now_ns() / 1'000'000'000; }),
         lti(desk, o.home, o.student_report, [this](const std::string& name) { return accounts.of(name); }),
         site({[this](const std::string& name) {
@@ -327,7 +329,7 @@ struct Office::Parts {
       if (!place) return error_reply(400, "say where the piece stands: ?at=0&of=1000");
       return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
     });
-    site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail); });
+    site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail, c.station); });
     site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });
   }
 

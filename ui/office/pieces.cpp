@@ -142,7 +142,7 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
   bool whole = false;
   try {
     whole = is_whole(path, sha256);
-    if (whole) whole_(path, sha256);
+    if (whole) whole_(path, sha256, station);
   } catch (...) {
     guard.lock();
     remove(key);

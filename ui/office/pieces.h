@@ -30,7 +30,7 @@ class Pieces {
     bool whole = false;              ///< it was the last one, and the exam was handed on
   };
   /// Gets the file of an exam that is whole and has its hash; moves it away.
-  using Whole = std::function<void(const std::string& path, const std::string& sha256)>;
+  using Whole = std::function<void(const std::string& path, const std::string& sha256, const std::string& station)>;
   /// Goes on with what lies in `folder`. `now_s`: seconds since 1970.
   Pieces(std::string folder, Whole whole, std::function<std::int64_t()> now_s, const PiecesLimits& limits = {});
 

@@ -37,6 +37,9 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}}).status, 400) << "without a reason";
   EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status, 403);
   EXPECT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).status, 400) << "nothing to decide";
+  const std::string told = examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).json()["error"];
+  EXPECT_EQ(told.find("cavum"), std::string::npos) << "no word of the command line: " << told;
+  EXPECT_EQ(told.find("--"), std::string::npos) << told;
   ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
   EXPECT_EQ(last().kind, "appeal");
   EXPECT_EQ(last().body["account"], "The officer");

@@ -136,8 +136,14 @@ export async function type(page: Page, label: string, text: string): Promise<voi
   await page.type(place, text);
 }
 export async function press(page: Page, text: string): Promise<void> {
-  const found = await page.waitForSelector(`::-p-xpath(//button[normalize-space()="${text}" and not(@hidden)])`);
-  await found!.click();
+  for (let tries = 1; ; ++tries) {
+    const found = await page.waitForSelector(`::-p-xpath(//button[normalize-space()="${text}" and not(@hidden)])`);
+    try {
+      return await found!.click();
+    } catch (wrong) {  // the live board grew above it, and it was moved away before it was pressed
+      if (tries === 3 || !String(wrong).includes("not clickable")) throw wrong;
+    }
+  }
 }
 export async function go(page: Page, title: string): Promise<void> {
   if (await page.$(`::-p-xpath(//nav//a[normalize-space()="${title}" and @aria-current="page"])`)) return;
@@ -149,6 +155,17 @@ export async function go(page: Page, title: string): Promise<void> {
 export async function said(page: Page, words: string): Promise<void> {
   const text = (): Promise<string> => page.$eval("body", (b) => b.innerText);
   await until(async () => (await text()).includes(words), `'${words}' on the page`, async () => `, where there is: ${await text()}`);
+}
+
+/** A station of this folder and name is enrolled, by an officer at the board. */
+export async function invite(page: Page, home: string, name: string): Promise<void> {
+  await type(page, "Name of the station", name);
+  const before = /S(-\w{4}){5}/.exec(await page.$eval("main", (m) => m.innerText))?.[0] ?? "";
+  await press(page, "Make a code");
+  let code = before;
+  await until(async () => (code = /S(-\w{4}){5}/.exec(await page.$eval("main", (m) => m.innerText))?.[0] ?? before) !== before, "a code");
+  station(home, "enrol", "--code", code);
+  await said(page, name);
 }
 
 export async function look({ page }: Desk, name: string): Promise<void> {

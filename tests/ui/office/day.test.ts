@@ -6,7 +6,7 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
-import { close_office, control, desk, folder, go, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { close_office, control, desk, folder, go, invite, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => { if (!k_skip) await open_office(...seats); });
@@ -20,15 +20,6 @@ async function gone(page: Page, words: string): Promise<void> {
 async function codes(page: Page): Promise<Map<string, string>> {
   const rows = await page.$$eval("tbody tr", (all) => all.map((r) => [r.children[0].textContent!, r.children[2].textContent!, r.children[6].textContent!]));
   return new Map(rows.filter(([, , state]) => !state.startsWith("cancelled")).map(([id, code]) => [id, code]));
-}
-async function invite(page: Page, home: string, name: string): Promise<void> {
-  await type(page, "Name of the station", name);
-  const before = /S(-\w{4}){5}/.exec(await text(page))?.[0] ?? "";
-  await press(page, "Make a code");
-  let code = before;
-  await until(async () => (code = /S(-\w{4}){5}/.exec(await text(page))?.[0] ?? before) !== before, "a code");
-  station(home, "enrol", "--code", code);
-  await said(page, name);
 }
 async function issue(page: Page, list: string): Promise<void> {
   await go(page, "Class list");

@@ -1,11 +1,16 @@
 // What a stranger may send to the server: heads, paths and bodies that no browser would send, too much, too slowly, and too many at once.
 #include "ui/office/http_server.h"
 
+#include <arpa/inet.h>
+#include <poll.h>
+#include <sys/socket.h>
 #include <sys/stat.h>
 
+#include <atomic>
 #include <chrono>
 
 #include "tests/ui/office/opened.h"
+#include "tests/ui/office/served.h"
 
 namespace cavum::office {
 namespace {
@@ -15,7 +20,8 @@ using namespace std::chrono_literals;
 
 HttpLimits hasty() {
   HttpLimits limits;
-  limits.handshake_s = limits.head_s = limits.body_s = 1;
+  limits.handshake_s = 2;
+  limits.head_s = limits.body_s = 1;
   limits.most_connections = 20;
   return limits;
 }
@@ -109,6 +115,92 @@ TEST_F(Strangers, WhoComeAllAtOnceLeaveTheOthersTheirTurn) {
   for (int i = 0; i < 60; ++i) idle.push_back(std::make_unique<Wire>(opened_->port()));
   std::this_thread::sleep_for(2500ms);  // idle ones have had their time
   EXPECT_EQ(opened_->visitor().get("/").status, 200);
+}
+
+TEST_F(Strangers, AreToldThatARequestNamesItsHost) {
+  EXPECT_EQ(raw("GET / HTTP/1.1\r\nX: a\r\n\r\n").status, 400);
+  EXPECT_EQ(raw("GET / HTTP/1.0\r\n\r\n").status, 200) << "the old ones need none";
+}
+
+TEST_F(Strangers, HearTheHeadAloneOfWhatTheyWouldGet) {
+  for (const char* path : {"/", "/office.css", "/api/me", "/nothing"}) {
+    Wire wire(opened_->port());
+    wire.send("HEAD " + std::string(path) + " HTTP/1.1\r\nHost: x\r\n\r\nGET " + path + " HTTP/1.1\r\nHost: x\r\nConnection: close\r\n\r\n");
+    const std::string both = wire.hear_for(10s);
+    const auto end = both.find("\r\n\r\n");
+    ASSERT_NE(end, std::string::npos) << path;
+    const std::string rest = both.substr(end + 4);  // nothing stands between the first head and the second
+    ASSERT_TRUE(rest.starts_with("HTTP/1.1 ")) << path << ": " << rest.substr(0, 80);
+    EXPECT_EQ(both.substr(0, 12), rest.substr(0, 12)) << path;
+    const std::string body = rest.substr(rest.find("\r\n\r\n") + 4);
+    EXPECT_FALSE(body.empty()) << path;
+    EXPECT_NE(both.substr(0, end).find("Content-Length: " + std::to_string(body.size())), std::string::npos) << path;
+  }
+}
+
+/// Connections that say nothing for ever, each opened anew as soon as the other side ends it.
+class Silent {
+ public:
+  Silent(std::uint16_t port, std::size_t count) : port_(port), sockets_(count), opener_([this] { keep_open(); }) {}
+  ~Silent() {
+    ends_ = true;
+    opener_.join();
+  }
+  Silent(const Silent&) = delete;
+  Silent& operator=(const Silent&) = delete;
+  [[nodiscard]] std::size_t opened() const { return opened_; }
+
+ private:
+  void keep_open() {
+    for (pollfd& s : sockets_) open(s);
+    while (!ends_) {
+      ::poll(sockets_.data(), sockets_.size(), 20);
+      for (pollfd& s : sockets_)
+        if (s.revents != 0) {
+          ::close(s.fd);
+          open(s);
+        }
+    }
+    for (const pollfd& s : sockets_) ::close(s.fd);
+  }
+  void open(pollfd& s) {
+    sockaddr_in place{};
+    place.sin_family = AF_INET;
+    place.sin_port = htons(port_);
+    place.sin_addr.s_addr = htonl(INADDR_LOOPBACK);
+    s = {::socket(AF_INET, SOCK_STREAM | SOCK_CLOEXEC, 0), POLLIN, 0};
+    if (::connect(s.fd, reinterpret_cast<const sockaddr*>(&place), sizeof(place)) == 0) ++opened_;
+  }
+
+  std::uint16_t port_;
+  std::vector<pollfd> sockets_;
+  std::atomic<bool> ends_ = false;
+  std::atomic<std::size_t> opened_ = 0;
+  std::thread opener_;
+};
+
+TEST(ManySilentConnections, LeaveTheirPlaceToWhoAsksSomething) {
+  constexpr std::size_t k_silent = 700;
+  constexpr long k_most_kb = 400'000;
+  const testing_ledger::School school;
+  const Served served(school);
+  const std::string ask = "GET /office.css HTTP/1.1\r\nHost: x\r\n\r\n";
+  Wire before(served.port());  // as a station that is here
+  before.send(ask);
+  ASSERT_EQ(before.hear().status, 200);
+  const Silent silent(served.port(), k_silent);
+  while (silent.opened() < k_silent) std::this_thread::sleep_for(10ms);
+  for (int i = 0; i < 20; ++i) {
+    const auto from = std::chrono::steady_clock::now();
+    EXPECT_EQ((Visitor{served.port()}.get("/office.css").status), 200) << i;
+    EXPECT_LT(std::chrono::steady_clock::now() - from, 2s) << i;
+    before.send(ask);
+    ASSERT_EQ(before.hear().status, 200) << "who is known stays, " << i;
+    std::this_thread::sleep_for(200ms);
+  }
+  EXPECT_GT(silent.opened(), k_silent) << "none of them was ever dropped";
+  EXPECT_LT(served.peak_kb(), k_most_kb);
+  std::printf("%zu silent connections opened, the server's memory at most %ld kB\n", silent.opened(), served.peak_kb());
 }
 
 TEST(Certificate, IsMadeOnceWithAKeyForItsOwnerAlone) {

@@ -28,7 +28,8 @@ class InPieces : public testing::Test {
  protected:
   Pieces make(const PiecesLimits& limits = {}) {
     return {folder_.file("pieces"),
-            [this](const std::string& path, const std::string& sha256) {
+            [this](const std::string& path, const std::string& sha256, const std::string& station) {
+              EXPECT_FALSE(station.empty());
               const Bytes whole = read_file(path);
               wholes_[sha256] = {whole.begin(), whole.end()};
               std::filesystem::remove(path);

@@ -194,14 +194,37 @@ TEST_F(OverTheNetwork, WhatIsNoExamIsRefusedAndSaidSoAlsoAfterARestart) {
   const json refused = Opened::outcome(station, hash);
   EXPECT_EQ(refused["state"], "refused");
   EXPECT_FALSE(refused["findings"].empty());
-  EXPECT_EQ(officer_.get("/api/board").json()["inbox"]["refused"][0]["sha256"], hash);
+  const auto shown = [&] { return officer_.get("/api/board").json()["inbox"]["refused"][0]; };
+  EXPECT_EQ(shown()["sha256"], hash);
+  EXPECT_EQ(shown()["station"], "Seat 1") << "who handed it in, for the file says nothing";
+  EXPECT_EQ(shown()["candidate"], "");
+  for (const json& said : {refused["findings"], shown()["findings"]})
+    EXPECT_EQ(said.dump().find('/'), std::string::npos) << "no folder of this computer: " << said;
+  const json before = shown();
   opened_->close();
   opened_->open();
   officer_ = opened_->signed_in(Role::officer);
   auto again = opened_->station();
   EXPECT_EQ(again.handed(hash)["state"], "refused");
+  EXPECT_EQ(shown(), before);
   std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + ".json");
   std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + ".cavum");
+}
+
+TEST_F(OverTheNetwork, OfARefusedExamTheCandidateIsSaid) {
+  auto station = opened_->station();
+  const json t = one_ticket("twice-1");
+  const Bytes first = short_exam(t["text"]), second = short_exam(t["text"]);
+  station.hand_in(first);
+  ASSERT_EQ(Opened::outcome(station, to_hex(sha256(first)))["state"], "filed");
+  station.hand_in(second);
+  const std::string hash = to_hex(sha256(second));
+  ASSERT_EQ(Opened::outcome(station, hash)["state"], "refused");
+  const json shown = officer_.get("/api/board").json()["inbox"]["refused"].back();  // the newest
+  EXPECT_EQ(shown["sha256"], hash);
+  EXPECT_EQ(shown["candidate"], t["candidate"]);
+  EXPECT_EQ(shown["station"], "Seat 1");
+  for (const char* kind : {".json", ".cavum"}) std::filesystem::remove(opened_->home() + "/" + opened_->id() + "/inbox/refused/" + hash + kind);
 }
 
 TEST_F(OverTheNetwork, NoExamIsRefusedForADiskThatTakesNothingAndAllAreFiledAfterwards) {

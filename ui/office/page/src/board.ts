@@ -3,7 +3,7 @@ import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
 import { Announcements, Attendance, Pauses, type Announcement, type Hold } from "./day.ts";
-import { field, form, input, say, table, with_reason, type View } from "./parts.ts";
+import { form, input, say, select, table, with_reason, type View } from "./parts.ts";
 
 interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; held: boolean; refused: string; seen_utc_ns: number }
 interface Station { name: string; public_key: string; room: string; revoked: boolean; hold: number; unread: number; twins: string[]; said: Said | null }
@@ -13,7 +13,7 @@ interface Shown {
   tickets: { [group: string]: number };
   holds: Hold[];
   announcements: Announcement[];
-  inbox: { waiting: number; trouble: string; refused: { sha256: string; findings: string[] }[] };
+  inbox: { waiting: number; trouble: string; refused: { sha256: string; station: string; candidate: string; findings: string[] }[] };
 }
 
 const silent_s = 15;
@@ -93,7 +93,8 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     inbox.replaceChildren(make("p", {}, tr("Waiting to be verified and filed: {}", what.inbox.waiting)));
     if (what.inbox.trouble !== "") inbox.append(make("p", { class: "wrong" }, what.inbox.trouble));
     if (what.inbox.refused.length > 0)
-      inbox.append(table(tr("Refused"), [tr("Recording"), tr("Why")], what.inbox.refused.map((r) => [make("code", {}, r.sha256.slice(0, 16)), r.findings.join("; ")])));
+      inbox.append(table(tr("Refused"), [tr("Station"), tr("Candidate"), tr("Why"), tr("Recording")], what.inbox.refused.map((r) =>
+        [r.station === "" ? tr("unknown") : r.station, r.candidate, r.findings.join("; "), make("code", {}, r.sha256.slice(0, 16))])));
     revocation?.take(what.stations);
     placing?.take(what.stations);
     pauses.take(what.holds, what.stations);
@@ -129,17 +130,23 @@ function invite(): HTMLElement {
   }, name.block), out);
 }
 
-/** Stations by name in a list, touched only when they are others: somebody may be choosing. */
+/** Stations by name in a list, touched only when they are others: somebody may be choosing. Where the chosen one is gone, none is. */
 class StationList {
-  readonly list = field(tr("Station"), make("select"));
+  readonly list = select(tr("Station"), []);
   private held = "";
+
+  constructor() {
+    this.list.required = true;
+  }
 
   take(stations: Station[]): void {
     const good = stations.filter((s) => !s.revoked);
-    const now = good.map((s) => s.public_key).join();
+    const now = JSON.stringify(good.map((s) => [s.public_key, s.name]));
     if (now === this.held) return;
     this.held = now;
-    this.list.replaceChildren(...good.map((s) => make("option", { value: s.public_key }, s.name)));
+    const chosen = this.list.value;
+    this.list.replaceChildren(make("option", { value: "" }, tr("choose …")), ...good.map((s) => make("option", { value: s.public_key }, s.name)));
+    if (good.some((s) => s.public_key === chosen)) this.list.value = chosen;
   }
 }
 
@@ -162,13 +169,16 @@ class Placing {
 
 class Revocation {
   private readonly stations = new StationList();
-  readonly root = make("section", {}, make("h2", {}, tr("Revoke a station's key")), this.stations.list.block);
+  readonly root = make("section", {}, make("h2", {}, tr("Revoke a station's key")));
 
   constructor() {
+    const { list } = this.stations;
     this.root.append(with_reason(tr("Revoke"), { class: "bad" }, async (reason) => {
-      await post("/api/stations/revoke", { public_key: this.stations.list.value, reason });
-      say(tr("What this station sends from now on does not count."));
-    }));
+      const name = list.selectedOptions[0].text;
+      await post("/api/stations/revoke", { public_key: list.value, reason });
+      list.value = "";
+      say(tr("What {} sends from now on does not count.", name));
+    }, { asked: [list.block] }));
   }
 
   take(stations: Station[]): void {

@@ -60,6 +60,12 @@ function signed_out(): void {
   set_token("");
   void show();
 }
+/** The office knows nobody here any more, and nobody pressed a button for that. */
+function ended(): void {
+  const was_in = me !== null;
+  signed_out();
+  if (was_in) say(tr("Your session has ended. Sign in again."));
+}
 
 let asked = 0;
 async function show(): Promise<void> {
@@ -75,7 +81,7 @@ async function show(): Promise<void> {
     if (this_time === asked) put(next);
     else next.leave?.();
   } catch (wrong) {
-    if (wrong instanceof Refused && wrong.status === 401) signed_out();
+    if (wrong instanceof Refused && wrong.status === 401) ended();
     else say(wrong instanceof Error ? wrong.message : tr("This did not work."), true);
   }
 }
@@ -96,7 +102,7 @@ async function begin(): Promise<void> {
     say("");
     void show();
   });
-  window.addEventListener("signed-out", signed_out);
+  window.addEventListener("signed-out", ended);
   try {
     signed_in(await get<Me>("/api/me"));
   } catch (wrong) {

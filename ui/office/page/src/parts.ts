@@ -84,11 +84,12 @@ export function table(caption: string, headings: string[], rows: (Node | string)
   return rows.length > k_long ? searched(element, headings.join()) : element;
 }
 
-/** Says what happened, for eyes and screen readers. */
+/** Says what happened, for eyes and screen readers. The line stands over the page's lower end: what is scrolled to comes to lie above it. */
 export function say(text: string, wrong = false): void {
   const line = document.getElementById("said")!;
   line.textContent = text;
   line.classList.toggle("wrong-said", wrong);
+  document.documentElement.style.scrollPaddingBottom = `${line.offsetHeight}px`;
 }
 
 /** A button that does something once at a time, and says what went wrong. */
@@ -97,13 +98,16 @@ export function act(text: string, attributes: { [name: string]: string }, does: 
   return control;
 }
 
-/** A form whose Enter key and button do the same. */
+/** A form whose Enter key and button do the same. An event "done" says that it worked. */
 export function form(text: string, does: () => Promise<void>, ...children: Node[]): HTMLFormElement {
   const send = make("button", { type: "submit", class: "main" }, text);
   const element = make("form", {}, ...children, make("div", { class: "row" }, send));
   element.addEventListener("submit", (event) => {
     event.preventDefault();
-    void run(send, does);
+    void run(send, async () => {
+      await does();
+      element.dispatchEvent(new Event("done"));
+    });
   });
   return element;
 }
@@ -119,34 +123,39 @@ async function run(control: HTMLButtonElement, does: () => Promise<void>): Promi
     if (wrong instanceof Error && "status" in wrong && wrong.status === 401) window.dispatchEvent(new Event("signed-out"));
   } finally {
     control.disabled = false;
+    control.scrollIntoView({ block: "nearest" });  // else the line that says it would take the next click
   }
 }
 
-/** A button that opens a form below itself; Back closes it. */
+/** A button that opens a form below itself; Back closes it, and so does the form when it worked. */
 export function opens_form(text: string, attributes: { [name: string]: string }, make_form: () => HTMLFormElement): HTMLElement {
   const block = make("div");
   const open = button(text, { "aria-expanded": "false", ...attributes }, () => {
     const asked = make_form();
-    asked.querySelector(".row:last-child")!.append(button(tr("Back"), {}, () => {
+    const close = (): void => {
       asked.remove();
       open.hidden = false;
       open.setAttribute("aria-expanded", "false");
       open.focus();
-    }));
+    };
+    asked.addEventListener("done", close);
+    asked.querySelector(".row:last-child")!.append(button(tr("Back"), {}, close));
     open.hidden = true;
     open.setAttribute("aria-expanded", "true");
     block.append(asked);
+    say("");  // what was said before is of something else
+    asked.scrollIntoView({ block: "nearest" });
     asked.querySelector<HTMLElement>("input, select")!.focus();
   });
   block.append(open);
   return block;
 }
 
-/** Asks why in a form below a button, and does it then; `sends` is on the form's own button. */
-export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>, sends = text): HTMLElement {
+/** Asks why in a form below a button, below what else it asks, and does it then; `sends` is on the form's own button. */
+export function with_reason(text: string, attributes: { [name: string]: string }, does: (reason: string) => Promise<void>, more: { sends?: string; asked?: Node[] } = {}): HTMLElement {
   return opens_form(text, attributes, () => {
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-    return form(sends, async () => does(reason.value), reason.block);
+    return form(more.sends ?? text, async () => does(reason.value), ...(more.asked ?? []), reason.block);
   });
 }
 

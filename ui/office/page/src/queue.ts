@@ -6,17 +6,18 @@ import { act, form, input, report_link, say, select, type View } from "./parts.t
 
 interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[]; sha256: string }
 
+const waiting = async (): Promise<Waiting[]> => (await get<{ queue: Waiting[] }>("/api/queue")).queue;
+
 export async function queue(may_decide: boolean): Promise<View> {
   const list = make("div");
-  const show = async (): Promise<void> => {
-    const { queue } = await get<{ queue: Waiting[] }>("/api/queue");
-    list.replaceChildren(...(queue.length > 0 ? queue.map((w) => decision(w, may_decide, show)) : [make("p", {}, tr("Nothing waits for a decision."))]));
-  };
+  const draw = (queue: Waiting[]): void =>
+    list.replaceChildren(...(queue.length > 0 ? queue.map((w) => decision(w, may_decide, draw)) : [make("p", {}, tr("Nothing waits for a decision."))]));
+  const show = async (): Promise<void> => draw(await waiting());
   await show();
   return { root: make("div", {}, make("h1", {}, tr("Left to a person")), act(tr("Look again"), {}, show), list) };
 }
 
-function decision(w: Waiting, may_decide: boolean, show: () => Promise<void>): HTMLElement {
+function decision(w: Waiting, may_decide: boolean, draw: (queue: Waiting[]) => void): HTMLElement {
   const element = make("section", { class: "card", "aria-label": tr("Result of {}", w.candidate) },
     make("h2", {}, w.candidate),
     make("p", {}, tr("{0}, entry {1}: {2} of {3} points", w.exam, w.session, fixed(w.points, 1), w.max)),
@@ -27,9 +28,15 @@ function decision(w: Waiting, may_decide: boolean, show: () => Promise<void>): H
   verdict.required = true;
   const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
   element.append(form(tr("Decide"), async () => {
-    const { entry } = await post<{ entry: number }>("/api/decide", { session: w.session, verdict: verdict.value, reason: reason.value });
-    await show();
-    say(tr("Decided: entry {}.", entry));
+    try {
+      const { entry } = await post<{ entry: number }>("/api/decide", { session: w.session, verdict: verdict.value, reason: reason.value });
+      draw(await waiting());
+      say(tr("Decided: entry {}.", entry));
+    } catch (wrong) {
+      const left = await waiting();
+      if (!left.some((other) => other.session === w.session)) draw(left);  // somebody else was quicker; else what was typed stays
+      throw wrong;
+    }
   }, verdict.block, reason.block));
   return element;
 }

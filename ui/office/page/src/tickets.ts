@@ -51,7 +51,7 @@ function with_cancel(t: Ticket, show: () => Promise<void>): HTMLElement {
     await post("/api/tickets/cancel", { entry: t.entry, reason });
     await show();
     say(tr("The ticket of {} does not count any more.", t.candidate));
-  }, tr("Cancel the ticket"));
+  }, { sends: tr("Cancel the ticket") });
 }
 
 function seat_of(t: Ticket, stations: Station[]): HTMLElement {

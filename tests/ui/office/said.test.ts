@@ -1,0 +1,109 @@
+// What the pages say once something was done, refused, or is over: of which station, of which recording, and why somebody is out.
+import assert from "node:assert/strict";
+import { writeFileSync } from "node:fs";
+import { join } from "node:path";
+import { after, before, test } from "node:test";
+import type { Page } from "puppeteer-core";
+import { k_skip, until } from "../report_test/chromium.ts";
+import { add_account, close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+
+const seats = ["seat1", "seat2", "seat3"];
+before(async () => {
+  if (k_skip) return;
+  await open_office(...seats);
+});
+after(close_office);
+
+/** Stations whose key is revoked, as the board's cards say. */
+const dead = (page: Page): Promise<string[]> => page.$$eval(".cards .card", (all) => all.filter((c) => c.innerText.includes("Key revoked")).map((c) => c.querySelector("h3")!.innerText));
+
+test("two stations are revoked one after the other, each by its name", { skip: k_skip }, async () => {
+  const { page, complaints } = await desk("Anna Officer");
+  for (const [i, home] of seats.entries()) await invite(page, home, `Seat ${i + 1}`);
+  const revoked: string[] = [];
+  page.on("request", (r) => { if (r.url().endsWith("/api/stations/revoke")) revoked.push((JSON.parse(r.postData()!) as { reason: string }).reason); });
+  for (const name of ["Seat 2", "Seat 3"]) {
+    const section = (await page.waitForSelector("::-p-xpath(//section[h2=\"Revoke a station's key\"])"))!;
+    await press(page, "Revoke");
+    const list = (await section.$("select"))!;
+    assert.equal(await list.evaluate((l) => l.value), "", "no station is chosen by itself");
+    await list.select(...(await list.$$eval("option", (all, n) => all.filter((o) => o.textContent === n).map((o) => o.value), name)));
+    await type(page, "Reason", `${name} was stolen`);
+    await press(page, "Revoke");
+    await said(page, `What ${name} sends from now on does not count.`);
+    assert.equal(await section.$("form"), null, "the form is closed");
+    await until(async () => (await dead(page)).includes(name), `${name} is dead on the board`);
+  }
+  assert.deepEqual(revoked, ["Seat 2 was stolen", "Seat 3 was stolen"]);
+  assert.deepEqual(await dead(page), ["Seat 2", "Seat 3"]);
+
+  // what is said covers no button that was just pressed
+  await press(page, "Revoke");
+  const section = (await page.$("::-p-xpath(//section[h2=\"Revoke a station's key\"])"))!;
+  await (await section.$("select"))!.select(await section.$$eval("option", (all) => all.find((o) => o.textContent === "Seat 1")!.value));
+  await type(page, "Reason", "x");
+  await page.$eval("section form input[maxlength='2000']", (e) => ((e as HTMLInputElement).value = "ä".repeat(1500)));  // more bytes than the office takes
+  await press(page, "Revoke");
+  await page.waitForSelector("#said.wrong-said:not(:empty)");
+  const on_top = await page.$$eval("form button.main", (all) => {
+    const last = all[all.length - 1], at = last.getBoundingClientRect();
+    return document.elementFromPoint(at.x + at.width / 2, at.y + at.height / 2) === last;
+  });
+  assert.ok(on_top, "the next click is the button's");
+  assert.deepEqual(complaints, []);
+});
+
+test("of what was refused the station is said, and no folder of the server", { skip: k_skip }, async () => {
+  const officer = await desk("Anna Officer");
+  const { page, complaints } = officer;
+  const file = join(folder, "no_exam.cavum");
+  writeFileSync(file, `SQLite format 3\0${"no exam ".repeat(100)}`);
+  assert.throws(() => station("seat1", "file", file), "it is not filed");
+  await said(page, "Refused");
+  const row = await page.$$eval("table.stack tbody tr", (all) => all.map((r) => [...r.children].map((c) => c.textContent!)).find((cells) => cells[0] === "Seat 1")!);
+  assert.notEqual(row[2], "", "why");
+  assert.ok(!(await page.$eval("main", (m) => m.innerText)).includes("/"), await page.$eval("main", (m) => m.innerText));
+  await look(officer, "day-refused");
+  await page.setViewport({ width: 390, height: 844 });
+  const wide = await page.$eval("table.stack td[data-label=Why]", (cell) => {
+    cell.textContent = "/a_long_word".repeat(40);
+    return document.documentElement.scrollWidth;
+  });
+  assert.ok(wide <= 390, `a long word scrolls sideways: ${wide}`);
+  assert.deepEqual(complaints, []);
+});
+
+test("who decides second hears of the first, and sees what is left", { skip: k_skip }, async () => {
+  const file = join(folder, "border.cavum");
+  run("seat1", ["exam", task, "--candidate", "K7", "--operator", "expert", "--seed", "3", "--out", file]);
+  assert.throws(() => run("school", ["ledger", "add", join(folder, "ledger"), file, "--with-findings", "--simulated"]), "it was found that it has no ticket");
+  add_account("Emil Examiner", "examiner");
+  const both = [await desk("Eva Examiner"), await desk("Emil Examiner")];
+  for (const { page } of both) {
+    await go(page, "Decisions");
+    await page.select(await control(page, "Verdict"), "pass");
+    await type(page, "Reason", "looked at it");
+  }
+  const [first, second] = both.map((d) => d.page);
+  await press(first, "Decide");
+  await said(first, "Decided: entry");
+  await press(second, "Decide");
+  await said(second, "was decided by Eva Examiner");
+  await said(second, "Nothing waits for a decision.");
+  assert.ok(!/cavum|--/.test(await second.$eval("#said", (s) => s.textContent!)), "no word of the command line");
+  for (const { complaints } of both) assert.deepEqual(complaints, []);
+});
+
+test("who is out hears why", { skip: k_skip }, async () => {
+  const { page, complaints } = await desk("Anna Officer");
+  await said(page, "Exam day");
+  await (await page.createCDPSession()).send("Network.clearBrowserCookies");
+  await page.click("nav a[href='#tickets']");
+  await said(page, "Your session has ended. Sign in again.");
+  await type(page, "Name", "Anna Officer");
+  await type(page, "Password", "something else");
+  await page.keyboard.press("Enter");
+  await said(page, "do not belong together");
+  assert.ok(!(await page.$eval("body", (b) => b.innerText)).includes("Your session has ended"));
+  assert.deepEqual(complaints, []);
+});
