@@ -46,7 +46,7 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
     for (const auto& t : registry.tickets)
       if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
         throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
-                           "cancel that one first");
+                            "cancel that one first");
     ticket.candidate = first->ticket.candidate;
     ticket.nonce = random_hex(16);
     text = sign_ticket(ticket, ledger.key());

@@ -35,6 +35,7 @@ class AfterTheExam : public testing::Test {
 
 TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWithReason) {
   EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}}).status, 400) << "without a reason";
+  EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "  "}}).status, 400) << "blanks are none";
   EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status, 403);
   EXPECT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).status, 400) << "nothing to decide";
   const std::string told = examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).json()["error"];

@@ -94,7 +94,7 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
 
   auto ledger = opened_.school().ledger();
   json better = result_;
-  better["score"]["points"] = 1.5, better["verdict"] = "pass";
+  better["score"]["points"] = 71.5, better["verdict"] = "pass";
   ledger::enter_regrade(ledger, sessions_["4711"], better, {}, "an appeal");
   settled();
   EXPECT_EQ(platform_.control()["posts"].size(), 2U) << "a new mark waits for its release";
@@ -104,7 +104,7 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
   ASSERT_EQ(state["posts"].size(), 3U);
   const json& corrected = state["posts"][2];
   EXPECT_EQ(corrected["userId"], "u-4711");
-  EXPECT_EQ(corrected["scoreGiven"], 1.5);
+  EXPECT_EQ(corrected["scoreGiven"], 71.5);
 
   auto now = opened_.school().ledger();
   ledger::retract_results(now, {sessions_["4711"]}, "wrong tooth");
