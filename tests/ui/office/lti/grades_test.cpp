@@ -1,5 +1,6 @@
 // Scores that go to a learning platform: released ones alone, once each, corrected and taken back as the ledger says.
 #include "engine/base/hash.h"
+#include "engine/base/json_fields.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/passback.h"
 #include "grading/ledger/regrade.h"
@@ -52,7 +53,7 @@ class Grades : public testing::Test {
     json progress;
     for (int i = 0; i < 150; ++i) {
       progress = officer_.get("/api/lti").json()["progress"];
-      if (!progress.empty() && (progress[0]["waiting"] == 0 || progress[0]["trouble"] != "")) break;
+      if (!progress.empty() && (progress[0]["waiting"] == 0 || !text_in(progress[0], "trouble").empty())) break;
       std::this_thread::sleep_for(100ms);
     }
     return progress.empty() ? json::object() : progress[0];
