@@ -130,7 +130,13 @@ json Desk::make_up(const json& asked, const Account& by) {
           {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
 }
 
-json Desk::tickets() {
+std::string Desk::granted_on(const std::string& nonce) const {
+  if (!std::filesystem::exists(places_.ticket(nonce))) return "";
+  return scenarios::accommodations_text(
+      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket"));
+}
+
+json Desk::tickets(bool grants) {
   Turn turn(*this);
   const auto people = people_of(turn.book);
   const std::int64_t now = read_clocks().utc_ns;
@@ -154,6 +160,7 @@ json Desk::tickets() {
       if (makeup.seq == t.made_up_by) row["became"] = makeup.first_became;
     row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
     put_name(row, people, t.ticket.candidate);
+    if (grants) row["accommodations"] = granted_on(t.ticket.nonce);
     out.push_back(std::move(row));
   }
   return {{"tickets", out}};

@@ -48,7 +48,8 @@ class Desk {
   [[nodiscard]] nlohmann::json exams() const;
   [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json tickets();
+  /// `grants`: with what each candidate is granted, as long as the ticket's file is kept; it may tell of health.
+  [[nodiscard]] nlohmann::json tickets(bool grants);
   /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.
   [[nodiscard]] nlohmann::json make_up(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by);
@@ -122,6 +123,8 @@ class Desk {
  private:
   /// The ledger as it is now, for one call, in the name of an actor.
   class Turn;
+  /// Accommodations on a ticket's file, for people; empty: none, or the file is not kept any more.
+  [[nodiscard]] std::string granted_on(const std::string& nonce) const;
   /// Removes the files of tickets that can no longer be used: their accommodations tell of health.
   void remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const;
 

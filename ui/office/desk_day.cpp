@@ -139,7 +139,9 @@ json Desk::seat(const json& asked, const Account& by) {
 
 std::vector<Invited> Desk::invited_now() {
   Turn turn(*this);
-  return invited(turn.book, read_clocks().utc_ns);
+  auto people = invited(turn.book, read_clocks().utc_ns);
+  for (auto& i : people) i.accommodations = granted_on(i.nonce);
+  return people;
 }
 
 std::string Desk::cards() {

@@ -12,6 +12,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"

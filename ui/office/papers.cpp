@@ -61,7 +61,11 @@ std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
   std::vector<Invited> out;
   for (const auto& t : registry.tickets) {
     if (!state_of(t, now).live) continue;
-    Invited i{t.ticket.candidate, "", "", t.ticket.exam, t.ticket.not_before_utc_ns, t.ticket.not_after_utc_ns, "", ""};
+    Invited i{.code = t.ticket.candidate,
+              .nonce = t.ticket.nonce,
+              .exam = t.ticket.exam,
+              .from_utc_ns = t.ticket.not_before_utc_ns,
+              .until_utc_ns = t.ticket.not_after_utc_ns};
     if (const auto who = people.find(t.ticket.candidate); who != people.end()) i.id = who->second.id, i.name = who->second.name;
     if (const ledger::Station* s = registry.stations.of(t.seat); s != nullptr) i.room = s->room, i.station = s->name;
     out.push_back(std::move(i));
@@ -73,11 +77,14 @@ std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
 
 std::string candidate_cards(const std::string& school, const std::vector<Invited>& people) {
   report::Document d = paper(tr("Candidate cards"), school, people);
+  constexpr double k_card_pt = 110;
   for (const auto& i : people) {
+    d.blocks.push_back(report::CutLine{k_card_pt});
     d.blocks.push_back(report::Heading{i.code});
     d.blocks.push_back(report::Paragraph{fmt::format("{}{}", i.name, i.name.empty() ? i.id : fmt::format(" ({})", i.id)), tr("For")});
     d.blocks.push_back(report::Paragraph{span_text(i.from_utc_ns, i.until_utc_ns), tr("May begin")});
     if (!i.station.empty()) d.blocks.push_back(report::Paragraph{i.room.empty() ? i.station : fmt::format("{}, {}", i.room, i.station), tr("Place")});
+    if (!i.accommodations.empty()) d.blocks.push_back(report::Paragraph{i.accommodations, tr("Granted")});
     d.blocks.push_back(report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", i.exam), "", report::Paragraph::Kind::small});
   }
   return report::pdf_of(d);

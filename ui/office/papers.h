@@ -11,9 +11,10 @@ namespace cavum::office {
 
 /// One whose ticket is good.
 struct Invited {
-  std::string code, id, name, exam;
+  std::string code = {}, nonce = {}, id = {}, name = {}, exam = {};
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
-  std::string room, station;  ///< empty: none was given
+  std::string room = {}, station = {};  ///< empty: none was given
+  std::string accommodations = {};      ///< for people; who makes the cards fills it in
 };
 /// By time, room, station and number.
 [[nodiscard]] std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now_utc_ns);

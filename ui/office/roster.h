@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/ledger/issue.h"
+#include "grading/ledger/class_list.h"
 
 namespace cavum::office {
 

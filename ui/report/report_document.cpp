@@ -431,6 +431,7 @@ void show_words(Document& d) {
     }
     void operator()(Fold&) const {}
     void operator()(FoldEnd&) const {}
+    void operator()(CutLine&) const {}
   };
   d.language = language();
   show(d.title);

@@ -21,7 +21,7 @@
 #include "engine/language/language.h"
 #include "engine/language/say.h"
 #include "engine/servo/servo.h"
-#include "grading/ledger/issue.h"
+#include "grading/ledger/class_list.h"
 #include "scenarios/file/parse.h"
 #include "ui/parts/terminal.h"
 #include "ui/verbs/help_in_language.h"

@@ -135,15 +135,9 @@ export async function type(page: Page, label: string, text: string): Promise<voi
   await page.$eval(place, (e) => ((e as HTMLInputElement).value = ""));
   await page.type(place, text);
 }
+/** Waits until it stands still: the live board may grow above it. */
 export async function press(page: Page, text: string): Promise<void> {
-  for (let tries = 1; ; ++tries) {
-    const found = await page.waitForSelector(`::-p-xpath(//button[normalize-space()="${text}" and not(@hidden)])`);
-    try {
-      return await found!.click();
-    } catch (wrong) {  // the live board grew above it, and it was moved away before it was pressed
-      if (tries === 3 || !String(wrong).includes("not clickable")) throw wrong;
-    }
-  }
+  await page.locator(`::-p-xpath(//button[normalize-space()="${text}" and not(@hidden)])`).click();
 }
 export async function go(page: Page, title: string): Promise<void> {
   if (await page.$(`::-p-xpath(//nav//a[normalize-space()="${title}" and @aria-current="page"])`)) return;

@@ -5,29 +5,24 @@ import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
-import { k_skip, until } from "../report_test/chromium.ts";
-import { close_office, control, desk, folder, go, invite, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { k_skip } from "../report_test/chromium.ts";
+import { close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { gone, place, say_times, text, tickets_of } from "./hall.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => { if (!k_skip) await open_office(...seats); });
 after(close_office);
 
-const text = (page: Page): Promise<string> => page.$eval("main", (m) => m.innerText);
-async function gone(page: Page, words: string): Promise<void> {
-  await until(async () => !(await text(page)).includes(words), `no '${words}' on the page`, async () => `, where there is: ${await text(page)}`);
-}
-/** Tickets of the list, by the candidates' numbers. */
+/** Tickets that are not cancelled, by the candidates' numbers. */
 async function codes(page: Page): Promise<Map<string, string>> {
-  const rows = await page.$$eval("tbody tr", (all) => all.map((r) => [r.children[0].textContent!, r.children[2].textContent!, r.children[6].textContent!]));
-  return new Map(rows.filter(([, , state]) => !state.startsWith("cancelled")).map(([id, code]) => [id, code]));
+  return new Map([...(await tickets_of(page))].filter(([, t]) => !t.state.startsWith("cancelled")).map(([id, t]) => [id, t.code]));
 }
 async function issue(page: Page, list: string): Promise<void> {
   await go(page, "Class list");
   await type(page, "Paste the list, with its line of column names", list);
   await press(page, "Read the list");
   await said(page, "Who gets a ticket");
-  for (const [label, hours] of [["May begin from", -1], ["May begin until", 3]] as [string, number][])
-    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
+  await say_times(page, -60, 180);
   await type(page, "Reason", "class of this year");
   await press(page, "Issue the tickets");
   await said(page, "Refused: 0.");
@@ -37,15 +32,7 @@ test("an exam day with its accidents, by clicks", { skip: k_skip }, async () => 
   const officer = await desk("Anna Officer");
   const { page } = officer;
   for (const [i, home] of seats.entries()) await invite(page, home, `Seat ${i + 1}`);
-  for (const [seat, room] of [["Seat 1", "Room 1"], ["Seat 2", "Room 1"], ["Seat 3", "Room 2"]]) {
-    const section = (await page.$("::-p-xpath(//section[h2='Room of a station'])"))!;
-    const list = (await section.$("select"))!;
-    await list.select(...(await list.$$eval("option", (all, name) => all.filter((o) => o.textContent === name).map((o) => o.value), seat)));
-    await type(page, "Room", room);
-    await press(page, "It stands there");
-    await said(page, "The board shows it.");
-  }
-  await said(page, "Room 2");
+  for (const [seat, room] of [["Seat 1", "Room 1"], ["Seat 2", "Room 1"], ["Seat 3", "Room 2"]]) await place(page, seat, room);
 
   await issue(page, "id,name,extra_time_percent\n4711,Anna A.,25\n4712,Bert B.,\n4713,Cleo C.,\n4714,Dora D.,\n4715,Emil E.,\n");
   await go(page, "Tickets");

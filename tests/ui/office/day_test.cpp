@@ -174,10 +174,12 @@ std::string words_of(const std::string& pdf, const std::string& path) {
 
 TEST_F(ADay, CardsAndSheetSayWhoWhenAndWhereInANamedTimeZone) {
   EXPECT_EQ(officer_.get("/api/cards.pdf").status, 400) << "nobody is invited";
-  json asked = Opened::list("id,name\n4711,Anna Ärmel\n4712,Bert B.\n");
+  json asked = Opened::list("id,name,extra_time_percent\n4711,Anna Ärmel,25\n4712,Bert B.,\n");
   asked.update({{"exam", "block_cavity"}, {"from", "2031-01-21T08:00:00Z"}, {"until", "2031-01-21T11:30:00Z"}, {"reason", "class"}});
   ASSERT_EQ(officer_.post("/api/roster/issue", asked).status, 200);
   const json t = officer_.get("/api/tickets").json()["tickets"][0];
+  EXPECT_NE(t["accommodations"].get<std::string>().find("25 %"), std::string::npos);
+  EXPECT_FALSE(opened_.signed_in(Role::invigilator).get("/api/tickets").json()["tickets"][0].contains("accommodations")) << "it may tell of health";
   ASSERT_EQ(officer_.post("/api/stations/room", {{"public_key", to_hex(key_.public_key)}, {"room", "Room 2"}}).status, 200);
   EXPECT_EQ(officer_.post("/api/seats", {{"ticket", t["entry"]}, {"station", to_hex(key_.public_key)}}).status, 200);
   const Heard cards = officer_.get("/api/cards.pdf");
@@ -194,6 +196,8 @@ TEST_F(ADay, CardsAndSheetSayWhoWhenAndWhereInANamedTimeZone) {
     EXPECT_NE(words.find(t["candidate"].get<std::string>()), std::string::npos);
   }
   EXPECT_NE(sheet.find("Signature"), std::string::npos);
+  EXPECT_NE(card.find("25 %"), std::string::npos) << "the candidate is told what is granted\n" << card;
+  EXPECT_EQ(sheet.find("25 %"), std::string::npos) << "the sheet goes from hand to hand\n" << sheet;
   std::filesystem::create_directories(CAVUM_PICTURES "/office");
   for (const char* name : {"cards", "sheet"})  // to be looked at
     std::filesystem::copy_file(opened_.school().file(std::string(name) + ".pdf"), std::string(CAVUM_PICTURES "/office/") + name + ".pdf",

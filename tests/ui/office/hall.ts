@@ -1,7 +1,7 @@
 // A class of 60 and the 8 stations of three rooms, as processes of their own; the keyboard alone; and files as spreadsheets read them.
 import assert from "node:assert/strict";
 import { execFile, spawn, type ChildProcess } from "node:child_process";
-import { mkdirSync, writeFileSync } from "node:fs";
+import { existsSync, mkdirSync, rmSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import type { Page } from "puppeteer-core";
 import { until } from "../report_test/chromium.ts";
@@ -29,7 +29,7 @@ export function list_of(these: Person[]): string {
 
 export const text = (page: Page): Promise<string> => page.$eval("main", (m) => m.innerText);
 export async function gone(page: Page, words: string): Promise<void> {
-  await until(async () => !(await text(page)).includes(words), `no '${words}' on the page`);
+  await until(async () => !(await text(page)).includes(words), `no '${words}' on the page`, async () => `, where there is: ${await text(page)}`);
 }
 
 /** The program beside the test, so that the pages are heard meanwhile. */
@@ -43,16 +43,6 @@ export async function in_pairs<T>(all: T[], does: (one: T) => Promise<void>): Pr
   const work = async (): Promise<void> => { for (let one = left.shift(); one !== undefined; one = left.shift()) await does(one); };
   await Promise.all([work(), work()]);
 }
-export async function invite(page: Page, seat: { home: string; name: string }): Promise<void> {
-  const shown = async (): Promise<string> => /S(-\w{4}){5}/.exec(await text(page))?.[0] ?? "";
-  await type(page, "Name of the station", seat.name);
-  const before = await shown();
-  await press(page, "Make a code");
-  let made = before;
-  await until(async () => (made = await shown()) !== before, "a code");
-  station(seat.home, "enrol", "--code", made);
-  await said(page, seat.name);
-}
 export async function place(page: Page, name: string, room: string): Promise<void> {
   const list = (await page.$("::-p-xpath(//section[h2='Room of a station']//select)"))!;
   await list.select(...(await list.$$eval("option", (all, n) => all.filter((o) => o.textContent === n).map((o) => o.value), name)));
@@ -65,8 +55,9 @@ export interface Row { code: string; seat: string; state: string; may_begin: str
 /** The list of tickets, by the candidates' numbers; of several of one candidate the last. */
 export async function tickets_of(page: Page): Promise<Map<string, Row>> {
   const rows = await page.$$eval("tbody tr", (all) => all.map((r) => {
-    const [id, , code, , may_begin, seat, state] = [...r.children];
-    return [id.textContent!, code.textContent!, seat.querySelector("select")?.selectedOptions[0].textContent ?? seat.textContent!, state.textContent!, may_begin.textContent!];
+    const of = (heading: string): Element => r.querySelector(`td[data-label="${heading}"]`)!;
+    const seat = of("Station");
+    return [r.children[0].textContent!, of("Pseudonym").textContent!, seat.querySelector("select")?.selectedOptions[0].textContent ?? seat.textContent!, of("State").textContent!, of("May begin").textContent!];
   }));
   return new Map(rows.map(([id, code, seat, state, may_begin]) => [id, { code, seat, state, may_begin }]));
 }
@@ -87,6 +78,42 @@ export async function paste(page: Page, these: Person[]): Promise<void> {
 export async function pass_over(page: Page): Promise<void> {
   await page.select(await control(page, "Use of column Tutor"), "pass over");
   await said(page, "Who gets a ticket");
+}
+
+export async function tickets_page(page: Page): Promise<Map<string, Row>> {
+  await go(page, "Tickets");
+  await page.$eval("main table", (t) => t.setAttribute("data-old", ""));
+  await press(page, "Look again");
+  await page.waitForSelector("main table:not([data-old])");
+  return tickets_of(page);
+}
+/** The next sitting has its seats, by one press; who sits where. */
+export async function seat_them(page: Page, sitting: Person[], room = ""): Promise<Map<string, string>> {
+  const begins = (await tickets_page(page)).get(sitting[0].id)!.may_begin;
+  await page.select(await control(page, "Sitting"), await page.$eval(await control(page, "Sitting"), (s, b) => [...(s as HTMLSelectElement).options].find((o) => o.text.startsWith(b))!.value, begins));
+  if (room !== "") await page.select(await control(page, "Room"), room);
+  await press(page, "Seat them");
+  await said(page, "Seated: ");
+  const rows = await tickets_of(page);
+  return new Map(sitting.map((p) => [p.id, rows.get(p.id)!.seat]));
+}
+export async function cancel(page: Page, code: string, reason: string): Promise<void> {
+  const button = `[aria-label="Cancel the ticket of ${code}"]`;
+  await page.$eval(button, (b) => b.scrollIntoView({ block: "center" }));
+  await page.click(button);
+  await type(page, "Reason", reason);
+  await page.keyboard.press("Enter");
+  await said(page, `The ticket of ${code} does not count any more.`);
+}
+export async function download(page: Page, words: string, name: string): Promise<string> {
+  const to = join(folder, "downloads");
+  mkdirSync(to, { recursive: true });
+  rmSync(join(to, name), { force: true });
+  const session = await page.createCDPSession();
+  await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: to, browserContextId: page.browserContext().id });
+  await (await page.waitForSelector(`::-p-xpath(//a[normalize-space()="${words}"])`))!.click();
+  await until(async () => existsSync(join(to, name)), name);
+  return join(to, name);
 }
 
 export function reports(home: string, who: string, state = "exam", ...more: string[]): string {
@@ -149,6 +176,13 @@ export async function fresh_code(): Promise<string> {
   while (step > now() + 1) await new Promise((done) => setTimeout(done, 500));
   used = step;
   return code(step - now());
+}
+
+export async function release(page: Page, reason: string): Promise<void> {
+  await go(page, "Results");
+  await type(page, "Reason", reason);
+  await type(page, "Code of your app", await fresh_code());
+  await press(page, "Release all that are ready");
 }
 
 /** Fields of a file of comma-separated values (RFC 4180). */

@@ -2,13 +2,13 @@
 // is held row by row against what the test knows by itself. Takes minutes: CAVUM_DEEP=1. A picture of each page and state, at 1280 and at 390 pixels, is kept.
 import assert from "node:assert/strict";
 import { spawn, spawnSync, type ChildProcess } from "node:child_process";
-import { existsSync, mkdirSync, readFileSync, readdirSync, rmSync } from "node:fs";
+import { existsSync, readFileSync, readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
 import { add_account, close_office, control, desk, examine_with, folder, go, look, open_office, press, run, said, station, task, type, type Desk } from "./browser.ts";
-import { csv, file, fresh_code, gone, home_of, in_pairs, invite, open_window, pass_over, paste, people, place, reports, say_times, screen, seats, sit, tab_to, tickets_of, write_keys, type Person, type Row } from "./hall.ts";
+import { cancel, csv, download, file, fresh_code, gone, home_of, in_pairs, invite, open_window, pass_over, paste, people, place, release, reports, say_times, screen, seat_them, seats, sit, tab_to, tickets_page, write_keys, type Person } from "./hall.ts";
 
 const skip = k_skip || (process.env.CAVUM_DEEP ? false : "an exam day of 60 candidates takes some minutes; CAVUM_DEEP=1 runs it");
 const cavum = process.env.CAVUM_BINARY!;
@@ -32,13 +32,6 @@ after(async () => {
   await close_office();
 });
 
-async function tickets_page(page: Page): Promise<Map<string, Row>> {
-  await go(page, "Tickets");
-  await page.$eval("main table", (t) => t.setAttribute("data-old", ""));
-  await press(page, "Look again");
-  await page.waitForSelector("main table:not([data-old])");
-  return tickets_of(page);
-}
 /** Sits and files; the station says so to the board. */
 async function whole(home: string, p: Person): Promise<void> {
   const code = codes.get(p.id)!;
@@ -47,39 +40,10 @@ async function whole(home: string, p: Person): Promise<void> {
   await file(home, recordings.get(p.id)!);
   reports(home, "", "free");
 }
-/** The next sitting has its seats, by one press; who sits where. */
-async function seat_them(page: Page, sitting: Person[], room = ""): Promise<Map<string, string>> {
-  const begins = (await tickets_page(page)).get(sitting[0].id)!.may_begin;
-  await page.select(await control(page, "Sitting"), await page.$eval(await control(page, "Sitting"), (s, b) => [...(s as HTMLSelectElement).options].find((o) => o.text.startsWith(b))!.value, begins));
-  if (room !== "") await page.select(await control(page, "Room"), room);
-  await press(page, "Seat them");
-  await said(page, "Seated: ");
-  const rows = await tickets_of(page);
-  return new Map(sitting.map((p) => [p.id, rows.get(p.id)!.seat]));
-}
-async function cancel(page: Page, code: string, reason: string): Promise<void> {
-  const button = `[aria-label="Cancel the ticket of ${code}"]`;
-  await page.$eval(button, (b) => b.scrollIntoView({ block: "center" }));
-  await page.click(button);
-  await type(page, "Reason", reason);
-  await page.keyboard.press("Enter");
-  await said(page, `The ticket of ${code} does not count any more.`);
-}
-async function download(page: Page, words: string, name: string): Promise<string> {
-  const to = join(folder, "downloads");
-  mkdirSync(to, { recursive: true });
-  rmSync(join(to, name), { force: true });
-  const session = await page.createCDPSession();
-  await session.send("Browser.setDownloadBehavior", { behavior: "allow", downloadPath: to, browserContextId: page.browserContext().id });
-  await (await page.waitForSelector(`::-p-xpath(//a[normalize-space()="${words}"])`))!.click();
-  await until(async () => existsSync(join(to, name)), name);
-  return join(to, name);
-}
-
 test("before: class list, stations, sittings, seats, papers", { skip }, async () => {
   officer = await desk("Anna Officer");
   const { page } = officer;
-  for (const seat of seats) await invite(page, seat);
+  for (const seat of seats) await invite(page, seat.home, seat.name);
   for (const seat of seats) await place(page, seat.name, seat.room);
   await photo(officer, "board-enrolled");
   await paste(page, people);
@@ -275,12 +239,6 @@ async function results_page(page: Page): Promise<Map<string, { session: string; 
   await go(page, "Results");
   const rows = await page.$$eval("tbody tr", (all) => all.map((r) => [...r.children].map((c) => c.textContent!)));
   return new Map(rows.map((r) => [r[1], { session: r[0], verdict: r[5], state: r[7] }]));
-}
-async function release(page: Page, reason: string): Promise<void> {
-  await go(page, "Results");
-  await type(page, "Reason", reason);
-  await type(page, "Code of your app", await fresh_code());
-  await press(page, "Release all that are ready");
 }
 /** The gradebook as a person fetches it, by candidates' numbers. */
 async function gradebook(page: Page): Promise<Map<string, { [heading: string]: string }>> {

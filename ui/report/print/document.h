@@ -93,7 +93,12 @@ struct Fold {
 };
 struct FoldEnd {};
 
-using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList, Fold, FoldEnd>;
+/// A line along which paper is cut; of what follows so much stands together on a page.
+struct CutLine {
+  double together_pt = 0;
+};
+
+using Block = std::variant<Heading, Paragraph, Bullets, ReportTable, VerdictBox, Pictures, LiveFigure, LessonList, Fold, FoldEnd, CutLine>;
 
 struct Document {
   std::string title;

@@ -92,6 +92,7 @@ class Writer {
   }
   void operator()(const Fold& b) { h_ += fmt::format("<details><summary>{}</summary>\n", text_html(b.title)); }
   void operator()(const FoldEnd&) { h_ += "</details>\n"; }
+  void operator()(const CutLine&) { h_ += "<hr>\n"; }
 
  private:
   void button(const Jump& to, const std::string& text) {

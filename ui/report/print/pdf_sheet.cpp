@@ -221,12 +221,15 @@ double PdfSheet::at(const PdfText& text, double x_pt, double y_pt, double width_
   return State::height_of(l);
 }
 
-void PdfSheet::rule(PdfColour colour) {
+void PdfSheet::rule(PdfColour colour, Rule kind) {
+  constexpr double k_dash_pt = 4;
   s_->colour(colour);
+  cairo_set_dash(s_->cairo, &k_dash_pt, kind == Rule::dashed ? 1 : 0, 0);
   cairo_set_line_width(s_->cairo, 0.5);
   cairo_move_to(s_->cairo, k_side, s_->y);
   cairo_line_to(s_->cairo, k_side + width_pt(), s_->y);
   cairo_stroke(s_->cairo);
+  cairo_set_dash(s_->cairo, nullptr, 0, 0);
 }
 
 void PdfSheet::fill(double x_pt, double width_pt, double height_pt, PdfColour colour) {

@@ -62,7 +62,8 @@ class PdfSheet {
   void lines(const PdfText& text, double width_pt);
   /// Text at a place from here, which is not moved; returns its height.
   double at(const PdfText& text, double x_pt, double y_pt, double width_pt);
-  void rule(PdfColour colour);
+  enum class Rule { solid, dashed };
+  void rule(PdfColour colour, Rule kind = Rule::solid);
   void fill(double x_pt, double width_pt, double height_pt, PdfColour colour);
   void frame(double x_pt, double width_pt, double height_pt, PdfColour colour, double line_pt);
   /// `words`: for those who cannot see it.

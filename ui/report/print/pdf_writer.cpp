@@ -98,6 +98,11 @@ class Printer {
   }
   void operator()(const Fold& b) { (*this)(Heading{b.title}); }
   void operator()(const FoldEnd&) {}
+  void operator()(const CutLine& b) {
+    s_.space(2 * k_gap_pt);
+    if (!s_.need(b.together_pt)) s_.rule({0.5, 0.5, 0.5}, PdfSheet::Rule::dashed);
+    s_.space(k_gap_pt);
+  }
   void operator()(const VerdictBox& b) {
     const double left = 0.36 * s_.width_pt(), inner = 8;
     const PdfColour colour = verdict_colour(b.verdict);

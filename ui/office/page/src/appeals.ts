@@ -10,14 +10,16 @@ interface Appeal {
 }
 interface Filed { session: number; candidate: string; exam: string; appeal: boolean; name?: string }
 
+const entered = async (): Promise<Appeal[]> => (await get<{ appeals: Appeal[] }>("/api/appeals")).appeals;
+
 export async function appeals(may: (door: string) => boolean): Promise<View> {
   const list = make("div");
-  const show = async (): Promise<void> => {
-    const all = (await get<{ appeals: Appeal[] }>("/api/appeals")).appeals;
+  const draw = (all: Appeal[]): void => {
     const open = all.filter((a) => a.open), answered = all.filter((a) => !a.open);
-    list.replaceChildren(make("h2", {}, tr("Open: {}", open.length)), ...open.map((a) => card(a, may, show)),
-      make("h2", {}, tr("Answered: {}", answered.length)), ...answered.map((a) => card(a, may, show)));
+    list.replaceChildren(make("h2", {}, tr("Open: {}", open.length)), ...open.map((a) => card(a, may, draw)),
+      make("h2", {}, tr("Answered: {}", answered.length)), ...answered.map((a) => card(a, may, draw)));
   };
+  const show = async (): Promise<void> => draw(await entered());
   await show();
   const root = make("div", {}, make("h1", {}, tr("Appeals")), act(tr("Look again"), {}, show));
   if (may("POST /api/appeals/open")) root.append(await opening(show));
@@ -40,7 +42,7 @@ async function opening(show: () => Promise<void>): Promise<HTMLElement> {
   }, which.block, reason.block));
 }
 
-function card(a: Appeal, may: (door: string) => boolean, show: () => Promise<void>): HTMLElement {
+function card(a: Appeal, may: (door: string) => boolean, draw: (all: Appeal[]) => void): HTMLElement {
   const words = verdict_words();
   const points = a.points === null ? "" : tr("{0} of {1} points", fixed(a.points, 1), a.max ?? "");
   const element = make("section", { class: "card", "aria-label": tr("Appeal of {}", a.candidate) },
@@ -53,28 +55,39 @@ function card(a: Appeal, may: (door: string) => boolean, show: () => Promise<voi
     return element;
   }
   if (a.changed) element.append(make("p", {}, tr("Another result was entered since the appeal.")));
-  if (may("POST /api/decide") && !a.changed) element.append(deciding(a, show));
-  if (may("POST /api/appeals/answer")) element.append(answering(a, show));
+  if (may("POST /api/decide") && !a.changed) element.append(deciding(a, draw));
+  if (may("POST /api/appeals/answer")) element.append(answering(a, draw));
   return element;
 }
 
-function deciding(a: Appeal, show: () => Promise<void>): HTMLElement {
+/** The entry's number. What somebody else did meanwhile is shown also when nothing was entered; else what was typed stays. */
+async function entering(a: Appeal, draw: (all: Appeal[]) => void, door: string, what: object): Promise<number> {
+  try {
+    const { entry } = await post<{ entry: number }>(door, what);
+    draw(await entered());
+    return entry;
+  } catch (wrong) {
+    const now = await entered();
+    if (!now.some((other) => other.entry === a.entry && other.open && other.changed === a.changed && other.verdict === a.verdict)) draw(now);
+    throw wrong;
+  }
+}
+
+function deciding(a: Appeal, draw: (all: Appeal[]) => void): HTMLElement {
   const verdict = select(tr("Another verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
   verdict.required = true;
   const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
   return make("details", {}, make("summary", {}, tr("Decide otherwise")), form(tr("Decide"), async () => {
-    const { entry } = await post<{ entry: number }>("/api/decide", { session: a.session, verdict: verdict.value, reason: reason.value });
-    await show();
+    const entry = await entering(a, draw, "/api/decide", { session: a.session, verdict: verdict.value, reason: reason.value });
     say(tr("Decided: entry {}.", entry));
   }, verdict.block, reason.block));
 }
 
-function answering(a: Appeal, show: () => Promise<void>): HTMLElement {
+function answering(a: Appeal, draw: (all: Appeal[]) => void): HTMLElement {
   const outcome = a.changed ? "changed" : "stands";
   const reason = input(tr("Answer"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
   return form(a.changed ? tr("Answer: the result was changed") : tr("Answer: the result stands"), async () => {
-    const { entry } = await post<{ entry: number }>("/api/appeals/answer", { session: a.session, outcome, reason: reason.value });
-    await show();
+    const entry = await entering(a, draw, "/api/appeals/answer", { session: a.session, outcome, reason: reason.value });
     say(tr("Answered: entry {}.", entry));
   }, reason.block);
 }
