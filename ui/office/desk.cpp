@@ -206,7 +206,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
     const auto& all = registry.stations.stations;
     const auto from = std::find_if(all.begin(), all.end(), [&key = exam.station](const ledger::Station& s) { return s.public_key == key; });
     refused.push_back(
-        {{"sha256", hash}, {"findings", exam.findings}, {"candidate", exam.candidate}, {"station", from == all.end() ? "" : from->name}});
+        {{"sha256", hash}, {"findings", shown_each(exam.findings)}, {"candidate", exam.candidate}, {"station", from == all.end() ? "" : from->name}});
   }
   return {{"utc_ns", now},
           {"stations", stations},

@@ -59,7 +59,7 @@ json Desk::queue() {
                    {"exam", d.scenario_id},
                    {"points", d.points},
                    {"max", d.max},
-                   {"reasons", d.reasons},
+                   {"reasons", shown_each(d.reasons)},
                    {"sha256", recording_sha256(*session_of(turn.book.registry(), d.session))}});
   return {{"queue", out}};
 }
@@ -84,7 +84,7 @@ json Desk::results(bool names) {
                 {"candidate", s.candidate},
                 {"exam", s.scenario_id},
                 {"state", state_of(registry, s)},
-                {"findings", s.findings},
+                {"findings", shown_each(s.findings)},
                 {"simulated", s.simulated},
                 {"verdict", text_in(s.result, "verdict")},
                 {"sha256", recording_sha256(s)},

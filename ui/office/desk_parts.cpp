@@ -31,6 +31,11 @@ void put_name(json& row, const std::map<std::string, ledger::Identity>& people, 
   row["name"] = found == people.end() ? "" : found->second.name;
 }
 
+std::vector<std::string> shown_each(std::vector<std::string> english) {
+  for (std::string& text : english) text = shown(text);
+  return english;
+}
+
 Roster roster_of(const json& asked) {
   const std::string packed = text_in(asked, "base64");
   std::string bytes(packed.size() / 4 * 3 + 3, '\0');

@@ -20,6 +20,9 @@ namespace cavum::office {
 /// {"id","name"} of a pseudonym, empty when nobody is behind it any more.
 void put_name(nlohmann::json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym);
 
+/// The same in the office's language.
+[[nodiscard]] std::vector<std::string> shown_each(std::vector<std::string> english);
+
 /// The list of a request: {"base64","answers"}. Throws Error when it is none.
 [[nodiscard]] Roster roster_of(const nlohmann::json& asked);
 [[nodiscard]] nlohmann::json shown_roster(const Roster& roster);

@@ -15,7 +15,7 @@ before(async () => {
 after(close_office);
 
 /** Stations whose key is revoked, as the board's cards say. */
-const dead = (page: Page): Promise<string[]> => page.$$eval(".cards .card", (all) => all.filter((c) => c.innerText.includes("Key revoked")).map((c) => c.querySelector("h3")!.innerText));
+const dead = (page: Page): Promise<string[]> => page.$$eval(".cards .card", (all) => all.filter((c) => (c as HTMLElement).innerText.includes("Key revoked")).map((c) => c.querySelector("h3")!.textContent!));
 
 test("two stations are revoked one after the other, each by its name", { skip: k_skip }, async () => {
   const { page, complaints } = await desk("Anna Officer");

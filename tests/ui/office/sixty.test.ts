@@ -7,8 +7,8 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
-import { add_account, close_office, control, desk, examine_with, folder, go, look, open_office, press, run, said, station, task, type, type Desk } from "./browser.ts";
-import { cancel, csv, download, file, fresh_code, gone, home_of, in_pairs, invite, open_window, pass_over, paste, people, place, release, reports, say_times, screen, seat_them, seats, sit, tab_to, tickets_page, write_keys, type Person } from "./hall.ts";
+import { add_account, close_office, control, desk, examine_with, folder, go, invite, look, open_office, press, run, said, station, task, type, type Desk } from "./browser.ts";
+import { cancel, csv, download, file, fresh_code, gone, home_of, in_pairs, open_window, pass_over, paste, people, place, release, reports, say_times, screen, seat_them, seats, sit, tab_to, tickets_page, write_keys, type Person } from "./hall.ts";
 
 const skip = k_skip || (process.env.CAVUM_DEEP ? false : "an exam day of 60 candidates takes some minutes; CAVUM_DEEP=1 runs it");
 const cavum = process.env.CAVUM_BINARY!;

@@ -14,7 +14,7 @@ const parts = { units: ["data", "alignment", "surface_nets", "tooth"], browser: 
 const wanted = process.argv.slice(2).flatMap((name) => parts[name] ?? [name]);
 const bundled = `tests_bundled_${wanted.join("_")}`;
 const files = readdirSync("test").filter((name) => name.endsWith(".test.ts") && (wanted.length === 0 || wanted.some((w) => name.startsWith(w))));
-if (wanted.includes("data")) {  // once for all parts
+if (["data", "office"].some((part) => wanted.includes(part))) {  // once for all parts of a page
   writeFileSync("tsconfig.test.json", JSON.stringify({ extends: "./tsconfig.json", include: ["src/*.ts", "test/*.ts"] }));
   run("node_modules/typescript/bin/tsc", "--noEmit", "-p", "tsconfig.test.json");
 }
