@@ -1,4 +1,5 @@
 // What people do at the office: every action is an entry with who and why, and the ledger holds afterwards.
+#include "engine/language/language.h"
 #include "grading/ledger/regrade.h"
 #include "tests/ui/office/opened.h"
 
@@ -113,6 +114,24 @@ TEST(Desk, NothingIsIssuedWhileAColumnWaitsForItsAnswer) {
   asked["answers"] = {"", "pass over"};
   EXPECT_EQ(officer.post("/api/roster/issue", asked).status, 200);
   EXPECT_EQ(opened.content().entries.size(), k_first_entries + 1);
+}
+
+TEST(Desk, WhyAnExamWasRefusedIsSaidInTheOfficesLanguage) {
+  set_language("de");
+  struct English {
+    ~English() { set_language("en"); }
+  } const again;
+  const Opened opened;
+  const Visitor officer = opened.signed_in(Role::officer);
+  ASSERT_EQ(opened.issue(officer, "4711\n").status, 200);
+  auto station = opened.station();
+  const Bytes image(4096, 0x55);
+  station.hand_in(image);
+  const json told = Opened::outcome(station, to_hex(sha256(image)));
+  ASSERT_EQ(told["state"], "refused") << told;
+  const json shown = officer.get("/api/board").json()["inbox"]["refused"][0]["findings"][0];
+  EXPECT_NE(told["findings"][0].get<std::string>().find("not a "), std::string::npos) << "what programs read is English: " << told;
+  EXPECT_NE(shown.get<std::string>().find("kein"), std::string::npos) << shown;
 }
 
 TEST(Desk, TheBoardIsToldLive) {
