@@ -91,6 +91,13 @@ const FiledSession* Registry::shown_beside(const FiledSession& session) const {
   return nullptr;
 }
 
+std::map<std::pair<std::string, std::string>, std::uint64_t> Registry::counting() const {
+  std::map<std::pair<std::string, std::string>, std::uint64_t> last;
+  for (const auto& s : sessions)
+    if (s.shown.is_object()) last[{s.candidate, s.scenario_id}] = s.seq;
+  return last;
+}
+
 const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const {
   for (const auto& t : tickets)
     if (t.ticket.candidate == candidate && t.ticket.exam == exam && t.live(utc_ns)) return &t;

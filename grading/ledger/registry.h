@@ -125,6 +125,8 @@ struct Registry {
   [[nodiscard]] const IssuedTicket* live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const;
   /// A released session of another sitting of the same exam by the same candidate, where one makes up the other; null when there is none.
   [[nodiscard]] const FiledSession* shown_beside(const FiledSession& session) const;
+  /// Entries of the sessions that count, by candidate and exam: of several attempts the last one that is released.
+  [[nodiscard]] std::map<std::pair<std::string, std::string>, std::uint64_t> counting() const;
   /// The ending that was chosen of this session's exam, when it is another one; else null.
   [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };

@@ -75,9 +75,7 @@ json Desk::results(bool names) {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
-  std::map<std::pair<std::string, std::string>, std::uint64_t> counting;  // of several attempts the last one that is released
-  for (const auto& s : registry.sessions)
-    if (s.shown.is_object()) counting[{s.candidate, s.scenario_id}] = s.seq;
+  const auto counting = registry.counting();
   json out = json::array();
   for (const auto& s : registry.sessions) {
     json row = {{"session", s.seq},

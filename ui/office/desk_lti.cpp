@@ -58,6 +58,7 @@ json Desk::own_results(const std::string& number, const std::string& exam) {
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
   const auto scales = ledger::own_scales(turn.book.registry());
+  const auto counting = turn.book.registry().counting();
   json out = json::array();
   for (const auto& s : turn.book.registry().sessions) {
     if (!s.shown.is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
@@ -66,7 +67,9 @@ json Desk::own_results(const std::string& number, const std::string& exam) {
                    {"verdict", text_in(s.shown, "verdict")},
                    {"points", grade.points},
                    {"max", grade.max},
-                   {"released", utc_text(s.released_utc_ns)},
+                   {"released", local_text(s.released_utc_ns)},
+                   {"counts", counting.at({s.candidate, s.scenario_id}) == s.seq},
+                   {"simulated", !s.simulated.empty()},
                    {"sha256", s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256}});
   }
   return out;

@@ -211,6 +211,8 @@ Reply LtiOffice::own_results(const Call& call) {
       const std::string text = tr("{0}: {1}, {2} of {3} points, released {4}", as_is(text_in(r, "exam")), verdict_in_words(text_in(r, "verdict")),
                                   fixed(r["points"].get<double>(), 1), plain_number(r["max"].get<double>()), as_is(text_in(r, "released")));
       body += "<li>" + xml_text(text);
+      if (r["simulated"] == true) body += ". " + xml_text(tr("A rehearsal: no student sat this."));
+      if (r["counts"] == false) body += ". " + xml_text(tr("A later attempt counts."));
       if (const std::string hash = text_in(r, "sha256"); !hash.empty())
         body += " <a href=\"/lti/report/" + hash + "\">" + xml_text(tr("Report")) + "</a>";
       body += "</li>";

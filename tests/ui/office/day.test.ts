@@ -7,7 +7,7 @@ import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip } from "../report_test/chromium.ts";
 import { close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
-import { gone, place, say_times, text, tickets_of } from "./hall.ts";
+import { gone, issue, place, text, tickets_of } from "./hall.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => { if (!k_skip) await open_office(...seats); });
@@ -17,17 +17,6 @@ after(close_office);
 async function codes(page: Page): Promise<Map<string, string>> {
   return new Map([...(await tickets_of(page))].filter(([, t]) => !t.state.startsWith("cancelled")).map(([id, t]) => [id, t.code]));
 }
-async function issue(page: Page, list: string): Promise<void> {
-  await go(page, "Class list");
-  await type(page, "Paste the list, with its line of column names", list);
-  await press(page, "Read the list");
-  await said(page, "Who gets a ticket");
-  await say_times(page, -60, 180);
-  await type(page, "Reason", "class of this year");
-  await press(page, "Issue the tickets");
-  await said(page, "Refused: 0.");
-}
-
 test("an exam day with its accidents, by clicks", { skip: k_skip }, async () => {
   const officer = await desk("Anna Officer");
   const { page } = officer;

@@ -5,48 +5,33 @@ import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip } from "../report_test/chromium.ts";
-import { close_office, control, desk, folder, go, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { issue, say_times } from "./hall.ts";
 
 before(async () => { if (!k_skip) await open_office("seat"); });
 after(close_office);
-
-async function issue(page: Page, list: string, from_h: number, until_h: number): Promise<void> {
-  await go(page, "Class list");
-  await type(page, "Paste the list, with its line of column names", list);
-  await press(page, "Read the list");
-  await said(page, "Who gets a ticket");
-  for (const [label, hours] of [["May begin from", from_h], ["May begin until", until_h]] as [string, number][])
-    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
-  await type(page, "Reason", "class of this year");
-  await press(page, "Issue the tickets");
-  await said(page, "Refused: 0.");
-}
 
 async function make_up(page: Page, code: string, became: string, granted: string): Promise<void> {
   await page.focus(`[aria-label="Makeup sitting for ${code}"]`);
   await page.keyboard.press("Enter");
   await page.select(await control(page, "The first sitting"), became);
-  for (const [label, hours] of [["May begin from", -1], ["May begin until", 3]] as [string, number][])
-    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
+  await say_times(page, -60, 180);
   await page.select(await control(page, "Accommodations"), granted);
 }
 
 test("makeup sittings by keys", { skip: k_skip }, async () => {
   const officer = await desk("Anna Officer");
   const { page } = officer;
-  await type(page, "Name of the station", "Seat 1");
-  await press(page, "Make a code");
-  await page.waitForSelector("section code");
-  station("seat", "enrol", "--code", await page.$eval("section code", (c) => c.textContent!));
+  await invite(page, "seat", "Seat 1");
   await go(page, "Class list");
   await type(page, "Paste the list, with its line of column names", "id,name,station\n4711,Anna A.,Seat 1\n4712,Bert B.,Seat 9\n");
   await press(page, "Read the list");
   await said(page, "no station that is enrolled bears the name 'Seat 9'");
   await look(officer, "unknown-station");
   await go(page, "Tickets");
-  await issue(page, "id,name,extra_time_percent,station\n4711,Anna A.,25,Seat 1\n", -1, 3);
+  await issue(page, "id,name,extra_time_percent,station\n4711,Anna A.,25,Seat 1\n");
   await go(page, "Tickets");
-  await issue(page, "id,name,extra_time_percent\n4712,Bert B.,30\n", -3, -2);
+  await issue(page, "id,name,extra_time_percent\n4712,Bert B.,30\n", -180, -120);
   await go(page, "Tickets");
   await said(page, "4712");
   assert.equal(await page.$eval('td[data-label="Station"] select', (s) => (s as HTMLSelectElement).selectedOptions[0].textContent), "Seat 1");

@@ -4,7 +4,8 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip } from "../report_test/chromium.ts";
-import { add_account, close_office, code_of, control, desk, folder, go, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { add_account, close_office, code_of, control, desk, folder, go, invite, look, open_office, run, said, station, task, type } from "./browser.ts";
+import { issue } from "./hall.ts";
 
 before(async () => { if (!k_skip) await open_office("seat"); });
 after(close_office);
@@ -12,18 +13,8 @@ after(close_office);
 test("a new rubric over a class by keys", { skip: k_skip }, async () => {
   const secret = add_account("Eva Second", "examiner", true);
   const { page } = await desk("Anna Officer");
-  await type(page, "Name of the station", "Seat 1");
-  await press(page, "Make a code");
-  await page.waitForSelector("section code");
-  station("seat", "enrol", "--code", await page.$eval("section code", (c) => c.textContent!));
-  await go(page, "Class list");
-  await type(page, "Paste the list, with its line of column names", "id,name\n4711,Anna A.\n4712,Bert B.\n");
-  await press(page, "Read the list");
-  await said(page, "Who gets a ticket");
-  for (const [label, hours] of [["May begin from", -1], ["May begin until", 3]] as [string, number][])
-    await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
-  await type(page, "Reason", "class of this year");
-  await press(page, "Issue the tickets");
+  await invite(page, "seat", "Seat 1");
+  await issue(page, "id,name\n4711,Anna A.\n4712,Bert B.\n");
   await said(page, "Issued: 2.");
   station("seat", "tickets", "--out", join(folder, "tickets"));
   const tickets = readdirSync(join(folder, "tickets")).filter((f) => f.endsWith(".ticket"));

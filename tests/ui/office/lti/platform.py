@@ -305,8 +305,11 @@ class Handler(http.server.BaseHTTPRequestHandler):
         self.send_header("Content-Length", str(len(body)))
         for name, value in (fields or {}).items():
             self.send_header(name, value)
-        self.end_headers()
-        self.wfile.write(body)
+        try:
+            self.end_headers()
+            self.wfile.write(body)
+        except OSError:  # who asked has hung up
+            self.close_connection = True
 
     def handle_any(self) -> None:
         p = self.platform
@@ -354,8 +357,14 @@ class Handler(http.server.BaseHTTPRequestHandler):
         if path == "/auth":
             with p.lock:
                 token, state = p.auth(query)
-            page = f'<form method="post" action="{p.tool}/lti/launch"><input name="state" value="{state}"><input name="id_token" value="{token}"></form>'
+            page = f'<form method="post" action="{p.tool}/lti/launch"><input name="state" value="{state}"><input name="id_token" value="{token}"></form><script>document.forms[0].submit()</script>'
             return self.reply(200, page.encode(), "text/html")
+        if path == "/course":  # as a learner or teacher sees it: a link to the tool, or the tool in a frame of the page
+            login = urllib.parse.urlencode({"iss": p.issuer, "login_hint": query["as"], "target_link_uri": p.tool + "/lti/launch",
+                                            "client_id": CLIENT, "lti_deployment_id": DEPLOYMENT})
+            to = f'{p.tool}/lti/login?{login}'.replace("&", "&amp;")
+            shown = f'<iframe title="the exam" width="800" height="500" src="{to}"></iframe>' if "framed" in query else f'<a href="{to}">the exam</a>'
+            return self.reply(200, f'<!doctype html><html lang="en"><title>Operative dentistry</title><h1>Operative dentistry</h1>{shown}</html>'.encode(), "text/html")
         if path == "/token" and self.command == "POST":
             if self.headers.get("Content-Type") != "application/x-www-form-urlencoded":
                 raise Refused(400, "no form")
@@ -380,13 +389,14 @@ def main() -> None:
     for name in ("--certificate", "--key", "--tool"):
         options.add_argument(name, required=True)
     options.add_argument("--port", type=int, default=0)
+    options.add_argument("--name", default="127.0.0.1", help="by which browsers and the office reach it")
     given = options.parse_args()
     Handler.platform = Platform(given.tool)
     server = http.server.ThreadingHTTPServer(("127.0.0.1", given.port), Handler)
     context = ssl.SSLContext(ssl.PROTOCOL_TLS_SERVER)
     context.load_cert_chain(given.certificate, given.key)
     server.socket = context.wrap_socket(server.socket, server_side=True)
-    Handler.platform.issuer = f"https://127.0.0.1:{server.server_address[1]}"
+    Handler.platform.issuer = f"https://{given.name}:{server.server_address[1]}"
     print(server.server_address[1], flush=True)
     server.serve_forever()
 

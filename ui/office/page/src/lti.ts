@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, field, form, input, local_time, say, select, table, type View } from "./parts.ts";
+import { act, code_field, field, form, input, local_time, say, select, table, type View } from "./parts.ts";
 
 interface Platform {
   name: string; issuer: string; client_id: string; deployments: string[]; claim: string; accounts: { [sub: string]: string };
@@ -46,10 +46,6 @@ function card(p: Platform): HTMLElement {
   const known = make("p", {}, tr("Issuer {0}, client {1}, deployments {2}; candidates are matched by {3}.", p.issuer, p.client_id, p.deployments.join(", "), p.claim));
   const people = Object.entries(p.accounts).map(([sub, account]) => make("li", {}, tr("{0} is the account of {1}", sub, account)));
   return make("section", { class: "card" }, make("h2", {}, p.name), make("p", {}, tr("Its administrator types in there:")), list, known, make("ul", {}, ...people));
-}
-
-function code_field(): ReturnType<typeof input> {
-  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
 }
 
 function changes(now: SetUp, show: (now: SetUp) => void): HTMLElement[] {
