@@ -19,16 +19,16 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
     const [{ tickets }, { stations }] = await Promise.all([get<{ tickets: Ticket[] }>("/api/tickets"), get<{ stations: Station[] }>("/api/board")]);
     if (tickets.length === 0) return void list.replaceChildren(make("p", {}, tr("There is no ticket yet. Begin with the class list.")));
     const names = new Map(stations.map((s) => [s.public_key, s.name]));
-    const granted = tickets.some((t) => (t.accommodations ?? "") !== "");
     const rows = tickets.map((t) => {
       const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
       const actions = make("div", { class: "row" }, cancel, ...(t.makeup.length > 0 && may("POST /api/tickets/makeup") ? [with_makeup(t, show)] : []));
       const state = t.live && !t.at_station ? make("span", { class: "wrong" }, tr("{}; its file is lost: cancel it, and issue another", t.state)) : t.became === "missed" ? tr("missed; {}", t.state) : t.became !== "" ? tr("interrupted; {}", t.state)
         : t.why === "" ? t.state : tr("{0}. Reason: {1}", t.state, t.why);
       const seat = t.live && may("POST /api/seats") ? seat_of(t, stations) : names.get(t.seat) ?? "";
-      return [t.id, t.name, t.candidate, t.exam, local_span(t.not_before, t.not_after), ...(granted ? [t.accommodations ?? ""] : []), seat, state, actions.textContent === "" ? "" : actions];
+      const name = (t.accommodations ?? "") === "" ? t.name : make("div", {}, t.name, make("div", { class: "hint" }, t.accommodations!));
+      return [t.id, name, t.candidate, t.exam, local_span(t.not_before, t.not_after), seat, state, actions.textContent === "" ? "" : actions];
     });
-    const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), ...(granted ? [tr("Accommodations")] : []), tr("Station"), tr("State"), tr("Action")];
+    const headings = [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("May begin"), tr("Station"), tr("State"), tr("Action")];
     list.replaceChildren(table(tr("Tickets: {0}; times in {1}", tickets.length, time_zone()), headings, rows));
     sittings.replaceChildren(...(may("POST /api/seats") ? seatings(tickets.filter((t) => t.live), stations, show) : []));
   };
