@@ -12,8 +12,8 @@
 #include <thread>
 
 #include "ui/office/desk.h"
-#include "ui/office/lti_client.h"
-#include "ui/office/lti_courses.h"
+#include "ui/office/lti/client.h"
+#include "ui/office/lti/courses.h"
 
 namespace cavum::office {
 

@@ -9,7 +9,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "ui/office/accounts.h"
-#include "ui/office/lti_platforms.h"
+#include "ui/office/lti/platforms.h"
 
 namespace cavum::ui {
 namespace {

@@ -1,7 +1,7 @@
 // Launches from a learning platform: who sees what, and what is refused. The platform is an emulator of its own (platform.py).
 #include "engine/base/hash.h"
 #include "tests/ui/office/lti/platform.h"
-#include "ui/office/lti_client.h"
+#include "ui/office/lti/client.h"
 #include "ui/office/site.h"
 
 namespace cavum::office {

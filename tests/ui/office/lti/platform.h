@@ -9,7 +9,7 @@
 #include <regex>
 
 #include "tests/ui/office/opened.h"
-#include "ui/office/lti_launch.h"
+#include "ui/office/lti/launch.h"
 
 namespace cavum::testing_office {
 

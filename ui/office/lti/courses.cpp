@@ -1,4 +1,4 @@
-#include "ui/office/lti_courses.h"
+#include "ui/office/lti/courses.h"
 
 #include <algorithm>
 #include <filesystem>

@@ -8,7 +8,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "ui/office/lti_platforms.h"
+#include "ui/office/lti/platforms.h"
 
 namespace cavum::office {
 

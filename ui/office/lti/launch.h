@@ -10,7 +10,7 @@
 #include <string>
 #include <string_view>
 
-#include "ui/office/lti_platforms.h"
+#include "ui/office/lti/platforms.h"
 
 namespace cavum::office {
 

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/office/lti_launch.h"
+#include "ui/office/lti/launch.h"
 
 namespace cavum::office {
 

@@ -1,4 +1,4 @@
-#include "ui/office/lti_platforms.h"
+#include "ui/office/lti/platforms.h"
 
 #include <algorithm>
 #include <filesystem>

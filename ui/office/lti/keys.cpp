@@ -1,4 +1,4 @@
-#include "ui/office/lti_keys.h"
+#include "ui/office/lti/keys.h"
 
 #include <openssl/bio.h>
 #include <openssl/bn.h>

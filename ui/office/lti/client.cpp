@@ -1,4 +1,4 @@
-#include "ui/office/lti_client.h"
+#include "ui/office/lti/client.h"
 
 #include <fmt/core.h>
 

@@ -1,4 +1,4 @@
-#include "ui/office/lti_launch.h"
+#include "ui/office/lti/launch.h"
 
 #include <fmt/core.h>
 #include <sodium.h>

@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/office/lti_keys.h"
+#include "ui/office/lti/keys.h"
 
 namespace cavum::office {
 
