@@ -98,6 +98,46 @@ std::map<std::pair<std::string, std::string>, std::uint64_t> Registry::counting(
   return last;
 }
 
+namespace {
+
+using Documents = std::map<std::string, std::string>;
+
+bool marked_by(const FiledSession& s, const Documents& documents) {
+  return std::any_of(s.regrades.begin(), s.regrades.end(), [&](const Regrade& r) { return r.documents == documents; });
+}
+
+/// The last documents by which all of an exam was marked, and the first entry of that; none: entry 0.
+std::pair<Documents, std::uint64_t> class_documents(const std::vector<const FiledSession*>& exam) {
+  std::map<Documents, std::uint64_t> first;
+  for (const FiledSession* s : exam)
+    for (const Regrade& r : s->regrades)
+      if (r.person.empty() && !r.documents.empty()) {
+        std::uint64_t& seq = first.try_emplace(r.documents, r.seq).first->second;
+        seq = std::min(seq, r.seq);
+      }
+  std::pair<Documents, std::uint64_t> last;
+  for (const auto& [documents, seq] : first) {
+    const auto before = [&](const FiledSession* s) { return s->seq < seq; };
+    const bool all = std::all_of(exam.begin(), exam.end(), [&](const FiledSession* s) { return !before(s) || marked_by(*s, documents); });
+    if (all && seq > last.second && std::count_if(exam.begin(), exam.end(), before) > 1) last = {documents, seq};
+  }
+  return last;
+}
+
+}  // namespace
+
+std::set<std::uint64_t> Registry::marked_otherwise() const {
+  std::map<std::string, std::vector<const FiledSession*>> exams;
+  for (const auto& s : sessions)
+    if (s.result.is_object() && !s.motion_erased_by) exams[s.scenario_id].push_back(&s);
+  std::set<std::uint64_t> out;
+  for (const auto& [id, exam] : exams)
+    if (const auto [documents, seq] = class_documents(exam); seq != 0)
+      for (const FiledSession* s : exam)
+        if (s->seq > seq && !marked_by(*s, documents)) out.insert(s->seq);
+  return out;
+}
+
 const IssuedTicket* Registry::live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const {
   for (const auto& t : tickets)
     if (t.ticket.candidate == candidate && t.ticket.exam == exam && t.live(utc_ns)) return &t;
@@ -293,6 +333,7 @@ class RegistryReader {
       }
       s->released = false, s->shown = json(), s->shown_seq = 0, s->released_utc_ns = 0;
       s->retracted_by = e.seq;
+      s->retracted_why = text_in(e.body, "reason");
     }
   }
 

@@ -4,6 +4,7 @@
 #include <map>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -50,6 +51,7 @@ struct FiledSession {
   std::uint64_t shown_seq = 0;       ///< of the entry that holds it
   std::int64_t released_utc_ns = 0;  ///< when that was released
   std::optional<std::uint64_t> retracted_by;  ///< entry that took the last one that was released back; none after a new release
+  std::string retracted_why;                  ///< its reason
   std::vector<Appeal> appeals;                ///< the oldest first
   std::int64_t received_utc_ns = 0;
   std::optional<std::uint64_t> motion_erased_by, result_erased_by;  ///< entries that say so
@@ -75,6 +77,19 @@ struct FiledSession {
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
   /// The program leaves it to a person, and none has decided.
   [[nodiscard]] bool undecided() const { return result.is_object() && result.value("verdict", "") == "review"; }
+  /// Taken back, and no other result was entered since: it is released by name only.
+  [[nodiscard]] bool taken_back() const { return retracted_by && result_seq < *retracted_by; }
+  /// The person's decision that gave the result in `entry`; null: it was marked.
+  [[nodiscard]] const Regrade* decision(std::uint64_t entry) const {
+    const Regrade* r = regrade(entry);
+    return r != nullptr && !r->person.empty() ? r : nullptr;
+  }
+  /// The last decision of a person, whether it counts or not; null: there was none.
+  [[nodiscard]] const Regrade* last_decision() const {
+    for (auto r = regrades.rbegin(); r != regrades.rend(); ++r)
+      if (!r->person.empty()) return &*r;
+    return nullptr;
+  }
   /// Filed with findings, or contested: it is released by name only.
   [[nodiscard]] bool questioned() const { return !findings.empty() || !contested_by.empty(); }
   /// The same, and no person has looked at it yet: it counts for nobody.
@@ -127,6 +142,9 @@ struct Registry {
   [[nodiscard]] const FiledSession* shown_beside(const FiledSession& session) const;
   /// Entries of the sessions that count, by candidate and exam: of several attempts the last one that is released.
   [[nodiscard]] std::map<std::pair<std::string, std::string>, std::uint64_t> counting() const;
+  /// Entries of the sessions that were filed after a rubric or corrected scenario was counted over all of their exam (two sessions or more), and were
+  /// not marked by it yet: they are released by name only.
+  [[nodiscard]] std::set<std::uint64_t> marked_otherwise() const;
   /// The ending that was chosen of this session's exam, when it is another one; else null.
   [[nodiscard]] const FiledSession* chosen_instead_of(const FiledSession& session) const;
 };

@@ -57,6 +57,7 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, "has no session in this ledger", "see `cavum ledger show`");
   Release out;
+  const auto otherwise = registry.marked_otherwise();
   for (const auto& s : registry.sessions) {
     const bool by_entry = holds(wish.sessions, s.seq), by_candidate = holds(wish.candidates, s.candidate);
     if (by_entry) require_releasable(registry, wish, s);
@@ -68,7 +69,8 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     // what was released before somebody contested it is not chosen yet
     if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful())) || s.result_erased_by) continue;
     const bool by_name = (by_entry || by_candidate) && wish.with_findings;
-    if ((s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr || registry.shown_beside(s) != nullptr)
+    if ((wish.all && (s.taken_back() || otherwise.contains(s.seq))) || (s.questioned() && !by_name) || registry.chosen_instead_of(s) != nullptr ||
+        registry.shown_beside(s) != nullptr)
       ++out.kept_back;
     else if (s.undecided() && !wish.undecided)
       ++out.to_decide;

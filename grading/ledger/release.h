@@ -8,7 +8,7 @@
 namespace cavum::ledger {
 
 struct ReleaseWish {
-  bool all = false;                          ///< what is neither filed with findings nor contested
+  bool all = false;                          ///< what is neither filed with findings, contested, taken back, nor marked otherwise than its class
   bool with_findings = false;                ///< of candidates and sessions also what is
   bool undecided = false;                    ///< also results that wait for a person's decision: as `review`
   std::vector<std::string> candidates = {};  ///< pseudonyms
@@ -16,7 +16,7 @@ struct ReleaseWish {
 };
 struct Release {
   std::vector<std::uint64_t> results;  ///< of the entries that hold them
-  std::size_t kept_back = 0;           ///< what was wanted, and is questioned
+  std::size_t kept_back = 0;           ///< what was wanted, and goes out by name only
   std::size_t to_decide = 0;           ///< what was wanted, and waits for a person's decision
 };
 /// What `wish` releases of what is filed. Throws Error when an entry or candidate is not there, a candidate's exam is contested and no ending was

@@ -8,6 +8,8 @@
 #include "grading/ledger/appeal.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/exam_scale.h"
+#include "grading/ledger/exported_grade.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/release.h"
 #include "ui/office/desk.h"
@@ -48,6 +50,43 @@ void require_undecided(const ledger::Registry& registry, std::uint64_t session) 
               "nothing was changed; after an appeal it can be decided anew");
 }
 
+/// The last decision of a person on it: {"entry","by","verdict","reason","counts"}; null without one.
+json decided(const ledger::FiledSession& s) {
+  const ledger::Regrade* r = s.last_decision();
+  if (r == nullptr) return {};
+  return {
+      {"entry", r->seq}, {"by", r->person}, {"verdict", text_in(r->result, "verdict")}, {"reason", r->reason}, {"counts", r->seq == s.result_seq}};
+}
+
+/// The station that a ticket was to be sat at; empty: any.
+std::string planned_seat(const ledger::Registry& registry, const std::string& nonce) {
+  const auto t =
+      std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const ledger::IssuedTicket& i) { return i.ticket.nonce == nonce; });
+  return nonce.empty() || t == registry.tickets.end() ? "" : station_name(registry, t->seat);
+}
+
+/// What was noted of its candidate on the day: [{"utc","station","words"}].
+json noted(const ledger::Registry& registry, const std::string& candidate) {
+  json out = json::array();
+  for (const auto& i : registry.day.incidents)
+    if (i.candidate == candidate && !i.erased_by)
+      out.push_back({{"utc", utc_text(i.utc_ns)}, {"station", station_name(registry, i.station)}, {"words", i.words}});
+  return out;
+}
+
+/// Sessions by the entries of their results, as a page showed them. Throws Error when one is another by now.
+std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry, const json& results) {
+  std::vector<std::uint64_t> out;
+  for (const json& entry : results) {
+    const auto found =
+        std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return entry == s.result_seq; });
+    if (found == registry.sessions.end() || found->released)
+      throw Error("the results", "are others by now than the page showed", "look again; nothing was released");
+    out.push_back(found->seq);
+  }
+  return out;
+}
+
 }  // namespace
 
 json Desk::queue() {
@@ -60,6 +99,8 @@ json Desk::queue() {
                    {"points", d.points},
                    {"max", d.max},
                    {"reasons", shown_each(d.reasons)},
+                   {"decided", decided(*session_of(turn.book.registry(), d.session))},
+                   {"noted", noted(turn.book.registry(), d.candidate)},
                    {"sha256", recording_sha256(*session_of(turn.book.registry(), d.session))}});
   return {{"queue", out}};
 }
@@ -76,12 +117,20 @@ json Desk::results(bool names) {
   const ledger::Registry& registry = turn.book.registry();
   const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
   const auto counting = registry.counting();
+  const auto otherwise = registry.marked_otherwise();
+  const auto scales = ledger::own_scales(registry);
   json out = json::array();
   for (const auto& s : registry.sessions) {
     json row = {{"session", s.seq},
                 {"candidate", s.candidate},
                 {"exam", s.scenario_id},
-                {"state", state_of(registry, s)},
+                {"result", s.result_seq},
+                {"state", state_of(registry, s, otherwise)},
+                {"station", station_name(registry, s.station_key)},
+                {"seat", planned_seat(registry, s.nonce)},
+                {"why_back", s.taken_back() ? s.retracted_why : ""},
+                {"decided", decided(s)},
+                {"grade", s.shown.is_object() ? ledger::exported_grade(s, scales).grade : json()},
                 {"findings", shown_each(s.findings)},
                 {"simulated", s.simulated},
                 {"verdict", text_in(s.result, "verdict")},
@@ -106,8 +155,10 @@ json Desk::release(const json& asked, const Account& by) {
   ledger::ReleaseWish wish;
   wish.all = member_of(asked, "all") == true;
   wish.sessions = sessions_in(asked);
-  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or sessions");
+  wish.with_findings = member_of(asked, "with_findings") == true;
   Turn turn(*this, {by.name, reason_in(asked), ""});
+  if (const json& results = member_of(asked, "results"); results.is_array()) wish.sessions = sessions_of_results(turn.book.registry(), results);
+  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or results as they were shown");
   const ledger::Release done = ledger::release_results(turn.book, wish);
   return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
 }
@@ -144,6 +195,8 @@ json Desk::appeals() {
                      {"points", member_of(score, "points")},
                      {"max", member_of(score, "max")},
                      {"sha256", recording_sha256(s)},
+                     {"decided", decided(s)},
+                     {"noted", noted(turn.book.registry(), s.candidate)},
                      {"reason", a.reason},
                      {"open", !a.closed_by.has_value()},
                      {"changed", ledger::changed_since(s, a)},

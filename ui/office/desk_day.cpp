@@ -19,11 +19,6 @@ using nlohmann::json;
 
 namespace {
 
-std::string station_name(const ledger::Registry& registry, const std::string& key) {
-  const ledger::Station* s = registry.stations.of(key);
-  return s == nullptr ? "" : s->name;
-}
-
 /// Gives each ticket of a sitting that has no seat a station that nobody has at that time.
 std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std::string& exam, std::int64_t from, std::int64_t until,
                                      const std::string& room, std::int64_t now) {

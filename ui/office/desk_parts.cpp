@@ -126,6 +126,11 @@ std::string reason_in(const json& asked) {
   return reason;
 }
 
+std::string station_name(const ledger::Registry& registry, const std::string& key) {
+  const ledger::Station* s = registry.stations.of(key);
+  return s == nullptr ? "" : s->name;
+}
+
 namespace {
 
 /// Of the ticket alone.
@@ -151,13 +156,15 @@ TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
   return state;
 }
 
-std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s) {
+std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s, const std::set<std::uint64_t>& otherwise) {
   if (s.result_erased_by) return "erased";
   if (s.made_up_by) return "made up";
   if (registry.chosen_instead_of(s) != nullptr) return "not chosen";
   if (s.released) return "released";
   if (s.doubtful()) return "questioned";
-  return s.undecided() ? "to decide" : "ready";
+  if (s.undecided()) return "to decide";
+  if (s.taken_back()) return "taken back";
+  return otherwise.contains(s.seq) ? "marked otherwise" : "ready";
 }
 
 }  // namespace cavum::office

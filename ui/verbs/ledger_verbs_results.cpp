@@ -49,10 +49,12 @@ void ledger_release(const LedgerOptions& o) {
     print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}, {"to_decide", released.to_decide}});
   else
     std::cout << released.results.size() << (released.results.size() == 1 ? " result released" : " results released")
-              << (released.kept_back > 0 ? fmt::format(", {} kept back: filed with findings, or contested by another ending of the same exam "
-                                                       "(--candidate or --session with --with-findings releases one after an appeal)",
-                                                       released.kept_back)
-                                         : "")
+              << (released.kept_back > 0
+                      ? fmt::format(", {} kept back: filed with findings or contested by another ending of the same exam "
+                                    "(--candidate or --session with --with-findings releases one after an appeal), taken back, "
+                                    "or filed after all of the exam was marked anew, and not marked so yet (--session releases one)",
+                                    released.kept_back)
+                      : "")
               << (released.to_decide > 0
                       ? fmt::format(", {} kept back: a person has to decide (cavum ledger decide {})", released.to_decide, one_line(o.folder))
                       : "")

@@ -170,7 +170,13 @@ TEST_F(LeftToAPerson, WhatIsTakenBackStandsInNoExportUntilItIsReleasedAgain) {
   EXPECT_FALSE(holds_text(moodle(), "4711,")) << moodle();
   EXPECT_TRUE(session().retracted_by);
   EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, "again"); }), "has no released result"));
-  EXPECT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
+  EXPECT_TRUE(session().taken_back());
+  EXPECT_EQ(session().retracted_why, "the wrong tooth was mounted");
+  const Release all = release_results(ledger, {.all = true});
+  EXPECT_TRUE(all.results.empty()) << "nobody releases it without knowing";
+  EXPECT_EQ(all.kept_back, 1u);
+  EXPECT_FALSE(holds_text(moodle(), "4711,"));
+  EXPECT_EQ(release_results(ledger, {.sessions = {entry_}}).results.size(), 1u) << "by name";
   EXPECT_TRUE(holds_text(moodle(), "4711,"));
   EXPECT_FALSE(session().retracted_by);
   EXPECT_TRUE(read_registry(read_ledger(school_.places())).findings.empty());

@@ -68,8 +68,34 @@ TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
   EXPECT_EQ(last().kind, "retract");
   EXPECT_EQ(last().body["reason"], "wrong tooth");
   EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
-  EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "ready");
+  EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "taken back");
   EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+}
+
+TEST_F(AfterTheExam, WhatWasTakenBackGoesOutByNameOnlyAndNothingThatThePageDidNotShow) {
+  const auto row = [&] { return officer_.get("/api/results").json()["results"][0]; };
+  ASSERT_EQ(officer_.post("/api/release", {{"results", {row()["result"]}}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
+  ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code()}}).status, 200);
+  EXPECT_EQ(row()["state"], "taken back");
+  EXPECT_EQ(row()["why_back"], "wrong tooth");
+  const json all = officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(1)}}).json();
+  EXPECT_EQ(all["released"], 0);
+  EXPECT_EQ(all["kept_back"], 1);
+
+  const json shown = row()["result"];
+  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
+  ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}}).status, 200);
+  ASSERT_EQ(officer_.post("/api/incidents", {{"station", ""}, {"candidate", who_sat()}, {"words", "the stylus trembled"}}).status, 200);
+  EXPECT_EQ(row()["state"], "ready") << "another result was entered since";
+  EXPECT_EQ(appeal()["decided"]["by"], "The examiner");
+  EXPECT_EQ(appeal()["decided"]["counts"], true);
+  EXPECT_EQ(appeal()["noted"][0]["words"], "the stylus trembled");
+  opened_.accounts().set("Otto", Role::officer, k_password, true);  // the other's codes are used
+  Visitor otto(opened_.port());
+  ASSERT_EQ(otto.sign_in("Otto", k_password).status, 200);
+  const Heard stale = otto.post("/api/release", {{"results", {shown}}, {"reason", "board"}, {"code", opened_.code_of("Otto")}});
+  EXPECT_EQ(stale.status, 400) << "the page showed another result";
+  EXPECT_NE(stale.body.find("others by now"), std::string::npos) << stale.body;
 }
 
 TEST_F(AfterTheExam, WhatIsOutIsShownBesideWhatWouldGoOutNext) {

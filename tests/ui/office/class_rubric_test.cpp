@@ -2,6 +2,7 @@
 #include <random>
 
 #include "grading/grade.h"
+#include "grading/ledger/release.h"
 #include "tests/grading/ledger/short_exam.h"
 #include "tests/ui/office/opened.h"
 #include "tests/ui/office/served.h"
@@ -19,11 +20,11 @@ const std::string k_new_rubric =
 constexpr char k_eva[] = "Eva Stein", k_exam[] = "block_cavity";
 
 /// A school with some short exams that are filed.
-void file_some(const School& school, int exams) {
+void file_some(const School& school, int exams, const std::string& whose = "c") {
   ledger::Ledger ledger = school.ledger();
   for (int i = 0; i < exams; ++i) {
-    const std::string path = school.file("class-" + std::to_string(i) + ".cavum");
-    sit_shortly(k_scenario, path, school.ticket("c" + std::to_string(i)));
+    const std::string path = school.file(whose + std::to_string(i) + ".cavum");
+    sit_shortly(k_scenario, path, school.ticket(whose + std::to_string(i)));
     ASSERT_TRUE(ledger::file_session(ledger, path).seq);
   }
 }
@@ -88,6 +89,22 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   EXPECT_EQ(ledger::read_registry(content).sessions[0].result["score"]["points"], state["sessions"][0]["points"]);
   EXPECT_TRUE(ledger::check_ledger(opened_.school().places(), true).findings.empty()) << "made again from what the ledger keeps";
   EXPECT_EQ(count(begun, 1).status, 400) << "once";
+}
+
+TEST_F(ClassRubric, WhoSitsAfterwardsIsNotReleasedByTheOldRubricUnseen) {
+  const json begun = begin();
+  ASSERT_EQ(waited(eva_)["state"], "ready");
+  ASSERT_EQ(count(begun).json()["counted"], 2);
+  file_some(opened_.school(), 1, "late");
+  const ledger::Release all = ledger::select_results(ledger::read_registry(opened_.content()), {.all = true, .undecided = true});
+  EXPECT_EQ(all.results.size(), 2u);
+  EXPECT_EQ(all.kept_back, 1u);
+  const auto late = [&] { return opened_.signed_in(Role::officer).get("/api/results").json()["results"][2]["state"].get<std::string>(); };
+  EXPECT_EQ(late(), "marked otherwise");
+  const json again = begin();
+  ASSERT_EQ(waited(eva_)["state"], "ready");
+  ASSERT_EQ(count(again, 1).json()["counted"], 1) << "the others are marked by it already";
+  EXPECT_NE(late(), "marked otherwise");
 }
 
 TEST_F(ClassRubric, AnotherPassMarkAloneGivesNobodyOtherPoints) {

@@ -194,7 +194,7 @@ export async function release(page: Page, reason: string): Promise<void> {
   await go(page, "Results");
   await type(page, "Reason", reason);
   await type(page, "Code of your app", await fresh_code());
-  await press(page, "Release all that are ready");
+  await press(page, "Release");
 }
 
 /** Fields of a file of comma-separated values (RFC 4180). */

@@ -2,22 +2,23 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, form, input, local_time, report_link, say, select, verdict_words, type View } from "./parts.ts";
+import { act, before_now, form, input, local_time, reason_to_read, report_link, say, select, verdict_words, type Decided, type Noted, type View } from "./parts.ts";
 
 interface Appeal {
   entry: number; utc: string; session: number; candidate: string; exam: string; verdict: string; points: number | null; max: number | null; sha256: string;
   reason: string; open: boolean; changed: boolean; outcome: string; answer: string;
+  decided: Decided | null; noted: Noted[];
 }
 interface Filed { session: number; candidate: string; exam: string; appeal: boolean; name?: string }
 
 const entered = async (): Promise<Appeal[]> => (await get<{ appeals: Appeal[] }>("/api/appeals")).appeals;
 
-export async function appeals(may: (door: string) => boolean): Promise<View> {
+export async function appeals(me: string, may: (door: string) => boolean): Promise<View> {
   const list = make("div");
   const draw = (all: Appeal[]): void => {
     const open = all.filter((a) => a.open), answered = all.filter((a) => !a.open);
-    list.replaceChildren(make("h2", {}, tr("Open: {}", open.length)), ...open.map((a) => card(a, may, draw)),
-      make("h2", {}, tr("Answered: {}", answered.length)), ...answered.map((a) => card(a, may, draw)));
+    list.replaceChildren(make("h2", {}, tr("Open: {}", open.length)), ...open.map((a) => card(a, me, may, draw)),
+      make("h2", {}, tr("Answered: {}", answered.length)), ...answered.map((a) => card(a, me, may, draw)));
   };
   const show = async (): Promise<void> => draw(await entered());
   await show();
@@ -42,21 +43,25 @@ async function opening(show: () => Promise<void>): Promise<HTMLElement> {
   }, which.block, reason.block));
 }
 
-function card(a: Appeal, may: (door: string) => boolean, draw: (all: Appeal[]) => void): HTMLElement {
+function card(a: Appeal, me: string, may: (door: string) => boolean, draw: (all: Appeal[]) => void): HTMLElement {
   const words = verdict_words();
   const points = a.points === null ? "" : tr("{0} of {1} points", fixed(a.points, 1), a.max ?? "");
   const element = make("section", { class: "card", "aria-label": tr("Appeal of {}", a.candidate) },
     make("h3", {}, a.candidate),
     make("p", {}, [a.exam, tr("entry {}", a.session), words[a.verdict] ?? a.verdict, points].filter((t) => t !== "").join(", ")),
     make("p", {}, `${local_time(a.utc)}: ${a.reason}`));
+  element.append(...before_now(a.decided, a.noted));
   if (a.sha256 !== "" && may("GET /api/report/*")) element.append(report_link(a.sha256));
   if (!a.open) {
     element.append(make("p", {}, make("strong", {}, a.outcome === "changed" ? tr("The result was changed.") : tr("The result stands.")), ` ${a.answer}`));
     return element;
   }
   if (a.changed) element.append(make("p", {}, tr("Another result was entered since the appeal.")));
-  if (may("POST /api/decide") && !a.changed) element.append(deciding(a, draw));
-  if (may("POST /api/appeals/answer")) element.append(answering(a, draw));
+  if (may("POST /api/decide")) element.append(deciding(a, draw));
+  if (may("POST /api/appeals/answer")) {
+    if (a.decided?.by === me) element.append(make("p", {}, tr("You have decided this result yourself. Let another examiner answer where there is one.")));
+    element.append(answering(a, draw));
+  }
   return element;
 }
 
@@ -76,7 +81,7 @@ async function entering(a: Appeal, draw: (all: Appeal[]) => void, door: string, 
 function deciding(a: Appeal, draw: (all: Appeal[]) => void): HTMLElement {
   const verdict = select(tr("Another verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
   verdict.required = true;
-  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  const reason = reason_to_read();
   return make("details", {}, make("summary", {}, tr("Decide otherwise")), form(tr("Decide"), async () => {
     const entry = await entering(a, draw, "/api/decide", { session: a.session, verdict: verdict.value, reason: reason.value });
     say(tr("Decided: entry {}.", entry));

@@ -114,10 +114,11 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     if (source.readyState === EventSource.CLOSED) window.dispatchEvent(new Event("signed-out"));
   };
   const timer = setInterval(draw, 1000);
+  const missing_timer = setInterval(() => void attendance.look().catch(() => undefined), 10_000);  // a time comes by the clock alone
   if (may("POST /api/stations/invite")) root.append(invite());
   if (placing !== null) root.append(placing.root);
   if (revocation !== null) root.append(revocation.root);
-  return { root, leave: () => { source.close(); clearInterval(timer); } };
+  return { root, leave: () => { source.close(); clearInterval(timer); clearInterval(missing_timer); } };
 }
 
 function invite(): HTMLElement {

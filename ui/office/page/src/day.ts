@@ -102,6 +102,7 @@ interface Missing { candidate: string; exam: string; not_before: string; not_aft
 export class Attendance {
   readonly root = make("section", {}, make("h2", {}, tr("Not here")));
   private readonly list = make("div");
+  private held = "";
 
   constructor() {
     this.root.append(this.list, act(tr("Look again"), {}, () => this.look()));
@@ -109,9 +110,12 @@ export class Attendance {
 
   async look(): Promise<void> {
     const { missing } = await get<{ missing: Missing[] }>("/api/attendance");
-    if (missing.length === 0) return void this.list.replaceChildren(make("p", {}, tr("Everybody whose time has come is here.")));
-    const rows = missing.map((m) => [m.id, m.name, m.candidate, m.seat,
+    const now = JSON.stringify(missing);
+    if (now === this.held) return;  // somebody may be looking for a name in it
+    this.held = now;
+    if (missing.length === 0) return void this.list.replaceChildren(make("p", {}, tr("Nobody is missing whose time has come.")));
+    const rows = missing.map((m) => [m.id, m.name, m.candidate, m.exam, m.seat,
       m.no_show ? make("span", { class: "wrong" }, tr("no-show: could begin until {}", local_time(m.not_after))) : tr("may begin until {}", local_time(m.not_after))]);
-    this.list.replaceChildren(table(tr("Not here: {}", missing.length), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Station"), tr("State")], rows));
+    this.list.replaceChildren(table(tr("Not here: {}", missing.length), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("Exam"), tr("Station"), tr("State")], rows));
   }
 }

@@ -28,7 +28,7 @@ const places = (): Place[] => [
   { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may) },
   { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
   { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
-  { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(may) },
+  { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(me?.name ?? "", may) },
   { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
   { name: "platforms", title: tr("Learning platforms"), door: "GET /api/lti", open: () => platforms(me?.second_factor ?? false) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
@@ -47,7 +47,11 @@ function head(mine: Place[], now: string): void {
   bar.replaceChildren(make("strong", {}, me?.school ?? tr("Exam office")));
   if (me === null) return;
   const list = make("ul");
-  for (const p of mine) list.append(make("li", {}, make("a", { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) }, p.title)));
+  for (const p of mine) {
+    const link = make("a", { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) }, p.title);
+    link.addEventListener("click", () => { if (location.hash === `#${p.name}`) void show(); });  // the same view, as it is now
+    list.append(make("li", {}, link));
+  }
   bar.append(make("nav", { "aria-label": tr("Views") }, list), make("span", {}, `${me.name}, ${roles()[me.role] ?? me.role}`),
     act(tr("Sign out"), {}, async () => {
       await post("/api/sign-out", {});

@@ -181,3 +181,22 @@ export function utc(local: string): string {
 export function time_zone(): string {
   return Intl.DateTimeFormat().resolvedOptions().timeZone;
 }
+
+/** What a person has decided of a result. */
+export interface Decided { entry: number; by: string; verdict: string; reason: string; counts: boolean }
+export function decided_text(d: Decided): string {
+  const verdict = verdict_words()[d.verdict] ?? d.verdict;
+  return d.counts ? tr("decided by {0} (entry {1}): {2}, {3}", d.by, d.entry, verdict, d.reason) : tr("decided before by {0} (entry {1}): {2}, {3}", d.by, d.entry, verdict, d.reason);
+}
+
+/** What was noted of a candidate on the day, and what a person has decided before: for whoever decides now. */
+export interface Noted { utc: string; station: string; words: string }
+export function before_now(decided: Decided | null, noted: Noted[]): HTMLElement[] {
+  const lines = [...(decided === null ? [] : [decided_text(decided)]), ...noted.map((n) => [tr("Incident"), local_time(n.utc), n.station, n.words].filter((t) => t !== "").join(", "))];
+  return lines.length === 0 ? [] : [make("ul", { class: "hint" }, ...lines.map((l) => make("li", {}, l)))];
+}
+
+/** Of whoever decides: kept, and read by the candidate. */
+export function reason_to_read(): ReturnType<typeof input> {
+  return input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("The candidate reads it, and it is kept for ever: no names."));
+}

@@ -2,9 +2,9 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, form, input, report_link, say, select, type View } from "./parts.ts";
+import { act, before_now, form, reason_to_read, report_link, say, select, type Decided, type Noted, type View } from "./parts.ts";
 
-interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[]; sha256: string }
+interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[]; sha256: string; decided: Decided | null; noted: Noted[] }
 
 const waiting = async (): Promise<Waiting[]> => (await get<{ queue: Waiting[] }>("/api/queue")).queue;
 
@@ -21,12 +21,12 @@ function decision(w: Waiting, may_decide: boolean, draw: (queue: Waiting[]) => v
   const element = make("section", { class: "card", "aria-label": tr("Result of {}", w.candidate) },
     make("h2", {}, w.candidate),
     make("p", {}, tr("{0}, entry {1}: {2} of {3} points", w.exam, w.session, fixed(w.points, 1), w.max)),
-    make("ul", {}, ...w.reasons.map((r) => make("li", {}, r))));
+    make("ul", {}, ...w.reasons.map((r) => make("li", {}, r))), ...before_now(w.decided, w.noted));
   if (w.sha256 !== "") element.append(report_link(w.sha256));
   if (!may_decide) return element;
   const verdict = select(tr("Verdict"), [["", tr("choose …")], ["pass", tr("pass")], ["fail", tr("fail")]]);
   verdict.required = true;
-  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+  const reason = reason_to_read();
   element.append(form(tr("Decide"), async () => {
     try {
       const { entry } = await post<{ entry: number }>("/api/decide", { session: w.session, verdict: verdict.value, reason: reason.value });

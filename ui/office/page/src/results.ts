@@ -2,24 +2,31 @@
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { code_field, form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
+import { act, code_field, decided_text, form, input, report_link, say, select, table, verdict_words, type Decided, type View } from "./parts.ts";
 
 interface Result {
   session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; makes_up: number | null; made_up_by: number | null; verdict: string;
   points: number | null; max: number | null; sha256: string; shown: boolean; appeal: boolean; id?: string; name?: string;
+  result: number;                             // entry of the result that counts
+  grade: number | null;                       // as the gradebook has what was released
+  decided: Decided | null; why_back: string; station: string; seat: string;
   out?: { verdict: string; points: number };  // what was released, where another result has come since
   later?: number;                             // the attempt that counts instead
 }
 
+/** States in which a result goes out by name only. */
+const by_name = ["taken back", "marked otherwise", "questioned"];
 const states = (): { [state: string]: string } => ({
-  released: tr("released"), "to decide": tr("waits for a decision"), questioned: tr("questioned: released by name only"), "not chosen": tr("another ending was chosen"),
+  released: tr("released"), "to decide": tr("waits for a decision"), questioned: tr("questioned: released by name only"),
+  "taken back": tr("taken back: released by name only"), "marked otherwise": tr("filed after all of the exam was marked anew, and not marked so yet: released by name only"), "not chosen": tr("another ending was chosen"),
   erased: tr("erased"), "made up": tr("does not count: a makeup sitting was given"), ready: tr("ready for release"),
 });
 
 export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
-  const list = make("div"), taking = make("div"), counts = make("ul", { class: "counts" }), reports = may("GET /api/report/*");
+  const list = make("div"), taking = make("div"), going = may("POST /api/release") ? new Going(second_factor) : null, counts = make("ul", { class: "counts" }), reports = may("GET /api/report/*");
   const show = async (): Promise<void> => {
     const { results } = await get<{ results: Result[] }>("/api/results");
+    going?.take(results);
     if (may("POST /api/retract") && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
     if (results.length === 0) return void list.replaceChildren(make("p", {}, tr("Nothing is filed yet.")));
     const named = results.some((r) => r.id !== undefined);
@@ -29,7 +36,8 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
       r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
-      [words[r.state] ?? r.state, ...(r.out ? [tr("still out: {0}, {1} points", verdict_words()[r.out.verdict] ?? r.out.verdict, fixed(r.out.points, 1))] : []),
+      [words[r.state] ?? r.state, ...(r.why_back !== "" ? [tr("reason: {}", r.why_back)] : []), ...(r.grade !== null && r.points !== null && Math.abs(r.grade - r.points) > 1e-6 ? [tr("grade in the gradebook: {}", fixed(r.grade, 1))] : []),
+        ...(r.decided !== null ? [decided_text(r.decided)] : []), ...(r.seat !== "" && r.station !== "" && r.seat !== r.station ? [tr("sat at {0}, not at {1}", r.station, r.seat)] : []), ...(r.out ? [tr("still out: {0}, {1} points", verdict_words()[r.out.verdict] ?? r.out.verdict, fixed(r.out.points, 1))] : []),
         ...(r.later !== undefined ? [tr("a later attempt counts: entry {}", r.later)] : []), ...(r.makes_up !== null ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== null ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
       ...(reports ? [r.sha256 !== "" ? report_link(r.sha256) : ""] : []),
     ]);
@@ -37,8 +45,8 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     list.replaceChildren(table(tr("Results: {}", results.length), headings, rows));
   };
   await show();
-  const root = make("div", {}, make("h1", {}, tr("Results")), counts);
-  if (may("POST /api/release")) root.append(release(second_factor, show));
+  const root = make("div", {}, make("h1", {}, tr("Results")), act(tr("Look again"), {}, show), counts);
+  if (going !== null) root.append(going.open(show));
   const files = make("ul");
   if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
   if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
@@ -61,21 +69,49 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
     }, which.block, reason.block, code.block))];
 }
 
-function release(second_factor: boolean, show: () => Promise<void>): HTMLElement {
-  const section = make("section", {}, make("h2", {}, tr("Release")));
-  if (!second_factor) {
-    section.append(make("p", { class: "wrong" }, tr("This account has no second factor, and releases nothing.")));
+/** What goes out: all that this page shows as ready, those of one exam, or one result by name; nothing that came since. */
+class Going {
+  private readonly what = select(tr("What goes out"), []);
+  private choices = new Map<string, { results: number[]; with_findings: boolean }>();
+
+  constructor(private readonly second_factor: boolean) {}
+
+  take(results: Result[]): void {
+    const ready = results.filter((r) => r.state === "ready");
+    const exams = [...new Set(ready.map((r) => r.exam))];
+    const one = (r: Result): [string, Result[]] => [[tr("entry {}", r.session), r.name ?? "", r.candidate, r.exam, ...(r.state === "ready" ? [] : [states()[r.state]])].filter((t) => t !== "").join(", "), [r]];
+    const rows: [string, Result[]][] = [[tr("all that are ready: {}", ready.length), ready],
+      ...(exams.length > 1 ? exams.map((e): [string, Result[]] => [tr("ready of {0}: {1}", e, ready.filter((r) => r.exam === e).length), ready.filter((r) => r.exam === e)]) : []),
+      ...results.filter((r) => by_name.includes(r.state)).map(one), ...ready.map(one)];
+    const chosen = this.what.value;
+    this.choices = new Map(rows.map(([, all], i) => [i === 0 ? "all" : all.map((r) => r.result).join(), { results: all.map((r) => r.result), with_findings: all.some((r) => r.state === "questioned") }]));
+    this.what.replaceChildren(...[...this.choices.keys()].map((key, i) => make("option", { value: key }, rows[i]![0])));
+    if (this.choices.has(chosen)) this.what.value = chosen;
+  }
+
+  open(show: () => Promise<void>): HTMLElement {
+    const section = make("section", {}, make("h2", {}, tr("Release")));
+    if (!this.second_factor) {
+      section.append(make("p", { class: "wrong" }, tr("This account has no second factor, and releases nothing.")));
+      return section;
+    }
+    const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
+    const code = code_field();
+    section.append(make("p", {}, tr("What waits for a decision stays. What has changed since this page was loaded refuses the release.")),
+      form(tr("Release"), async () => {
+        const { results, with_findings } = this.choices.get(this.what.value)!;
+        if (results.length === 0) throw new Error(tr("Nothing is ready."));
+        try {
+          const done = await post<{ released: number }>("/api/release", { results, with_findings, reason: reason.value, code: code.value });
+          await show();
+          say(tr("Released: {}.", done.released));
+        } catch (wrong) {
+          await show();
+          throw wrong;
+        } finally {
+          code.value = "";
+        }
+      }, this.what.block, reason.block, code.block));
     return section;
   }
-  const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
-  const code = code_field();
-  section.append(
-    make("p", {}, tr("All results go out that are ready. What waits for a decision, or is questioned, stays.")),
-    form(tr("Release all that are ready"), async () => {
-      const done = await post<{ released: number; kept_back: number; to_decide: number }>("/api/release", { all: true, reason: reason.value, code: code.value });
-      code.value = "";
-      await show();
-      say(tr("Released: {0}. Questioned: {1}. Waiting for a decision: {2}.", done.released, done.kept_back, done.to_decide));
-    }, reason.block, code.block));
-  return section;
 }
