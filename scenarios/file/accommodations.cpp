@@ -44,6 +44,10 @@ void require_sound(const Grant& g, const std::string& where) {
   };
   within(g.extra_time_percent, k_most_percent, "extra time in percent");
   within(g.extra_time_s, k_most_s, "extra time in seconds");
+  if (g.extra_time_percent && *g.extra_time_percent > 0 && *g.extra_time_percent < 1)
+    throw Error(where, fmt::format("extra time of {} % is less than one percent", plain_number(*g.extra_time_percent)),
+                fmt::format("say {} for an exam that is longer by {} percent", plain_number(100 * *g.extra_time_percent),
+                            plain_number(100 * *g.extra_time_percent)));
 }
 
 std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {

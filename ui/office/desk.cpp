@@ -103,11 +103,11 @@ json Desk::issue(const json& asked, const Account& by) {
 json Desk::make_up(const json& asked, const Account& by) {
   const auto first = require_whole<std::uint64_t>(asked, "ticket", "the ticket");
   const std::string reason = reason_in(asked);
-  std::string exam, nonce;
+  std::string exam;
   {
     Turn turn(*this);
     for (const auto& t : turn.book.registry().tickets)
-      if (t.seq == first) exam = t.ticket.exam, nonce = t.ticket.nonce;
+      if (t.seq == first) exam = t.ticket.exam;
   }
   json wanted = asked;
   wanted["exam"] = exam;
@@ -115,19 +115,35 @@ json Desk::make_up(const json& asked, const Account& by) {
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});
-  if (!grant && !std::filesystem::exists(places_.ticket(nonce)))
-    throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
-  if (!grant) grant = ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the first ticket").grant;
+  if (!grant) grant = first_grant(turn.book, first);
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   ticket.grant = *grant;
   const std::string text = ledger::issue_makeup(turn.book, ticket, {first, text_in(asked, "became"), reason});
   const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
-  remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
+  remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {{"entry", turn.book.content().entries.size() - 1},
           {"candidate", issued.candidate},
           {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
+}
+
+bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
+  if (std::filesystem::exists(places_.ticket(t.ticket.nonce))) return true;
+  return std::any_of(registry.sessions.begin(), registry.sessions.end(),
+                     [&](const ledger::FiledSession& s) { return s.seq == t.used_by && !s.motion_erased_by; });
+}
+
+std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledger& book, std::uint64_t ticket) const {
+  const auto& registry = book.registry();
+  const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const ledger::IssuedTicket& i) { return i.seq == ticket; });
+  if (t == registry.tickets.end() || !keeps_grant(registry, *t))
+    throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
+  if (const std::string file = places_.ticket(t->ticket.nonce); std::filesystem::exists(file))
+    return ledger::parse_ticket(read_text_file(file), "", "the first ticket").grant;
+  const auto sat =
+      std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return s.seq == t->used_by; });
+  return ledger::accommodations_in(SessionReader(ledger::recording_of(book.places(), *sat)).setup());
 }
 
 std::string Desk::granted_on(const std::string& nonce) const {
@@ -136,11 +152,11 @@ std::string Desk::granted_on(const std::string& nonce) const {
       scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket"));
 }
 
-json Desk::tickets(bool grants) {
+json Desk::tickets(bool grants, const std::set<std::string>& seen) {
   Turn turn(*this);
   const auto people = people_of(turn.book);
   const std::int64_t now = read_clocks().utc_ns;
-  remove_dead_tickets(turn.book.registry(), now);
+  remove_dead_tickets(turn.book, now);
   json out = json::array();
   for (const auto& t : turn.book.registry().tickets) {
     const TicketState state = state_of(t, now);
@@ -152,6 +168,8 @@ json Desk::tickets(bool grants) {
                 {"state", state.word},
                 {"live", state.live},
                 {"at_station", std::filesystem::exists(places_.ticket(t.ticket.nonce))},
+                {"grant_kept", keeps_grant(turn.book.registry(), t)},
+                {"begun", state.group == "begun" || seen.contains(t.ticket.candidate)},
                 {"seat", t.seat},
                 {"became", ""},
                 {"why", t.why}};
@@ -166,11 +184,15 @@ json Desk::tickets(bool grants) {
   return {{"tickets", out}};
 }
 
-json Desk::cancel(const json& asked, const Account& by) {
+json Desk::cancel(const json& asked, const Account& by, const std::set<std::string>& seen) {
   const auto entry = require_whole<std::uint64_t>(asked, "entry", "the ticket");
   Turn turn(*this, {by.name, "", ""});
+  for (const auto& t : turn.book.registry().tickets)
+    if (t.seq == entry && (!t.begins.empty() || seen.contains(t.ticket.candidate)) && member_of(asked, "begun") != true)
+      throw Error(one_line(t.ticket.candidate), "has begun, and what is handed in would be refused",
+                  "say that it is meant; a makeup keeps what was sat on record");
   const auto seq = ledger::cancel_ticket(turn.book, entry, reason_in(asked)).seq;
-  remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
+  remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {{"entry", seq}};
 }
 
@@ -241,18 +263,28 @@ json Desk::enrol(const std::string& request) {
   return {{"entry", seq}, {"name", turn.book.registry().stations.stations.back().name}};
 }
 
-void Desk::remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const {
-  for (const auto& t : registry.tickets)
-    if (!state_of(t, now_utc_ns).live) std::filesystem::remove(places_.ticket(t.ticket.nonce));
+void Desk::remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) const {
+  constexpr std::int64_t k_for_makeups_ns = 60LL * 86'400 * 1'000'000'000;
+  std::optional<std::map<std::string, ledger::Identity>> people;
+  for (const auto& t : book.registry().tickets) {
+    const std::string file = places_.ticket(t.ticket.nonce);
+    const TicketState state = state_of(t, now_utc_ns);
+    if (state.live || !std::filesystem::exists(file)) continue;
+    if (state.group == "run out" && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
+      if (!people) people = people_of(book);
+      if (people->contains(t.ticket.candidate)) continue;  // not forgotten
+    }
+    std::filesystem::remove(file);
+  }
 }
 
 json Desk::station_tickets() {
   Turn turn(*this);
   const std::int64_t now = read_clocks().utc_ns;
-  remove_dead_tickets(turn.book.registry(), now);
+  remove_dead_tickets(turn.book, now);
   json out = json::array();
   for (const auto& t : turn.book.registry().tickets)
-    if (const std::string file = places_.ticket(t.ticket.nonce); std::filesystem::exists(file))
+    if (const std::string file = places_.ticket(t.ticket.nonce); state_of(t, now).live && std::filesystem::exists(file))
       out.push_back({{"candidate", t.ticket.candidate}, {"nonce", t.ticket.nonce}, {"text", read_text_file(file)}});
   return {{"tickets", out}};
 }

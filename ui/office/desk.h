@@ -49,10 +49,12 @@ class Desk {
   [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
   /// `grants`: with what each candidate is granted, as long as the ticket's file is kept; it may tell of health.
-  [[nodiscard]] nlohmann::json tickets(bool grants);
+  /// `seen`: candidates whom a station has said it has.
+  [[nodiscard]] nlohmann::json tickets(bool grants, const std::set<std::string>& seen);
   /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.
   [[nodiscard]] nlohmann::json make_up(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by);
+  /// Of who has begun (`seen`, too) only with "begun": true.
+  [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by, const std::set<std::string>& seen);
   [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
   [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json revoke(const nlohmann::json& asked, const Account& by);
@@ -125,8 +127,13 @@ class Desk {
   class Turn;
   /// Accommodations on a ticket's file, for people; empty: none, or the file is not kept any more.
   [[nodiscard]] std::string granted_on(const std::string& nonce) const;
-  /// Removes the files of tickets that can no longer be used: their accommodations tell of health.
-  void remove_dead_tickets(const ledger::Registry& registry, std::int64_t now_utc_ns) const;
+  /// Whether first_grant finds something.
+  [[nodiscard]] bool keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& ticket) const;
+  /// What a ticket's entry grants, by its file or by the recording that was sat with it. Throws Error when neither is kept.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_grant(ledger::Ledger& book, std::uint64_t ticket) const;
+  /// Removes the files of tickets that can no longer be used: their accommodations tell of health. Of one that ran out it is kept for 60 days, for a
+  /// makeup, as long as the candidate is not forgotten.
+  void remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) const;
 
   [[nodiscard]] std::vector<Invited> invited_now();
 

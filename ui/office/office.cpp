@@ -184,8 +184,8 @@ struct Office::Parts {
     get("/api/exams", [this](const Call&) { return desk.exams(); });
     site.on("POST", "/api/roster/preview", [this](const Call& c) { return json_reply(desk.preview(c.json())); });
     post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
-    get("/api/tickets", [this](const Call& c) { return desk.tickets(c.by->account.role == Role::officer); });
-    post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by); });
+    get("/api/tickets", [this](const Call& c) { return desk.tickets(c.by->account.role == Role::officer, board.candidates()); });
+    post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by, board.candidates()); });
     post("/api/tickets/makeup", [this](const json& asked, const Account& by) { return desk.make_up(asked, by); });
     get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
     site.on("GET", "/api/board/events", [this](const Call& c) {

@@ -68,7 +68,7 @@ TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
   EXPECT_EQ(missed["makeup"], json::array({"missed", "interrupted"}));
   const std::size_t before = opened_.content().entries.size();
   EXPECT_EQ(make_up(missed, {{"accommodations", ""}}).status, 400);
-  EXPECT_EQ(make_up(missed, {{"accommodations", "as before"}}).status, 400) << "the office does not keep them";
+  EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 0.25}}).status, 400) << "a quarter more is 25";
   EXPECT_EQ(make_up(missed, {{"accommodations", "these"}}).status, 400) << "none is said";
   EXPECT_EQ(make_up(missed, {{"accommodations", "these"}, {"extra_time_percent", 4000}}).status, 400);
   EXPECT_EQ(make_up(missed, {{"reason", ""}}).status, 400);
@@ -83,6 +83,44 @@ TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
   const json missing = officer_.get("/api/attendance").json()["missing"];
   ASSERT_EQ(missing.size(), 1u) << "the makeup alone is waited for";
   EXPECT_EQ(missing[0]["no_show"], false);
+}
+
+TEST_F(OfficeMakeup, WhoMissedTheExamHasWhatTheFirstTicketGrantedAsLongAsItIsKept) {
+  const json missed = issued("id,extra_time_percent\n4711,25\n", -3, -2);
+  EXPECT_TRUE(opened_.station().tickets().empty()) << "no station gets what ran out";
+  EXPECT_EQ(row(missed["entry"])["grant_kept"], true);
+  ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "as before"}}).status, 200);
+  EXPECT_EQ(ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second, "25");
+  EXPECT_EQ(row(missed["entry"])["grant_kept"], false) << "for nothing any more";
+}
+
+TEST_F(OfficeMakeup, WhatWasFiledTellsItsOwnGrant) {
+  const json first = issued("id,extra_time_percent,left_handed\n4711,25,yes\n", -1, 1);
+  auto station = opened_.station();
+  const std::string ticket = station.tickets()[0]["text"];
+  const Bytes image = read_file(opened_.school().sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.grant = {25, {}, true, {}}; }));
+  station.hand_in(image);
+  ASSERT_EQ(Opened::outcome(station, to_hex(sha256(image)))["state"], "filed");
+  EXPECT_EQ(row(first["entry"])["at_station"], false);
+  EXPECT_EQ(row(first["entry"])["grant_kept"], true);
+  ASSERT_EQ(make_up(first, {{"accommodations", "as before"}}).status, 200);
+  EXPECT_EQ(ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant, ledger::parse_ticket(ticket, "", "t").grant);
+}
+
+TEST_F(OfficeMakeup, TheTicketOfWhoHasBegunIsCancelledOnlyWhereThatIsMeant) {
+  const json first = issued("id\n4711\n", -1, 1);
+  auto station = opened_.station();
+  station.report({{"state", "exam"}, {"candidate", first["candidate"]}, {"heard", 0}});
+  const auto cancel = [&](const json& more) {
+    json asked = {{"entry", first["entry"]}, {"reason", "wrong person"}};
+    asked.update(more);
+    return officer_.post("/api/tickets/cancel", asked);
+  };
+  const Heard refused = cancel(json::object());
+  EXPECT_EQ(refused.status, 400);
+  EXPECT_NE(refused.body.find("has begun"), std::string::npos) << refused.body;
+  EXPECT_EQ(row(first["entry"])["begun"], true);
+  EXPECT_EQ(cancel({{"begun", true}}).status, 200);
 }
 
 TEST_F(OfficeMakeup, OfTwoFiledSittingsReleasesTheMakeup) {

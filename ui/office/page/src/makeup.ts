@@ -4,7 +4,7 @@ import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
 import { form, input, opens_form, say, select, time_zone, utc } from "./parts.ts";
 
-interface First { entry: number; candidate: string; at_station: boolean; makeup: string[] }
+interface First { entry: number; candidate: string; grant_kept: boolean; makeup: string[] }
 
 export function with_makeup(t: First, show: () => Promise<void>): HTMLElement {
   return opens_form(tr("Makeup"), { "aria-label": tr("Makeup sitting for {}", t.candidate) }, () => fields(t, show));
@@ -16,7 +16,7 @@ function fields(t: First, show: () => Promise<void>): HTMLFormElement {
   const zone = tr("In your computer's time zone, {}.", time_zone());
   const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
   const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);
-  const granted = select(tr("Accommodations"), [["", tr("choose …")], ...(t.at_station ? [["as before", tr("as on the first ticket")] as [string, string]] : []), ["none", tr("none")], ["these", tr("these:")]]);
+  const granted = select(tr("Accommodations"), [["", tr("choose …")], ...(t.grant_kept ? [["as before", tr("as on the first ticket")] as [string, string]] : []), ["none", tr("none")], ["these", tr("these:")]]);
   const percent = input(tr("Extra time, per cent"), { type: "number", min: "0", max: "400", step: "any" });
   const seconds = input(tr("Extra time, seconds"), { type: "number", min: "0", max: "36000", step: "any" });
   const left = make("input", { type: "checkbox" }), contrast = make("input", { type: "checkbox" }), word = make("input", { type: "checkbox" });
@@ -25,7 +25,7 @@ function fields(t: First, show: () => Promise<void>): HTMLFormElement {
   became.required = granted.required = true;
   granted.addEventListener("change", () => (these.hidden = granted.value !== "these"));
   const number = (text: string): number | null => (text === "" ? null : Number(text));
-  const hint = t.at_station ? "" : tr("The office does not keep what was granted: look at the class list.");
+  const hint = t.grant_kept ? "" : tr("The office does not keep what was granted: look at the class list.");
   return form(tr("Give the makeup"), async () => {
     const done = await post<{ candidate: string; accommodations: string }>("/api/tickets/makeup", {
       ticket: t.entry, became: became.value, from: utc(from.value), until: utc(until.value), begin_at_office: word.checked, reason: reason.value,

@@ -6,7 +6,7 @@ import { with_makeup } from "./makeup.ts";
 import { act, form, local_span, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
 
 interface Ticket {
-  entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean;
+  entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean; grant_kept: boolean; begun: boolean;
   seat: string; id: string; name: string; became: string; why: string; makeup: string[]; accommodations?: string;
 }
 interface Station { name: string; public_key: string; room: string; revoked: boolean }
@@ -49,10 +49,15 @@ function papers(may: (door: string) => boolean): HTMLElement {
 
 function with_cancel(t: Ticket, show: () => Promise<void>): HTMLElement {
   return with_reason(tr("Cancel"), { class: "bad", "aria-label": tr("Cancel the ticket of {}", t.candidate) }, async (reason) => {
-    await post("/api/tickets/cancel", { entry: t.entry, reason });
+    try {
+      await post("/api/tickets/cancel", { entry: t.entry, reason, begun: t.begun });
+    } catch (wrong) {
+      await show();  // it may have begun since the list was made
+      throw wrong;
+    }
     await show();
     say(tr("The ticket of {} does not count any more.", t.candidate));
-  }, { sends: tr("Cancel the ticket") });
+  }, { sends: tr("Cancel the ticket"), asked: t.begun ? [make("p", { class: "wrong" }, tr("This candidate has begun. What is handed in will be refused. A makeup sitting keeps it on record."))] : [] });
 }
 
 function seat_of(t: Ticket, stations: Station[]): HTMLElement {
