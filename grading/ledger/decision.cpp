@@ -66,4 +66,11 @@ const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const D
   });
 }
 
+std::string verdict_by_program(const FiledSession& session, std::uint64_t entry) {
+  const json* marked = &session.filed;
+  for (const Regrade& r : session.regrades)
+    if (r.seq <= entry && r.person.empty()) marked = &r.result;
+  return text_in(*marked, "verdict");
+}
+
 }  // namespace cavum::ledger
