@@ -24,6 +24,9 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   const std::string where = fmt::format("--session {}", session);
   const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
   if (found == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
+  if (found->made_up_by)
+    throw Error(where, fmt::format("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
+                "decide the makeup sitting's own result");
   if (found->undecided() || (found->open_appeal() != nullptr && found->result.is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
     throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result.value("verdict", "")),
