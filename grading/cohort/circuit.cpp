@@ -6,7 +6,6 @@
 #include <set>
 
 #include "engine/base/error.h"
-#include "grading/ledger/exam_scale.h"
 
 namespace cavum::cohort {
 namespace {
@@ -59,7 +58,7 @@ double mean_partners(const std::set<std::pair<std::uint32_t, std::uint32_t>>& pa
 }
 
 /// Judges who marked one exam each are nested in exams; else they are crossed with them.
-CircuitStudy study_of_people(const std::vector<CircuitMark>& marks, std::size_t exams, double candidates, double cut) {
+CircuitStudy study_of_people(const std::vector<CircuitMark>& marks, std::size_t exams, double candidates, std::optional<double> cut) {
   std::set<std::pair<std::uint32_t, std::uint32_t>> exams_of_judge, judges_of_exam;
   for (const auto& m : marks) {
     exams_of_judge.insert({m.judge, m.exam});
@@ -94,8 +93,9 @@ class Collected {
     figures_.exams.push_back(exam);
     const auto sat = counting_sessions(registry_, exam);
     const double points = points_of_exam(registry_, exam);
-    const auto scales = ledger::own_scales(registry_);
-    if (const auto at = scales.find(exam); at != scales.end()) pass_percent_.push_back(at->second.pass_percent);
+    const auto marked_by = cohort::marked_by(sat);
+    pass_percent_.push_back(one_pass_percent(marked_by));
+    if (marked_by.size() > 1) figures_.marked_differently.push_back(fmt::format("{}: {}", exam, marked_by_words(marked_by)));
     std::map<std::string, std::uint32_t> person_of;
     for (const auto& [pseudonym, session] : sat) {
       const auto known = identities_.of_pseudonym(pseudonym);
@@ -105,7 +105,7 @@ class Collected {
       }
       if (!session->simulated.empty()) ++figures_.simulated;
       const auto& score = session->result.at("score");
-      const CircuitMark m{candidates.of(known->id), number, stations.of(station_name(session->station_key)), 0,
+      const CircuitMark m{candidates.of(known->id), number, stations.of(station_label(registry_, session->station_key)), 0,
                           100 * score.at("points").get<double>() / score.at("max").get<double>()};
       person_of[pseudonym] = m.candidate;
       program.push_back(m);
@@ -120,7 +120,15 @@ class Collected {
       figures_.marks_left_out.push_back({exam, known ? known->id : h.candidate, h.judge});
     }
   }
-  [[nodiscard]] double cut_percent() const { return mean(pass_percent_); }
+  /// None where one of the exams has none.
+  [[nodiscard]] std::optional<double> cut_percent() const {
+    std::vector<double> all;
+    for (const auto& percent : pass_percent_) {
+      if (!percent) return std::nullopt;
+      all.push_back(*percent);
+    }
+    return mean(all);
+  }
 
   Numbered candidates, stations, judges;
   Numbered marked;  // exams that people marked
@@ -128,15 +136,10 @@ class Collected {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> verdict;
 
  private:
-  [[nodiscard]] std::string station_name(const std::string& key) const {
-    const ledger::Station* s = registry_.stations.of(key);
-    return s != nullptr && !s->name.empty() ? s->name : key.substr(0, 12);
-  }
-
   const ledger::Registry& registry_;
   ledger::Identities& identities_;
   CircuitFigures& figures_;
-  std::vector<double> pass_percent_;
+  std::vector<std::optional<double>> pass_percent_;  // by exam
 };
 
 void put_roster(CircuitFigures& f, const Collected& all, const std::optional<SeverityStudy>& severity) {
@@ -163,7 +166,7 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
 
 }  // namespace
 
-CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut) {
+CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, std::optional<double> cut) {
   const VarianceStudy study(std::move(design), marks);
   CircuitStudy s;
   s.design = study.design();
@@ -172,7 +175,7 @@ CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& mar
   s.plan = std::move(plan);
   s.range = dependability_range(study, s.components, s.plan, candidates, k_range_draws, k_range_seed);
   s.as_sat = dependability(s.design, s.components, s.plan, candidates);
-  s.at_cut = cut_decision(s.as_sat, s.components.mean, cut);
+  if (cut) s.at_cut = cut_decision(s.as_sat, s.components.mean, *cut);
   CircuitPlan wanted = s.plan;
   for (int n = 1; n <= k_most_tasks; ++n) {
     wanted.conditions[0] = n;

@@ -21,12 +21,13 @@ struct CircuitStudy {
   DependabilityRange range;
   CircuitPlan plan;  ///< as it was sat
   Dependability as_sat;
-  CutDecision at_cut;
+  std::optional<CutDecision> at_cut;    ///< none where there is no one cut
   std::vector<Dependability> by_tasks;  ///< with 1, 2, ... k_most_tasks exams, raters as they were
   std::optional<int> tasks_for_enough;  ///< the fewest exams with a phi of k_enough_phi; none within k_most_tasks
 };
-/// `candidates`: how many; `cut`: what passes, in the marks' unit. Throws what VarianceStudy and require_differences throw.
-[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, double cut);
+/// `candidates`: how many; `cut`: what passes, in the marks' unit, where that is one. Throws what VarianceStudy and require_differences throw.
+[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates,
+                                         std::optional<double> cut);
 inline constexpr double k_enough_phi = 0.80;
 inline constexpr int k_most_tasks = 40;
 
@@ -53,7 +54,8 @@ struct CircuitFigures {
   std::size_t unknown = 0;                   ///< sessions whose candidate nobody knows any more: left out
   std::size_t simulated = 0;                 ///< sessions of simulated operators, counted among people
   std::vector<MarkLeftOut> marks_left_out;
-  double cut_percent = 0.0;  ///< mean over the exams of what passes
+  std::optional<double> cut_percent;  ///< mean over the exams of what passes; none where results of one exam were marked by different pass marks
+  std::vector<std::string> marked_differently;  ///< in a sentence each: exams whose results were not marked alike
   std::optional<CircuitStudy> program, people;
   std::string why_no_program, why_no_people;  ///< where there is none
   std::vector<NamedSeverity> stations, judges;

@@ -29,7 +29,7 @@ Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not
   j["as_sat"]["conditions"] = s->plan.conditions;
   j["as_sat"]["g_range"] = {s->range.g_low, s->range.g_high};
   j["as_sat"]["phi_range"] = {s->range.phi_low, s->range.phi_high};
-  j["at_cut"] = {{"phi", s->at_cut.phi_at_cut}, {"consistency", s->at_cut.consistency}, {"accuracy", s->at_cut.accuracy}};
+  j["at_cut"] = s->at_cut ? Json{{"phi", s->at_cut->phi_at_cut}, {"consistency", s->at_cut->consistency}, {"accuracy", s->at_cut->accuracy}} : Json();
   j["by_exams"] = Json::array();
   for (const auto& d : s->by_tasks) j["by_exams"].push_back(coefficients(d));
   j["exams_for_phi_080"] = s->tasks_for_enough ? Json(*s->tasks_for_enough) : Json();
@@ -47,7 +47,7 @@ Json severities_json(const std::vector<NamedSeverity>& list, const std::string& 
   return j;
 }
 
-std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, double cut) {
+std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, std::optional<double> cut) {
   if (!s) return fmt::format("{}: no study: {}\n", whose, why_not);
   double total = 0;
   for (const double v : s->components.variance) total += std::max(0.0, v);
@@ -58,8 +58,9 @@ std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, 
   text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
                       fixed(s->range.phi_low, 2), fixed(s->range.phi_high, 2), fixed(s->as_sat.g, 2), fixed(s->range.g_low, 2),
                       fixed(s->range.g_high, 2), fixed(s->as_sat.absolute_sem, 1));
-  text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(cut, 1),
-                      fixed(100 * s->at_cut.consistency, 0), fixed(s->at_cut.phi_at_cut, 2));
+  if (cut && s->at_cut)
+    text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(*cut, 1),
+                        fixed(100 * s->at_cut->consistency, 0), fixed(s->at_cut->phi_at_cut, 2));
   text += "  phi by the number of exams:";
   for (int n = 1; n <= k_tasks_in_words; ++n) text += fmt::format(" {}: {}", n, fixed(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2));
   return text + (s->tasks_for_enough ? fmt::format("\n  for phi 0.80: {} exams\n", *s->tasks_for_enough)
@@ -103,7 +104,8 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
           {"unknown", f.unknown},
           {"simulated", f.simulated},
           {"marks_left_out", left_out},
-          {"cut_percent", f.cut_percent},
+          {"cut_percent", f.cut_percent ? Json(*f.cut_percent) : Json()},
+          {"marked_differently", f.marked_differently},
           {"program", study_json(f.program, f.why_no_program)},
           {"people", study_json(f.people, f.why_no_people)},
           {"stations", severities_json(f.stations, f.why_no_stations)},
@@ -116,6 +118,7 @@ std::string to_text(const CircuitFigures& f) {
                                  f.candidates, f.complete);
   if (f.simulated > 0) text += fmt::format("{} sessions are of simulated operators, and count among people\n", f.simulated);
   if (f.unknown > 0) text += fmt::format("{} sessions left out: nobody knows any more whose they are\n", f.unknown);
+  for (const auto& exam : f.marked_differently) text += one_line(exam) + "\n";
   text += left_out_text(f.marks_left_out);
   if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
   text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);

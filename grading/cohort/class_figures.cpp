@@ -79,7 +79,7 @@ MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const 
     for (const auto& [judge, points] : by_judge) sum += points;
     pairs.program.push_back(own);
     pairs.people.push_back(sum / static_cast<double>(by_judge.size()));
-    pairs.bands[band_of(own, f.pass_points, band)][band_of(pairs.people.back(), f.pass_points, band)] += 1;
+    if (f.pass_points) pairs.bands[band_of(own, *f.pass_points, band)][band_of(pairs.people.back(), *f.pass_points, band)] += 1;
     if (by_judge.size() < given.judges.size()) continue;
     std::vector<double> row = {own};
     for (const auto& [judge, points] : by_judge) row.push_back(points);
@@ -88,7 +88,8 @@ MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const 
   return pairs;
 }
 
-void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs, double borderline) {
+/// `one_cut`: all were marked by one pass mark and band.
+void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs, double borderline, bool one_cut) {
   const auto when_possible = [](auto& out, const auto& make) {
     try {
       out = make();
@@ -102,7 +103,7 @@ void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs
   a.incomplete = pairs.incomplete();
   when_possible(a.icc, [&] { return intraclass_correlation(pairs.by_judge); });
   when_possible(a.limits, [&] { return limits_of_agreement(pairs.program, pairs.people); });
-  when_possible(a.kappa, [&] { return weighted_kappa(pairs.bands, quadratic_weights(3)); });
+  if (one_cut) when_possible(a.kappa, [&] { return weighted_kappa(pairs.bands, quadratic_weights(3)); });
   const auto [least, most] = std::minmax_element(given.ratings.begin(), given.ratings.end());
   if (!given.ratings.empty() && borderline >= *least && borderline <= *most)  // beyond the ratings given the line says nothing
     when_possible(a.cut, [&] { return borderline_cut(given.ratings, given.rated, borderline); });
@@ -173,17 +174,16 @@ void note_few(ClassFigures& f, bool there, const char* figure, std::size_t n, st
   if (there && n < enough) f.few.push_back({figure, n, enough});
 }
 
-/// Ids of a result's criteria: equal where the same rubric marked.
-std::vector<std::string> criteria_ids(const json& result) {
+/// A result's criteria with their points: equal where what they say can be compared.
+std::vector<std::string> criteria_of(const json& result) {
   std::vector<std::string> out;
-  for (const auto& c : result.at("criteria")) out.push_back(c.at("id"));
+  for (const auto& c : result.at("criteria")) out.push_back(fmt::format("{} {}", c.at("id").get<std::string>(), c.at("max").get<double>()));
   return out;
 }
 
-/// A result marked by the exam's own scale; the first one where there is none.
-const json& result_on(const ledger::ExamScale& scale, const std::map<std::string, const ledger::FiledSession*>& sat) {
-  const auto by_own = std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return ledger::scale_in(s.second->result) == scale; });
-  return (by_own == sat.end() ? sat.begin() : by_own)->second->result;
+/// A result marked as most were.
+const json& result_by(const MarkedBy& most, const std::map<std::string, const ledger::FiledSession*>& sat) {
+  return std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return criteria_of(s.second->result) == most.criteria; })->second->result;
 }
 
 /// The points of a class.
@@ -203,7 +203,7 @@ ClassPoints points_of(ClassFigures& f, const std::map<std::string, const ledger:
     (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
     all.by_station[s->station_key].push_back(points);
     if (!s->simulated.empty()) ++f.simulated;
-    if (criteria_ids(s->result) != criteria_ids(any)) continue;  // regraded by another rubric
+    if (criteria_of(s->result) != criteria_of(any)) continue;  // regraded by another rubric
     std::vector<double> row;
     for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
     all.by_criterion.push_back(std::move(row));
@@ -248,10 +248,10 @@ void put_criteria(ClassFigures& f, const json& any, const Matrix& table) {
   }
 }
 
-void put_stations(ClassFigures& f, const std::map<std::string, std::vector<double>>& by_station) {
+void put_stations(ClassFigures& f, const ledger::Registry& registry, const std::map<std::string, std::vector<double>>& by_station) {
   std::vector<std::vector<double>> groups;
   for (const auto& [key, points] : by_station) {
-    f.stations.push_back({key, points.size(), cohort::mean(points)});
+    f.stations.push_back({key, station_label(registry, key), points.size(), cohort::mean(points)});
     groups.push_back(points);
   }
   if (groups.size() >= 2 && f.n > groups.size()) f.station_effect = group_effect(groups, k_shuffles, 1);
@@ -316,6 +316,49 @@ std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledge
   return sat;
 }
 
+std::vector<MarkedBy> marked_by(const std::map<std::string, const ledger::FiledSession*>& sat) {
+  std::vector<MarkedBy> out;
+  for (const auto& [candidate, s] : sat) {
+    const ledger::ExamScale scale = ledger::scale_in(s->result);
+    const ledger::Regrade* regrade = s->regrade(s->result_seq);
+    MarkedBy by{0,
+                scale.pass_percent,
+                scale.borderline_percent,
+                regrade != nullptr ? regrade->documents : decltype(MarkedBy::documents){},
+                criteria_of(s->result),
+                1};
+    for (const auto& r : s->regrades)  // a decision after a regrade is marked by what that one was
+      if (by.entry == 0 && r.documents == by.documents && !(by.documents.empty() && !r.person.empty())) by.entry = r.seq;
+    const auto same = std::find_if(out.begin(), out.end(), [&](const MarkedBy& o) {
+      return o.pass_percent == by.pass_percent && o.borderline_percent == by.borderline_percent && o.documents == by.documents &&
+             o.criteria == by.criteria;
+    });
+    if (same == out.end()) {
+      out.push_back(std::move(by));
+      continue;
+    }
+    ++same->n;
+    same->entry = std::min(same->entry, by.entry);
+  }
+  std::stable_sort(out.begin(), out.end(), [](const MarkedBy& a, const MarkedBy& b) { return a.n > b.n; });
+  return out;
+}
+
+std::optional<double> one_pass_percent(const std::vector<MarkedBy>& by) {
+  const bool one = !by.empty() && std::all_of(by.begin(), by.end(), [&](const MarkedBy& b) { return b.pass_percent == by[0].pass_percent; });
+  return one ? std::optional(by[0].pass_percent) : std::nullopt;
+}
+
+std::string station_label(const ledger::Registry& registry, const std::string& key) {
+  constexpr std::size_t k_shown = 8;
+  const std::string beginning = key.size() > k_shown ? key.substr(0, k_shown) + "…" : key;
+  const ledger::Station* own = registry.stations.of(key);
+  if (own == nullptr || own->name.empty()) return beginning;
+  const auto& all = registry.stations.stations;
+  const bool twice = std::any_of(all.begin(), all.end(), [&](const ledger::Station& s) { return s.name == own->name && s.public_key != key; });
+  return twice ? fmt::format("{} ({})", own->name, beginning) : own->name;
+}
+
 double points_of_exam(const ledger::Registry& registry, const std::string& exam) {
   return scale_of(registry, exam, counting_sessions(registry, exam)).max;
 }
@@ -326,17 +369,20 @@ ClassFigures class_figures(const ledger::Registry& registry, const std::string& 
   const auto sat = counting_sessions(registry, exam);
   const ledger::ExamScale scale = scale_of(registry, exam, sat);
   f.max_points = scale.max;
-  f.pass_points = scale.max * scale.pass_percent / 100;
-  const json& any = result_on(scale, sat);
+  f.marked_by = marked_by(sat);
+  if (const auto percent = one_pass_percent(f.marked_by)) f.pass_points = scale.max * *percent / 100;
+  const json& any = result_by(f.marked_by.front(), sat);
   const ClassPoints points = points_of(f, sat, any);
   put_points(f, sat, points.in_order);
   put_criteria(f, any, points.by_criterion);
-  put_stations(f, points.by_station);
+  put_stations(f, registry, points.by_station);
   f.walls = walls_of(sat);
   look_at_sessions(f, registry, sat);
   const GivenMarks given = marks_given(f, sat, marks);
-  const MarkPairs pairs = pair_marks(given, sat, f, scale.max * scale.borderline_percent / 100);
-  put_agreement(f.agreement, given, pairs, borderline);
+  const MarkPairs pairs = pair_marks(given, sat, f, scale.max * f.marked_by.front().borderline_percent / 100);
+  const bool one_band = std::all_of(f.marked_by.begin(), f.marked_by.end(),
+                                    [&](const MarkedBy& b) { return b.borderline_percent == f.marked_by[0].borderline_percent; });
+  put_agreement(f.agreement, given, pairs, borderline, f.pass_points && one_band);
   look_at_disagreements(f, sat, given, pairs);
   put_few(f, points.by_criterion);
   std::sort(f.to_look_at.begin(), f.to_look_at.end(),

@@ -37,7 +37,8 @@ struct WallFigures {
   double worst_mm = 0;             ///< the largest overcut of all
 };
 struct StationFigures {
-  std::string key;  ///< public
+  std::string key;   ///< public
+  std::string name;  ///< station_label
   std::size_t n = 0;
   double mean = 0;
 };
@@ -68,12 +69,23 @@ struct Few {
   std::size_t n = 0, enough = 0;
 };
 
+/// What results of one exam were marked by: a rubric and a pass mark.
+struct MarkedBy {
+  std::uint64_t entry = 0;  ///< of the first regrade by it that counts; 0: as the exam was sat
+  double pass_percent = 0.0, borderline_percent = 0.0;
+  std::map<std::string, std::string> documents;  ///< of the regrade; empty: the exam's own
+  std::vector<std::string> criteria;             ///< what each of them is called and how many points it gives
+  std::size_t n = 0;                             ///< candidates
+};
+
 struct ClassFigures {
   std::string exam;
   std::size_t n = 0, pass = 0, fail = 0, review = 0;
   std::size_t simulated = 0;  ///< of n, sat by a simulated operator
-  double max_points = 0, mean = 0, sd = 0, pass_points = 0;
-  std::vector<double> points;  ///< ascending
+  double max_points = 0, mean = 0, sd = 0;
+  std::vector<MarkedBy> marked_by;    ///< the most frequent first
+  std::optional<double> pass_points;  ///< by which all were marked; none: they were marked by different pass marks
+  std::vector<double> points;         ///< ascending
   std::vector<CriterionFigures> criteria;
   std::optional<double> alpha, sem;
   std::vector<WallFigures> walls;  ///< that anybody cut
@@ -85,11 +97,19 @@ struct ClassFigures {
 };
 /// "few: 12 candidates, under 30 it is a rough guess", or nothing when the figure comes from enough or is not there.
 [[nodiscard]] std::string few_words(const ClassFigures& figures, const std::string& figure);
+/// How results were marked differently, in a sentence; empty where all were marked alike.
+[[nodiscard]] std::string marked_by_words(const std::vector<MarkedBy>& marked_by);
+/// A station's name in the ledger, with the beginning of its key where two have it; the beginning of its key where it has none.
+[[nodiscard]] std::string station_label(const ledger::Registry& registry, const std::string& key);
 
 /// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
 /// sat it.
 [[nodiscard]] std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam);
-/// What most of them were marked out of.
+/// What each of `sat` was marked by, the most frequent first.
+[[nodiscard]] std::vector<MarkedBy> marked_by(const std::map<std::string, const ledger::FiledSession*>& sat);
+/// The pass mark, percent, by which all of them were marked; none where there are several.
+[[nodiscard]] std::optional<double> one_pass_percent(const std::vector<MarkedBy>& marked_by);
+/// The scale on which the exam was sat.
 [[nodiscard]] double points_of_exam(const ledger::Registry& registry, const std::string& exam);
 /// Over the sessions that count. `borderline`: the rating that means so. Throws Error when nobody sat the exam.
 [[nodiscard]] ClassFigures class_figures(const ledger::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks,

@@ -22,13 +22,26 @@ std::string few_words(const ClassFigures& figures, const std::string& figure) {
   return "";
 }
 
+std::string marked_by_words(const std::vector<MarkedBy>& marked_by) {
+  if (marked_by.size() < 2) return "";
+  std::string all;
+  for (const MarkedBy& b : marked_by)
+    all += fmt::format("{}{} {} (pass mark {} %)", all.empty() ? "" : ", ", b.n,
+                       b.entry == 0 ? std::string("as it was sat") : fmt::format("by the rubric of entry {}", b.entry), plain_number(b.pass_percent));
+  return fmt::format("not all results were marked alike: {}{}", all,
+                     one_pass_percent(marked_by) ? "" : "; there is no one pass mark, and no figure at it");
+}
+
 json to_json(const ClassFigures& f) {
   json criteria = json::array(), stations = json::array(), look = json::array(), walls = json::object(), few = json::array();
   for (const auto& w : f.walls) walls[w.wall] = {{"n", w.n}, {"mean_mm", w.mean_mm}, {"p95_mm", w.p95_mm}, {"max_over_mm", w.worst_mm}};
   for (const auto& c : f.criteria)
     criteria.push_back({{"id", c.id}, {"metric", c.metric}, {"difficulty", c.difficulty}, {"discrimination", optional(c.discrimination)}});
   for (const auto& one : f.few) few.push_back({{"figure", one.figure}, {"n", one.n}, {"enough", one.enough}});
-  for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"n", s.n}, {"mean_points", s.mean}});
+  json marked = json::array();
+  for (const auto& b : f.marked_by)
+    marked.push_back({{"entry", b.entry == 0 ? json() : json(b.entry)}, {"n", b.n}, {"pass_percent", b.pass_percent}});
+  for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"name", s.name}, {"n", s.n}, {"mean_points", s.mean}});
   for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", t.why}});
   const Agreement& a = f.agreement;
   json agreement = {{"n", a.n},
@@ -46,7 +59,8 @@ json to_json(const ClassFigures& f) {
           {"n", f.n},
           {"simulated", f.simulated},
           {"verdicts", {{"pass", f.pass}, {"fail", f.fail}, {"review", f.review}}},
-          {"points", {{"mean", f.mean}, {"sd", f.sd}, {"max", f.max_points}, {"pass", f.pass_points}}},
+          {"points", {{"mean", f.mean}, {"sd", f.sd}, {"max", f.max_points}, {"pass", optional(f.pass_points)}}},
+          {"marked_by", marked},
           {"criteria", criteria},
           {"alpha", optional(f.alpha)},
           {"standard_error_points", optional(f.sem)},
@@ -72,9 +86,11 @@ std::string to_text(const ClassFigures& f) {
   std::string s = f.exam + ": " + std::to_string(f.n) + (f.n == 1 ? " candidate" : " candidates") +
                   (f.simulated > 0 ? fmt::format(", {} of them simulated", f.simulated) : "") + "\n" + std::to_string(f.pass) + " pass, " +
                   std::to_string(f.review) + " review, " + std::to_string(f.fail) + " fail\npoints " + fixed(f.mean, 1) + " on average of " +
-                  plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) + ", pass mark " + fixed(f.pass_points, 1) +
-                  "\nCronbach's alpha " + number(f.alpha, 2) + ", standard error " + number(f.sem, 1) + " points" + few("alpha") + "\n\n" +
-                  padded("criterion", 28) + "share of points  discrimination" + few("discrimination") + "\n";
+                  plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) +
+                  (f.pass_points ? ", pass mark " + fixed(*f.pass_points, 1) : "") +
+                  (f.marked_by.size() > 1 ? "\n" + marked_by_words(f.marked_by) : "") + "\nCronbach's alpha " + number(f.alpha, 2) +
+                  ", standard error " + number(f.sem, 1) + " points" + few("alpha") + "\n\n" + padded("criterion", 28) +
+                  "share of points  discrimination" + few("discrimination") + "\n";
   for (const auto& c : f.criteria) s += fmt::format("{}{}{}\n", padded(c.id, 28), padded(fixed(c.difficulty, 2), 17), number(c.discrimination, 2));
   if (!f.walls.empty()) s += fmt::format("\n{}mean   p95    largest of all\n", padded("wall, mm (+ = overcut)", 28));
   for (const auto& w : f.walls)
@@ -82,6 +98,9 @@ std::string to_text(const ClassFigures& f) {
   if (f.station_effect)
     s += fmt::format("\nstations {}: they hold {} % of the variance; as much by chance in a share of {} of shuffles\n", f.stations.size(),
                      fixed(100 * f.station_effect->share, 1), fixed(f.station_effect->chance, 3));
+  if (f.stations.size() > 1)
+    for (const auto& one : f.stations)
+      s += fmt::format("  {}{} candidates, {} points on average\n", padded(one_line(one.name), 26), one.n, fixed(one.mean, 1));
   const Agreement& a = f.agreement;
   if (a.n > 0) {
     s += fmt::format("\nmarked by people too: {} candidates, {}{}\n", a.n, a.judges, a.judges == 1 ? " judge" : " judges");
@@ -91,7 +110,7 @@ std::string to_text(const ClassFigures& f) {
     if (a.limits)
       s += fmt::format("program less people {} points, {} to {}{}\n", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1),
                        few("limits"));
-    s += fmt::format("weighted kappa {}{}\n", number(a.kappa, 2), few("weighted_kappa"));
+    if (f.pass_points) s += fmt::format("weighted kappa {}{}\n", number(a.kappa, 2), few("weighted_kappa"));
     if (a.cut) s += fmt::format("cut by borderline regression {} points{}\n", fixed(*a.cut, 1), few("borderline_cut"));
   }
   if (!f.to_look_at.empty()) s += "\nto look at\n";

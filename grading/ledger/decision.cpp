@@ -24,6 +24,9 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   const std::string where = fmt::format("--session {}", session);
   const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
   if (found == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
+  if (found->made_up_by)
+    throw Error(where, fmt::format("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
+                "decide the makeup sitting's own result");
   if (found->undecided() || (found->open_appeal() != nullptr && found->result.is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
     throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result.value("verdict", "")),
@@ -64,6 +67,13 @@ const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const D
     if (before != nullptr) by = before->documents;
     return json{{"session", session}, {"result", result}, {"by", by}, {"person", decision.person}, {"reason", decision.reason}};
   });
+}
+
+std::string verdict_by_program(const FiledSession& session, std::uint64_t entry) {
+  const json* marked = &session.filed;
+  for (const Regrade& r : session.regrades)
+    if (r.seq <= entry && r.person.empty()) marked = &r.result;
+  return text_in(*marked, "verdict");
 }
 
 }  // namespace cavum::ledger

@@ -28,7 +28,10 @@ struct Decision {
   std::string reason;   ///< why: one line, kept for ever
 };
 /// Enters the decision on the result that counts of the session of entry `session`. Throws Error when that is not `review` (any more) and no appeal
-/// against it is open, a text is empty, too long or no plain line, or the verdict is another word.
+/// against it is open, a makeup sitting counts in its place, a text is empty, too long or no plain line, or the verdict is another word.
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision);
+
+/// The verdict that the program gave to the result in `entry`, below all that persons decided on it since it was marked; empty without a result.
+[[nodiscard]] std::string verdict_by_program(const FiledSession& session, std::uint64_t entry);
 
 }  // namespace cavum::ledger

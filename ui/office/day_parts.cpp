@@ -1,5 +1,7 @@
 #include "ui/office/day_parts.h"
 
+#include <algorithm>
+
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
@@ -34,13 +36,20 @@ std::vector<std::string> twins_of(const ledger::StationRegister& stations, const
   return twins;
 }
 
+std::vector<const ledger::Announcement*> announced_to(const ledger::ExamDay& day, const std::string& key, std::int64_t since, std::int64_t now) {
+  const std::int64_t from = (since == 0 ? now : since) - k_before_sign_in_ns;
+  std::vector<const ledger::Announcement*> out;
+  for (const auto& a : day.announcements)
+    if (a.audience.holds(key) && a.utc_ns >= from && now - a.utc_ns < k_announced_ns) out.push_back(&a);
+  return out;
+}
+
 std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now) {
   const auto found = said.find(key);
-  if (found == said.end()) return 0;
-  std::size_t unread = 0;
-  for (const auto& a : day.announcements)
-    unread += a.audience.holds(key) && now - a.utc_ns<k_announced_ns&& static_cast<std::int64_t>(a.seq)> whole_in(found->second, "heard") ? 1 : 0;
-  return unread;
+  if (found == said.end() || whole_in(found->second, "since_utc_ns") == 0 || text_in(found->second, "state") == "ended") return 0;
+  const auto all = announced_to(day, key, whole_in(found->second, "since_utc_ns"), now);
+  return static_cast<std::size_t>(std::count_if(
+      all.begin(), all.end(), [&](const ledger::Announcement* a) { return static_cast<std::int64_t>(a->seq) > whole_in(found->second, "heard"); }));
 }
 
 json shown_holds(const ledger::ExamDay& day) {

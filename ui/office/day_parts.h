@@ -5,6 +5,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 #include <string>
+#include <vector>
 
 #include "grading/ledger/registry.h"
 
@@ -12,6 +13,8 @@ namespace cavum::office {
 
 /// For how long an announcement is shown to stations that have not read it.
 inline constexpr std::int64_t k_announced_ns = 3'600'000'000'000;
+/// Of what was announced before a candidate signed in he sees no more than this.
+inline constexpr std::int64_t k_before_sign_in_ns = 120'000'000'000;
 /// A station that has said nothing for so long is taken for gone.
 inline constexpr std::int64_t k_silent_ns = 15'000'000'000;
 
@@ -23,7 +26,10 @@ using Said = std::map<std::string, nlohmann::json>;
 /// Names of other stations that have the candidate whom this one has, or asked for: by what they say, or by the office's word (`begun`).
 [[nodiscard]] std::vector<std::string> twins_of(const ledger::StationRegister& stations, const std::map<std::string, std::string>& begun,
                                                 const std::string& key, const Said& said, std::int64_t now_utc_ns);
-/// How many announcements for this station nobody there has read; 0 for one that says nothing.
+/// Announcements for whoever is at this station: made since he signed in (`since_utc_ns`; 0: nobody did, and it is now), or shortly before that.
+[[nodiscard]] std::vector<const ledger::Announcement*> announced_to(const ledger::ExamDay& day, const std::string& key, std::int64_t since_utc_ns,
+                                                                    std::int64_t now_utc_ns);
+/// How many of them he has not read; 0 where nobody is to read any: nobody has signed in, or his exam is over.
 [[nodiscard]] std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now_utc_ns);
 /// {"entry","reason","room","stations"} of each that lasts; `stations`: keys, none for all.
 [[nodiscard]] nlohmann::json shown_holds(const ledger::ExamDay& day);

@@ -115,7 +115,8 @@ class Desk {
   [[nodiscard]] nlohmann::json station_tickets();
   [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const std::string& station);
   /// What the office has to say to a station that has read announcements up to entry `heard`.
-  [[nodiscard]] nlohmann::json word_for(const std::string& station, std::uint64_t heard);
+  /// `since_utc_ns`: when its candidate signed in there, 0: nobody did.
+  [[nodiscard]] nlohmann::json word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns);
   /// Whose ticket it is; empty: nobody's.
   [[nodiscard]] std::string candidate_of(const std::string& ticket_nonce);
   /// Entry of a recording; none when it is not filed.

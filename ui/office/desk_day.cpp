@@ -151,14 +151,13 @@ std::string Desk::sign_in_sheet() {
   return sheet_to_sign(school_, people);
 }
 
-json Desk::word_for(const std::string& station, std::uint64_t heard) {
+json Desk::word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns) {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const std::int64_t now = read_clocks().utc_ns;
   json announcements = json::array();
-  for (const auto& a : registry.day.announcements)
-    if (a.seq > heard && a.audience.holds(station) && now - a.utc_ns < k_announced_ns)
-      announcements.push_back({{"entry", a.seq}, {"utc_ns", a.utc_ns}, {"text", a.words}});
+  for (const auto* a : announced_to(registry.day, station, since_utc_ns, now))
+    if (a->seq > heard) announcements.push_back({{"entry", a->seq}, {"utc_ns", a->utc_ns}, {"text", a->words}});
   const ledger::Hold* hold = registry.day.hold_of(station);
   std::size_t changes = registry.tickets.size();
   for (const auto& t : registry.tickets) changes += !state_of(t, now).live ? 1 : 0;

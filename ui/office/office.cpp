@@ -290,8 +290,9 @@ struct Office::Parts {
     if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
     const std::lock_guard guard(codes_lock);
     std::uint64_t& used = used_codes[by.name];
-    const auto counter = counter_of_code(from_base32(by.code_secret).value_or(Bytes()), code, utc_now_ns() / 1'000'000'000, used);
-    if (!counter) throw Error("the code", "is not good, or was used before", "type the one that the app shows now");
+    const auto counter = counter_of_code(from_base32(by.code_secret).value_or(Bytes()), code, utc_now_ns() / 1'000'000'000);
+    if (!counter) throw Error("the code", "is not good", "type the one that the app shows now");
+    if (*counter <= used) throw Error("the code", "was used already: wait for the next one", "the app shows another one within 30 s");
     used = *counter;
   }
 
@@ -321,7 +322,7 @@ struct Office::Parts {
     site.on("POST", "/station/report", [this](const Call& c) {
       const StationReport report = parse_report(c.body);
       board.report(c.station, report, utc_now_ns());
-      return json_reply(desk.word_for(c.station, report.heard));
+      return json_reply(desk.word_for(c.station, report.heard, board.since_utc_ns(c.station)));
     });
     site.on("GET", "/station/pieces/*", [this](const Call& c) { return said_of(pieces.have(c.station, c.tail)); });
     site.on("PUT", "/station/pieces/*", [this](const Call& c) {

@@ -31,12 +31,12 @@ std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits
   return fmt::format("{:0{}}", cut % modulus, digits);
 }
 
-std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s, std::uint64_t used) {
+std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s) {
   const auto now = static_cast<std::uint64_t>(unix_s / k_code_step_s);
   std::optional<std::uint64_t> found;
   for (std::uint64_t counter = now - 1; counter <= now + 1; ++counter) {
     const std::string right = one_time_code(secret, counter);
-    if (code.size() == right.size() && sodium_memcmp(code.data(), right.data(), right.size()) == 0 && counter > used) found = counter;
+    if (code.size() == right.size() && sodium_memcmp(code.data(), right.data(), right.size()) == 0) found = counter;
   }
   return found;
 }

@@ -14,8 +14,9 @@ inline constexpr std::int64_t k_code_step_s = 30;
 
 /// The code of a counter, with `digits` digits (6 to 8).
 [[nodiscard]] std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits = 6);
-/// The counter within one step of `unix_s` whose code this is, and later than `used`: a code is good once. None: it is not good.
-[[nodiscard]] std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s, std::uint64_t used);
+/// The latest counter within one step of `unix_s` whose code this is; a code is good once, so take none up to the one that was taken last. None: it
+/// is not good.
+[[nodiscard]] std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s);
 /// 160 random bits.
 [[nodiscard]] Bytes new_code_secret();
 /// As people type it, without padding.

@@ -134,7 +134,7 @@ void StationLink::speak() {
   std::unique_lock guard(lock_);
   while (!ending_) {
     json report = {{"state", said_.state},   {"candidate", said_.candidate}, {"step", said_.step}, {"alarm", said_.alarm},
-                   {"left_s", said_.left_s}, {"held", said_.held},           {"heard", heard_}};
+                   {"left_s", said_.left_s}, {"held", said_.held},           {"heard", heard_},    {"here_s", said_.here_s}};
     guard.unlock();
     std::string trouble;
     try {
@@ -164,7 +164,8 @@ void StationLink::take(const json& word) {
   view_.hold_reason = text_in(hold, "reason");
   view_.told.clear();
   for (const json& a : member_of(word, "announcements"))
-    if (const auto entry = static_cast<std::uint64_t>(whole_in(a, "entry")); entry > heard_) view_.told.push_back({entry, text_in(a, "text")});
+    if (const auto entry = static_cast<std::uint64_t>(whole_in(a, "entry")); entry > heard_)
+      view_.told.push_back({entry, text_in(a, "text"), whole_in(a, "utc_ns")});
 }
 
 void StationLink::fetch_tickets(StationClient& client) {

@@ -32,6 +32,7 @@ struct LinkOptions {
 struct Told {
   std::uint64_t entry = 0;
   std::string text;
+  std::int64_t utc_ns = 0;  ///< when it was made, by the office's clock
 };
 /// What came of handing in a recording.
 struct HandedIn {

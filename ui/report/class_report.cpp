@@ -37,6 +37,19 @@ std::string few_first(const ClassFigures& f, const char* figure) {
   return words + "; ";
 }
 
+/// Who was marked by what, where that is not one for all.
+std::string marked_differently(const ClassFigures& f) {
+  std::string all;
+  for (const auto& b : f.marked_by) {
+    const std::string percent = plain_number(b.pass_percent);
+    all += (all.empty() ? "" : ", ") + (b.entry == 0 ? tr("{} as it was sat (pass mark {} %)", b.n, percent)
+                                                     : tr("{} by the rubric of entry {} (pass mark {} %)", b.n, b.entry, percent));
+  }
+  return tr("Not all results were marked alike: {}.", all) +
+         (f.pass_points ? "" : " " + tr("There is no one pass mark, and no figure or line at it.")) + " " +
+         tr("The criteria below are of those who were marked as most were.");
+}
+
 /// Points of the class in twentieths of the whole, and the cut.
 Picture distribution(const ClassFigures& f) {
   std::vector<double> in_bin(k_bins, 0.0);
@@ -53,11 +66,12 @@ Picture distribution(const ClassFigures& f) {
   c.series = {steps};
   c.x_range = {0, f.max_points};
   c.y_range = {0, 1.15 * std::max(1.0, *std::max_element(in_bin.begin(), in_bin.end()))};
-  c.marks = {{f.pass_points, true, tr("pass mark")}};
+  if (f.pass_points) c.marks.push_back({*f.pass_points, true, tr("pass mark")});
   if (f.agreement.cut) c.marks.push_back({*f.agreement.cut, true, tr("borderline regression")});
   c.width_px = 760;
   c.height_px = 300;
-  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)), tr("How the points of the class lie around the pass mark")};
+  return {ui::svg_page(c.width_px, c.height_px, ui::chart_group(c, 0, 0)),
+          f.pass_points ? tr("How the points of the class lie around the pass mark") : tr("How the points of the class lie")};
 }
 
 ReportTable key_figures(const ClassFigures& f) {
@@ -65,6 +79,7 @@ ReportTable key_figures(const ClassFigures& f) {
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   row(tr("mean"), tr("{} of {}", fixed(f.mean, 1), plain_number(f.max_points)), tr("points"));
   row(tr("standard deviation"), fixed(f.sd, 1), tr("points"));
+  row(tr("pass mark"), f.pass_points ? fixed(*f.pass_points, 1) : "–", f.pass_points ? tr("points") : tr("there is no one: see the note above"));
   row(tr("pass / review / fail"), fmt::format("{} / {} / {}", f.pass, f.review, f.fail), tr("candidates"));
   const auto few = [&f](const char* figure) { return few_first(f, figure); };
   row(tr("Cronbach's alpha"), number(f.alpha, 2),
@@ -172,8 +187,8 @@ void add_stations(Document& d, const ClassFigures& f) {
     d.blocks.emplace_back(Paragraph{tr("All sat at one station."), ""});
     return;
   }
-  ReportTable t{{{tr("Station (public key)"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations")};
-  for (const auto& s : f.stations) t.rows.push_back({{{s.key.substr(0, 16) + "…"}, {std::to_string(s.n)}, {fixed(s.mean, 1)}}});
+  ReportTable t{{{tr("Station"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations")};
+  for (const auto& s : f.stations) t.rows.push_back({{{s.name}, {std::to_string(s.n)}, {fixed(s.mean, 1)}}});
   d.blocks.emplace_back(std::move(t));
   if (!f.station_effect) return;
   const auto& e = *f.station_effect;
@@ -205,11 +220,13 @@ void add_agreement(Document& d, const ClassFigures& f) {
   if (a.limits)
     row(tr("program less people"), tr("{} ({} to {})", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1)),
         few_first(f, "limits") + tr("points: mean, and limits within which about 95 % lie (Bland and Altman 1986)"));
-  row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + tr("fail, borderline, pass; quadratic weights (Cohen 1968)"));
+  if (f.pass_points)
+    row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + tr("fail, borderline, pass; quadratic weights (Cohen 1968)"));
   if (a.cut)
     row(tr("cut by borderline regression"), fixed(*a.cut, 1),
-        fmt::format("{}points at the rating that means borderline; the rubric's pass mark is {}", few_first(f, "borderline_cut"),
-                    fixed(f.pass_points, 1)));
+        few_first(f, "borderline_cut") +
+            (f.pass_points ? tr("points at the rating that means borderline; the rubric's pass mark is {}", fixed(*f.pass_points, 1))
+                           : tr("points at the rating that means borderline")));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
     d.blocks.emplace_back(
@@ -243,6 +260,7 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
                       : tr("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
                            f.simulated),
                   tr("Note"), Paragraph::Kind::note});
+  if (f.marked_by.size() > 1) d.blocks.emplace_back(Paragraph{marked_differently(f), tr("Note"), Paragraph::Kind::note});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);

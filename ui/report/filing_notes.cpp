@@ -14,13 +14,16 @@ void add_filing_notes(Document& d, const ReportSource& s) {
     note(tr("Does not hold"), tr("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
                                  s.integrity.findings.size() > 1 ? tr("; and more, under \"What is proved\"") : ""));
   if (!s.filing) return;
-  if (const auto& r = s.filing->regrade; r && !r->person.empty())
+  if (const auto& r = s.filing->regrade; r && !r->person.empty()) {
+    const std::string decided =
+        s.reader == ReportReader::student
+            ? tr("{}: {} (entry {} of the ledger, {}).", shown(r->verdict), as_is(r->reason), r->entry, r->date)
+            : tr("{}, by {}: {} (entry {} of the ledger, {}).", shown(r->verdict), as_is(r->person), as_is(r->reason), r->entry, r->date);
     note(tr("Decided by a person"),
-         s.reader == ReportReader::student
-             ? tr("{}: {} (entry {} of the ledger, {}). The program had left it to a person", shown(r->verdict), as_is(r->reason), r->entry, r->date)
-             : tr("{}, by {}: {} (entry {} of the ledger, {}). The program had left it to a person", shown(r->verdict), as_is(r->person),
-                  as_is(r->reason), r->entry, r->date));
-  else if (r)
+         decided + " " +
+             (r->by_program == grading::verdict_name(grading::Verdict::review) ? tr("The program had left it to a person")
+                                                                               : tr("The program's own verdict was {}", shown(r->by_program))));
+  } else if (r)
     note(tr("Why it was regraded"), tr("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
   if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), s.filing->not_filed);
   if (s.filing->findings.empty()) return;

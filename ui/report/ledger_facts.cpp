@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/identities.h"
 
@@ -82,7 +83,12 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
   f.released = shown;
   f.findings = doubts_of(session);
   if (const ledger::Regrade* r = regrade_for(session, reader))
-    f.regrade = ReportRegrade{r->seq, utc_text(r->utc_ns), r->reason, r->person, r->person.empty() ? "" : r->result.value("verdict", "")};
+    f.regrade = ReportRegrade{r->seq,
+                              utc_text(r->utc_ns),
+                              r->reason,
+                              r->person,
+                              r->person.empty() ? "" : r->result.value("verdict", ""),
+                              ledger::verdict_by_program(session, r->seq)};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);
@@ -127,9 +133,7 @@ const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportRe
 std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
   const json& filed = reader == ReportReader::student ? session.shown : session.result;
-  const json decision =
-      filed.is_object() ? filed.value("decision", json::object()) : json();  // the verdict is a person's then, and the program's stands in it
-  const std::string by_program = filed.is_object() ? decision.value("verdict_before", filed.value("verdict", "")) : "";
+  const std::string by_program = ledger::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
   const bool same = filed.is_object() && by_program == grading::verdict_name(result.verdict) && filed.contains("score") &&
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;

@@ -44,7 +44,8 @@ struct ReportAttempt {
 struct ReportRegrade {
   std::uint64_t entry = 0;
   std::string date, reason;
-  std::string person, verdict;  ///< who decided what the program left to a person, and how; empty: it was marked anew
+  std::string person, verdict;  ///< who decided, and how; empty: it was marked anew
+  std::string by_program;       ///< the verdict of the program, before anybody decided
 };
 
 /// What the ledger says of a session.

@@ -277,7 +277,7 @@ void exam_screen(const ScreenContext& c) {
     if (may_go_on_without(s)) words += " " + tr("The office does not answer. Supervisor: press Home to go on.");
     words_in_picture(t, l.tooth_at, l.tooth, "PAUSED BY THE EXAM OFFICE", words, t.warn);
   } else if (s.office && !s.office->told.empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, "FROM THE EXAM OFFICE", s.office->told.front().text + "  (Home)", t.accent);
+    words_in_picture(t, l.tooth_at, l.tooth, "FROM THE EXAM OFFICE", announcement_text(s.office->told.front()) + "  (Home)", t.accent);
   } else if (s.attempt_shown_s > 0) {
     s.attempt_shown_s -= c.frame_s;
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDED",

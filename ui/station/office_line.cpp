@@ -6,6 +6,7 @@
 #include <imgui.h>
 
 #include <algorithm>
+#include <ctime>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
@@ -63,6 +64,8 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
       r.state = "free";
   }
   if (sitting == nullptr) return r;
+  constexpr double k_day_s = 86'400;
+  r.here_s = static_cast<std::int64_t>(std::min(k_day_s, sitting->here_s()));
   if (sitting->stage() != Stage::preparing) r.candidate = short_line(sitting->candidate());
   if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(without_advice(sitting->trouble()));
   if (sitting->stage() != Stage::running) return r;
@@ -142,6 +145,13 @@ std::string OfficeLine::outcome_text(const std::string& recording) {
   return tr("The exam office did not take it. Tell the invigilator: {}", outcome->findings.empty() ? "" : outcome->findings.front());
 }
 
+std::string announcement_text(const office::Told& told) {
+  const auto seconds = static_cast<std::time_t>(told.utc_ns / 1'000'000'000);
+  std::tm local{};
+  ::localtime_r(&seconds, &local);
+  return fmt::format("{:02}:{:02}  {}", local.tm_hour, local.tm_min, told.text);
+}
+
 std::string office_status(const StationState& state) {
   if (!state.office) return {};
   const office::LinkView& office = *state.office;
@@ -155,6 +165,7 @@ bool may_go_on_without(const StationState& state) noexcept { return state.office
 
 void office_notice(const ScreenContext& c) {
   StationState& s = c.state;
+  s.notice_px = 0;
   if (!s.office || (s.office->hold == 0 && s.office->told.empty())) return;
   if (s.office->hold == 0 && key_pressed(GLFW_KEY_HOME)) s.wish = Wish::read;
   if (s.screen == Screen::exam) return;
@@ -175,9 +186,10 @@ void office_notice(const ScreenContext& c) {
     quiet_text(t, "No exam begins or goes on here until the office says so.");
   } else {
     text_line("FROM THE EXAM OFFICE");
-    wrapped_text(s.office->told.front().text);
+    wrapped_text(announcement_text(s.office->told.front()));
     if (side_button(t, "I have read it  (Home)")) s.wish = Wish::read;
   }
+  s.notice_px = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y + t.px(12);
   ImGui::End();
   ImGui::PopStyleVar();
   ImGui::PopStyleColor(2);

@@ -58,7 +58,7 @@ void what_to_work_on(const Theme& t, const std::vector<grading::Lesson>& lessons
 
 /// The school tells the result, not the station.
 void held_result_screen(const ScreenContext& c) {
-  begin_card(c.theme, "Your exam is recorded and sealed", 640);
+  begin_card(c.theme, "Your exam is recorded and sealed", 640, c.state.notice_px);
   wrapped_text("The result is held until the school releases it.");
   quiet_text(c.theme, tr("{},  candidate {}", as_is(shown(c.sitting->setup().scenario.title)), as_is(c.sitting->candidate())));
   if (c.state.office) quiet_text(c.theme, c.state.office_outcome);
@@ -97,7 +97,8 @@ void result_screen(const ScreenContext& c) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   const grading::Result& r = c.sitting->closed().result;
   const float words = std::min(t.px(820), screen.x * 0.66F);
-  begin_area(t, "result", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
+  const float top = s.notice_px, high = screen.y - top;
+  begin_area(t, "result", {s.left_handed ? screen.x - words : 0, top}, {words, high}, true);
   ImGui::BeginChild("words", {0, ImGui::GetContentRegionAvail().y - t.px((s.message.empty() ? 96.0F : 126.0F) + (s.office ? 30.0F : 0.0F))}, false);
   const ImVec4 colour = r.verdict == grading::Verdict::pass ? t.good : r.verdict == grading::Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
@@ -126,7 +127,7 @@ void result_screen(const ScreenContext& c) {
   end_area();
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
-  begin_area(t, "result tooth", {s.left_handed ? 0 : words, 0}, {screen.x - words, screen.y}, false);
+  begin_area(t, "result tooth", {s.left_handed ? 0 : words, top}, {screen.x - words, high}, false);
   ImGui::PopStyleVar();
   s.view.point = -1;
   tooth_area(c, ImGui::GetContentRegionAvail());

@@ -65,6 +65,8 @@ class Sitting {
   [[nodiscard]] Stage stage() const noexcept { return stage_; }
   [[nodiscard]] const std::string& candidate() const noexcept { return candidate_; }
   [[nodiscard]] bool practice() const noexcept { return options_.practice; }
+  /// Since the candidate signed in.
+  [[nodiscard]] double here_s() const { return std::chrono::duration<double>(std::chrono::steady_clock::now() - signed_in_at_).count(); }
 
   /// From `checking` on.
   [[nodiscard]] const scenarios::ExamSetup& setup() const { return *setup_; }
@@ -131,6 +133,7 @@ class Sitting {
   std::optional<grading::ClosedExam> closed_;
   scenarios::LiveReport report_;
   std::string path_, trouble_, moved_;
+  const std::chrono::steady_clock::time_point signed_in_at_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point moved_at_;
   std::chrono::steady_clock::time_point last_try_;  ///< to save by itself
 };

@@ -61,6 +61,7 @@ struct StationState {
   std::string leave_message;               ///< shown with that question
   std::optional<office::LinkView> office;  ///< what the exam office says; none: the station knows no office
   std::string office_outcome;              ///< what became of the recording at the office, in words
+  float notice_px = 0.0F;                  ///< how much of the screen's top the office's notice takes: the result begins below it
   bool confirm_go_on = false;              ///< somebody wants to go on although the office has paused the exam
   std::string attempt;                     ///< the last try to leave the exam, in words
   double attempt_shown_s = 0.0;            ///< so long it is still shown

@@ -132,11 +132,11 @@ void end_area() {
   ImGui::PopStyleColor();
 }
 
-void begin_card(const Theme& theme, const char* heading, float width) {
+void begin_card(const Theme& theme, const char* heading, float width, float top) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   width = std::fmin(theme.px(width), screen.x - 20.0F);
-  ImGui::SetNextWindowPos({screen.x / 2, screen.y / 2}, ImGuiCond_Always, {0.5F, 0.5F});
-  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, screen.y - 20.0F});
+  ImGui::SetNextWindowPos({screen.x / 2, (top + screen.y) / 2}, ImGuiCond_Always, {0.5F, 0.5F});
+  ImGui::SetNextWindowSizeConstraints({width, 0}, {width, screen.y - top - 20.0F});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(36), theme.px(30)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(10));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme.panel);

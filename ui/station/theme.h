@@ -24,8 +24,8 @@ void apply_theme(const Theme& theme);
 /// A window without frame at a place of the screen, pixels. Always pair with end_area.
 void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel);
 void end_area();
-/// The same in the middle of the screen, with a heading, as high as what it holds.
-void begin_card(const Theme& theme, const char* heading, float width);
+/// The same in the middle of the screen below `top`, with a heading, as high as what it holds.
+void begin_card(const Theme& theme, const char* heading, float width, float top = 0.0F);
 void quiet_text(const Theme& theme, const std::string& text);
 /// What went wrong, in the colour for that; nothing for an empty text.
 void bad_text(const Theme& theme, const std::string& text);

@@ -115,7 +115,7 @@ bool is_practice(const grading::GradedSession& s) {
 /// The report of one session, as a file of that name holds it.
 struct MadeReport {
   std::string text;
-  grading::Verdict verdict = grading::Verdict::fail;
+  std::string verdict;  ///< a person's, where one decided
   std::string finding;  ///< the first of what does not hold; empty: nothing
 };
 
@@ -126,7 +126,7 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   const MarkedSession m =
       regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade), grounds) : marked_session(session, o.marking, grounds);
   const grading::GradeInput input = m.session->input();
-  if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), m.result.verdict, {}};
+  if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), {}, {}};
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
   if (filed == nullptr && o.for_whom() == report::ReportReader::student && m.session->scenario.hold_results && !is_practice(*m.session))
     throw Error(session, "its scenario holds results until the school releases them", "name the ledger that holds it: --ledger");
@@ -144,7 +144,9 @@ MadeReport made_report(const std::string& session, const std::string& out, const
     if (!source.filing->not_filed.empty()) source.filing->regrade.reset();  // this report is of something else
   }
   source.integrity = integrity_of(session, o, filed, grounds);
-  return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source), m.result.verdict,
+  const bool decided = source.filing && source.filing->regrade && !source.filing->regrade->person.empty();
+  return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source),
+          decided ? source.filing->regrade->verdict : grading::verdict_name(m.result.verdict),
           source.integrity.findings.empty() ? "" : source.integrity.findings.front()};
 }
 
@@ -154,8 +156,7 @@ void write_report(const std::string& session, const std::string& out, const Repo
   write_text_file(out, made.text);
   if (out.ends_with(".svg")) return;
   if (!made.finding.empty()) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(made.finding) << "\n";
-  std::cout << "written: " << one_line(out) << " (" << grading::verdict_name(made.verdict)
-            << (made.finding.empty() ? "" : ", of a session that does not hold") << ")\n";
+  std::cout << "written: " << one_line(out) << " (" << made.verdict << (made.finding.empty() ? "" : ", of a session that does not hold") << ")\n";
 }
 
 void run_report(const ReportArguments& o) {

@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "tests/engine/support/basics.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::cohort {
 namespace {
@@ -30,7 +31,8 @@ void expect_sound(const CircuitStudy& s, const std::string& what) {
   EXPECT_GE(s.range.g_high, s.as_sat.g) << what;
   EXPECT_LE(s.range.phi_low, s.as_sat.phi) << what;
   EXPECT_GE(s.range.phi_high, s.as_sat.phi) << what;
-  EXPECT_GE(s.at_cut.phi_at_cut, s.as_sat.phi) << what;
+  ASSERT_TRUE(s.at_cut) << what;
+  EXPECT_GE(s.at_cut->phi_at_cut, s.as_sat.phi) << what;
   CircuitFigures f;
   f.exams = {"a", "b"};
   f.candidates = 3;
@@ -82,6 +84,51 @@ TEST(Circuit, AnEstimateLiesWithinItsRange) {
     }
     if (refusal_of(rows).empty()) expect_sound(study_of(rows, 50), what);
   }
+}
+
+TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
+  const testing_ledger::School school;
+  ledger::Identities identities(school.places().identities());
+  ledger::Registry r;
+  std::uint64_t seq = 1;
+  for (int c = 0; c < 6; ++c)
+    for (const std::string exam : {"a", "b"}) {
+      ledger::FiledSession s;
+      s.seq = s.result_seq = seq++;
+      s.candidate = identities.enrol("c" + std::to_string(c), "", exam, testing_ledger::School::key());
+      s.scenario_id = exam;
+      s.result = {{"verdict", "pass"},
+                  {"score", {{"points", 40.0 + 9 * c + (exam == "a" ? c % 3 : 0)}, {"max", 100.0}, {"pass_percent", 65.0}}},
+                  {"criteria", nlohmann::json::array()}};
+      s.filed = s.result;
+      r.sessions.push_back(s);
+    }
+  const auto regrade = [&](ledger::FiledSession& s) {
+    s.result["score"]["pass_percent"] = 75.0;
+    s.result_seq = seq++;
+    s.regrades.push_back({s.result_seq, 0, "misprinted", "", {{"rubric.toml", "aa"}}, s.result});
+  };
+  EXPECT_EQ(circuit_figures(r, identities, {"a", "b"}, {}).cut_percent, 65.0);
+  for (auto& s : r.sessions)
+    if (s.scenario_id == "a") regrade(s);
+  const CircuitFigures all = circuit_figures(r, identities, {"a", "b"}, {});
+  EXPECT_EQ(all.cut_percent, 70.0) << "one passes with 75, the other with 65";
+  EXPECT_TRUE(all.marked_differently.empty());
+  ASSERT_TRUE(all.program) << all.why_no_program;
+  EXPECT_NE(to_text(all).find("at 70.0 %: another such circuit"), std::string::npos) << to_text(all);
+
+  regrade(r.sessions[1]);  // one of exam b
+  const CircuitFigures f = circuit_figures(r, identities, {"a", "b"}, {});
+  EXPECT_FALSE(f.cut_percent);
+  ASSERT_TRUE(f.program) << f.why_no_program;
+  EXPECT_FALSE(f.program->at_cut);
+  EXPECT_EQ(f.program->as_sat.phi, all.program->as_sat.phi) << "the rest needs no cut";
+  const std::string text = to_text(f);
+  EXPECT_EQ(text.find("another such circuit"), std::string::npos) << text;
+  EXPECT_NE(text.find("b: not all results were marked alike: 5 as it was sat (pass mark 65 %), 1 by the rubric of entry "), std::string::npos)
+      << text;
+  EXPECT_TRUE(to_json(f)["cut_percent"].is_null());
+  EXPECT_TRUE(to_json(f)["program"]["at_cut"].is_null());
 }
 
 TEST(Circuit, MarksThatAreLeftOutAreNamedAndCounted) {

@@ -126,10 +126,71 @@ TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
   r.sessions[0].result["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.max_points, 100.0);
-  EXPECT_EQ(f.pass_points, 60.0);
   EXPECT_EQ(f.points, (std::vector<double>{25, 50, 50, 75})) << "15 of 30 are 50 of 100";
-  for (auto& s : r.sessions) s.result["score"]["pass_percent"] = 90.0;  // an appeal that most of them won or lost moves no pass mark of the class
-  EXPECT_EQ(class_figures(r, "exam", {}, 3).pass_points, 60.0);
+}
+
+/// Entered as `seq` with the rubric of hash `rubric`, by another pass mark.
+void regrade(ledger::FiledSession& s, std::uint64_t seq, double pass_percent, const std::string& rubric) {
+  s.result["score"]["pass_percent"] = pass_percent;
+  s.result_seq = seq;
+  s.regrades.push_back({seq, 0, "misprinted", "", {{"rubric.toml", rubric}}, s.result});
+}
+
+TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
+  ledger::Registry r = four();
+  std::uint64_t seq = 10;
+  for (auto& s : r.sessions) regrade(s, seq++, 70, "aa");
+  std::vector<HumanMark> marks;
+  for (const auto& s : r.sessions) marks.push_back({s.candidate, "x", 65, {}});
+  const ClassFigures all = class_figures(r, "exam", marks, 3);
+  EXPECT_EQ(all.pass_points, 70.0);
+  EXPECT_TRUE(marked_by_words(all.marked_by).empty()) << "all alike";
+  EXPECT_NE(to_text(all).find("pass mark 70.0"), std::string::npos) << to_text(all);
+  EXPECT_EQ(to_json(all)["points"]["pass"], 70.0);
+
+  ledger::Registry mixed = four();
+  regrade(mixed.sessions[1], 12, 70, "aa");
+  // a person decided on top of the regrade: it was marked by the same
+  mixed.sessions[1].regrades.push_back({15, 0, "seen", "Dr. Weber", {{"rubric.toml", "aa"}}, mixed.sessions[1].result});
+  mixed.sessions[1].result_seq = 15;
+  // and on the first mark of another: that is as it was sat
+  mixed.sessions[2].regrades.push_back({16, 0, "seen", "Dr. Weber", {}, mixed.sessions[2].result});
+  mixed.sessions[2].result_seq = 16;
+  const ClassFigures f = class_figures(mixed, "exam", marks, 3);
+  EXPECT_FALSE(f.pass_points);
+  EXPECT_FALSE(f.agreement.kappa) << "bands around no cut";
+  EXPECT_TRUE(f.agreement.limits) << "needs none";
+  EXPECT_EQ(marked_by_words(f.marked_by),
+            "not all results were marked alike: 3 as it was sat (pass mark 60 %), 1 by the rubric of entry 12 (pass mark 70 %); there is no one pass "
+            "mark, and no figure at it");
+  const std::string text = to_text(f);
+  EXPECT_NE(text.find(marked_by_words(f.marked_by)), std::string::npos) << text;
+  EXPECT_EQ(text.find("pass mark 60.0"), std::string::npos) << text;
+  EXPECT_EQ(text.find("kappa"), std::string::npos) << text;
+  EXPECT_TRUE(to_json(f)["points"]["pass"].is_null());
+
+  ledger::Registry same_mark = four();
+  regrade(same_mark.sessions[1], 12, 60, "aa");
+  const ClassFigures told = class_figures(same_mark, "exam", marks, 3);
+  EXPECT_EQ(told.pass_points, 60.0);
+  EXPECT_EQ(marked_by_words(told.marked_by),
+            "not all results were marked alike: 3 as it was sat (pass mark 60 %), 1 by the rubric of entry 12 (pass mark 60 %)");
+}
+
+TEST(ClassFigures, AStationHasItsNameInTheLedger) {
+  ledger::Registry r = four();
+  const std::string first(64, 'a'), second(64, 'b'), third(64, 'c'), unknown(64, 'd');
+  r.stations.stations = {{1, "Seat 1", first, 0, 0, {}, {}, {}}, {2, "Seat 2", second, 0, 0, {}, {}, {}}, {3, "Seat 2", third, 0, 0, {}, {}, {}}};
+  EXPECT_EQ(station_label(r, first), "Seat 1");
+  EXPECT_EQ(station_label(r, second), "Seat 2 (bbbbbbbb…)") << "two have this name";
+  EXPECT_EQ(station_label(r, unknown), "dddddddd…");
+  for (std::size_t i = 0; i < r.sessions.size(); ++i) r.sessions[i].station_key = i % 2 == 0 ? first : unknown;
+  const ClassFigures f = class_figures(r, "exam", {}, 3);
+  ASSERT_EQ(f.stations.size(), 2u);
+  EXPECT_EQ(f.stations[0].name, "Seat 1");
+  EXPECT_EQ(f.stations[1].name, "dddddddd…");
+  EXPECT_NE(to_text(f).find("Seat 1"), std::string::npos) << to_text(f);
+  EXPECT_EQ(to_text(f).find(first), std::string::npos);
 }
 
 TEST(ClassFigures, AHarderStationIsFound) {

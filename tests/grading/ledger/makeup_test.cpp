@@ -4,6 +4,7 @@
 #include "grading/ledger/begin.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
 #include "tests/grading/ledger/school.h"
 #include "tests/grading/ledger/short_exam.h"
@@ -92,6 +93,20 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
   const std::string makeup = make_up(entry, k_interrupted);
   EXPECT_EQ(registry().sessions[0].made_up_by, last_entry());
   EXPECT_EQ(release_all(), 0u) << "the first does not count";
+  {
+    Ledger ledger = school_.ledger();
+    json review = registry().sessions[0].result;
+    review["verdict"] = "review";
+    enter_regrade(ledger, *good.seq, review, {}, "as if the program had left it to a person");
+    const std::size_t before = last_entry();
+    try {
+      enter_decision(ledger, *good.seq, {"pass", "Dr. Examiner", "x"});
+      ADD_FAILURE() << "was decided";
+    } catch (const Error& e) {
+      EXPECT_NE(std::string(e.what()).find("does not count: the makeup sitting of entry"), std::string::npos) << e.what();
+    }
+    EXPECT_EQ(last_entry(), before);
+  }
   const auto worse = file_short(makeup);
   ASSERT_TRUE(worse.seq) << worse.findings.front();
   Ledger ledger = school_.ledger();

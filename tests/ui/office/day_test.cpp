@@ -2,6 +2,8 @@
 #include "engine/base/json_fields.h"
 #include "grading/ledger/station_ticket.h"
 #include "tests/ui/office/opened.h"
+#include "ui/office/board.h"
+#include "ui/office/day_parts.h"
 
 namespace cavum::office {
 namespace {
@@ -27,6 +29,10 @@ class ADay : public testing::Test {
     return {};
   }
   static json free(std::uint64_t heard = 0) { return {{"state", "free"}, {"heard", heard}}; }
+  /// A candidate sits there.
+  static json sat(std::uint64_t heard = 0, const char* state = "exam") {
+    return {{"state", state}, {"candidate", "C-1"}, {"here_s", 30}, {"heard", heard}};
+  }
   [[nodiscard]] ledger::LedgerEntry last() const { return opened_.content().entries.back(); }
 
   Opened opened_;
@@ -43,14 +49,18 @@ TEST_F(ADay, AnAnnouncementReachesItsStationsUntilTheyHaveReadIt) {
   EXPECT_EQ(last().body["account"], "The invigilator");
   EXPECT_EQ(last().body["stations"], json{seat2});
   EXPECT_TRUE(first_->report(free())["announcements"].empty());
-  const json told = second_->report(free())["announcements"];
+  EXPECT_EQ(second_->report(free())["announcements"].size(), 1u) << "just made: who comes in now sees it";
+  EXPECT_EQ(row("Seat 2")["unread"], 0) << "nobody is there to read it";
+  const json told = second_->report(sat())["announcements"];
   ASSERT_EQ(told.size(), 1u);
   EXPECT_EQ(told[0]["text"], "Your time is 25 % longer.");
   EXPECT_EQ(told[0]["entry"], to_one["entry"]);
   EXPECT_EQ(row("Seat 2")["unread"], 1);
   EXPECT_EQ(row("Seat 1")["unread"], 0);
-  EXPECT_TRUE(second_->report(free(to_one["entry"]))["announcements"].empty());
+  EXPECT_TRUE(second_->report(sat(to_one["entry"]))["announcements"].empty());
   EXPECT_EQ(row("Seat 2")["unread"], 0);
+  static_cast<void>(second_->report(sat(0, "ended")));
+  EXPECT_EQ(row("Seat 2")["unread"], 0) << "his exam is over";
 
   EXPECT_EQ(invigilator.post("/api/announce", {{"text", "x"}, {"to", {{"room", "Room 2"}}}}).status, 400) << "nobody is there";
   EXPECT_EQ(officer_.post("/api/stations/room", {{"public_key", seat2}, {"room", "Room 2"}}).status, 200);
@@ -62,6 +72,53 @@ TEST_F(ADay, AnAnnouncementReachesItsStationsUntilTheyHaveReadIt) {
   for (const json& wrong : {json{{"text", "x"}}, json{{"text", "x"}, {"to", json::object()}}, json{{"to", {{"all", true}}}},
                             json{{"text", "x"}, {"to", {{"all", 1}}}}, json{{"text", "x"}, {"to", {{"station", "no key"}}}}})
     EXPECT_EQ(invigilator.post("/api/announce", wrong).status, 400) << wrong;
+}
+
+TEST(AnnouncedTo, ACandidateSeesWhatWasAnnouncedSinceHeSignedInOrShortlyBefore) {
+  constexpr std::int64_t k_s = 1'000'000'000, k_now = 1'790'000'000 * k_s;
+  ledger::ExamDay day;
+  for (const std::int64_t ago_s : {3700, 1080, 130, 110, 5})
+    day.announcements.push_back({day.announcements.size() + 1, k_now - ago_s * k_s, "x", {}});
+  day.announcements.push_back({6, k_now, "to others", {"", {"bb"}}});
+  const auto seen = [&](std::int64_t since) {
+    std::vector<std::uint64_t> out;
+    for (const auto* a : announced_to(day, "aa", since, k_now)) out.push_back(a->seq);
+    return out;
+  };
+  using Entries = std::vector<std::uint64_t>;
+  EXPECT_EQ(seen(k_now), (Entries{4, 5})) << "\"Ten minutes left\" of 18 minutes ago was the sitting before";
+  EXPECT_EQ(seen(k_now - 100 * k_s), (Entries{3, 4, 5}));
+  EXPECT_EQ(seen(k_now - 1'000 * k_s), (Entries{2, 3, 4, 5}));
+  EXPECT_EQ(seen(k_now - 7'200 * k_s), (Entries{2, 3, 4, 5})) << "an hour at most";
+  EXPECT_EQ(seen(0), (Entries{4, 5})) << "nobody signed in: who does now";
+  const auto unread = [&](std::int64_t since, const char* state, std::int64_t heard) {
+    return unread_by(day, "aa", {{"aa", {{"since_utc_ns", since}, {"state", state}, {"heard", heard}}}}, k_now);
+  };
+  EXPECT_EQ(unread(k_now, "check", 0), 2u);
+  EXPECT_EQ(unread(k_now, "exam", 4), 1u);
+  EXPECT_EQ(unread(0, "free", 0), 0u);
+  EXPECT_EQ(unread(k_now, "ended", 0), 0u);
+}
+
+TEST(AnnouncedTo, AStationOfBeforeSaysNotSinceWhenItsCandidateIsThere) {
+  Board board;
+  StationReport r{"free", "", "", "", -1, false, 0};
+  board.report("aa", r, 1'000);
+  EXPECT_EQ(board.since_utc_ns("aa"), 0);
+  r.candidate = "C-1";
+  board.report("aa", r, 2'000);
+  board.report("aa", r, 3'000);
+  EXPECT_EQ(board.since_utc_ns("aa"), 2'000) << "since it was first heard of";
+  r.candidate = "C-2";
+  board.report("aa", r, 4'000);
+  EXPECT_EQ(board.since_utc_ns("aa"), 4'000) << "another one";
+  r.here_s = 60;
+  board.report("aa", r, 100'000'000'000);
+  EXPECT_EQ(board.since_utc_ns("aa"), 40'000'000'000) << "the station knows it better";
+  EXPECT_EQ(board.stations().at("aa")["since_utc_ns"], 40'000'000'000);
+  EXPECT_THROW(static_cast<void>(parse_report(R"({"state":"exam","here_s":-2})")), Error);
+  EXPECT_EQ(parse_report(R"({"state":"exam"})").here_s, -1);
+  EXPECT_EQ(parse_report(R"({"state":"exam","here_s":12})").here_s, 12);
 }
 
 TEST_F(ADay, APauseForAllHoldsEveryStationUntilItGoesOn) {

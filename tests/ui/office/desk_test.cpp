@@ -44,7 +44,8 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(queue[0].contains("name"), false) << "an examiner sees no name";
   EXPECT_EQ(examiner.get("/api/results").json()["results"][0].contains("name"), false);
   EXPECT_EQ(officer.get("/api/results").json()["results"][0]["id"], "4711");
-  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", opened.code()}}).json()["to_decide"], 1);
+  const std::string code = opened.code();
+  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", code}}).json()["to_decide"], 1);
   EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}}).status, 400) << "without a reason";
   EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}, {"reason", "looked at it"}, {"person", "Somebody Else"}})
                 .status,
@@ -54,8 +55,12 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(last().body["reason"], "looked at it");
 
   const auto entries = opened.content().entries.size();
-  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", "000000"}}).status, 400);
-  EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", opened.code()}}).status, 400) << "a code is good once";
+  const auto wrong = officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", "000000"}});
+  EXPECT_EQ(wrong.status, 400);
+  EXPECT_NE(wrong.body.find("is not good"), std::string::npos) << wrong.body;
+  const auto used = officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", code}});
+  EXPECT_EQ(used.status, 400) << "a code is good once";
+  EXPECT_NE(used.body.find("was used already: wait for the next one"), std::string::npos) << used.body;
   EXPECT_EQ(opened.content().entries.size(), entries);
   EXPECT_EQ(officer.get("/api/gradebook.csv").body.find("4711"), std::string::npos) << "not before its release";
   // the code of the next step is good already: nobody waits half a minute here

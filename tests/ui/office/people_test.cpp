@@ -30,11 +30,10 @@ TEST(OneTimeCode, ItsSecretIsTypedAsRfc4648Prints) {  // section 10, without pad
 
 TEST(OneTimeCode, IsGoodForAStepBeforeAndAfterAndOnce) {
   const Bytes secret = new_code_secret();
-  for (const int step : {-1, 0, 1}) EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1000 + step), 30'000, 0), 1000 + step);
-  EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 998), 30'000, 0), std::nullopt);
-  EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1002), 30'000, 0), std::nullopt);
-  EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1000), 30'000, 1000), std::nullopt) << "used";
-  EXPECT_EQ(counter_of_code(secret, "", 30'000, 0), std::nullopt);
+  for (const int step : {-1, 0, 1}) EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1000 + step), 30'000), 1000 + step);
+  EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 998), 30'000), std::nullopt);
+  EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1002), 30'000), std::nullopt);
+  EXPECT_EQ(counter_of_code(secret, "", 30'000), std::nullopt);
 }
 
 TEST(Accounts, KeepNoPasswordAndAreReadByTheirOwnerAlone) {

@@ -1,6 +1,10 @@
 // The exam window itself at an exam office: the real program on a virtual screen, with a server that a test pauses, and takes away.
 #include <signal.h>
 #include <spawn.h>
+#define STB_IMAGE_IMPLEMENTATION
+#define STB_IMAGE_STATIC
+#define STBI_ONLY_PNG
+#include <stb/stb_image.h>
 #include <sys/wait.h>
 
 #include <array>
@@ -86,6 +90,17 @@ class AWindow : public testing::Test {
     return {};
   }
 
+  /// How many pixels of a picture have exactly this colour.
+  static int pixels_of(const std::string& name, const std::array<int, 3>& rgb) {
+    int width = 0, height = 0, channels = 0, n = 0;
+    unsigned char* pixels = stbi_load((pictures() + name).c_str(), &width, &height, &channels, 3);
+    EXPECT_NE(pixels, nullptr) << name;
+    for (int i = 0; pixels != nullptr && i < width * height; ++i)
+      n += pixels[3 * i] == rgb[0] && pixels[3 * i + 1] == rgb[1] && pixels[3 * i + 2] == rgb[2] ? 1 : 0;
+    stbi_image_free(pixels);
+    return n;
+  }
+
   testing_station::VirtualScreen screen_;
   Opened opened_;
   Visitor officer_;
@@ -98,9 +113,11 @@ TEST_F(AWindow, SitsAnExamWithTheOfficesWordAPauseAnAnnouncementAndFilesIt) {
   const std::string candidate = ticket(true);
   start(candidate, std::string(k_sit) +
                        "until 1.5\nsleep 4\npicture paused\nuntil 4\nsleep 1\npicture announcement\nkey home\nwait result\nsleep 2\npicture result\n"
-                       "sleep 600\n");
+                       "sleep 20\npicture result-told\nsleep 600\n");
+  for (const char* name : {"/result.png", "/result-told.png"}) fs::remove(pictures() + name);
   ASSERT_TRUE(within(120, [&] { return text_in(board()["said"], "state") == "exam"; })) << said();
   EXPECT_EQ(board()["said"]["candidate"], candidate);
+  EXPECT_GT(board()["said"]["since_utc_ns"].get<std::int64_t>(), 0);
   EXPECT_GT(board()["said"]["left_s"], 0);
   EXPECT_FALSE(text_in(board()["said"], "step").empty());
   const json hold = officer_.post("/api/hold", {{"reason", "Fire alarm: leave the room"}, {"to", {{"all", true}}}}).json();
@@ -115,8 +132,18 @@ TEST_F(AWindow, SitsAnExamWithTheOfficesWordAPauseAnAnnouncementAndFilesIt) {
   const HandedIn done = *StationLink::outcome(recording());
   ASSERT_TRUE(done.filed) << done.findings.front();
   EXPECT_TRUE(within(20, [&] { return text_in(board()["said"], "state") == "ended"; }));
+  ASSERT_TRUE(within(60, [&] { return fs::exists(pictures() + "/result.png"); })) << said();
+  ASSERT_EQ(officer_.post("/api/announce", {{"text", "Stay in your seats, please."}, {"to", {{"all", true}}}}).status, 200);
+  ASSERT_TRUE(within(60, [&] { return fs::exists(pictures() + "/result-told.png"); })) << said();
+  std::this_thread::sleep_for(std::chrono::seconds(1));  // it is written
   ::kill(child_, SIGTERM);
   EXPECT_EQ(end(), 0) << said();
+  const std::array<int, 3> verdict{0xf0, 0x81, 0x4d}, frame{0xf0, 0xb7, 0x4d};  // of a fail, and of a notice
+  const int before = pixels_of("/result.png", verdict), told_too = pixels_of("/result-told.png", verdict);
+  EXPECT_EQ(pixels_of("/result.png", frame), 0);
+  EXPECT_GT(pixels_of("/result-told.png", frame), 200) << "the announcement shows";
+  EXPECT_GT(before, 200) << "so does the verdict";
+  EXPECT_GE(told_too, before * 9 / 10) << "and is not covered";
 
   const SessionReader session(recording());
   std::map<std::string, std::int64_t> ticks;

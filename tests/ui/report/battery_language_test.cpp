@@ -89,6 +89,7 @@ struct Texts {
   }
   void operator()(const Fold& b) { list.push_back(b.title); }
   void operator()(const FoldEnd&) {}
+  void operator()(const CutLine&) {}
 };
 
 class BatteryLanguage : public ::testing::TestWithParam<const char*> {

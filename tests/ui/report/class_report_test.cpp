@@ -113,6 +113,25 @@ TEST_F(ClassReport, WarnsBesideEachFigureThatComesFromFew) {
   EXPECT_NE(html.find("under 18 it is a rough guess; fail, borderline"), std::string::npos);
 }
 
+TEST_F(ClassReport, HasNoLineAndNoFigureAtAPassMarkThatIsNoneAndNamesStations) {
+  figures_.pass_points = 70;
+  figures_.stations = {{"4ab3f3a9d0c1b2a3f4e5", "Seat <1>", 4, 61.0}, {"5ab3f3a9d0c1b2a3f4e5", "Seat 2", 3, 62.0}};
+  const std::string one = class_html(figures_, tooth_);
+  EXPECT_NE(one.find(">pass mark</text>"), std::string::npos) << "a line in the chart";
+  EXPECT_NE(one.find("<td class='n'>70.0</td>"), std::string::npos);
+  EXPECT_EQ(one.find("marked alike"), std::string::npos);
+  EXPECT_NE(one.find("<td>Seat &lt;1&gt;</td>"), std::string::npos);
+  EXPECT_EQ(one.find("4ab3f3a9"), std::string::npos) << "a key tells nobody anything";
+  figures_.marked_by = {{0, 60, 2, {}, {}, 5}, {37, 70, 2, {{"rubric.toml", "aa"}}, {}, 2}};
+  figures_.pass_points.reset();
+  const std::string several = class_html(figures_, tooth_);
+  EXPECT_EQ(several.find(">pass mark</text>"), std::string::npos);
+  EXPECT_NE(
+      several.find("Not all results were marked alike: 5 as it was sat (pass mark 60 %), 2 by the rubric of entry 37 (pass mark 70 %). There is "
+                   "no one pass mark"),
+      std::string::npos);
+}
+
 TEST_F(ClassReport, SaysTheSameInHtmlAndPdf) {
   const std::string html = class_html(figures_, tooth_);
   EXPECT_NE(html.find("7 cavities laid over each other"), std::string::npos);

@@ -1,4 +1,6 @@
 // `cavum report` with a ledger: who may see what, and when; attempts over time; names only when released and asked for.
+#include <fmt/core.h>
+
 #include <filesystem>
 
 #include "engine/base/text.h"
@@ -19,7 +21,7 @@ class ReportVerbs : public testing_ui::Program {
   std::string scenario() const { return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml"; }
   /// A candidate sits the exam; returns the session, filed.
   std::string sit(const std::string& id, const std::string& name, const std::string& by, const std::string& file) {
-    const auto ticket = run("ledger ticket " + path("L") + " " + scenario() + " --candidate " + id + " --name '" + name +
+    const auto ticket = run("ledger ticket " + path("L") + " " + scenario() + " --another --candidate " + id + " --name '" + name +
                             "' --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --json --out " + path(file + ".ticket"));
     EXPECT_EQ(ticket.exit_code, 0) << ticket.err;
     pseudonym_ = json::parse(ticket.out)["tickets"][0]["candidate"];
@@ -156,10 +158,55 @@ TEST_F(ReportVerbs, ARegradedResultIsTheOneThatCountsWithReasonAndTheSealedOneBe
   EXPECT_EQ(what_if.find("the limit was misprinted"), std::string::npos);
 }
 
+TEST_F(ReportVerbs, OfSeveralDecisionsTheLastIsTheReports) {
+  const std::string session = sit("4711", "Ann Lee", "novice", "e1"), L = path("L");
+  const std::string entry = run_json("ledger show " + L)["sessions"][0]["seq"].dump(), by_session = " --session " + entry;
+  const auto must = [&](const std::string& verb) {
+    const auto r = run("ledger " + verb);
+    EXPECT_EQ(r.exit_code, 0) << verb << ": " << r.err;
+    return r.out;
+  };
+  const auto rubric = [&](const std::string& name, int points) {
+    write_text_file(path(name), fmt::format("[rubric]\nrule = \"compensatory\"\npass_percent = 10\n[[rubric.criteria]]\nid = \"removed\"\nmetric = "
+                                            "\"target_removed_percent\"\nfull = 50\nzero = 0\npoints = {}\n",
+                                            points));
+    must("regrade " + L + by_session + " --rubric " + path(name) + " --reason misprinted");
+  };
+  const auto decide = [&](const std::string& verdict, const std::string& why) {
+    must("decide " + L + by_session + " --verdict " + verdict + " --person 'Dr. Weber' --reason " + why);
+  };
+  /// That of `ledger report`, after the release of all; its printed line names `verdict`.
+  const auto reported = [&](const std::string& verdict) {
+    must("release " + L + " --all --undecided");
+    EXPECT_NE(must("report " + L + " --out " + path("reports")).find("(" + verdict + ")"), std::string::npos) << verdict;
+    const std::string instructors = report(session, "--ledger " + L);
+    EXPECT_EQ(instructors.find("Not the ledger"), std::string::npos) << verdict;
+    EXPECT_NE(instructors.find("<b>" + verdict + "</b>"), std::string::npos) << verdict;
+    return read_text_file(path("reports/" + pseudonym_ + "-" + entry + ".html"));
+  };
+  rubric("kind.toml", 10);
+  ASSERT_EQ(run_json("ledger show " + L)["sessions"][0]["verdict"], "review");
+  decide("fail", "too-little");
+  EXPECT_NE(reported("fail").find("fail: too-little (entry "), std::string::npos);
+
+  must("appeal " + L + by_session + " --reason unfair");
+  decide("pass", "looked-again");
+  must("appeal " + L + by_session + " --outcome changed --reason granted");
+  const std::string again = reported("pass");
+  EXPECT_NE(again.find("pass: looked-again (entry "), std::string::npos);
+  EXPECT_EQ(again.find("too-little"), std::string::npos);
+  EXPECT_NE(again.find("The program had left it to a person"), std::string::npos);
+
+  rubric("other.toml", 20);  // its result is the program's again, whoever decided the one before
+  EXPECT_EQ(reported("review").find("looked-again"), std::string::npos);
+  decide("pass", "as-before");
+  EXPECT_NE(reported("pass").find("pass: as-before (entry "), std::string::npos);
+}
+
 TEST_F(ReportVerbs, WhatWasFiledWithFindingsStandsNowhereAsSound) {
   const std::string sound = sit("4711", "Ann Lee", "novice", "e1");
   const auto ticket = run("ledger ticket " + path("L") + " " + scenario() +
-                          " --candidate 4711 --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --json --out " + path("e2.ticket"));
+                          " --another --candidate 4711 --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --json --out " + path("e2.ticket"));
   ASSERT_EQ(ticket.exit_code, 0) << ticket.err;
   const std::string bad = path("e2.cavum");
   ASSERT_EQ(run("exam " + scenario() + " --ticket " + path("e2.ticket") + " --operator expert --quiet --out " + bad).exit_code, 0);
