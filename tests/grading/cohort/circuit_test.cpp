@@ -18,8 +18,7 @@ std::vector<StudyMark> table(const std::vector<std::vector<double>>& rows) {
   return marks;
 }
 CircuitStudy study_of(const std::vector<std::vector<double>>& rows, double cut = 60) {
-  return study_circuit(crossed_design({"candidate", "exam"}), table(rows), {{static_cast<double>(rows[0].size())}}, static_cast<double>(rows.size()),
-                       cut);
+  return study_circuit(crossed_design({"candidate", "exam"}), table(rows), cut);
 }
 std::string refusal_of(const std::vector<std::vector<double>>& rows) {
   return testing_basics::error_of([&] { static_cast<void>(study_of(rows)); });
@@ -47,8 +46,8 @@ TEST(Circuit, WhereNoCandidateDiffersThereIsNoStudy) {
     EXPECT_NE(refusal_of({{v, v, v}, {v, v, v}, {v, v, v}}).find("are all alike"), std::string::npos) << v;
   EXPECT_NE(refusal_of({{third, 70, 55}, {third, 70, 55}, {third, 70, 55}, {third, 70, 55}}).find("differ by their conditions alone"),
             std::string::npos);
-  EXPECT_NE(refusal_of({{60}, {70}}).find("cannot tell all effects apart"), std::string::npos) << "one exam";
-  EXPECT_NE(refusal_of({{60, 70}}).find("cannot tell all effects apart"), std::string::npos) << "one candidate";
+  EXPECT_NE(refusal_of({{60}, {70}}).find("cannot tell these effects apart"), std::string::npos) << "one exam";
+  EXPECT_NE(refusal_of({{60, 70}}).find("cannot tell these effects apart"), std::string::npos) << "one candidate";
   CircuitFigures f;
   f.why_no_program = "these marks: are all alike";
   const auto j = to_json(f)["program"];
@@ -63,7 +62,7 @@ TEST(Circuit, AnEstimateLiesWithinItsRange) {
   expect_sound(sure, "candidates differ, and no error at all");
   EXPECT_EQ(sure.as_sat.phi, 1);
   EXPECT_EQ(sure.range.phi_low, 1);
-  EXPECT_EQ(sure.tasks_for_enough, 1);
+  EXPECT_EQ(sure.for_enough.estimate, 1);
   const CircuitStudy added = study_of({{40.1, 60.2}, {50.1, 70.2}, {70.1, 90.2}, {20.1, 40.2}});
   expect_sound(added, "candidates and exams add up");
   EXPECT_EQ(added.as_sat.g, 1);
