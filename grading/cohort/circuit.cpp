@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "grading/cohort/judge_names.h"
 #include "grading/ledger/exam_scale.h"
 
 namespace cavum::cohort {
@@ -45,8 +46,15 @@ void when_possible(Result& out, std::string& why_not, const Make& make) {
 /// Severities of facet 2 (of three: candidate, exam, station or judge), with their names.
 std::vector<NamedSeverity> named(const SeverityStudy& study, const std::vector<std::string>& names) {
   std::vector<NamedSeverity> out;
-  for (std::size_t i = 0; i < study.facets[1].size(); ++i) out.push_back({names[i], study.facets[1][i]});
+  for (std::size_t i = 0; i < study.facets[1].conditions.size(); ++i) out.push_back({names[i], study.facets[1].conditions[i]});
   return out;
+}
+
+/// With what facet 2 may do something together that looks like severity.
+std::vector<std::string> not_told_from(const SeverityStudy& study) {
+  std::vector<std::string> names;
+  for (const std::uint32_t facet : study.facets[1].not_told_from) names.emplace_back(facet == 1U ? "candidate" : "exam");
+  return names;
 }
 
 /// What the exams of the ledger say of one class.
@@ -139,6 +147,7 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
     const auto by_people = marks.find(exam);
     all.add(exam, by_people == marks.end() ? std::vector<HumanMark>() : by_people->second);
   }
+  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()}, "people's marks");
   f.cut_percent = all.cut_percent();
 
   std::vector<StudyMark> by_exam, by_station, by_judge;
@@ -147,9 +156,7 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
     by_station.push_back({{m.candidate, m.exam, m.station}, m.percent});
   }
   for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
-  when_possible(f.program, f.why_no_program, [&] {
-    return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent);
-  });
+  when_possible(f.program, f.why_no_program, [&] { return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent); });
   if (all.people.empty())
     f.why_no_people = "no marks of people";
   else
@@ -157,10 +164,10 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
 
   std::optional<SeverityStudy> severity, of_judges;
   when_possible(severity, f.why_no_stations, [&] { return study_severity(by_station); });
-  if (severity) f.stations = named(*severity, all.stations.names());
+  if (severity) f.stations = named(*severity, all.stations.names()), f.stations_not_told_from = not_told_from(*severity);
   if (!by_judge.empty()) {
     when_possible(of_judges, f.why_no_judges, [&] { return study_severity(by_judge); });
-    if (of_judges) f.judges = named(*of_judges, all.judges.names());
+    if (of_judges) f.judges = named(*of_judges, all.judges.names()), f.judges_not_told_from = not_told_from(*of_judges);
   }
   put_roster(f, all, severity);
   return f;

@@ -42,6 +42,9 @@ struct CircuitFigures {
   std::string why_no_program, why_no_people;  ///< where there is none
   std::vector<NamedSeverity> stations, judges;
   std::string why_no_stations, why_no_judges;
+  /// With what stations and judges may do something together that these marks do not tell from severity: "candidate", "exam". Then none is named
+  /// severe.
+  std::vector<std::string> stations_not_told_from, judges_not_told_from;
   std::vector<RosterRow> roster;
 };
 

@@ -1,5 +1,5 @@
-// A study of one set of a circuit's marks, the program's or people's: where differences come from, and how dependable the mark of a candidate is, with
-// the exams and judges that it really has.
+// A study of one set of a circuit's marks, the program's or people's: where differences come from, and how dependable the mark of a candidate is,
+// with the exams and judges that it really has.
 #pragma once
 
 #include <optional>
@@ -31,8 +31,8 @@ struct CircuitStudy {
 };
 /// `cut`: what passes, in the marks' unit. Facet 1 is the exam. Throws what VarianceStudy and require_differences throw.
 [[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, double cut);
-/// Of marks by candidate, exam and judge. Judges who marked one exam each are nested in it; else they are crossed with exams. Throws Error, too, where
-/// each exam has one judge.
+/// Of marks by candidate, exam and judge. Judges who marked one exam each are nested in it; else they are crossed with exams. Throws Error, too,
+/// where each exam has one judge.
 [[nodiscard]] CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, double cut);
 inline constexpr double k_enough_phi = 0.80;
 inline constexpr int k_most_tasks = 40;

@@ -42,8 +42,8 @@ Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not
   return j;
 }
 
-Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not) {
-  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"conditions", Json::array()}};
+Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not, const std::vector<std::string>& not_told_from) {
+  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"not_told_from", not_told_from}, {"conditions", Json::array()}};
   for (const auto& s : list)
     j["conditions"].push_back({{"name", s.name},
                                {"marks", s.severity.marks},
@@ -59,9 +59,9 @@ std::string number_text(double n) { return fixed(n, n == std::floor(n) ? 0 : 1);
 /// "the mean of 6 marks: 3 exams, 2 judges"
 std::string marks_text(const CircuitStudy& s) {
   const Marking& m = s.marking;
-  std::string text = fmt::format("  a candidate's mark is the mean of {} marks: {} exams", number_text(m.marks_each()), number_text(m.conditions()[0]));
-  if (m.conditions().size() > 1)
-    text += fmt::format(", {} judges{}", number_text(m.conditions()[1]), m.nested(2) ? " in each" : "");
+  std::string text =
+      fmt::format("  a candidate's mark is the mean of {} marks: {} exams", number_text(m.marks_each()), number_text(m.conditions()[0]));
+  if (m.conditions().size() > 1) text += fmt::format(", {} judges{}", number_text(m.conditions()[1]), m.nested(2) ? " in each" : "");
   return text + (m.even() ? "\n" : ", on average\n");
 }
 
@@ -77,8 +77,8 @@ std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, 
   for (const double v : s->components.variance) total += std::max(0.0, v);
   std::string text = fmt::format("{}: where the differences come from\n", whose);
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
-    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.names[k], fixed(s->components.variance[k], 1),
-                        fixed(s->error[k], 1), fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
+    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.names[k], fixed(s->components.variance[k], 1), fixed(s->error[k], 1),
+                        fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
   for (const auto& [effect, in] : s->merged) text += fmt::format("  {} cannot be told from {} by these marks, and stands in it\n", effect, in);
   text += marks_text(*s);
   text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
@@ -100,12 +100,18 @@ std::string left_out_text(const std::vector<MarkLeftOut>& marks) {
   return fmt::format("people's marks left out: {}, of candidates without a session of that exam that counts: {}\n", marks.size(), names);
 }
 
-std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not) {
+std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not,
+                          const std::vector<std::string>& not_told_from) {
   if (!why_not.empty()) return fmt::format("{}: not compared: {}\n", what, why_not);
   std::string text;
   for (const auto& s : list)
     text += fmt::format("  {:<24} takes {:>5} ± {} % of {} marks{}\n", one_line(s.name), fixed(s.severity.severity, 1), fixed(s.severity.error, 1),
                         s.severity.marks, s.severity.beyond_chance ? ": more than chance gives" : "");
+  for (const auto& other : not_told_from)
+    text += other == "exam"
+                ? "  none is called severe: these marks do not tell it from what one exam and it do together; compare them in two exams at least\n"
+                : "  none is called severe: these marks do not tell it from what a candidate and it do together; let more candidates be "
+                  "marked by two of them\n";
   return text.empty() ? "" : fmt::format("{}, beside their mean\n", what) + text;
 }
 
@@ -131,8 +137,8 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
           {"cut_percent", f.cut_percent},
           {"program", study_json(f.program, f.why_no_program)},
           {"people", study_json(f.people, f.why_no_people)},
-          {"stations", severities_json(f.stations, f.why_no_stations)},
-          {"judges", severities_json(f.judges, f.why_no_judges)},
+          {"stations", severities_json(f.stations, f.why_no_stations, f.stations_not_told_from)},
+          {"judges", severities_json(f.judges, f.why_no_judges, f.judges_not_told_from)},
           {"roster", roster}};
 }
 
@@ -145,8 +151,8 @@ std::string to_text(const CircuitFigures& f) {
   if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
   text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);
   text += study_text("people's marks", f.people, f.why_no_people, f.cut_percent);
-  text += severity_text("stations", f.stations, f.why_no_stations);
-  text += severity_text("judges", f.judges, f.why_no_judges);
+  text += severity_text("stations", f.stations, f.why_no_stations, f.stations_not_told_from);
+  text += severity_text("judges", f.judges, f.why_no_judges, f.judges_not_told_from);
   return text + "No mark was changed. Adjusted ones, beside the raw: --out roster.csv\n";
 }
 

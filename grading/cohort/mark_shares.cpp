@@ -62,8 +62,8 @@ Marking::Marking(const StudyDesign& design, std::span<const StudyMark> marks) {
   const double other_pairs = places * places - squared_tasks - own_pairs;
   for (const std::uint32_t effect : design.effects) {
     const auto group = groups_under(effect, marks);
-    Weights given, of_task, of_person_sum;                              // (person, group), (task, group), (person, group)
-    std::map<std::pair<Pair, std::uint32_t>, double> at_task;           // ((person, task), group)
+    Weights given, of_task, of_person_sum;                     // (person, group), (task, group), (person, group)
+    std::map<std::pair<Pair, std::uint32_t>, double> at_task;  // ((person, task), group)
     for (std::size_t i = 0; i < marks.size(); ++i) {
       const std::uint32_t p = marks[i].level[0], t = marks[i].level[1];
       const double of_mark = 1 / of_person[p], of_place = 1 / of_both[{p, t}];
@@ -109,7 +109,8 @@ void Marking::count(const StudyDesign& design, std::span<const StudyMark> marks)
     std::map<Pair, std::set<std::uint32_t>> different;  // of a candidate, and of a task of his where the facet is nested in it
     for (const StudyMark& m : marks) different[{m.level[0], nested ? m.level[1] : 0}].insert(m.level[f]);
     double sum = 0;
-    for (const auto& [at, levels] : different) sum += static_cast<double>(levels.size()), even_ = even_ && levels.size() == different.begin()->second.size();
+    for (const auto& [at, levels] : different)
+      sum += static_cast<double>(levels.size()), even_ = even_ && levels.size() == different.begin()->second.size();
     nested_.push_back(nested);
     conditions_.push_back(sum / static_cast<double>(different.size()));
   }

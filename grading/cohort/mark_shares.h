@@ -46,8 +46,8 @@ class Marking {
   /// Of facet 1, 2, ...: how many different conditions a candidate has, on average; those of a nested facet in each of his tasks.
   [[nodiscard]] const std::vector<double>& conditions() const noexcept { return conditions_; }
   [[nodiscard]] bool nested(std::size_t facet) const { return nested_[facet - 1]; }  ///< in the task
-  [[nodiscard]] double marks_each() const noexcept { return marks_each_; }  ///< marks of a candidate, on average
-  [[nodiscard]] bool even() const noexcept { return even_; }                ///< all candidates have equally many marks and conditions
+  [[nodiscard]] double marks_each() const noexcept { return marks_each_; }           ///< marks of a candidate, on average
+  [[nodiscard]] bool even() const noexcept { return even_; }                         ///< all candidates have equally many marks and conditions
 
  private:
   void count(const StudyDesign& design, std::span<const StudyMark> marks);

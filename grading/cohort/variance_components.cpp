@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -113,6 +114,13 @@ StudyDesign nested_design(const std::string& persons, const std::string& outer, 
 
 namespace {
 
+std::vector<double> times(const SquareMatrix& matrix, std::span<const double> column) {
+  std::vector<double> out(matrix.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (std::size_t k = 0; k < column.size(); ++k) out[i] += matrix[i][k] * column[k];
+  return out;
+}
+
 StudyDesign fitting(StudyDesign design, std::span<const StudyMark> marks) {
   for (const StudyMark& m : marks)
     if (m.level.size() != design.facets.size()) throw Error("a mark", "has another number of conditions than the study has facets", "");
@@ -162,29 +170,56 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   SquareMatrix a(n + 1, std::vector<double>(n + 1, static_cast<double>(marks_)));
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t k = 0; k < n; ++k) a[i][k] = i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
-  auto inverse = inverted(a);
+  expected_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> column;
+    for (std::size_t i = 0; i <= n; ++i) column.push_back(a[i][k]);
+    const std::vector<double> own = own_squares(std::move(column));
+    for (std::size_t i = 0; i < n; ++i) expected_[i].push_back(own[i]);
+  }
+  auto inverse = inverted(expected_);
   if (!inverse)
     throw Error("these marks", "cannot tell these effects apart: " + dependent_effects(a, design_.names),
                 "a study needs two conditions of each facet, and candidates who share them");
-  inverse_ = std::move(*inverse);
+  of_squares_ = std::move(*inverse);
   marking_ = Marking(design_, marks);
 }
 
-VarianceComponents VarianceStudy::estimate(std::span<const double> values) const {
+std::vector<double> VarianceStudy::own_squares(std::vector<double> sums) const {
+  std::vector<double> own(design_.effects.size());
+  std::vector<std::size_t> order(own.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return std::popcount(design_.effects[a]) < std::popcount(design_.effects[b]); });
+  for (const std::size_t i : order) {
+    own[i] = sums[i] - sums.back();
+    for (const std::size_t k : order)
+      if (k != i && (design_.effects[i] & design_.effects[k]) == design_.effects[k]) own[i] -= own[k];
+  }
+  return own;
+}
+
+std::vector<double> VarianceStudy::squares(std::span<const double> values) const {
   const double middle = mean(values);
   std::vector<double> from_middle(values.begin(), values.end());  // the sums of squares then lose no digits
   for (double& v : from_middle) v -= middle;
+  std::vector<double> sums;
+  for (std::size_t i = 0; i < group_.size(); ++i) sums.push_back(sum_of_squares(group_[i], size_[i], from_middle));
+  sums.push_back(0);
+  return own_squares(std::move(sums));
+}
+
+std::vector<double> VarianceStudy::expected_squares(std::span<const double> variance) const { return times(expected_, variance); }
+std::vector<double> VarianceStudy::variances_of(std::span<const double> squares) const { return times(of_squares_, squares); }
+
+VarianceComponents VarianceStudy::estimate(std::span<const double> values) const {
+  const double middle = mean(values);
   double mean_square = 0;
-  for (const double v : from_middle) mean_square += v * v / static_cast<double>(marks_);
+  for (const double v : values) mean_square += (v - middle) * (v - middle) / static_cast<double>(marks_);
   const double rounding = 1e-12 * mean_square + 1e-24 * middle * middle;
-  const std::size_t n = design_.effects.size();
-  std::vector<double> t(n + 1);
-  for (std::size_t i = 0; i < n; ++i) t[i] = sum_of_squares(group_[i], size_[i], from_middle);
-  VarianceComponents found{std::vector<double>(n), middle};
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t i = 0; i <= n; ++i) found.variance[k] += inverse_[k][i] * t[i];
-    if (std::fabs(found.variance[k]) <= rounding) found.variance[k] = 0;
-  }
+  VarianceComponents found{variances_of(squares(values)), middle};
+  for (double& v : found.variance)
+    if (std::fabs(v) <= rounding) v = 0;
   return found;
 }
 
@@ -289,33 +324,11 @@ CutDecision cut_decision(const Dependability& d, double mean_mark, double cut) {
 
 namespace {
 
-/// How 1 − g and 1 − phi scatter as multiples of what they were drawn from.
-class Scatter {
- public:
-  explicit Scatter(const Dependability& drawn_from) : d_(drawn_from) {}
-  /// `below`: the candidates' variance as it was estimated, where it is below 0; else 0.
-  void add(const Dependability& a, double below) {
-    // 1 − g is then above 1, as the analysis of variance has it.
-    const double universe = a.universe + below;
-    const auto unsure = [&](double error) { return universe + error > 0 ? error / (universe + error) : 1e9; };
-    g_.push_back(unsure(a.relative) / std::max(1e-12, 1 - d_.g));
-    phi_.push_back(unsure(a.absolute) / std::max(1e-12, 1 - d_.phi));
-  }
-  [[nodiscard]] DependabilityRange range() const {
-    constexpr double k_tail = 0.025;
-    const auto bound = [&](const std::vector<double>& ratios, double coefficient, double share) {
-      return std::clamp(1 - (1 - coefficient) / std::max(1e-12, quantile(ratios, share)), 0.0, 1.0);
-    };
-    DependabilityRange r{bound(g_, d_.g, k_tail), bound(g_, d_.g, 1 - k_tail), bound(phi_, d_.phi, k_tail), bound(phi_, d_.phi, 1 - k_tail)};
-    r.phi_low = std::min(r.phi_low, r.g_low);
-    r.g_high = std::max(r.g_high, r.phi_high);
-    return r;
-  }
-
- private:
-  Dependability d_;
-  std::vector<double> g_, phi_;
-};
+/// The middle 95 of 100 of what was found, and what was estimated.
+std::pair<double, double> middle_of(const std::vector<double>& found, double estimate) {
+  constexpr double k_tail = 0.025;
+  return {std::min(estimate, quantile(found, k_tail)), std::max(estimate, quantile(found, 1 - k_tail))};
+}
 
 }  // namespace
 
@@ -325,21 +338,37 @@ StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& e
   for (double& v : drawn_from.variance) v = std::max(0.0, v);
   const StudyDesign& design = study.design();
   const double persons = study.marking().persons();
-  std::vector<Scatter> scatter;
-  for (const MarkShares& shares : circuits) scatter.emplace_back(dependability(design, drawn_from, shares, persons));
+  const std::vector<double> seen = study.expected_squares(estimate.variance), expected = study.expected_squares(drawn_from.variance);
+  const std::size_t effects = design.effects.size();
+  std::vector<std::vector<double>> variance(effects), g(circuits.size()), phi(circuits.size());
   Random seeds(seed);
-  std::vector<std::vector<double>> variance(design.effects.size());
   for (int i = 0; i < draws; ++i) {
-    const VarianceComponents again = study.estimate(study.draw(drawn_from, seeds.next()));
-    double below = 0;
-    for (std::size_t k = 0; k < variance.size(); ++k) {
-      variance[k].push_back(again.variance[k]);
-      if (design.effects[k] == 1U) below = std::min(0.0, again.variance[k]);
+    const std::vector<double> again = study.squares(study.draw(drawn_from, seeds.next()));
+    const std::vector<double> estimated = study.variances_of(again);
+    std::vector<double> likely(effects);
+    for (std::size_t k = 0; k < effects; ++k) {
+      variance[k].push_back(estimated[k]);
+      // A chi square by its freedom where marks are balanced; else the squares may come out below 0, and their distance counts.
+      const bool ratio = seen[k] >= 0 && expected[k] > 0 && again[k] > 0;
+      likely[k] = ratio ? seen[k] * expected[k] / again[k] : seen[k] - (again[k] - expected[k]);
     }
-    for (std::size_t c = 0; c < scatter.size(); ++c) scatter[c].add(dependability(design, again, circuits[c], persons), below);
+    VarianceComponents truth{study.variances_of(likely), 0};
+    double largest = 0;
+    for (const double v : truth.variance) largest = std::max(largest, std::fabs(v));
+    for (double& v : truth.variance)
+      if (std::fabs(v) <= 1e-12 * largest) v = 0;  // what rounding left
+    for (std::size_t c = 0; c < circuits.size(); ++c) {
+      const Dependability d = dependability(design, truth, circuits[c], persons);
+      g[c].push_back(d.g);
+      phi[c].push_back(d.phi);
+    }
   }
   StudyRanges ranges;
-  for (const Scatter& s : scatter) ranges.circuits.push_back(s.range());
+  for (std::size_t c = 0; c < circuits.size(); ++c) {
+    const Dependability d = dependability(design, drawn_from, circuits[c], persons);
+    const auto of_g = middle_of(g[c], d.g), of_phi = middle_of(phi[c], d.phi);
+    ranges.circuits.push_back({of_g.first, of_g.second, of_phi.first, of_phi.second});
+  }
   for (const auto& v : variance) ranges.error.push_back(std::sqrt(cavum::variance(v)));
   return ranges;
 }

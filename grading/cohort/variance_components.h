@@ -40,23 +40,30 @@ class VarianceStudy {
   /// Henderson's first method (Biometrics 9 (1953) 226; Brennan's analogous ANOVA): sums of squares are set equal to what they are expected to be.
   /// Balanced: the components of the analysis of variance. `values`: one for each mark, in their order. What rounding leaves is 0.
   [[nodiscard]] VarianceComponents estimate(std::span<const double> values) const;
+  /// What is left of each effect's sum of squares when those of the effects within it are taken off: balanced, that of the analysis of variance.
+  [[nodiscard]] std::vector<double> squares(std::span<const double> values) const;
+  /// What they are expected to be under these variances, and the variances that give such squares.
+  [[nodiscard]] std::vector<double> expected_squares(std::span<const double> variance) const;
+  [[nodiscard]] std::vector<double> variances_of(std::span<const double> squares) const;
   /// Values drawn from normal distributions of these variances, on this study's conditions.
   [[nodiscard]] std::vector<double> draw(const VarianceComponents& from, std::uint64_t seed) const;
 
  private:
   void merge(std::span<const StudyMark> marks);
+  [[nodiscard]] std::vector<double> own_squares(std::vector<double> sums) const;
 
   StudyDesign design_;
   std::size_t marks_;
   std::vector<std::pair<std::string, std::string>> merged_;
   std::vector<std::vector<std::uint32_t>> group_;  // by effect, of each mark
   std::vector<std::vector<double>> size_;          // by effect, of each group: how many marks
-  std::vector<std::vector<double>> inverse_;       // from sums of squares to variances, the square of the mean last
+  std::vector<std::vector<double>> expected_;      // of `squares`, by effect and variance
+  std::vector<std::vector<double>> of_squares_;    // its inverse
   Marking marking_;
 };
 
-/// How many conditions of each facet beside the persons a circuit would have, the same for all candidates; a fixed facet is the same in every circuit,
-/// no sample of many.
+/// How many conditions of each facet beside the persons a circuit would have, the same for all candidates; a fixed facet is the same in every
+/// circuit, no sample of many.
 struct CircuitPlan {
   std::vector<double> conditions;  ///< of facet 1, 2, ...; an inner facet's: in each outer condition. At least 1
   std::vector<bool> fixed = {};    ///< empty: none
@@ -90,8 +97,9 @@ struct CutDecision {
 };
 [[nodiscard]] CutDecision cut_decision(const Dependability& d, double mean, double cut);
 
-/// Bounds that hold the truth in 95 of 100 studies of normal marks: 1 − g (1 − phi) by how it scatters over studies drawn from the estimate, as a
-/// multiple of what they were drawn from. Of candidates by tasks that ratio is an F, and the bound Feldt's (Psychometrika 30 (1965) 357). As phi never
+/// Generalised confidence bounds of 95 % (Weerahandi, J. American Statistical Association 88 (1993) 899): each sum of squares is divided by how it
+/// scatters over studies drawn from the estimate, beside what is expected of it; g and phi of the variances that such sums stand for. Balanced, that
+/// is a chi square for each; of candidates by tasks g's bounds are Feldt's (Psychometrika 30 (1965) 357). The estimate lies within; as phi never
 /// exceeds g, neither do its bounds.
 struct DependabilityRange {
   double g_low = 0.0, g_high = 0.0, phi_low = 0.0, phi_high = 0.0;
@@ -101,7 +109,7 @@ struct StudyRanges {
   std::vector<double> error;                 ///< standard error of each variance component
 };
 /// `circuits`: how a candidate's mark is made in each of the circuits that are asked about.
-[[nodiscard]] StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate, std::span<const MarkShares> circuits, int draws,
-                                       std::uint64_t seed);
+[[nodiscard]] StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate, std::span<const MarkShares> circuits,
+                                       int draws, std::uint64_t seed);
 
 }  // namespace cavum::cohort
