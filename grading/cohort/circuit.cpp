@@ -6,12 +6,10 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "grading/cohort/judge_names.h"
 
 namespace cavum::cohort {
 namespace {
-
-constexpr int k_range_draws = 1000;
-constexpr std::uint64_t k_range_seed = 1;  // the same marks give the same ranges
 
 /// Numbers for names, in the order in which they come.
 class Numbered {
@@ -34,12 +32,6 @@ struct CircuitMark {
   double percent = 0.0;
 };
 
-std::vector<double> values_of(const std::vector<StudyMark>& marks) {
-  std::vector<double> values;
-  for (const auto& m : marks) values.push_back(m.value);
-  return values;
-}
-
 /// Runs what may be refused, and keeps why.
 template <class Result, class Make>
 void when_possible(Result& out, std::string& why_not, const Make& make) {
@@ -50,36 +42,18 @@ void when_possible(Result& out, std::string& why_not, const Make& make) {
   }
 }
 
-/// How many different second things stand with a first one, on average.
-double mean_partners(const std::set<std::pair<std::uint32_t, std::uint32_t>>& pairs) {
-  std::set<std::uint32_t> first;
-  for (const auto& p : pairs) first.insert(p.first);
-  return static_cast<double>(pairs.size()) / static_cast<double>(std::max<std::size_t>(1, first.size()));
-}
-
-/// Judges who marked one exam each are nested in exams; else they are crossed with them.
-CircuitStudy study_of_people(const std::vector<CircuitMark>& marks, std::size_t exams, double candidates, std::optional<double> cut) {
-  std::set<std::pair<std::uint32_t, std::uint32_t>> exams_of_judge, judges_of_exam;
-  for (const auto& m : marks) {
-    exams_of_judge.insert({m.judge, m.exam});
-    judges_of_exam.insert({m.exam, m.judge});
-  }
-  const double judges = mean_partners(judges_of_exam);
-  if (judges <= 1)
-    throw Error("people's marks", "are one judge's in each exam: judge and exam cannot be told apart",
-                "have each exam marked by two judges at least");
-  const bool nested = mean_partners(exams_of_judge) <= 1;
-  std::vector<StudyMark> list;
-  for (const auto& m : marks) list.push_back({{m.candidate, m.exam, m.judge}, m.percent});
-  return study_circuit(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), list,
-                       {{static_cast<double>(exams), judges}}, candidates, cut);
-}
-
 /// Severities of facet 2 (of three: candidate, exam, station or judge), with their names.
 std::vector<NamedSeverity> named(const SeverityStudy& study, const std::vector<std::string>& names) {
   std::vector<NamedSeverity> out;
-  for (std::size_t i = 0; i < study.facets[1].size(); ++i) out.push_back({names[i], study.facets[1][i]});
+  for (std::size_t i = 0; i < study.facets[1].conditions.size(); ++i) out.push_back({names[i], study.facets[1].conditions[i]});
   return out;
+}
+
+/// With what facet 2 may do something together that looks like severity.
+std::vector<std::string> not_told_from(const SeverityStudy& study) {
+  std::vector<std::string> names;
+  for (const std::uint32_t facet : study.facets[1].not_told_from) names.emplace_back(facet == 1U ? "candidate" : "exam");
+  return names;
 }
 
 /// What the exams of the ledger say of one class.
@@ -166,25 +140,6 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
 
 }  // namespace
 
-CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates, std::optional<double> cut) {
-  const VarianceStudy study(std::move(design), marks);
-  CircuitStudy s;
-  s.design = study.design();
-  s.components = study.estimate(values_of(marks));
-  require_differences(s.design, s.components);
-  s.plan = std::move(plan);
-  s.range = dependability_range(study, s.components, s.plan, candidates, k_range_draws, k_range_seed);
-  s.as_sat = dependability(s.design, s.components, s.plan, candidates);
-  if (cut) s.at_cut = cut_decision(s.as_sat, s.components.mean, *cut);
-  CircuitPlan wanted = s.plan;
-  for (int n = 1; n <= k_most_tasks; ++n) {
-    wanted.conditions[0] = n;
-    s.by_tasks.push_back(dependability(s.design, s.components, wanted, candidates));
-    if (!s.tasks_for_enough && s.by_tasks.back().phi >= k_enough_phi) s.tasks_for_enough = n;
-  }
-  return s;
-}
-
 CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
                                const std::map<std::string, std::vector<HumanMark>>& marks) {
   if (exams.size() < 2) throw Error("a circuit", "has two exams at least", "name them with --exams A,B");
@@ -195,29 +150,27 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
     const auto by_people = marks.find(exam);
     all.add(exam, by_people == marks.end() ? std::vector<HumanMark>() : by_people->second);
   }
+  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()}, "people's marks");
   f.cut_percent = all.cut_percent();
 
-  const double candidates = static_cast<double>(all.candidates.names().size()), n_exams = static_cast<double>(exams.size());
   std::vector<StudyMark> by_exam, by_station, by_judge;
   for (const auto& m : all.program) {
     by_exam.push_back({{m.candidate, m.exam}, m.percent});
     by_station.push_back({{m.candidate, m.exam, m.station}, m.percent});
   }
   for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
-  when_possible(f.program, f.why_no_program, [&] {
-    return study_circuit(crossed_design({"candidate", "exam"}), by_exam, {{n_exams}}, candidates, f.cut_percent);
-  });
+  when_possible(f.program, f.why_no_program, [&] { return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent); });
   if (all.people.empty())
     f.why_no_people = "no marks of people";
   else
-    when_possible(f.people, f.why_no_people, [&] { return study_of_people(all.people, all.marked.names().size(), candidates, f.cut_percent); });
+    when_possible(f.people, f.why_no_people, [&] { return study_of_judges(by_judge, f.cut_percent); });
 
   std::optional<SeverityStudy> severity, of_judges;
   when_possible(severity, f.why_no_stations, [&] { return study_severity(by_station); });
-  if (severity) f.stations = named(*severity, all.stations.names());
+  if (severity) f.stations = named(*severity, all.stations.names()), f.stations_not_told_from = not_told_from(*severity);
   if (!by_judge.empty()) {
     when_possible(of_judges, f.why_no_judges, [&] { return study_severity(by_judge); });
-    if (of_judges) f.judges = named(*of_judges, all.judges.names());
+    if (of_judges) f.judges = named(*of_judges, all.judges.names()), f.judges_not_told_from = not_told_from(*of_judges);
   }
   put_roster(f, all, severity);
   return f;

@@ -1,5 +1,5 @@
 // A circuit: several exams that one class sits. Its marks come from the ledger, and people's beside them; what they say of the circuit comes from
-// variance_components.h and severity.h. Marks are percent of each exam's points. No mark is changed.
+// circuit_study.h and severity.h. Marks are percent of each exam's points. No mark is changed.
 #pragma once
 
 #include <map>
@@ -8,28 +8,11 @@
 #include <string>
 #include <vector>
 
+#include "grading/cohort/circuit_study.h"
 #include "grading/cohort/class_figures.h"
 #include "grading/cohort/severity.h"
-#include "grading/cohort/variance_components.h"
 
 namespace cavum::cohort {
-
-/// One generalisability study: of the program's marks, or of people's.
-struct CircuitStudy {
-  StudyDesign design;
-  VarianceComponents components;
-  DependabilityRange range;
-  CircuitPlan plan;  ///< as it was sat
-  Dependability as_sat;
-  std::optional<CutDecision> at_cut;    ///< none where there is no one cut
-  std::vector<Dependability> by_tasks;  ///< with 1, 2, ... k_most_tasks exams, raters as they were
-  std::optional<int> tasks_for_enough;  ///< the fewest exams with a phi of k_enough_phi; none within k_most_tasks
-};
-/// `candidates`: how many; `cut`: what passes, in the marks' unit, where that is one. Throws what VarianceStudy and require_differences throw.
-[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, CircuitPlan plan, double candidates,
-                                         std::optional<double> cut);
-inline constexpr double k_enough_phi = 0.80;
-inline constexpr int k_most_tasks = 40;
 
 struct NamedSeverity {
   std::string name;  ///< station, judge or exam
@@ -60,6 +43,9 @@ struct CircuitFigures {
   std::string why_no_program, why_no_people;  ///< where there is none
   std::vector<NamedSeverity> stations, judges;
   std::string why_no_stations, why_no_judges;
+  /// With what stations and judges may do something together that these marks do not tell from severity: "candidate", "exam". Then none is named
+  /// severe.
+  std::vector<std::string> stations_not_told_from, judges_not_told_from;
   std::vector<RosterRow> roster;
 };
 

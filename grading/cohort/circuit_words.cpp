@@ -2,6 +2,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "engine/base/text.h"
 #include "grading/cohort/circuit.h"
@@ -20,24 +21,29 @@ Json coefficients(const Dependability& d) {
 
 Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not) {
   if (!s)
-    return {{"why_not", why_not}, {"mean_percent", nullptr}, {"components", nullptr},       {"as_sat", nullptr},
-            {"at_cut", nullptr},  {"by_exams", nullptr},     {"exams_for_phi_080", nullptr}};
-  Json j{{"why_not", nullptr}, {"mean_percent", s->components.mean}, {"components", Json::array()}};
+    return {{"why_not", why_not}, {"mean_percent", nullptr}, {"components", nullptr},        {"not_told_apart", nullptr},         {"as_sat", nullptr},
+            {"at_cut", nullptr},  {"by_exams", nullptr},     {"exams_for_phi_080", nullptr}, {"exams_for_phi_080_range", nullptr}};
+  Json j{{"why_not", nullptr}, {"mean_percent", s->mean}, {"components", Json::array()}, {"not_told_apart", Json::array()}};
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
-    j["components"].push_back({{"effect", s->design.effect_name(k)}, {"variance", s->components.variance[k]}, {"standard_error", s->range.error[k]}});
+    j["components"].push_back({{"effect", s->design.names[k]}, {"variance", s->components.variance[k]}, {"standard_error", s->error[k]}});
+  for (const auto& [effect, in] : s->merged) j["not_told_apart"].push_back({{"effect", effect}, {"stands_in", in}});
   j["as_sat"] = coefficients(s->as_sat);
-  j["as_sat"]["conditions"] = s->plan.conditions;
+  j["as_sat"]["candidates"] = s->marking.persons();
+  j["as_sat"]["marks_each"] = s->marking.marks_each();
+  j["as_sat"]["conditions"] = s->marking.conditions();
   j["as_sat"]["g_range"] = {s->range.g_low, s->range.g_high};
   j["as_sat"]["phi_range"] = {s->range.phi_low, s->range.phi_high};
   j["at_cut"] = s->at_cut ? Json{{"phi", s->at_cut->phi_at_cut}, {"consistency", s->at_cut->consistency}, {"accuracy", s->at_cut->accuracy}} : Json();
   j["by_exams"] = Json::array();
   for (const auto& d : s->by_tasks) j["by_exams"].push_back(coefficients(d));
-  j["exams_for_phi_080"] = s->tasks_for_enough ? Json(*s->tasks_for_enough) : Json();
+  const auto whole = [](const std::optional<int>& n) { return n ? Json(*n) : Json(); };
+  j["exams_for_phi_080"] = whole(s->for_enough.estimate);
+  j["exams_for_phi_080_range"] = {whole(s->for_enough.low), whole(s->for_enough.high)};
   return j;
 }
 
-Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not) {
-  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"conditions", Json::array()}};
+Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not, const std::vector<std::string>& not_told_from) {
+  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"not_told_from", not_told_from}, {"conditions", Json::array()}};
   for (const auto& s : list)
     j["conditions"].push_back({{"name", s.name},
                                {"marks", s.severity.marks},
@@ -47,14 +53,34 @@ Json severities_json(const std::vector<NamedSeverity>& list, const std::string& 
   return j;
 }
 
+/// A number of things: whole, or with one digit where it is a mean of unequal ones.
+std::string number_text(double n) { return fixed(n, n == std::floor(n) ? 0 : 1); }
+
+/// "the mean of 6 marks: 3 exams, 2 judges"
+std::string marks_text(const CircuitStudy& s) {
+  const Marking& m = s.marking;
+  std::string text =
+      fmt::format("  a candidate's mark is the mean of {} marks: {} exams", number_text(m.marks_each()), number_text(m.conditions()[0]));
+  if (m.conditions().size() > 1) text += fmt::format(", {} judges{}", number_text(m.conditions()[1]), m.nested(2) ? " in each" : "");
+  return text + (m.even() ? "\n" : ", on average\n");
+}
+
+std::string tasks_text(const TasksNeeded& n) {
+  const auto number = [](const std::optional<int>& tasks) { return tasks ? fmt::format("{}", *tasks) : fmt::format("more than {}", k_most_tasks); };
+  const std::string range = n.low == n.high ? std::string() : fmt::format(" ({} to {})", number(n.low), number(n.high));
+  return fmt::format("\n  for phi 0.80: {} exams{}\n", number(n.estimate), range);
+}
+
 std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, std::optional<double> cut) {
   if (!s) return fmt::format("{}: no study: {}\n", whose, why_not);
   double total = 0;
   for (const double v : s->components.variance) total += std::max(0.0, v);
   std::string text = fmt::format("{}: where the differences come from\n", whose);
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
-    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.effect_name(k), fixed(s->components.variance[k], 1),
-                        fixed(s->range.error[k], 1), fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
+    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.names[k], fixed(s->components.variance[k], 1), fixed(s->error[k], 1),
+                        fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
+  for (const auto& [effect, in] : s->merged) text += fmt::format("  {} cannot be told from {} by these marks, and stands in it\n", effect, in);
+  text += marks_text(*s);
   text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
                       fixed(s->range.phi_low, 2), fixed(s->range.phi_high, 2), fixed(s->as_sat.g, 2), fixed(s->range.g_low, 2),
                       fixed(s->range.g_high, 2), fixed(s->as_sat.absolute_sem, 1));
@@ -63,8 +89,7 @@ std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, 
                         fixed(100 * s->at_cut->consistency, 0), fixed(s->at_cut->phi_at_cut, 2));
   text += "  phi by the number of exams:";
   for (int n = 1; n <= k_tasks_in_words; ++n) text += fmt::format(" {}: {}", n, fixed(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2));
-  return text + (s->tasks_for_enough ? fmt::format("\n  for phi 0.80: {} exams\n", *s->tasks_for_enough)
-                                     : fmt::format("\n  for phi 0.80: more than {} exams\n", k_most_tasks));
+  return text + tasks_text(s->for_enough);
 }
 
 std::string left_out_text(const std::vector<MarkLeftOut>& marks) {
@@ -76,12 +101,18 @@ std::string left_out_text(const std::vector<MarkLeftOut>& marks) {
   return fmt::format("people's marks left out: {}, of candidates without a session of that exam that counts: {}\n", marks.size(), names);
 }
 
-std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not) {
+std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not,
+                          const std::vector<std::string>& not_told_from) {
   if (!why_not.empty()) return fmt::format("{}: not compared: {}\n", what, why_not);
   std::string text;
   for (const auto& s : list)
     text += fmt::format("  {:<24} takes {:>5} ± {} % of {} marks{}\n", one_line(s.name), fixed(s.severity.severity, 1), fixed(s.severity.error, 1),
                         s.severity.marks, s.severity.beyond_chance ? ": more than chance gives" : "");
+  for (const auto& other : not_told_from)
+    text += other == "exam"
+                ? "  none is called severe: these marks do not tell it from what one exam and it do together; compare them in two exams at least\n"
+                : "  none is called severe: these marks do not tell it from what a candidate and it do together; let more candidates be "
+                  "marked by two of them\n";
   return text.empty() ? "" : fmt::format("{}, beside their mean\n", what) + text;
 }
 
@@ -108,8 +139,8 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
           {"marked_differently", f.marked_differently},
           {"program", study_json(f.program, f.why_no_program)},
           {"people", study_json(f.people, f.why_no_people)},
-          {"stations", severities_json(f.stations, f.why_no_stations)},
-          {"judges", severities_json(f.judges, f.why_no_judges)},
+          {"stations", severities_json(f.stations, f.why_no_stations, f.stations_not_told_from)},
+          {"judges", severities_json(f.judges, f.why_no_judges, f.judges_not_told_from)},
           {"roster", roster}};
 }
 
@@ -123,8 +154,8 @@ std::string to_text(const CircuitFigures& f) {
   if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
   text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);
   text += study_text("people's marks", f.people, f.why_no_people, f.cut_percent);
-  text += severity_text("stations", f.stations, f.why_no_stations);
-  text += severity_text("judges", f.judges, f.why_no_judges);
+  text += severity_text("stations", f.stations, f.why_no_stations, f.stations_not_told_from);
+  text += severity_text("judges", f.judges, f.why_no_judges, f.judges_not_told_from);
   return text + "No mark was changed. Adjusted ones, beside the raw: --out roster.csv\n";
 }
 

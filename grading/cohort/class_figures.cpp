@@ -11,6 +11,7 @@
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/cohort/judge_names.h"
 #include "grading/ledger/exam_scale.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -278,6 +279,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
   if (!known) throw Error(where + ":1", "is no heading of marks", "begin with candidate,judge,points or candidate,judge,points,rating");
   std::vector<HumanMark> out;
+  std::set<std::string> judges;
   std::set<std::pair<std::string, std::string>> given;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
@@ -302,8 +304,10 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
     if (!given.emplace(m.candidate, m.judge).second)
       throw Error(at(rows[i]), fmt::format("is a second mark by judge {} for one candidate", m.judge), "leave one of them");
+    judges.insert(m.judge);
     out.push_back(std::move(m));
   }
+  require_distinct_judges(judges, where);
   if (out.empty()) throw Error(where, "holds no mark", "write a row for each candidate and judge");
   return out;
 }

@@ -4,21 +4,24 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/statistics/statistics.h"
+#include "grading/cohort/interactions.h"
 #include "grading/cohort/square_matrix.h"
 
 namespace cavum::cohort {
 namespace {
 
-/// The deviate that `n` normal ones all stay within, in 95 of 100 cases, by Bonferroni.
-double critical_of(std::size_t n) {
-  const double tail = 0.05 / (2 * static_cast<double>(std::max<std::size_t>(1, n)));
-  double low = 0, high = 10;
-  for (int i = 0; i < 60; ++i) {
-    const double z = 0.5 * (low + high);
-    (1 - normal_cdf(z) > tail ? low : high) = z;
-  }
-  return high;
+/// What `n` normal deviates, divided by a standard error of so much freedom, all stay within in 95 of 100 cases: Student's t and Bonferroni.
+double critical_of(std::size_t n, double freedom) {
+  // t = √freedom·tan(angle), and the density of the angle is cos^(freedom − 1).
+  constexpr int k_steps = 2000;
+  constexpr double k_quarter_turn = 1.57079632679489662;
+  const double tail = 0.05 / (2 * static_cast<double>(std::max<std::size_t>(1, n))), f = std::clamp(freedom, 1.0, 1000.0);
+  std::vector<double> below{0.0};
+  for (int i = 0; i < k_steps; ++i) below.push_back(below.back() + std::pow(std::cos(k_quarter_turn * (i + 0.5) / k_steps), f - 1));
+  const double wanted = (1 - 2 * tail) * below.back();
+  const auto next = std::lower_bound(below.begin() + 1, below.end() - 1, wanted);
+  const double at = static_cast<double>(next - below.begin()) - (*next - wanted) / (*next - *(next - 1));
+  return std::sqrt(f) * std::tan(k_quarter_turn * at / k_steps);
 }
 
 /// Columns of the model: one for each condition of each facet beside the persons.
@@ -39,82 +42,127 @@ struct Columns {
   [[nodiscard]] std::size_t of(const StudyMark& m, std::size_t facet) const { return first[facet - 1] + m.level[facet]; }
 };
 
+/// Mark = candidate + a condition of each facet, by least squares; the conditions of a facet add up to nothing.
+class Model {
+ public:
+  explicit Model(std::span<const StudyMark> marks) : marks_(marks), columns_(marks) {
+    const std::size_t n = columns_.count();
+    for (const StudyMark& m : marks) {
+      if (m.level[0] >= count_.size()) count_.resize(m.level[0] + 1);
+      count_[m.level[0]] += 1;
+    }
+    shares_.assign(count_.size(), std::vector<double>(n));
+    marks_of_.resize(n);
+    SquareMatrix normal(n, std::vector<double>(n));
+    for (const StudyMark& m : marks)
+      for (std::size_t f = 1; f < m.level.size(); ++f) {
+        const std::size_t i = columns_.of(m, f);
+        shares_[m.level[0]][i] += 1 / count_[m.level[0]];
+        marks_of_[i] += 1;
+        for (std::size_t g = 1; g < m.level.size(); ++g) normal[i][columns_.of(m, g)] += 1;
+      }
+    // Each candidate's mean is taken off: what is left tells of conditions alone.
+    for (std::size_t p = 0; p < count_.size(); ++p)
+      for (std::size_t i = 0; i < n; ++i)
+        for (std::size_t k = 0; k < n; ++k) normal[i][k] -= count_[p] * shares_[p][i] * shares_[p][k];
+    for (std::size_t f = 0; f + 1 < columns_.first.size(); ++f)
+      for (std::size_t i = columns_.first[f]; i < columns_.first[f + 1]; ++i)
+        for (std::size_t k = columns_.first[f]; k < columns_.first[f + 1]; ++k) normal[i][k] += 1;
+    auto inverse = inverted(std::move(normal));
+    if (!inverse)
+      throw Error("these marks", "do not compare all stations and raters: some share no candidates with the others, or stand for one exam alone",
+                  "let candidates of one exam sit at several stations, and be marked by several people");
+    inverse_ = std::move(*inverse);
+  }
+  [[nodiscard]] const Columns& columns() const noexcept { return columns_; }
+  [[nodiscard]] std::size_t persons() const noexcept { return count_.size(); }
+  [[nodiscard]] double marks_of_person(std::size_t p) const { return count_[p]; }
+  [[nodiscard]] double marks_of(std::size_t column) const { return marks_of_[column]; }
+  [[nodiscard]] std::vector<double> effects(std::span<const double> values) const {
+    const std::vector<double> means = means_of(values);
+    std::vector<double> right(inverse_.size()), effect(inverse_.size());
+    for (std::size_t m = 0; m < marks_.size(); ++m)
+      for (std::size_t f = 1; f < marks_[m].level.size(); ++f) right[columns_.of(marks_[m], f)] += values[m] - means[marks_[m].level[0]];
+    for (std::size_t i = 0; i < effect.size(); ++i)
+      for (std::size_t k = 0; k < effect.size(); ++k) effect[i] += inverse_[i][k] * right[k];
+    return effect;
+  }
+  [[nodiscard]] std::vector<double> residuals(std::span<const double> values) const {
+    const std::vector<double> effect = effects(values);
+    std::vector<double> left(values.begin(), values.end());
+    for (std::size_t m = 0; m < left.size(); ++m)
+      for (std::size_t f = 1; f < marks_[m].level.size(); ++f) left[m] -= effect[columns_.of(marks_[m], f)];
+    const std::vector<double> means = means_of(left);
+    for (std::size_t m = 0; m < left.size(); ++m) left[m] -= means[marks_[m].level[0]];
+    return left;
+  }
+  /// What each mark adds to the effect of a column.
+  [[nodiscard]] std::vector<double> weights(std::size_t column) const {
+    const std::vector<double>& row = inverse_[column];
+    std::vector<double> of_person(count_.size()), weights(marks_.size());
+    for (std::size_t p = 0; p < count_.size(); ++p)
+      for (std::size_t k = 0; k < row.size(); ++k) of_person[p] += row[k] * shares_[p][k];
+    for (std::size_t m = 0; m < marks_.size(); ++m) {
+      weights[m] = -of_person[marks_[m].level[0]];
+      for (std::size_t f = 1; f < marks_[m].level.size(); ++f) weights[m] += row[columns_.of(marks_[m], f)];
+    }
+    return weights;
+  }
+
+ private:
+  [[nodiscard]] std::vector<double> means_of(std::span<const double> values) const {
+    std::vector<double> mean(count_.size());
+    for (std::size_t m = 0; m < marks_.size(); ++m) mean[marks_[m].level[0]] += values[m] / count_[marks_[m].level[0]];
+    return mean;
+  }
+
+  std::span<const StudyMark> marks_;
+  Columns columns_;
+  std::vector<double> count_, marks_of_;  // marks of a person, of a column
+  SquareMatrix shares_, inverse_;         // shares: of a person's marks in each column
+};
+
 }  // namespace
 
 SeverityStudy study_severity(std::span<const StudyMark> marks) {
   if (marks.empty()) throw Error("no marks", "to compare stations and raters by", "");
-  const Columns columns(marks);
-  const std::size_t facets = marks[0].level.size(), n = columns.count();
-  std::size_t persons = 0;
-  for (const StudyMark& m : marks) persons = std::max<std::size_t>(persons, m.level[0] + 1);
-
-  // Each candidate's mean is taken off: what is left tells of conditions alone.
-  std::vector<std::vector<double>> shares(persons, std::vector<double>(n));
-  std::vector<double> sum(persons), count(persons);
-  for (const StudyMark& m : marks) {
-    sum[m.level[0]] += m.value;
-    count[m.level[0]] += 1;
-    for (std::size_t f = 1; f < facets; ++f) shares[m.level[0]][columns.of(m, f)] += 1;
-  }
-  SquareMatrix normal(n, std::vector<double>(n));
-  std::vector<double> right(n), marks_of(n);
-  for (const StudyMark& m : marks)
-    for (std::size_t f = 1; f < facets; ++f) {
-      const std::size_t i = columns.of(m, f);
-      marks_of[i] += 1;
-      right[i] += m.value;
-      for (std::size_t g = 1; g < facets; ++g) normal[i][columns.of(m, g)] += 1;
-    }
-  for (std::size_t p = 0; p < persons; ++p) {
-    if (!(count[p] > 0)) continue;
-    for (std::size_t i = 0; i < n; ++i) {
-      right[i] -= shares[p][i] * sum[p] / count[p];
-      for (std::size_t k = 0; k < n; ++k) normal[i][k] -= shares[p][i] * shares[p][k] / count[p];
-    }
-  }
-  // The conditions of a facet add up to nothing.
-  for (std::size_t f = 0; f + 1 < columns.first.size(); ++f)
-    for (std::size_t i = columns.first[f]; i < columns.first[f + 1]; ++i)
-      for (std::size_t k = columns.first[f]; k < columns.first[f + 1]; ++k) normal[i][k] += 1;
-  const auto inverse = inverted(std::move(normal));
-  if (!inverse)
-    throw Error("these marks", "do not compare all stations and raters: some share no candidates with the others, or stand for one exam alone",
-                "let candidates of one exam sit at several stations, and be marked by several people");
-  std::vector<double> effect(n);
-  for (std::size_t i = 0; i < n; ++i)
-    for (std::size_t k = 0; k < n; ++k) effect[i] += (*inverse)[i][k] * right[k];
+  const Model model(marks);
+  const Columns& columns = model.columns();
+  const std::size_t facets = marks[0].level.size();
+  std::vector<double> values;
+  for (const StudyMark& m : marks) values.push_back(m.value);
+  const std::vector<double> effect = model.effects(values), left = model.residuals(values);
 
   SeverityStudy study;
-  study.persons.resize(persons);
-  for (const StudyMark& m : marks) {
+  study.persons.resize(model.persons());
+  double squares = 0, largest = 0;
+  for (std::size_t i = 0; i < marks.size(); ++i) {
+    const StudyMark& m = marks[i];
     double own = m.value;
     for (std::size_t f = 1; f < facets; ++f) own -= effect[columns.of(m, f)];
-    study.persons[m.level[0]].raw += m.value / count[m.level[0]];
-    study.persons[m.level[0]].adjusted += own / count[m.level[0]];
-  }
-  double squares = 0, largest = 0;
-  for (const StudyMark& m : marks) {
+    study.persons[m.level[0]].raw += m.value / model.marks_of_person(m.level[0]);
+    study.persons[m.level[0]].adjusted += own / model.marks_of_person(m.level[0]);
+    squares += left[i] * left[i];
     largest = std::max(largest, std::fabs(m.value));
-    double rest = m.value - study.persons[m.level[0]].adjusted;
-    for (std::size_t f = 1; f < facets; ++f) rest -= effect[columns.of(m, f)];
-    squares += rest * rest;
   }
-  const double free = static_cast<double>(marks.size()) - static_cast<double>(persons) - static_cast<double>(n - (facets - 1));
+  const double free = static_cast<double>(marks.size()) - static_cast<double>(model.persons()) - static_cast<double>(columns.count() - (facets - 1));
   if (!(free >= 1))
     throw Error("these marks", "are too few to tell severity from chance", "let candidates go to more stations, or be marked by more raters");
   study.residual_sd = std::sqrt(squares / free);
-  for (std::size_t f = 0; f + 1 < columns.first.size(); ++f) {
-    const std::size_t levels = columns.first[f + 1] - columns.first[f];
-    const double critical = critical_of(levels), rounding = 1e-9 * largest;
-    std::vector<Severity> of_facet;
-    for (std::size_t i = columns.first[f]; i < columns.first[f + 1]; ++i) {
-      // The constraint added 1 to each pair of the facet, which the inverse gives back as 1/levels² in each place: no part of the error.
-      const double own = std::max(0.0, (*inverse)[i][i] - 1.0 / static_cast<double>(levels * levels));
-      const double error = study.residual_sd * std::sqrt(own);
-      of_facet.push_back(
-          {static_cast<std::size_t>(marks_of[i]), -effect[i], error, levels > 1 && std::fabs(effect[i]) > std::max(critical * error, rounding)});
+  const Interactions interactions = estimate_interactions(marks, free, [&](std::span<const double> v) { return model.residuals(v); });
+  for (std::size_t f = 1; f < facets; ++f) {
+    const std::size_t first = columns.first[f - 1], levels = columns.first[f] - first;
+    const double rounding = 1e-9 * largest;
+    SeverityOfFacet facet;
+    for (const std::uint32_t pair : interactions.untold)
+      if ((pair >> f & 1U) != 0) facet.not_told_from.push_back(pair & ~(1U << f));
+    for (std::size_t i = first; i < columns.first[f]; ++i) {
+      const ErrorOfSum of = error_of_sum(interactions, model.weights(i));
+      const double error = std::sqrt(of.variance);
+      const bool beyond = levels > 1 && std::fabs(effect[i]) > std::max(critical_of(levels, of.freedom) * error, rounding);
+      facet.conditions.push_back({static_cast<std::size_t>(model.marks_of(i)), -effect[i], error, beyond && facet.not_told_from.empty()});
     }
-    study.facets.push_back(std::move(of_facet));
+    study.facets.push_back(std::move(facet));
   }
   return study;
 }

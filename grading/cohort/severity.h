@@ -15,16 +15,22 @@ namespace cavum::cohort {
 struct Severity {
   std::size_t marks = 0;
   double severity = 0.0;       ///< what it takes off a mark beside the mean of its facet's conditions, in the marks' unit: above 0 it is severe
-  double error = 0.0;          ///< standard error
-  bool beyond_chance = false;  ///< it differs by more than the largest of as many equal ones would in 95 of 100 classes (Bonferroni, normal)
+  double error = 0.0;          ///< standard error: of what candidates, tasks and conditions do together, and of the rest
+  bool beyond_chance = false;  ///< it differs by more than the largest of as many equal ones would in 95 of 100 classes (Bonferroni, Student's t)
+};
+struct SeverityOfFacet {
+  std::vector<Severity> conditions;  ///< by level
+  /// Facets (0: candidates; 1: tasks) with which it may do something together that these marks cannot tell from severity, bit i for facet i: then
+  /// no condition is called beyond chance.
+  std::vector<std::uint32_t> not_told_from;
 };
 struct FairMark {
   double raw = 0.0, adjusted = 0.0;  ///< means of a candidate's marks, without and with what his conditions took off
 };
 struct SeverityStudy {
-  std::vector<std::vector<Severity>> facets;  ///< of facet 1, 2, ... and its levels
-  std::vector<FairMark> persons;              ///< by level of facet 0
-  double residual_sd = 0.0;                   ///< of a mark, beside candidate and conditions
+  std::vector<SeverityOfFacet> facets;  ///< facet 1, 2, ...
+  std::vector<FairMark> persons;        ///< by level of facet 0
+  double residual_sd = 0.0;             ///< of a mark, beside candidate and conditions
 };
 /// `marks`: level 0 is the candidate. A facet with one level is left out (severity 0). Throws Error when conditions share no candidates, directly or
 /// over others (nothing compares them), or when nothing is left to judge chance by.

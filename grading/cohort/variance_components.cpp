@@ -4,6 +4,7 @@
 #include <bit>
 #include <cmath>
 #include <map>
+#include <numeric>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -16,19 +17,6 @@ namespace cavum::cohort {
 namespace {
 
 constexpr std::size_t k_most_facets = 5;
-
-/// The group of each mark under an effect, numbered as they come.
-std::vector<std::uint32_t> groups_under(std::uint32_t effect, std::span<const StudyMark> marks) {
-  std::map<std::vector<std::uint32_t>, std::uint32_t> number;
-  std::vector<std::uint32_t> group;
-  for (const StudyMark& m : marks) {
-    std::vector<std::uint32_t> key;
-    for (std::size_t f = 0; f < m.level.size(); ++f)
-      if ((effect >> f & 1U) != 0) key.push_back(m.level[f]);
-    group.push_back(number.try_emplace(std::move(key), static_cast<std::uint32_t>(number.size())).first->second);
-  }
-  return group;
-}
 
 /// Sum over groups of the square of their sum by their size.
 double sum_of_squares(const std::vector<std::uint32_t>& group, const std::vector<double>& size, std::span<const double> values) {
@@ -48,22 +36,21 @@ double expected(const std::vector<std::uint32_t>& group, const std::vector<doubl
   return total;
 }
 
-}  // namespace
-
-std::string StudyDesign::effect_name(std::size_t effect) const {
+/// Of effect `e` beside the others: "candidate x task", "rater:task".
+std::string name_of(const StudyDesign& design, std::uint32_t e) {
   // A facet that never stands without another one is nested in it.
   const auto always_with = [&](std::size_t inner, std::size_t outer) {
-    return std::all_of(effects.begin(), effects.end(), [&](std::uint32_t e) { return (e >> inner & 1U) == 0 || (e >> outer & 1U) != 0; });
+    return std::all_of(design.effects.begin(), design.effects.end(),
+                       [&](std::uint32_t other) { return (other >> inner & 1U) == 0 || (other >> outer & 1U) != 0; });
   };
   std::string name;
-  const std::uint32_t e = effects[effect];
-  for (std::size_t f = 0; f < facets.size(); ++f) {
+  for (std::size_t f = 0; f < design.facets.size(); ++f) {
     if ((e >> f & 1U) == 0) continue;
-    std::string part = facets[f];
+    std::string part = design.facets[f];
     bool holds_inner = false;
-    for (std::size_t o = 1; o < facets.size(); ++o) {
+    for (std::size_t o = 1; o < design.facets.size(); ++o) {
       if (o == f) continue;
-      if (always_with(f, o)) part += ":" + facets[o];
+      if (always_with(f, o)) part += ":" + design.facets[o];
       holds_inner = holds_inner || ((e >> o & 1U) != 0 && always_with(o, f));
     }
     if (!holds_inner) name += (name.empty() ? "" : " x ") + part;
@@ -71,28 +58,105 @@ std::string StudyDesign::effect_name(std::size_t effect) const {
   return name;
 }
 
+StudyDesign with_names(StudyDesign design) {
+  for (const std::uint32_t e : design.effects) design.names.push_back(name_of(design, e));
+  return design;
+}
+
+/// Of rows of any scale, to 1 in 10¹⁰.
+std::size_t rank_of(SquareMatrix rows) {
+  std::size_t rank = 0;
+  for (std::size_t c = 0; !rows.empty() && c < rows[0].size() && rank < rows.size(); ++c) {
+    std::size_t p = rank;
+    for (std::size_t r = rank; r < rows.size(); ++r)
+      if (std::fabs(rows[r][c]) > std::fabs(rows[p][c])) p = r;
+    double scale = 0;
+    for (const double v : rows[p]) scale = std::max(scale, std::fabs(v));
+    if (!(std::fabs(rows[p][c]) > 1e-10 * scale)) continue;
+    std::swap(rows[p], rows[rank]);
+    for (std::size_t r = rank + 1; r < rows.size(); ++r) {
+      const double f = rows[r][c] / rows[rank][c];
+      for (std::size_t k = c; k < rows[r].size(); ++k) rows[r][k] = k == c ? 0 : rows[r][k] - f * rows[rank][k];
+    }
+    ++rank;
+  }
+  return rank;
+}
+
+/// The names of effects whose sums of squares depend on one another. Column k stands for effect k, the last for the mean.
+std::string dependent_effects(const SquareMatrix& a, const std::vector<std::string>& names) {
+  const std::size_t rank = rank_of(a);
+  std::string list;
+  for (std::size_t k = 0; k < names.size(); ++k) {
+    SquareMatrix without = a;
+    for (auto& row : without) row.erase(row.begin() + static_cast<std::ptrdiff_t>(k));
+    if (rank_of(without) == rank) list += (list.empty() ? "" : ", ") + names[k];
+  }
+  return list;
+}
+
+}  // namespace
+
 StudyDesign crossed_design(std::vector<std::string> facets) {
   if (facets.size() < 2 || facets.size() > k_most_facets)
     throw Error("a study", "needs one to four facets beside the candidates", "name tasks, raters, stations");
-  StudyDesign design{std::move(facets), {}};
+  StudyDesign design{std::move(facets), {}, {}};
   const auto sets = static_cast<std::uint32_t>(1U << design.facets.size());
   for (std::uint32_t e = 1; e < sets; ++e) design.effects.push_back(e);
   std::stable_sort(design.effects.begin(), design.effects.end(),
                    [](std::uint32_t a, std::uint32_t b) { return std::popcount(a) < std::popcount(b); });
-  return design;
+  return with_names(std::move(design));
 }
 
 StudyDesign nested_design(const std::string& persons, const std::string& outer, const std::string& inner) {
-  return {{persons, outer, inner}, {0b001, 0b010, 0b110, 0b011, 0b111}};
+  return with_names({{persons, outer, inner}, {0b001, 0b010, 0b110, 0b011, 0b111}, {}});
 }
 
-VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> marks) : design_(std::move(design)), marks_(marks.size()) {
+namespace {
+
+std::vector<double> times(const SquareMatrix& matrix, std::span<const double> column) {
+  std::vector<double> out(matrix.size());
+  for (std::size_t i = 0; i < out.size(); ++i)
+    for (std::size_t k = 0; k < column.size(); ++k) out[i] += matrix[i][k] * column[k];
+  return out;
+}
+
+StudyDesign fitting(StudyDesign design, std::span<const StudyMark> marks) {
   for (const StudyMark& m : marks)
-    if (m.level.size() != design_.facets.size()) throw Error("a mark", "has another number of conditions than the study has facets", "");
-  for (const std::uint32_t e : design_.effects) {
-    group_.push_back(groups_under(e, marks));
+    if (m.level.size() != design.facets.size()) throw Error("a mark", "has another number of conditions than the study has facets", "");
+  return design;
+}
+
+}  // namespace
+
+void VarianceStudy::merge(std::span<const StudyMark> marks) {
+  for (const std::uint32_t e : design_.effects) group_.push_back(groups_under(e, marks));
+  const auto of_error = [&](std::size_t k) { return design_.effects[k] != 1U; };
+  for (std::size_t k = 0; k + 1 < design_.effects.size();) {
+    std::size_t larger = design_.effects.size() - 1;
+    const auto holds = [&](std::size_t other) {
+      const std::uint32_t e = design_.effects[k], o = design_.effects[other];
+      return other != k && (o & e) == e && (o & 1U) == (e & 1U) && group_[other] == group_[k];
+    };
+    while (larger > k && !holds(larger)) --larger;
+    if (larger == k || !of_error(k)) {
+      ++k;
+      continue;
+    }
+    merged_.emplace_back(design_.names[k], design_.names[larger]);
+    const auto at = static_cast<std::ptrdiff_t>(k);
+    design_.effects.erase(design_.effects.begin() + at);
+    design_.names.erase(design_.names.begin() + at);
+    group_.erase(group_.begin() + at);
+  }
+}
+
+VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> marks)
+    : design_(fitting(std::move(design), marks)), marks_(marks.size()) {
+  merge(marks);
+  for (const auto& group : group_) {
     std::vector<double> size;
-    for (const std::uint32_t g : group_.back()) {
+    for (const std::uint32_t g : group) {
       if (g >= size.size()) size.resize(g + 1);
       size[g] += 1;
     }
@@ -103,30 +167,59 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   const std::size_t n = design_.effects.size();
   const std::vector<std::uint32_t> all(marks_, 0);
   const std::vector<double> all_size{static_cast<double>(marks_)};
-  std::vector<std::vector<double>> a(n + 1, std::vector<double>(n + 1, static_cast<double>(marks_)));
+  SquareMatrix a(n + 1, std::vector<double>(n + 1, static_cast<double>(marks_)));
   for (std::size_t i = 0; i <= n; ++i)
     for (std::size_t k = 0; k < n; ++k) a[i][k] = i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
-  auto inverse = inverted(std::move(a));
+  expected_.resize(n);
+  for (std::size_t k = 0; k < n; ++k) {
+    std::vector<double> column;
+    for (std::size_t i = 0; i <= n; ++i) column.push_back(a[i][k]);
+    const std::vector<double> own = own_squares(std::move(column));
+    for (std::size_t i = 0; i < n; ++i) expected_[i].push_back(own[i]);
+  }
+  auto inverse = inverted(expected_);
   if (!inverse)
-    throw Error("these marks", "cannot tell all effects apart", "a study needs two conditions of each facet, and candidates who share them");
-  inverse_ = std::move(*inverse);
+    throw Error("these marks", "cannot tell these effects apart: " + dependent_effects(a, design_.names),
+                "a study needs two conditions of each facet, and candidates who share them");
+  of_squares_ = std::move(*inverse);
+  marking_ = Marking(design_, marks);
 }
 
-VarianceComponents VarianceStudy::estimate(std::span<const double> values) const {
+std::vector<double> VarianceStudy::own_squares(std::vector<double> sums) const {
+  std::vector<double> own(design_.effects.size());
+  std::vector<std::size_t> order(own.size());
+  std::iota(order.begin(), order.end(), 0U);
+  std::stable_sort(order.begin(), order.end(),
+                   [&](std::size_t a, std::size_t b) { return std::popcount(design_.effects[a]) < std::popcount(design_.effects[b]); });
+  for (const std::size_t i : order) {
+    own[i] = sums[i] - sums.back();
+    for (const std::size_t k : order)
+      if (k != i && (design_.effects[i] & design_.effects[k]) == design_.effects[k]) own[i] -= own[k];
+  }
+  return own;
+}
+
+std::vector<double> VarianceStudy::squares(std::span<const double> values) const {
   const double middle = mean(values);
   std::vector<double> from_middle(values.begin(), values.end());  // the sums of squares then lose no digits
   for (double& v : from_middle) v -= middle;
+  std::vector<double> sums;
+  for (std::size_t i = 0; i < group_.size(); ++i) sums.push_back(sum_of_squares(group_[i], size_[i], from_middle));
+  sums.push_back(0);
+  return own_squares(std::move(sums));
+}
+
+std::vector<double> VarianceStudy::expected_squares(std::span<const double> variance) const { return times(expected_, variance); }
+std::vector<double> VarianceStudy::variances_of(std::span<const double> squares) const { return times(of_squares_, squares); }
+
+VarianceComponents VarianceStudy::estimate(std::span<const double> values) const {
+  const double middle = mean(values);
   double mean_square = 0;
-  for (const double v : from_middle) mean_square += v * v / static_cast<double>(marks_);
+  for (const double v : values) mean_square += (v - middle) * (v - middle) / static_cast<double>(marks_);
   const double rounding = 1e-12 * mean_square + 1e-24 * middle * middle;
-  const std::size_t n = design_.effects.size();
-  std::vector<double> t(n + 1);
-  for (std::size_t i = 0; i < n; ++i) t[i] = sum_of_squares(group_[i], size_[i], from_middle);
-  VarianceComponents found{std::vector<double>(n), middle};
-  for (std::size_t k = 0; k < n; ++k) {
-    for (std::size_t i = 0; i <= n; ++i) found.variance[k] += inverse_[k][i] * t[i];
-    if (std::fabs(found.variance[k]) <= rounding) found.variance[k] = 0;
-  }
+  VarianceComponents found{variances_of(squares(values)), middle};
+  for (double& v : found.variance)
+    if (std::fabs(v) <= rounding) v = 0;
   return found;
 }
 
@@ -142,25 +235,20 @@ std::vector<double> VarianceStudy::draw(const VarianceComponents& from, std::uin
   return values;
 }
 
-Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons) {
-  if (plan.conditions.size() + 1 != design.facets.size()) throw Error("the plan of a circuit", "has another number of facets than the study", "");
-  for (const double n : plan.conditions)
-    if (!(n >= 1)) throw Error("the plan of a circuit", "has fewer than one condition of a facet", "plan at least one");
+namespace {
+
+/// `fixed`: effects that are the same in every circuit.
+Dependability dependable(const StudyDesign& design, const VarianceComponents& components, const MarkShares& shares, const std::vector<bool>& fixed,
+                         double persons) {
   Dependability d;
   for (std::size_t k = 0; k < design.effects.size(); ++k) {
-    const std::uint32_t e = design.effects[k];
-    double share = std::max(0.0, components.variance[k]);
-    bool random = false;
-    for (std::size_t f = 1; f < design.facets.size(); ++f) {
-      if ((e >> f & 1U) == 0) continue;
-      share /= plan.conditions[f - 1];
-      random = random || plan.fixed.empty() || !plan.fixed[f - 1];
-    }
-    const bool of_persons = (e & 1U) != 0;
-    if (of_persons && !random) d.universe += share;
-    if (of_persons && random) d.relative += share;
-    if (random) d.absolute += share;
-    if (of_persons || random) d.of_the_mean += of_persons ? share / persons : share;
+    const double variance = std::max(0.0, components.variance[k]);
+    const double own = variance * shares.own[k], common = variance * shares.common[k];
+    const bool of_persons = (design.effects[k] & 1U) != 0;
+    if (fixed[k] && !of_persons) continue;
+    (fixed[k] ? d.universe : d.absolute) += own;
+    if (!fixed[k]) d.relative += std::max(0.0, own - common);
+    d.of_the_mean += common + (own - common) / persons;
   }
   const auto ratio = [&](double error) { return d.universe + error > 0 ? d.universe / (d.universe + error) : 0.0; };
   d.g = ratio(d.relative);
@@ -168,6 +256,35 @@ Dependability dependability(const StudyDesign& design, const VarianceComponents&
   d.relative_sem = std::sqrt(d.relative);
   d.absolute_sem = std::sqrt(d.absolute);
   return d;
+}
+
+}  // namespace
+
+Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons) {
+  if (plan.conditions.size() + 1 != design.facets.size()) throw Error("the plan of a circuit", "has another number of facets than the study", "");
+  for (const double n : plan.conditions)
+    if (!(n >= 1)) throw Error("the plan of a circuit", "has fewer than one condition of a facet", "plan at least one");
+  MarkShares shares;
+  std::vector<bool> fixed;
+  for (const std::uint32_t e : design.effects) {
+    double share = 1;
+    bool random = false;
+    for (std::size_t f = 1; f < design.facets.size(); ++f) {
+      if ((e >> f & 1U) == 0) continue;
+      share /= plan.conditions[f - 1];
+      random = random || plan.fixed.empty() || !plan.fixed[f - 1];
+    }
+    shares.own.push_back(share);
+    shares.common.push_back((e & 1U) != 0 ? 0.0 : share);
+    fixed.push_back(!random);
+  }
+  return dependable(design, components, shares, fixed, persons);
+}
+
+Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const MarkShares& shares, double persons) {
+  std::vector<bool> fixed;
+  for (const std::uint32_t e : design.effects) fixed.push_back(e == 1U);
+  return dependable(design, components, shares, fixed, persons);
 }
 
 void require_differences(const StudyDesign& design, const VarianceComponents& components) {
@@ -205,33 +322,55 @@ CutDecision cut_decision(const Dependability& d, double mean_mark, double cut) {
   return c;
 }
 
-DependabilityRange dependability_range(const VarianceStudy& study, const VarianceComponents& estimate, const CircuitPlan& plan, double persons,
-                                       int draws, std::uint64_t seed) {
+namespace {
+
+/// The middle 95 of 100 of what was found, and what was estimated.
+std::pair<double, double> middle_of(const std::vector<double>& found, double estimate) {
+  constexpr double k_tail = 0.025;
+  return {std::min(estimate, quantile(found, k_tail)), std::max(estimate, quantile(found, 1 - k_tail))};
+}
+
+}  // namespace
+
+StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate, std::span<const MarkShares> circuits, int draws,
+                         std::uint64_t seed) {
   VarianceComponents drawn_from = estimate;
   for (double& v : drawn_from.variance) v = std::max(0.0, v);
-  const Dependability d = dependability(study.design(), drawn_from, plan, persons);
+  const StudyDesign& design = study.design();
+  const double persons = study.marking().persons();
+  const std::vector<double> seen = study.expected_squares(estimate.variance), expected = study.expected_squares(drawn_from.variance);
+  const std::size_t effects = design.effects.size();
+  std::vector<std::vector<double>> variance(effects), g(circuits.size()), phi(circuits.size());
   Random seeds(seed);
-  std::vector<double> g, phi;
-  std::vector<std::vector<double>> variance(study.design().effects.size());
   for (int i = 0; i < draws; ++i) {
-    const VarianceComponents again = study.estimate(study.draw(drawn_from, seeds.next()));
-    for (std::size_t k = 0; k < variance.size(); ++k) variance[k].push_back(again.variance[k]);
-    const Dependability a = dependability(study.design(), again, plan, persons);
-    // As estimated, the candidates' variance below 0 too: 1 - g is then above 1, as the analysis of variance has it.
-    double universe = a.universe;
-    for (std::size_t k = 0; k < variance.size(); ++k)
-      if (study.design().effects[k] == 1U) universe += std::min(0.0, again.variance[k]);
-    const auto unsure = [&](double error) { return universe + error > 0 ? error / (universe + error) : 1e9; };
-    g.push_back(unsure(a.relative) / std::max(1e-12, 1 - d.g));
-    phi.push_back(unsure(a.absolute) / std::max(1e-12, 1 - d.phi));
+    const std::vector<double> again = study.squares(study.draw(drawn_from, seeds.next()));
+    const std::vector<double> estimated = study.variances_of(again);
+    std::vector<double> likely(effects);
+    for (std::size_t k = 0; k < effects; ++k) {
+      variance[k].push_back(estimated[k]);
+      // A chi square by its freedom where marks are balanced; else the squares may come out below 0, and their distance counts.
+      const bool ratio = seen[k] >= 0 && expected[k] > 0 && again[k] > 0;
+      likely[k] = ratio ? seen[k] * expected[k] / again[k] : seen[k] - (again[k] - expected[k]);
+    }
+    VarianceComponents truth{study.variances_of(likely), 0};
+    double largest = 0;
+    for (const double v : truth.variance) largest = std::max(largest, std::fabs(v));
+    for (double& v : truth.variance)
+      if (std::fabs(v) <= 1e-12 * largest) v = 0;  // what rounding left
+    for (std::size_t c = 0; c < circuits.size(); ++c) {
+      const Dependability d = dependability(design, truth, circuits[c], persons);
+      g[c].push_back(d.g);
+      phi[c].push_back(d.phi);
+    }
   }
-  constexpr double k_tail = 0.025;
-  const auto bound = [&](const std::vector<double>& ratios, double coefficient, double share) {
-    return std::clamp(1 - (1 - coefficient) / std::max(1e-12, quantile(ratios, share)), 0.0, 1.0);
-  };
-  DependabilityRange range{bound(g, d.g, k_tail), bound(g, d.g, 1 - k_tail), bound(phi, d.phi, k_tail), bound(phi, d.phi, 1 - k_tail), {}};
-  for (const auto& v : variance) range.error.push_back(std::sqrt(cavum::variance(v)));
-  return range;
+  StudyRanges ranges;
+  for (std::size_t c = 0; c < circuits.size(); ++c) {
+    const Dependability d = dependability(design, drawn_from, circuits[c], persons);
+    const auto of_g = middle_of(g[c], d.g), of_phi = middle_of(phi[c], d.phi);
+    ranges.circuits.push_back({of_g.first, of_g.second, of_phi.first, of_phi.second});
+  }
+  for (const auto& v : variance) ranges.error.push_back(std::sqrt(cavum::variance(v)));
+  return ranges;
 }
 
 }  // namespace cavum::cohort

@@ -7,28 +7,17 @@
 #include <cstdint>
 #include <span>
 #include <string>
+#include <utility>
 #include <vector>
+
+#include "grading/cohort/mark_shares.h"
 
 namespace cavum::cohort {
 
-/// Facets of a study, persons first, and the effects that it tells apart: sets of facets, bit i for facet i. The last one holds all facets: the
-/// residual.
-struct StudyDesign {
-  std::vector<std::string> facets;
-  std::vector<std::uint32_t> effects;
-  /// "candidate x task", "rater:task".
-  [[nodiscard]] std::string effect_name(std::size_t effect) const;
-};
 /// Everybody under every condition: each set of facets is an effect. One to four facets beside the persons, else Error.
 [[nodiscard]] StudyDesign crossed_design(std::vector<std::string> facets);
 /// persons x (inner : outer): each inner condition (a rater) belongs to one outer one (a task).
 [[nodiscard]] StudyDesign nested_design(const std::string& persons, const std::string& outer, const std::string& inner);
-
-/// One mark: a level of each facet, counted from 0, and its value.
-struct StudyMark {
-  std::vector<std::uint32_t> level;
-  double value = 0.0;
-};
 
 /// Estimated variances, in the square of the marks' unit, by effect; below 0 where chance has it so (0 is meant).
 struct VarianceComponents {
@@ -39,26 +28,42 @@ struct VarianceComponents {
 /// The part of a study that does not depend on the marks' values: computed once.
 class VarianceStudy {
  public:
-  /// Throws Error when two marks share all levels, a mark has another number of levels than the design has facets, or the marks cannot tell two
-  /// effects apart (a single task, each rater with a candidate of his own).
+  /// Where two effects of error part the marks in the same way (each rater saw each candidate once: candidate x rater and the residual), the smaller
+  /// one leaves the design and stands in the larger. Throws Error when two marks share all levels, a mark has another number of levels than the
+  /// design has facets, or the marks cannot tell effects apart otherwise (a single task, each rater with a candidate of his own), and names them.
   VarianceStudy(StudyDesign design, std::span<const StudyMark> marks);
   [[nodiscard]] const StudyDesign& design() const noexcept { return design_; }
+  [[nodiscard]] const Marking& marking() const noexcept { return marking_; }
+  /// Effects that left the design, and in which one each stands.
+  [[nodiscard]] const std::vector<std::pair<std::string, std::string>>& merged() const noexcept { return merged_; }
   [[nodiscard]] std::size_t marks() const noexcept { return marks_; }
   /// Henderson's first method (Biometrics 9 (1953) 226; Brennan's analogous ANOVA): sums of squares are set equal to what they are expected to be.
   /// Balanced: the components of the analysis of variance. `values`: one for each mark, in their order. What rounding leaves is 0.
   [[nodiscard]] VarianceComponents estimate(std::span<const double> values) const;
+  /// What is left of each effect's sum of squares when those of the effects within it are taken off: balanced, that of the analysis of variance.
+  [[nodiscard]] std::vector<double> squares(std::span<const double> values) const;
+  /// What they are expected to be under these variances, and the variances that give such squares.
+  [[nodiscard]] std::vector<double> expected_squares(std::span<const double> variance) const;
+  [[nodiscard]] std::vector<double> variances_of(std::span<const double> squares) const;
   /// Values drawn from normal distributions of these variances, on this study's conditions.
   [[nodiscard]] std::vector<double> draw(const VarianceComponents& from, std::uint64_t seed) const;
 
  private:
+  void merge(std::span<const StudyMark> marks);
+  [[nodiscard]] std::vector<double> own_squares(std::vector<double> sums) const;
+
   StudyDesign design_;
   std::size_t marks_;
+  std::vector<std::pair<std::string, std::string>> merged_;
   std::vector<std::vector<std::uint32_t>> group_;  // by effect, of each mark
   std::vector<std::vector<double>> size_;          // by effect, of each group: how many marks
-  std::vector<std::vector<double>> inverse_;       // from sums of squares to variances, the square of the mean last
+  std::vector<std::vector<double>> expected_;      // of `squares`, by effect and variance
+  std::vector<std::vector<double>> of_squares_;    // its inverse
+  Marking marking_;
 };
 
-/// How many conditions of each facet beside the persons a circuit would have; a fixed facet is the same in every circuit, no sample of many.
+/// How many conditions of each facet beside the persons a circuit would have, the same for all candidates; a fixed facet is the same in every
+/// circuit, no sample of many.
 struct CircuitPlan {
   std::vector<double> conditions;  ///< of facet 1, 2, ...; an inner facet's: in each outer condition. At least 1
   std::vector<bool> fixed = {};    ///< empty: none
@@ -76,6 +81,8 @@ struct Dependability {
 };
 /// Components below 0 count as 0. Throws Error when the plan has another number of facets, or fewer than one condition.
 [[nodiscard]] Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons);
+/// The same of candidates whose marks are so made; no facet is fixed.
+[[nodiscard]] Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const MarkShares& shares, double persons);
 
 /// Throws Error where no component with the persons in it is above 0: g is then 0 by 0, and there is nothing to study.
 void require_differences(const StudyDesign& design, const VarianceComponents& components);
@@ -90,13 +97,19 @@ struct CutDecision {
 };
 [[nodiscard]] CutDecision cut_decision(const Dependability& d, double mean, double cut);
 
-/// Bounds that hold the truth in 95 of 100 studies of normal marks: 1 − g (1 − phi) by how it scatters over studies drawn from the estimate, as a
-/// multiple of what they were drawn from. Of candidates by tasks that ratio is an F, and the bound Feldt's (Psychometrika 30 (1965) 357).
+/// Generalised confidence bounds of 95 % (Weerahandi, J. American Statistical Association 88 (1993) 899): each sum of squares is divided by how it
+/// scatters over studies drawn from the estimate, beside what is expected of it; g and phi of the variances that such sums stand for. Balanced, that
+/// is a chi square for each; of candidates by tasks g's bounds are Feldt's (Psychometrika 30 (1965) 357). The estimate lies within; as phi never
+/// exceeds g, neither do its bounds.
 struct DependabilityRange {
   double g_low = 0.0, g_high = 0.0, phi_low = 0.0, phi_high = 0.0;
-  std::vector<double> error;  ///< standard error of each variance component
 };
-[[nodiscard]] DependabilityRange dependability_range(const VarianceStudy& study, const VarianceComponents& estimate, const CircuitPlan& plan,
-                                                     double persons, int draws, std::uint64_t seed);
+struct StudyRanges {
+  std::vector<DependabilityRange> circuits;  ///< in their order
+  std::vector<double> error;                 ///< standard error of each variance component
+};
+/// `circuits`: how a candidate's mark is made in each of the circuits that are asked about.
+[[nodiscard]] StudyRanges study_ranges(const VarianceStudy& study, const VarianceComponents& estimate, std::span<const MarkShares> circuits,
+                                       int draws, std::uint64_t seed);
 
 }  // namespace cavum::cohort

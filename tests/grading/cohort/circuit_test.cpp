@@ -1,12 +1,14 @@
 // The figures of a circuit where there is little or nothing to study: no estimate outside its range, no figure that is none.
 #include "grading/cohort/circuit.h"
 
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/ledger/school.h"
+#include "tests/grading/cohort/drawn_class.h"
 
 namespace cavum::cohort {
 namespace {
@@ -19,8 +21,7 @@ std::vector<StudyMark> table(const std::vector<std::vector<double>>& rows) {
   return marks;
 }
 CircuitStudy study_of(const std::vector<std::vector<double>>& rows, double cut = 60) {
-  return study_circuit(crossed_design({"candidate", "exam"}), table(rows), {{static_cast<double>(rows[0].size())}}, static_cast<double>(rows.size()),
-                       cut);
+  return study_circuit(crossed_design({"candidate", "exam"}), table(rows), cut);
 }
 std::string refusal_of(const std::vector<std::vector<double>>& rows) {
   return testing_basics::error_of([&] { static_cast<void>(study_of(rows)); });
@@ -49,8 +50,8 @@ TEST(Circuit, WhereNoCandidateDiffersThereIsNoStudy) {
     EXPECT_NE(refusal_of({{v, v, v}, {v, v, v}, {v, v, v}}).find("are all alike"), std::string::npos) << v;
   EXPECT_NE(refusal_of({{third, 70, 55}, {third, 70, 55}, {third, 70, 55}, {third, 70, 55}}).find("differ by their conditions alone"),
             std::string::npos);
-  EXPECT_NE(refusal_of({{60}, {70}}).find("cannot tell all effects apart"), std::string::npos) << "one exam";
-  EXPECT_NE(refusal_of({{60, 70}}).find("cannot tell all effects apart"), std::string::npos) << "one candidate";
+  EXPECT_NE(refusal_of({{60}, {70}}).find("cannot tell these effects apart"), std::string::npos) << "one exam";
+  EXPECT_NE(refusal_of({{60, 70}}).find("cannot tell these effects apart"), std::string::npos) << "one candidate";
   CircuitFigures f;
   f.why_no_program = "these marks: are all alike";
   const auto j = to_json(f)["program"];
@@ -65,7 +66,7 @@ TEST(Circuit, AnEstimateLiesWithinItsRange) {
   expect_sound(sure, "candidates differ, and no error at all");
   EXPECT_EQ(sure.as_sat.phi, 1);
   EXPECT_EQ(sure.range.phi_low, 1);
-  EXPECT_EQ(sure.tasks_for_enough, 1);
+  EXPECT_EQ(sure.for_enough.estimate, 1);
   const CircuitStudy added = study_of({{40.1, 60.2}, {50.1, 70.2}, {70.1, 90.2}, {20.1, 40.2}});
   expect_sound(added, "candidates and exams add up");
   EXPECT_EQ(added.as_sat.g, 1);
@@ -142,6 +143,62 @@ TEST(Circuit, MarksThatAreLeftOutAreNamedAndCounted) {
   EXPECT_NE(to_text(f).find("c5 (class_1) and 2 more"), std::string::npos) << to_text(f);
   EXPECT_EQ(to_json(f)["marks_left_out"].size(), 7u);
   EXPECT_EQ(to_json(f)["marks_left_out"][6]["candidate"], "c7");
+}
+
+/// Six judges, of whom two mark each work; in no exam does one see a candidate again.
+std::vector<StudyMark> rotated_pairs(std::uint64_t seed) {
+  Random random(seed);
+  std::vector<drawn::Levels> places;
+  for (std::uint32_t p = 0; p < 30; ++p)
+    for (std::uint32_t t = 0; t < 3; ++t)
+      for (std::uint32_t i = 0; i < 2; ++i) places.push_back({p, t, (p + p / 6 + 2 * t + i) % 6});
+  return drawn::draw(places, {.judge = 9, .candidate_exam = 16, .candidate_judge = 1, .rest = 64}, random).marks;
+}
+
+TEST(Circuit, WhatPartsTheMarksAlikeIsOneEffectAndNamed) {
+  const CircuitStudy s = study_of_judges(rotated_pairs(7), 60);
+  ASSERT_EQ(s.merged.size(), 1u);
+  EXPECT_EQ(s.merged[0], (std::pair<std::string, std::string>("candidate x judge", "candidate x exam x judge")));
+  EXPECT_EQ(s.design.names, (std::vector<std::string>{"candidate", "exam", "judge", "candidate x exam", "exam x judge", "candidate x exam x judge"}));
+  expect_sound(s, "pairs in rotation");
+  CircuitFigures f;
+  f.why_no_program = "none";
+  f.people = s;
+  const std::string text = to_text(f);
+  EXPECT_NE(text.find("candidate x judge cannot be told from candidate x exam x judge by these marks, and stands in it"), std::string::npos) << text;
+  EXPECT_NE(text.find("a candidate's mark is the mean of 6 marks: 3 exams, 6 judges\n"), std::string::npos) << text;
+  // Of each candidate two marks an exam: exam x judge stands in six cells, the judges in six, what is left in six marks.
+  EXPECT_NEAR(s.marking.as_given().own[2], 1.0 / 6, 1e-12);
+  EXPECT_NEAR(s.marking.as_given().own[3], 1.0 / 3, 1e-12);
+  EXPECT_NEAR(s.marking.with_tasks(3).own[2], 1.0 / 6, 1e-12) << "three exams as they were";
+  EXPECT_NEAR(s.marking.with_tasks(6).own[2], 1.0 / 12, 1e-12) << "other judges in each further exam";
+  EXPECT_NEAR(s.marking.with_tasks(6).common[1], 1.0 / 6, 1e-12) << "everybody at the same exams";
+}
+
+TEST(Circuit, EffectsThatCannotBeToldApartAreNamed) {
+  std::vector<StudyMark> marks;  // one exam alone
+  for (std::uint32_t p = 0; p < 6; ++p)
+    for (std::uint32_t j = 0; j < 2; ++j) marks.push_back({{p, 0, j}, static_cast<double>(50 + p * 3 + j * (p % 2))});
+  const std::string why = testing_basics::error_of([&] { static_cast<void>(study_of_judges(marks, 60)); });
+  EXPECT_NE(why.find("cannot tell these effects apart: "), std::string::npos) << why;
+  EXPECT_NE(why.find("exam"), std::string::npos) << why;
+  EXPECT_EQ(why.find("candidate x exam x judge"), std::string::npos) << "the residual is told: " << why;
+}
+
+TEST(Circuit, TheNumberOfExamsThatIsEnoughHasARange) {
+  Random random(4);
+  const auto marks = drawn::draw(drawn::crossed(30, 3, 2), {.exam = 16, .judge = 0, .candidate_exam = 36, .candidate_judge = 0, .rest = 16}, random);
+  const CircuitStudy s = study_of_judges(marks.marks, 60);
+  ASSERT_TRUE(s.for_enough.estimate && s.for_enough.low);
+  EXPECT_LE(*s.for_enough.low, *s.for_enough.estimate);
+  EXPECT_GE(s.for_enough.high.value_or(k_most_tasks + 1), *s.for_enough.estimate);
+  EXPECT_LT(*s.for_enough.low, s.for_enough.high.value_or(k_most_tasks + 1)) << "thirty candidates at three exams do not know it";
+  CircuitFigures f;
+  f.why_no_program = "none";
+  f.people = s;
+  const std::string told = fmt::format("for phi 0.80: {} exams ({} to ", *s.for_enough.estimate, *s.for_enough.low);
+  EXPECT_NE(to_text(f).find(told), std::string::npos) << to_text(f);
+  EXPECT_EQ(to_json(f)["people"]["exams_for_phi_080_range"][0], *s.for_enough.low);
 }
 
 }  // namespace

@@ -63,7 +63,7 @@ void expect_components(const Studied& s, const std::vector<std::pair<std::string
   for (const auto& [name, value] : published) {
     bool there = false;
     for (std::size_t k = 0; k < s.found.variance.size(); ++k) {
-      if (s.study.design().effect_name(k) != name) continue;
+      if (s.study.design().names[k] != name) continue;
       there = true;
       EXPECT_NEAR(s.found.variance[k], value, within) << name;
     }
@@ -210,8 +210,8 @@ TEST(Generalisability, KnownComponentsAreFoundWithinTheirError) {
   }
   for (std::size_t k = 0; k < found.size(); ++k) {
     const double error = std::sqrt(variance(found[k]) / k_studies);
-    std::printf("%-26s %6.2f, found %6.2f ± %.2f\n", study.design().effect_name(k).c_str(), known.variance[k], mean(found[k]), error);
-    EXPECT_NEAR(mean(found[k]), known.variance[k], 4 * error) << study.design().effect_name(k);
+    std::printf("%-26s %6.2f, found %6.2f ± %.2f\n", study.design().names[k].c_str(), known.variance[k], mean(found[k]), error);
+    EXPECT_NEAR(mean(found[k]), known.variance[k], 4 * error) << study.design().names[k];
   }
 }
 
@@ -229,13 +229,13 @@ TEST(Generalisability, RangesHoldTheTruth) {
     const VarianceStudy study(c.known.design(), c.known.conditions());
     std::vector<double> n{double(c.known.tasks)};
     if (c.known.raters > 1) n.push_back(c.known.raters);
-    const CircuitPlan plan{n};
-    const Dependability truth = dependability(study.design(), {c.known.variance, 0}, plan, c.known.persons);
+    const std::vector<MarkShares> circuit{study.marking().as_given()};
+    const Dependability truth = dependability(study.design(), {c.known.variance, 0}, CircuitPlan{n}, c.known.persons);
     Random seeds(5);
     int g = 0, phi = 0;
     for (int i = 0; i < k_studies; ++i) {
       const auto found = study.estimate(study.draw({c.known.variance, 70}, seeds.next()));
-      const auto range = dependability_range(study, found, plan, c.known.persons, k_draws, seeds.next());
+      const auto range = study_ranges(study, found, circuit, k_draws, seeds.next()).circuits[0];
       g += range.g_low <= truth.g && truth.g <= range.g_high;
       phi += range.phi_low <= truth.phi && truth.phi <= range.phi_high;
     }

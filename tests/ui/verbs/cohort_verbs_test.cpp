@@ -111,6 +111,37 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
     EXPECT_NEAR(judge["severity_percent"].get<double>(), judge["name"] == "severe" ? 5 : -5, 1e-6);
   EXPECT_EQ(people["people"]["components"].size(), 7u) << "candidates, exams, judges and what they do together";
 
+  // Three of the four were marked by people: the mean's error is that of three.
+  std::string some = "candidate,judge,points\n";
+  for (int i = 0; i < 3; ++i)
+    for (const char* judge : {"A", "B"})
+      some += fmt::format("{},{},{}\n", j["roster"][i]["candidate"].get<std::string>(), judge, 70 + 5 * i + 4 * i * i);
+  write_text_file(path("some_a.csv"), some);
+  some.replace(some.rfind(",B,"), 3, ",B,1");  // the last one differs
+  some.erase(some.size() - 2, 1);
+  write_text_file(path("some_b.csv"), some);
+  const auto three = json::parse(run("cohort circuit " + path("L") + " --exams block_cavity,harder --marks block_cavity=" + path("some_a.csv") +
+                                     " --marks harder=" + path("some_b.csv") + " --json")
+                                     .out);
+  ASSERT_TRUE(three["people"]["as_sat"].is_object()) << three["people"];
+  EXPECT_EQ(three["people"]["as_sat"]["candidates"], 3);
+  EXPECT_EQ(three["people"]["as_sat"]["conditions"], json({2.0, 2.0}));
+  const double phi = three["people"]["as_sat"]["phi"], delta = std::pow(three["people"]["as_sat"]["relative_sem_percent"].get<double>(), 2),
+               error = std::pow(three["people"]["as_sat"]["absolute_sem_percent"].get<double>(), 2), truth = phi / (1 - phi) * error;
+  const double away = three["people"]["mean_percent"].get<double>() - three["cut_percent"].get<double>();
+  const double signal = away * away - ((truth + delta) / 3 + error - delta);
+  ASSERT_GT(signal, 0) << "else it counts as 0, and the number of candidates does not show";
+  EXPECT_NEAR(three["people"]["at_cut"]["phi"].get<double>(), (truth + signal) / (truth + signal + error), 1e-9);
+
+  // One judge written in two ways.
+  some.replace(some.find(",A,"), 3, ",a ,");
+  write_text_file(path("some_b.csv"), some);
+  for (const char* exam : {"block_cavity", "harder"}) {  // in one file, and in two
+    const auto twice = run("cohort circuit " + path("L") + " --exams block_cavity,harder --marks " + exam + "=" + path("some_b.csv"));
+    EXPECT_EQ(twice.exit_code, 2) << twice.out;
+    EXPECT_NE(twice.err.find("which differ by case or blanks alone"), std::string::npos) << twice.err;
+  }
+
   // Marks all alike are no study; a mark of somebody who did not sit the exam is told by name.
   std::string alike = "candidate,judge,points\nnobody,A,50\n";
   for (const auto& row : j["roster"])
