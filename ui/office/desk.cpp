@@ -8,6 +8,8 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "engine/language/language.h"
+#include "engine/language/shown.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
@@ -17,6 +19,7 @@
 #include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
+#include "scenarios/file/parse.h"
 #include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -32,6 +35,10 @@ Desk::Desk(const std::string& ledger_folder, const SigningKey& school, OfficePla
   public_key_ = ledger_.content().public_key;
   places_.folder += "/" + id_;
   make_private_folder(places_.folder + "/tickets");
+  for (const auto& file : exams_) {  // steps and criteria of its exams, in the office's language
+    const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
+    if (const auto words = s.languages.find(language()); words != s.languages.end()) add_translations(words->second);
+  }
 }
 
 json Desk::exams() const {
@@ -93,7 +100,7 @@ json Desk::issue(const json& asked, const Account& by) {
                         {"not_before", utc_text(when.from_utc_ns)},
                         {"not_after", utc_text(when.until_utc_ns)}});
     } catch (const ledger::AnotherTicket& has) {  // the others get theirs
-      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(has.what())}});
+      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", shown(without_advice(has.what()))}});
     }
   }
   if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
@@ -127,13 +134,13 @@ json Desk::make_up(const json& asked, const Account& by) {
   remove_dead_tickets(turn.book.registry(), read_clocks().utc_ns);
   return {{"entry", turn.book.content().entries.size() - 1},
           {"candidate", issued.candidate},
-          {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
+          {"accommodations", shown(scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket")))}};
 }
 
 std::string Desk::granted_on(const std::string& nonce) const {
   if (!std::filesystem::exists(places_.ticket(nonce))) return "";
-  return scenarios::accommodations_text(
-      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket"));
+  return shown(scenarios::accommodations_text(
+      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket")));
 }
 
 json Desk::tickets(bool grants) {
@@ -213,7 +220,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
           {"tickets", tickets},
           {"holds", shown_holds(registry.day)},
           {"announcements", shown_announcements(registry.day, now)},
-          {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", inbox.trouble()}}}};
+          {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", shown(inbox.trouble())}}}};
 }
 
 json Desk::invite(const json& asked, const Account& by) {

@@ -93,9 +93,9 @@ function signed_in(who: Me): void {
 }
 
 async function begin(): Promise<void> {
-  const { language, words, proxy } = await get<{ language: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
+  const { language, decimal_sign, words, proxy } = await get<{ language: string; decimal_sign: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
   by_proxy = proxy;
-  set_words(words, language === "de" ? "," : ".");
+  set_words(words, decimal_sign);
   document.documentElement.lang = language;
   document.getElementById("skip")!.textContent = tr("To the content");
   window.addEventListener("hashchange", () => {
