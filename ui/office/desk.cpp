@@ -55,7 +55,7 @@ json Desk::preview(const json& asked) {
     static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
   } catch (const Error& wrong) {
     roster.people.clear();
-    roster.problem = wrong.what();
+    roster.problem = lines_of_mistakes(wrong);
   }
   return shown_roster(roster);
 }
@@ -72,18 +72,18 @@ json Desk::issue(const json& asked, const Account& by) {
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   const std::size_t at_once = wish.at_once == 0 ? roster.people.size() : wish.at_once;
-  const auto time_of = [&](std::size_t i) {
+  std::vector<ledger::TimeSpan> times;
+  for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const std::int64_t later_ns = static_cast<std::int64_t>(i / at_once) * wish.apart_ns;
-    return ledger::TimeSpan{wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns};
-  };
-  std::vector<std::string> stations;  // all before the first ticket: a name that is none refuses the list
-  for (std::size_t i = 0; i < roster.people.size(); ++i)
-    stations.push_back(ledger::stations_of(turn.book.registry(), identities, {roster.people[i]}, time_of(i), k_list).front());
+    times.push_back({wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns});
+  }
+  // all before the first ticket: a name that is none refuses the list
+  const auto stations = ledger::stations_of(turn.book.registry(), identities, roster.people, times, k_list);
   json issued = json::array(), refused = json::array();
   std::vector<ledger::Seat> seats;
   for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const auto& person = roster.people[i];
-    const ledger::TimeSpan when = time_of(i);
+    const ledger::TimeSpan& when = times[i];
     ticket.not_before_utc_ns = when.from_utc_ns;
     ticket.not_after_utc_ns = when.until_utc_ns;
     const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());

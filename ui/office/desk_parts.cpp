@@ -59,7 +59,8 @@ json shown_roster(const Roster& roster) {
                       {"name", p.name},
                       {"station", p.station},
                       {"accommodations", shown(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list")))}});
-  return {{"encoding", roster.encoding},
+  return {{"headed", roster.headed},
+          {"encoding", roster.encoding},
           {"separator", std::string(1, roster.separator)},
           {"rows", roster.rows},
           {"columns", columns},

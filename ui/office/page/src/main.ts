@@ -10,7 +10,7 @@ import { act, look_for_nothing, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
 import { regrade } from "./regrade.ts";
 import { results } from "./results.ts";
-import { roster } from "./roster.ts";
+import { forget_list, roster } from "./roster.ts";
 import { sign_in } from "./sign_in.ts";
 import { tickets } from "./tickets.ts";
 
@@ -58,6 +58,7 @@ function head(mine: Place[], now: string): void {
 function signed_out(): void {
   me = null;
   set_token("");
+  forget_list();
   void show();
 }
 /** The office knows nobody here any more, and nobody pressed a button for that. */
