@@ -34,11 +34,15 @@ awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || !/msgid ""\nmsgstr ""$/' "$new/a
 extract "$new/words.pot" C++ --keyword --keyword=said:1 <<<"$new/words.cpp"
 extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=Error:2 --keyword=error_reply:2 <"$new/above"
 extract "$new/advice.pot" C++ --keyword --keyword=Error:3 <"$new/above"  # one place of a call in one run
+extract "$new/all-places.pot" C++ --keyword --keyword=Error:1 <"$new/above"
+sed -i 's/charset=CHARSET/charset=UTF-8/' "$new/all-places.pot"
 extract "$new/page.pot" JavaScript --keyword '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
 # what makes pictures, files and names of its texts is no sentence: tags, assignments, one word without a capital, no word at all
 no_sentence='[<>]|[a-z_]=|^[a-z_.]+ = |^--[a-z-]+ ?$|'$'\r''|^##|^[#$]|^%[A-Z]|^0123|^(cavum|cavum [a-z]+( [a-z]+)?)$|^zones/|^\{\{|^#[0-9a-f]{6}$|^[a-z0-9_./:*{}-]+$|^[^a-z]+$|^([^a-zA-Z]+[a-zA-Z]?[^a-zA-Z]*|[a-zA-Z])$|^\[\"|uniform |^in vec3 |void main|^%[-.0-9]*[a-z]$|^student-|^[^ ]*\.(h|toml|cvt|json)$|^(measure_marking|moments_of_measure|measures): |^/|^\{\}/|^\{\}o\{\}ly$|^(SELECT|INSERT|UPDATE|DELETE|CREATE|PRAGMA|ALTER|DROP|ORDER BY|WHERE) |^[a-z]+[A-Z][A-Za-z]+$|^(unsigned|signed|short) (int|char|short)$|ATTRS?\{|^: [a-z_.]+$|^(entr\{\}|ies \{\}|y \{\}$|used \{\}|closed \{\}|not-begun |--ticket |session,candidate)|^%[0-9]d-|^cavum (begin|station request|ticket) [0-9]$|^libHD|"(commands|inverse3)":|^seq, |^&[a-z]+;$|^abcdef|^%x:|^\\\\u|^CMakeLists|^SQLite format|-XXXXXX$|^cavum \{\} key'
 msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp="$no_sentence" "$new/all-below.pot" >"$new/below.pot"
-msgcat --use-first --no-wrap --sort-output "$new/below.pot" "$new/words.pot" "$new/above.pot" "$new/advice.pot" "$new/page.pot" |
+msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp="$no_sentence" "$new/all-places.pot" >"$new/places.pot"
+# the page stands first: what it shares with C++ must keep the comment that the page needs it
+msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/below.pot" "$new/words.pot" "$new/above.pot" "$new/places.pot" "$new/advice.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/cavum.pot"
 failed=0
 if [ "${1:-}" = --check ]; then

@@ -48,9 +48,11 @@ double percent_of(const std::string& field, const std::string& at) {
 }
 bool yes_of(const std::string& field, const std::string& at) {
   const std::string word = small_letters(field);
-  if (word == "yes" || word == "true" || word == "1") return true;
-  if (word == "no" || word == "false" || word == "0") return false;
-  throw Error(at, fmt::format("'{}' is neither yes nor no", field), "write yes, no, or nothing");
+  for (const char* yes : {"yes", "ja", "true", "x", "1"})
+    if (word == yes) return true;
+  for (const char* no : {"no", "nein", "false", "0"})
+    if (word == no) return false;
+  throw Error(at, fmt::format("'{}' is neither yes nor no", field), "write yes (or ja, x), no (or nein), or nothing");
 }
 
 constexpr Column k_columns[] = {
@@ -76,7 +78,8 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
       throw Error(at, fmt::format("a ticket knows no column '{}'", one_line(field)),
                   fmt::format("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
     if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
-      throw Error(at, fmt::format("has the column '{}' twice", found->name), "leave one of them");
+      throw Error(at, fmt::format("has the column '{}' twice", found->name),
+                  std::string_view(found->name) == "name" ? "join surname and first name to one column in the spreadsheet" : "leave one of them");
     columns.push_back(is_known ? found : nullptr);
   }
   if (std::find(columns.begin(), columns.end(), &k_columns[0]) == columns.end())
@@ -102,35 +105,15 @@ Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, c
   return p;
 }
 
-/// What is wrong with a list, row by row: it is told at once, so that it is put right at once.
-class Mistakes {
- public:
-  explicit Mistakes(std::string where) : where_(std::move(where)) {}
-  template <class Check>
-  void unless(const Check& check) {
-    try {
-      check();
-    } catch (const Error& wrong) {
-      ++number_;
-      if (texts_.size() < k_most) texts_.emplace_back(wrong.what());
-    }
-  }
-  void tell() {
-    if (number_ > texts_.size()) texts_.push_back(fmt::format("{}: has {} mistakes more; put these right first", where_, number_ - texts_.size()));
-    if (number_ > 0) throw ListMistakes(where_, std::move(texts_));
-  }
-
- private:
-  static constexpr std::size_t k_most = 20;
-  std::string where_;
-  std::size_t number_ = 0;
-  std::vector<std::string> texts_;
-};
-
 }  // namespace
 
 ListMistakes::ListMistakes(const std::string& where, std::vector<std::string> texts)
     : Error(where, fmt::format("has {} mistakes", texts.size()), fmt::format("the first: {}", texts.at(0))), texts_(std::move(texts)) {}
+
+void Mistakes::tell() {
+  if (number_ > texts_.size()) texts_.push_back(fmt::format("{}: has {} mistakes more; put these right first", where_, number_ - texts_.size()));
+  if (number_ > 0) throw ListMistakes(where_, std::move(texts_));
+}
 
 std::vector<std::string> people_columns() {
   std::vector<std::string> names;

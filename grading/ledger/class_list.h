@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "engine/base/csv.h"
@@ -20,6 +21,30 @@ class ListMistakes : public Error {
   std::vector<std::string> texts_;
 };
 
+/// What is wrong with a list, row by row: it is told at once, so that it is put right at once.
+class Mistakes {
+ public:
+  explicit Mistakes(std::string where) : where_(std::move(where)) {}
+  /// Keeps what `check` throws as an Error; the first 20 with their words.
+  template <class Check>
+  void unless(const Check& check) {
+    try {
+      check();
+    } catch (const Error& wrong) {
+      ++number_;
+      if (texts_.size() < k_most) texts_.emplace_back(wrong.what());
+    }
+  }
+  /// Throws ListMistakes where there was one.
+  void tell();
+
+ private:
+  static constexpr std::size_t k_most = 20;
+  std::string where_;
+  std::size_t number_ = 0;
+  std::vector<std::string> texts_;
+};
+
 struct Person {
   std::string id;               ///< how the school's other systems name the candidate
   std::string name = {};        ///< for people; may be empty
@@ -27,10 +52,11 @@ struct Person {
   std::string station = {};     ///< name of the station where the candidate is to sit; empty: any
   std::size_t line = 0;         ///< of the table
 };
-/// A table (CSV) with a column `id` and, if wanted, `name`, `station`, `extra_time_percent`, `extra_time_s`, `left_handed`, `high_contrast` (yes or
-/// no; empty: nothing said). Percent as spreadsheets write it: 25, 25%, 25 %, 25,0; above 0 and below 1 is refused, for 0.25 may mean 25. Nobody's
-/// accommodation is lost in silence: any other column is refused, but for those that `passed_over` names. Throws Error(where:line, ...) for that, for
-/// one without ids, with one twice, with one station twice, or with a value that no scenario could grant; of the rows ListMistakes, up to 20 at once.
+/// A table (CSV) with a column `id` and, if wanted, `name`, `station`, `extra_time_percent`, `extra_time_s`, `left_handed`, `high_contrast` (yes, ja,
+/// true, 1 or x; no, nein, false or 0; in any case; empty: nothing said). Percent as spreadsheets write it: 25, 25%, 25 %, 25,0; above 0 and below 1
+/// is refused, for 0.25 may mean 25. Nobody's accommodation is lost in silence: any other column is refused, but for those that `passed_over` names.
+/// Throws Error(where:line, ...) for that, for one without ids, with one twice, with one station twice, or with a value that no scenario could grant;
+/// of the rows ListMistakes, up to 20 at once.
 [[nodiscard]] std::vector<Person> parse_people(const std::string& text, const std::string& where, const std::vector<std::string>& passed_over = {});
 /// The same of rows that were read before, the heading first.
 [[nodiscard]] std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where,

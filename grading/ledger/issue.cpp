@@ -76,26 +76,29 @@ const IssuedTicket* seated_there(const Registry& registry, const std::string& st
 }
 
 std::vector<std::string> stations_of(const Registry& registry, Identities& identities, const std::vector<Person>& people,
-                                     const std::optional<TimeSpan>& when, const std::string& where) {
-  std::vector<std::string> keys;
-  for (const Person& p : people) {
+                                     const std::vector<TimeSpan>& when, const std::string& where) {
+  std::vector<std::string> keys(people.size());
+  Mistakes mistakes(where);
+  const auto find = [&](std::size_t i) {
+    const Person& p = people[i];
     const std::string at = fmt::format("{}:{}: station", where, p.line);
-    std::string& key = keys.emplace_back();
-    if (p.station.empty()) continue;
     for (const Station& s : registry.stations.stations) {
       if (s.name != p.station || s.revoked_utc_ns || !s.replaced_by.empty()) continue;
-      if (!key.empty()) throw Error(at, fmt::format("two stations bear the name '{}'", one_line(p.station)), "give each a name of its own");
-      key = s.public_key;
+      if (!keys[i].empty()) throw Error(at, fmt::format("two stations bear the name '{}'", one_line(p.station)), "give each a name of its own");
+      keys[i] = s.public_key;
     }
-    if (key.empty())
+    if (keys[i].empty())
       throw Error(at, fmt::format("no station that is enrolled bears the name '{}'", one_line(p.station)),
                   "write it as the board does, or leave it empty");
-    if (!when) continue;
-    const IssuedTicket* there = seated_there(registry, key, *when, 0, read_clocks().utc_ns);
+    if (when.empty()) return;
+    const IssuedTicket* there = seated_there(registry, keys[i], when.at(i), 0, read_clocks().utc_ns);
     const auto who = there == nullptr ? std::nullopt : identities.of_pseudonym(there->ticket.candidate);
     if (there != nullptr && (!who || who->id != p.id))
       throw Error(at, fmt::format("'{}' has another candidate at that time (entry {})", one_line(p.station), there->seq), "choose another station");
-  }
+  };
+  for (std::size_t i = 0; i < people.size(); ++i)
+    if (!people[i].station.empty()) mistakes.unless([&] { find(i); });
+  mistakes.tell();
   return keys;
 }
 

@@ -44,10 +44,10 @@ const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seat
 struct TimeSpan {
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
 };
-/// The keys of the stations that a list names, in its order; empty where it names none. With `when` also none where somebody else is to sit then.
-/// Throws Error(`where`:line, ...) for a name of no station or of several, or a seat that is taken.
+/// The keys of the stations that a list names, in its order; empty where it names none. With `when`, one for each, also none where somebody else is
+/// to sit then. Throws ListMistakes for names of no station or of several, and seats that are taken: up to 20 at once, each with its line.
 [[nodiscard]] std::vector<std::string> stations_of(const Registry& registry, Identities& identities, const std::vector<Person>& people,
-                                                   const std::optional<TimeSpan>& when, const std::string& where);
+                                                   const std::vector<TimeSpan>& when, const std::string& where);
 /// The ticket of another candidate, good at this time or later, whose seat is this station within a time that meets `when`; null: none.
 [[nodiscard]] const IssuedTicket* seated_there(const Registry& registry, const std::string& station, const TimeSpan& when, std::uint64_t but_ticket,
                                                std::int64_t now_utc_ns);

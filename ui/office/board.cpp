@@ -7,6 +7,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 
 namespace cavum::office {
 
@@ -66,9 +67,9 @@ std::map<std::string, json> Board::stations() const {
   for (const auto& [key, seen] : seen_) {
     const auto refused = refused_.find(key);
     out[key] = {
-        {"state", seen.report.state},       {"candidate", seen.report.candidate}, {"step", seen.report.step},
-        {"alarm", seen.report.alarm},       {"left_s", seen.report.left_s},       {"seen_utc_ns", seen.utc_ns},
-        {"held", seen.report.held},         {"heard", seen.report.heard},         {"refused", refused == refused_.end() ? "" : refused->second},
+        {"state", seen.report.state},        {"candidate", seen.report.candidate}, {"step", seen.report.step},
+        {"alarm", shown(seen.report.alarm)}, {"left_s", seen.report.left_s},       {"seen_utc_ns", seen.utc_ns},
+        {"held", seen.report.held},          {"heard", seen.report.heard},         {"refused", refused == refused_.end() ? "" : refused->second},
         {"since_utc_ns", seen.since_utc_ns}};
   }
   return out;

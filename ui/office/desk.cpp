@@ -8,6 +8,8 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "engine/language/language.h"
+#include "engine/language/shown.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/erasure.h"
@@ -17,6 +19,7 @@
 #include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
+#include "scenarios/file/parse.h"
 #include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -32,6 +35,10 @@ Desk::Desk(const std::string& ledger_folder, const SigningKey& school, OfficePla
   public_key_ = ledger_.content().public_key;
   places_.folder += "/" + id_;
   make_private_folder(places_.folder + "/tickets");
+  for (const auto& file : exams_) {  // steps and criteria of its exams, in the office's language
+    const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
+    if (const auto words = s.languages.find(language()); words != s.languages.end()) add_translations(words->second);
+  }
 }
 
 json Desk::exams() const {
@@ -48,7 +55,7 @@ json Desk::preview(const json& asked) {
     static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
   } catch (const Error& wrong) {
     roster.people.clear();
-    roster.problem = wrong.what();
+    roster.problem = lines_of_mistakes(wrong);
   }
   return shown_roster(roster);
 }
@@ -65,18 +72,18 @@ json Desk::issue(const json& asked, const Account& by) {
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   const std::size_t at_once = wish.at_once == 0 ? roster.people.size() : wish.at_once;
-  const auto time_of = [&](std::size_t i) {
+  std::vector<ledger::TimeSpan> times;
+  for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const std::int64_t later_ns = static_cast<std::int64_t>(i / at_once) * wish.apart_ns;
-    return ledger::TimeSpan{wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns};
-  };
-  std::vector<std::string> stations;  // all before the first ticket: a name that is none refuses the list
-  for (std::size_t i = 0; i < roster.people.size(); ++i)
-    stations.push_back(ledger::stations_of(turn.book.registry(), identities, {roster.people[i]}, time_of(i), k_list).front());
+    times.push_back({wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns});
+  }
+  // all before the first ticket: a name that is none refuses the list
+  const auto stations = ledger::stations_of(turn.book.registry(), identities, roster.people, times, k_list);
   json issued = json::array(), refused = json::array();
   std::vector<ledger::Seat> seats;
   for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const auto& person = roster.people[i];
-    const ledger::TimeSpan when = time_of(i);
+    const ledger::TimeSpan& when = times[i];
     ticket.not_before_utc_ns = when.from_utc_ns;
     ticket.not_after_utc_ns = when.until_utc_ns;
     const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
@@ -93,7 +100,7 @@ json Desk::issue(const json& asked, const Account& by) {
                         {"not_before", utc_text(when.from_utc_ns)},
                         {"not_after", utc_text(when.until_utc_ns)}});
     } catch (const ledger::AnotherTicket& has) {  // the others get theirs
-      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", without_advice(has.what())}});
+      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", shown(without_advice(has.what()))}});
     }
   }
   if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
@@ -125,7 +132,7 @@ json Desk::make_up(const json& asked, const Account& by) {
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {{"entry", turn.book.content().entries.size() - 1},
           {"candidate", issued.candidate},
-          {"accommodations", scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket"))}};
+          {"accommodations", shown(scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket")))}};
 }
 
 bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
@@ -148,8 +155,8 @@ std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledge
 
 std::string Desk::granted_on(const std::string& nonce) const {
   if (!std::filesystem::exists(places_.ticket(nonce))) return "";
-  return scenarios::accommodations_text(
-      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket"));
+  return shown(scenarios::accommodations_text(
+      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket")));
 }
 
 json Desk::tickets(bool grants, const std::set<std::string>& seen) {
@@ -235,7 +242,7 @@ json Desk::board(const Board& board, const Inbox& inbox) {
           {"tickets", tickets},
           {"holds", shown_holds(registry.day)},
           {"announcements", shown_announcements(registry.day, now)},
-          {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", inbox.trouble()}}}};
+          {"inbox", {{"waiting", inbox.waiting()}, {"refused", refused}, {"trouble", shown(inbox.trouble())}}}};
 }
 
 json Desk::invite(const json& asked, const Account& by) {

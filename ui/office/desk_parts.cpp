@@ -8,6 +8,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "engine/language/language.h"
 #include "engine/language/say.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/makeup.h"
@@ -57,19 +58,22 @@ json shown_roster(const Roster& roster) {
     people.push_back({{"id", p.id},
                       {"name", p.name},
                       {"station", p.station},
-                      {"accommodations", scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list"))}});
-  return {{"encoding", roster.encoding},
+                      {"accommodations", shown(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list")))}});
+  return {{"headed", roster.headed},
+          {"encoding", roster.encoding},
           {"separator", std::string(1, roster.separator)},
           {"rows", roster.rows},
           {"columns", columns},
           {"people", people},
-          {"problem", roster.problem},
+          {"problem", shown(roster.problem)},
           {"uses", ledger::people_columns()}};
 }
 
 json exam_facts(const std::string& file) {
   const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
-  return {{"id", s.id}, {"title", s.title}, {"file", file}};
+  const auto words = s.languages.find(language());
+  const bool translated = words != s.languages.end() && words->second.contains(s.title);
+  return {{"id", s.id}, {"title", translated ? words->second.at(s.title) : s.title}, {"file", file}};
 }
 
 IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {

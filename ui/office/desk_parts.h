@@ -28,7 +28,7 @@ void put_name(nlohmann::json& row, const std::map<std::string, ledger::Identity>
 [[nodiscard]] Roster roster_of(const nlohmann::json& asked);
 [[nodiscard]] nlohmann::json shown_roster(const Roster& roster);
 
-/// {"id","title","file"} of a scenario. Throws Error when it cannot be read.
+/// {"id","title","file"} of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
 [[nodiscard]] nlohmann::json exam_facts(const std::string& scenario_file);
 
 /// What tickets are issued for.

@@ -44,7 +44,7 @@ json words_of_the_page(bool proxied) {
   json words = json::object();
   if (language() != "en")
     for (const auto& m : page_messages()) words[m] = shown(m);
-  return {{"language", language()}, {"words", words}, {"proxy", proxied}};
+  return {{"language", language()}, {"decimal_sign", std::string(1, decimal_sign())}, {"words", words}, {"proxy", proxied}};
 }
 
 /// "at=0&of=1000", to the letter; none: it is something else.

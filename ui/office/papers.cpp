@@ -43,7 +43,7 @@ report::Document paper(const std::string& title, const std::string& school, cons
   d.language = language();
   const std::int64_t now = read_clocks().utc_ns;
   d.created = utc_text(now);
-  d.subtitle = tr("{0}; printed {1}", school, local_text(now));
+  d.subtitle = tr("{0}; printed {1}", as_is(school), local_text(now));
   d.footer = {d.subtitle};
   return d;
 }
@@ -85,7 +85,8 @@ std::string candidate_cards(const std::string& school, const std::vector<Invited
     d.blocks.push_back(report::Paragraph{span_text(i.from_utc_ns, i.until_utc_ns), tr("May begin")});
     if (!i.station.empty()) d.blocks.push_back(report::Paragraph{i.room.empty() ? i.station : fmt::format("{}, {}", i.room, i.station), tr("Place")});
     if (!i.accommodations.empty()) d.blocks.push_back(report::Paragraph{i.accommodations, tr("Granted")});
-    d.blocks.push_back(report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", i.exam), "", report::Paragraph::Kind::small});
+    d.blocks.push_back(
+        report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", as_is(i.exam)), "", report::Paragraph::Kind::small});
   }
   return report::pdf_of(d);
 }

@@ -13,6 +13,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "engine/language/shown.h"
 #include "engine/session/session.h"
 #include "grading/pool/makers.h"
 #include "scenarios/file/parse.h"
@@ -174,7 +175,7 @@ json Regrades::state(bool rows) const {
               {"done", done_},
               {"of", of_},
               {"left_s", left_s_ < 0 ? json() : json(left_s_)},
-              {"problem", problem_},
+              {"problem", shown(problem_)},
               {"counted", counted_},
               {"first_entry", first_entry_},
               {"left_out", plan_.left_out}};

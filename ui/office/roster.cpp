@@ -87,6 +87,11 @@ std::string small_letters_of(std::string text) {
   return text;
 }
 
+constexpr char k_name[] = "name";
+
+/// For a column that is passed over: no name that is known, and no other column's.
+std::string column_name(std::size_t at) { return fmt::format("column {}", at + 1); }
+
 void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<std::string>& answers, std::vector<std::string>& passed_over) {
   const auto known = ledger::people_columns();
   for (std::size_t c = 0; c < rows[0].fields.size(); ++c) {
@@ -96,10 +101,11 @@ void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<s
       if (c < rows[r].fields.size() && !rows[r].fields[c].empty()) column.samples.push_back(rows[r].fields[c]);
     column.known = std::find(known.begin(), known.end(), small_letters_of(heading)) != known.end();
     if (column.known) column.use = small_letters_of(heading);
+    roster.headed = roster.headed || column.known;
     if (c < answers.size() && (answers[c] == k_pass_over || std::find(known.begin(), known.end(), answers[c]) != known.end()))
       column.use = answers[c];
     if (column.use == k_pass_over) {
-      heading = fmt::format("column {}", c + 1);  // no name that is known, and no other column's
+      heading = column_name(c);
       passed_over.push_back(heading);
     } else if (!column.use.empty()) {
       heading = column.use;
@@ -108,7 +114,31 @@ void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<s
   }
 }
 
+/// Surname and first name: what follows the first of several columns goes into it, and is passed over by itself.
+void join_names(std::vector<CsvRow>& rows, std::vector<std::string>& passed_over) {
+  std::vector<std::size_t> names;
+  for (std::size_t c = 0; c < rows[0].fields.size(); ++c)
+    if (small_letters_of(rows[0].fields[c]) == k_name) names.push_back(c);
+  for (std::size_t n = 1; n < names.size(); ++n) {
+    rows[0].fields[names[n]] = column_name(names[n]);
+    passed_over.push_back(rows[0].fields[names[n]]);
+    for (std::size_t r = 1; r < rows.size(); ++r) {
+      auto& fields = rows[r].fields;
+      if (names[n] >= fields.size() || fields[names[n]].empty()) continue;
+      fields[names[0]] += (fields[names[0]].empty() ? "" : ", ") + fields[names[n]];
+    }
+  }
+}
+
 }  // namespace
+
+std::string lines_of_mistakes(const Error& wrong) {
+  const auto* const several = dynamic_cast<const ledger::ListMistakes*>(&wrong);
+  if (several == nullptr) return wrong.what();
+  std::string lines;
+  for (const std::string& text : several->texts()) lines += (lines.empty() ? "" : "\n") + text;
+  return lines;
+}
 
 Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers) {
   Roster roster;
@@ -122,14 +152,13 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     roster.separator = in.separator();
     std::vector<std::string> passed_over;
     read_columns(roster, rows, answers, passed_over);
+    join_names(rows, passed_over);
     if (std::all_of(roster.columns.begin(), roster.columns.end(), [](const RosterColumn& c) { return !c.use.empty(); }))
       roster.people = ledger::parse_people(rows, k_list, passed_over);
     else
       ledger::require_whole_rows(rows, k_list);
-  } catch (const ledger::ListMistakes& wrong) {
-    for (const std::string& text : wrong.texts()) roster.problem += (roster.problem.empty() ? "" : "\n") + text;
   } catch (const Error& wrong) {
-    roster.problem = wrong.what();
+    roster.problem = lines_of_mistakes(wrong);
   }
   return roster;
 }

@@ -22,6 +22,7 @@ struct RosterColumn {
   std::vector<std::string> samples;  ///< its first values that are not empty
 };
 struct Roster {
+  bool headed = false;   ///< a name that is known stands in the first line; else it may be a candidate
   std::string encoding;  ///< UTF-8, UTF-16 or Windows-1252
   char separator = ',';  ///< comma, semicolon, tab, bar, or what a first line `sep=` names
   std::size_t rows = 0;  ///< below the heading
@@ -30,7 +31,10 @@ struct Roster {
   std::string problem;                 ///< why there are none, a line for each mistake; empty: a column waits for its answer, or all is well
   [[nodiscard]] bool ready() const noexcept { return !people.empty(); }
 };
-/// `bytes` as they were sent; `answers` by the columns' places, an empty text for none. Throws nothing of what is wrong with the list: it says so.
+/// What is wrong with a list, a line for each mistake.
+[[nodiscard]] std::string lines_of_mistakes(const Error& wrong);
+/// `bytes` as they were sent; `answers` by the columns' places, an empty text for none. Several columns that are used as `name` are joined in their
+/// order, with ", " between them: surname and first name. Throws nothing of what is wrong with the list: it says so.
 [[nodiscard]] Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers);
 
 }  // namespace cavum::office

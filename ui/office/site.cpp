@@ -12,6 +12,7 @@
 #include "engine/base/text.h"
 #include "engine/language/shown.h"
 #include "engine/session/sqlite.h"
+#include "grading/ledger/class_list.h"
 
 namespace cavum::office {
 namespace {
@@ -102,6 +103,10 @@ class Site::Visit : public Exchange {
       what();
     } catch (const DatabaseError& e) {
       refusal_ = error_reply(507, e.what());
+    } catch (const ledger::ListMistakes& e) {
+      std::string lines;
+      for (const std::string& text : e.texts()) lines += (lines.empty() ? "" : "\n") + shown(one_line(text));
+      refusal_ = json_reply({{"error", lines}}, 400);
     } catch (const Error& e) {
       refusal_ = error_reply(400, e.what());
     } catch (const std::bad_alloc&) {

@@ -46,7 +46,8 @@ int ledger_ticket(const LedgerOptions& o) {
   if (folder) make_private_folder(o.out);
   json printed = json::array();
   int refused = 0;
-  const auto stations = ledger::stations_of(ledger.registry(), identities, people, ledger::TimeSpan{from, until}, o.candidates);
+  const auto stations =
+      ledger::stations_of(ledger.registry(), identities, people, std::vector(people.size(), ledger::TimeSpan{from, until}), o.candidates);
   std::vector<ledger::Seat> seats;
   for (std::size_t i = 0; i < people.size(); ++i) {
     const auto& p = people[i];

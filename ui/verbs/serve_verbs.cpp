@@ -11,6 +11,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/begin.h"
@@ -130,7 +131,7 @@ void serve(const ServeArguments& o) {
   options.student_report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording, "student"); };
   const Interrupt interrupt;
   const office::Office office(options);
-  std::cout << "the office of " << one_line(office.school()) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
+  std::cout << "the office of " << kept(one_line(office.school())) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
             << "\ncertificate: " << options.certificate.certificate << "\nits SHA-256: " << office::fingerprint_of(options.certificate.certificate)
             << "\nit ends with Ctrl-C" << std::endl;
   while (!Interrupt::asked()) std::this_thread::sleep_for(std::chrono::milliseconds(100));

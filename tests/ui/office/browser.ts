@@ -66,6 +66,16 @@ export function examine_with(mark: number, toml: string): void {
   more_toml = toml;
 }
 
+/** Of the next office's pages. Helpers name what they press in English, and find it by what it says in that language. */
+let language = "en", words: { [english: string]: string } = {};
+export function speak(other: string): void {
+  language = other;
+}
+/** A text of the page as the office's language has it. */
+export function in_language(english: string): string {
+  return words[english] ?? english;
+}
+
 /** Opens an office with an account of each role and a folder for each station. */
 export async function open_office(...seats: string[]): Promise<void> {
   folder = mkdtempSync(join(tmpdir(), "cavum-office-"));
@@ -85,13 +95,18 @@ export async function open_office(...seats: string[]): Promise<void> {
     copyFileSync(join(folder, "school/school.pub"), join(folder, seat, "school.pub"));
   }
   server = spawn(cavum, ["serve", join(folder, "ledger"), "--listen", "127.0.0.1:0", "--exam", task, "--simulated", ...more(folder)], {
-    env: { ...process.env, CAVUM_HOME: join(folder, "school"), LANGUAGE: "en" },
+    env: { ...process.env, CAVUM_HOME: join(folder, "school"), LANGUAGE: language },
   });
   let said = "";
   server.stdout!.on("data", (text: Buffer) => (said += text.toString()));
   await until(async () => /https:\S+:\d+\s/.test(said), "the server says where it is");
   address = /https:\S+:\d+/.exec(said)![0];
   browser = await launch("--ignore-certificate-errors");
+  if (language === "en") return;
+  const page = await browser.newPage();
+  await page.goto(address);
+  words = await page.evaluate(async () => ((await (await fetch("/api/words")).json()) as { words: { [english: string]: string } }).words);
+  await page.close();
 }
 
 export async function close_office(): Promise<void> {
@@ -120,7 +135,8 @@ export async function desk(name: string): Promise<Desk> {
 }
 
 /** The control of a label, or with it as its own name. */
-export async function control(page: Page, label: string): Promise<string> {
+export async function control(page: Page, english: string): Promise<string> {
+  const label = in_language(english);
   const id = await page.evaluate((text) => {
     const element = [...document.querySelectorAll("label")].find((l) => l.textContent!.trim() === text)?.htmlFor;
     if (element) return `#${element}`;
@@ -130,16 +146,17 @@ export async function control(page: Page, label: string): Promise<string> {
   return id;
 }
 export async function type(page: Page, label: string, text: string): Promise<void> {
-  await page.waitForFunction((l) => [...document.querySelectorAll("label")].some((e) => e.textContent!.trim() === l), {}, label).catch(() => undefined);
+  await page.waitForFunction((l) => [...document.querySelectorAll("label")].some((e) => e.textContent!.trim() === l), {}, in_language(label)).catch(() => undefined);
   const place = await control(page, label);
   await page.$eval(place, (e) => ((e as HTMLInputElement).value = ""));
   await page.type(place, text);
 }
 /** Waits until it stands still: the live board may grow above it. */
 export async function press(page: Page, text: string): Promise<void> {
-  await page.locator(`::-p-xpath(//button[normalize-space()="${text}" and not(@hidden)])`).click();
+  await page.locator(`::-p-xpath(//button[normalize-space()="${in_language(text)}" and not(@hidden)])`).click();
 }
-export async function go(page: Page, title: string): Promise<void> {
+export async function go(page: Page, english: string): Promise<void> {
+  const title = in_language(english);
   if (await page.$(`::-p-xpath(//nav//a[normalize-space()="${title}" and @aria-current="page"])`)) return;
   const before = await page.$eval("h1", (h) => h.textContent);
   await (await page.waitForSelector(`::-p-xpath(//nav//a[normalize-space()="${title}"])`))!.click();

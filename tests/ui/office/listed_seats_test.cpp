@@ -63,6 +63,22 @@ TEST_F(ListedSeats, ThatCannotBeAreRefusedWithTheirLine) {
   EXPECT_EQ(issue("id,station\n4711,Seat 1\n").json()["refused"].size(), 1u) << "his own seat is no other's";
 }
 
+TEST_F(ListedSeats, ThatAreNoneAreAllToldAtOnce) {
+  std::string list = "id,station\n0,Seat 1\n";
+  for (int i = 1; i <= 23; ++i) list += fmt::format("{},Place {}\n", i, i);
+  const std::string problem = preview_problem(list), refused = issue(list).json()["error"];
+  for (const std::string& told : {problem, refused}) {
+    EXPECT_EQ(std::count(told.begin(), told.end(), '\n'), 20) << told;
+    EXPECT_NE(told.find("the list:3: station: no station that is enrolled bears the name 'Place 1';"), std::string::npos) << told;
+    EXPECT_NE(told.find("the list:22: station: no station that is enrolled bears the name 'Place 20';"), std::string::npos) << told;
+    EXPECT_NE(told.find("\nthe list: has 3 mistakes more"), std::string::npos) << told;
+  }
+  EXPECT_EQ(issue("id,station\n4711,Seat 1\n4712,Seat 2\n").status, 200);
+  const std::string taken = issue("id,station\n4713,Seat 1\n4714,Seat 2\n").json()["error"];
+  EXPECT_NE(taken.find("the list:2: station: 'Seat 1' has another candidate"), std::string::npos) << taken;
+  EXPECT_NE(taken.find("\nthe list:3: station: 'Seat 2' has another candidate"), std::string::npos) << taken;
+}
+
 TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
   const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000, minute = 60'000'000'000;
   json asked = Opened::list("id\n1\n2\n3\n4\n5\n");

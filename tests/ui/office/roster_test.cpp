@@ -100,5 +100,29 @@ TEST(Roster, SaysWhatIsWrong) {
   EXPECT_NE(read_roster("id,Number\n1,2\n", {"id", "id"}).problem.find("twice"), std::string::npos);
 }
 
+TEST(Roster, JoinsSurnameAndFirstName) {
+  const std::string text = "id;Nachname;Name;Vorname\n1;Weber;;Ada\n2;Stein;zu;\n3;;;Eva\n";
+  const Roster joined = read_roster(text, {"id", "name", "name", "name"});
+  ASSERT_EQ(joined.people.size(), 3u) << joined.problem;
+  EXPECT_EQ(joined.people[0].name, "Weber, Ada");
+  EXPECT_EQ(joined.people[1].name, "Stein, zu");
+  EXPECT_EQ(joined.people[2].name, "Eva");
+  EXPECT_EQ(joined.columns[3].use, "name") << "as it was answered";
+  EXPECT_NE(read_roster("id;Nachname;Vorname\n1;Weber\n", {"id", "name", "name"}).problem.find("has 2 fields for 3"), std::string::npos);
+}
+
+TEST(Roster, SaysWhetherAKnownNameStandsInTheFirstLine) {
+  EXPECT_TRUE(read_roster("Matrikel;NAME\n1;A\n", {}).headed);
+  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {}).headed) << "the first candidate would be lost";
+  EXPECT_FALSE(read_roster("4711;Ada\n4712;Bert\n", {"id", "name"}).headed) << "whatever was answered";
+}
+
+TEST(Roster, TakesGermanYesAndNoAndACross) {
+  const Roster r = read_roster("id;left_handed\n1;JA\n2;Nein\n3;X\n4;x\n5;yes\n6;\n", {});
+  ASSERT_EQ(r.people.size(), 6u) << r.problem;
+  const std::optional<bool> wanted[] = {true, false, true, true, true, std::nullopt};
+  for (std::size_t i = 0; i < 6; ++i) EXPECT_EQ(r.people[i].grant.left_handed, wanted[i]) << i;
+}
+
 }  // namespace
 }  // namespace cavum::office

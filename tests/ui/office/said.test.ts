@@ -94,6 +94,55 @@ test("who decides second hears of the first, and sees what is left", { skip: k_s
   for (const { complaints } of both) assert.deepEqual(complaints, []);
 });
 
+test("a class list says what it knows, and outlives a look at another page", { skip: k_skip }, async () => {
+  const officer = await desk("Anna Officer");
+  const { page, complaints } = officer;
+  const place = "Paste the list, with its line of column names";
+  const read = async (): Promise<void> => {
+    await page.$$eval("main h2", (all) => all.forEach((h) => h.setAttribute("data-old", "")));
+    await press(page, "Read the list");
+    await page.waitForSelector("main h2:not([data-old])");
+  };
+  await go(page, "Class list");
+  const { uses } = await page.evaluate(async () => {
+    const token = ((await (await fetch("/api/me")).json()) as { token: string }).token;
+    return (await (await fetch("/api/roster/preview", { method: "POST", headers: { "Content-Type": "application/json", "X-Cavum-Token": token }, body: '{"base64":"aWQK"}' })).json()) as { uses: string[] };
+  });
+  await said(page, `Columns that are known: ${uses.join(", ")}.`);
+  await type(page, place, "4711;Weber;Ada\n4712;Stein;Eva\n");
+  await read();
+  assert.match(await page.$eval("main [role=alert]", (e) => e.textContent!), /first line: 4711; Weber; Ada\. Is it a candidate/);
+  await type(page, place, "Matrikel;Nachname;Vorname;Links\n4711;Weber;Ada;x\n4712;Stein;Eva;vielleicht\n");
+  await read();
+  for (const [heading, use] of [["Matrikel", "id"], ["Nachname", "name"], ["Vorname", "name"], ["Links", "left_handed"]]) {
+    await page.$$eval("main h2", (all) => all.forEach((h) => h.setAttribute("data-old", "")));
+    await page.select(await control(page, `Use of column ${heading}`), use);
+    await page.waitForSelector("main h2:not([data-old])");
+  }
+  await said(page, "'vielleicht' is neither yes nor no");
+  await look(officer, "class-list-names");
+  // the corrected list has a column more, and asks about that alone
+  await type(page, place, "Platz;Matrikel;Nachname;Vorname;Links\n3;4711;Weber;Ada;x\n4;4712;Stein;Eva;nein\n");
+  await read();
+  await said(page, "Columns that wait for your answer: 1");
+  await go(page, "Tickets");
+  await go(page, "Class list");
+  assert.match(await page.$eval(await control(page, place), (e) => (e as HTMLTextAreaElement).value), /^Platz;Matrikel/);
+  await read();
+  await said(page, "Columns that wait for your answer: 1");
+  await page.select(await control(page, "Use of column Platz"), "pass over");
+  await said(page, "Weber, Ada");
+  await press(page, "Sign out");
+  await page.waitForSelector("input[type=password]");
+  await type(page, "Name", "Anna Officer");
+  await type(page, "Password", "correct horse battery");
+  await press(page, "Sign in");
+  await page.waitForSelector("nav");
+  await go(page, "Class list");
+  assert.equal(await page.$eval(await control(page, place), (e) => (e as HTMLTextAreaElement).value), "", "for whoever comes next nothing is kept");
+  assert.deepEqual(complaints, []);
+});
+
 test("who is out hears why", { skip: k_skip }, async () => {
   const { page, complaints } = await desk("Anna Officer");
   await said(page, "Exam day");

@@ -10,7 +10,7 @@ import { act, look_for_nothing, say, type View } from "./parts.ts";
 import { queue } from "./queue.ts";
 import { regrade } from "./regrade.ts";
 import { results } from "./results.ts";
-import { roster } from "./roster.ts";
+import { forget_list, roster } from "./roster.ts";
 import { sign_in } from "./sign_in.ts";
 import { tickets } from "./tickets.ts";
 
@@ -62,6 +62,7 @@ function head(mine: Place[], now: string): void {
 function signed_out(): void {
   me = null;
   set_token("");
+  forget_list();
   void show();
 }
 /** The office knows nobody here any more, and nobody pressed a button for that. */
@@ -97,9 +98,9 @@ function signed_in(who: Me): void {
 }
 
 async function begin(): Promise<void> {
-  const { language, words, proxy } = await get<{ language: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
+  const { language, decimal_sign, words, proxy } = await get<{ language: string; decimal_sign: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
   by_proxy = proxy;
-  set_words(words, language === "de" ? "," : ".");
+  set_words(words, decimal_sign);
   document.documentElement.lang = language;
   document.getElementById("skip")!.textContent = tr("To the content");
   window.addEventListener("hashchange", () => {

@@ -165,14 +165,19 @@ export function report_link(sha256: string): HTMLAnchorElement {
 }
 export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("pass"), fail: tr("fail"), review: tr("review") });
 
+/** For dates: the page's language, as the browser's user writes it where that is the browser's, too (en-GB). */
+function locale(): string {
+  const language = document.documentElement.lang;
+  return navigator.languages.find((l) => l.split("-")[0] === language) ?? language;
+}
 /** "2026-11-21T09:00:00Z" in the reader's own time zone. */
 export function local_time(utc: string): string {
-  return new Date(utc).toLocaleString([], { dateStyle: "medium", timeStyle: "short" });
+  return new Date(utc).toLocaleString(locale(), { dateStyle: "medium", timeStyle: "short" });
 }
 /** From one moment to another; the day once where both are on it. */
 export function local_span(from: string, until: string): string {
   const same_day = new Date(from).toDateString() === new Date(until).toDateString();
-  return tr("{0} to {1}", local_time(from), same_day ? new Date(until).toLocaleTimeString([], { timeStyle: "short" }) : local_time(until));
+  return tr("{0} to {1}", local_time(from), same_day ? new Date(until).toLocaleTimeString(locale(), { timeStyle: "short" }) : local_time(until));
 }
 /** What a control for a moment says, as UTC to the second. */
 export function utc(local: string): string {

@@ -6,6 +6,7 @@ import { field, form, input, local_span, say, select, table, time_zone, utc, typ
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
+  headed: boolean;
   encoding: string;
   separator: string;
   rows: number;
@@ -36,6 +37,13 @@ const uses = (): { [name: string]: string } => ({
   high_contrast: tr("High contrast (yes or no)"),
 });
 
+/** What was pasted or chosen last and what was answered about its columns, by their headings: kept while the tab lives and somebody is signed in. */
+const nothing = () => ({ text: "", file: "", bytes: new Uint8Array(), answers: new Map<string, string>() });
+let kept = nothing();
+export function forget_list(): void {
+  kept = nothing();
+}
+
 class Roster {
   readonly root = make("div", {}, make("h1", {}, tr("Class list")));
   private bytes = new Uint8Array();
@@ -43,10 +51,19 @@ class Roster {
   private readonly found = make("div");
 
   constructor() {
-    const text = field(tr("Paste the list, with its line of column names"), make("textarea", { spellcheck: "false" }));
-    const file = field(tr("or choose a file (CSV)"), make("input", { type: "file", accept: ".csv,.txt,.tsv,text/csv,text/plain" }));
+    const known = tr("Columns that are known: {}. Only id is needed; about any other column you are asked.", Object.keys(uses()).join(", "));
+    const text = field(tr("Paste the list, with its line of column names"), make("textarea", { spellcheck: "false" }), known);
+    text.value = kept.text;
+    text.addEventListener("input", () => (kept.text = text.value));
+    const file = field(tr("or choose a file (CSV)"), make("input", { type: "file", accept: ".csv,.txt,.tsv,text/csv,text/plain" }),
+      kept.file === "" ? "" : tr("{} is still here, as it was chosen: it is read when you paste nothing and choose no other.", kept.file));
     const read = form(tr("Read the list"), async () => {
-      this.bytes = file.files?.length ? new Uint8Array(await file.files[0].arrayBuffer()) : new TextEncoder().encode(text.value);
+      const chosen = file.files?.[0];
+      if (chosen !== undefined) {
+        kept.file = chosen.name;
+        kept.bytes = new Uint8Array(await chosen.arrayBuffer());
+      }
+      this.bytes = chosen !== undefined || text.value === "" ? kept.bytes : new TextEncoder().encode(text.value);
       this.answers = [];
       await this.look();
     }, text.block, file.block);
@@ -58,9 +75,17 @@ class Roster {
   }
 
   private async look(): Promise<void> {
-    const preview = await post<Preview>("/api/roster/preview", this.asked());
+    let preview = await post<Preview>("/api/roster/preview", this.asked());
+    if (this.answers.length === 0) {  // read anew: a column of the same heading keeps its answer
+      const headings = preview.columns.map((c) => c.heading);
+      this.answers = preview.columns.map((c) => (headings.filter((h) => h === c.heading).length === 1 ? kept.answers.get(c.heading) : undefined) ?? c.use);
+      if (this.answers.some((a, i) => a !== preview.columns[i].use)) preview = await post<Preview>("/api/roster/preview", this.asked());
+    }
     this.answers = preview.columns.map((c) => c.use);
     this.found.replaceChildren(make("h2", { tabindex: "-1" }, tr("What was found")));
+    if (preview.columns.length > 0 && !preview.headed)
+      this.found.append(make("p", { class: "wrong", role: "alert" }, tr("No known column stands in the first line: {}. Is it a candidate? Then he would get no ticket: write a line of column names above him, and read the list again.",
+        preview.columns.map((c) => c.heading).join("; "))));
     if (preview.columns.length > 0) {
       this.found.append(make("p", {}, tr("Candidates: {0}; encoding: {1}; fields parted by: {2}", preview.rows, preview.encoding, separators()[preview.separator] ?? preview.separator)));
       this.found.append(this.columns(preview));
@@ -82,11 +107,13 @@ class Roster {
       list.setAttribute("aria-label", tr("Use of column {}", c.heading));
       list.addEventListener("change", () => {
         this.answers[i] = list.value;
+        kept.answers.set(c.heading, list.value);
         this.look().catch((wrong: Error) => say(wrong.message, true));
       });
       return [c.heading, c.samples.join("; "), list.block];
     });
-    return table(tr("Columns of the list"), [tr("Column"), tr("First values"), tr("Use")], rows);
+    const hint = make("p", { class: "hint" }, tr("Surname and first name in two columns: use both as Name, and they are joined, with a comma between them."));
+    return make("div", {}, hint, table(tr("Columns of the list"), [tr("Column"), tr("First values"), tr("Use")], rows));
   }
 
   private people(preview: Preview): HTMLElement {

@@ -8,10 +8,11 @@ export function set_words(words: { [english: string]: string } | undefined, deci
   sign = decimal_sign ?? ".";
 }
 
-/** The message in the report's language, with `texts` in its gaps `{}`, or `{0}`, `{1}`. */
+/** The message in the report's language, with `texts` in its gaps `{}`, or `{0}`, `{1}`; numbers with its decimal sign. */
 export function tr(english: string, ...texts: (string | number)[]): string {
   let next = 0;
-  return (translations[english] ?? english).replace(/\{(\d*)\}/g, (_gap, number: string) => String(texts[number === "" ? next++ : Number(number)] ?? ""));
+  const said_so = (text: string | number): string => (typeof text === "number" ? with_sign(String(text)) : text);
+  return (translations[english] ?? english).replace(/\{(\d*)\}/g, (_gap, number: string) => said_so(texts[number === "" ? next++ : Number(number)] ?? ""));
 }
 
 /** Marks a message that is shown later by tr(). */
