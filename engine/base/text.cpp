@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <iterator>
+#include <utility>
 
 namespace cavum {
 namespace {
@@ -33,6 +35,26 @@ char32_t code_of(std::string_view text, std::size_t n) noexcept {
 }
 
 bool is_control(char32_t c) noexcept { return c < 0x20 || (c >= 0x7f && c < 0xa0) || (c >= 0x2028 && c <= 0x202e) || (c >= 0x2066 && c <= 0x2069); }
+
+/// Blanks other than a space, and characters without a picture (Unicode: White_Space, Default_Ignorable_Code_Point, and the empty braille pattern).
+bool is_unseen(char32_t c) noexcept {
+  static constexpr std::pair<char32_t, char32_t> k_unseen[] = {
+      {0xa0, 0xa0},     {0xad, 0xad},     {0x34f, 0x34f},   {0x61c, 0x61c},   {0x115f, 0x1160},   {0x1680, 0x1680},   {0x17b4, 0x17b5},
+      {0x180b, 0x180f}, {0x2000, 0x200f}, {0x2028, 0x202f}, {0x205f, 0x206f}, {0x2800, 0x2800},   {0x3000, 0x3000},   {0x3164, 0x3164},
+      {0xfe00, 0xfe0f}, {0xfeff, 0xfeff}, {0xffa0, 0xffa0}, {0xfff0, 0xfff8}, {0x1bca0, 0x1bca3}, {0x1d173, 0x1d17a}, {0xe0000, 0xe0fff}};
+  return std::any_of(std::begin(k_unseen), std::end(k_unseen), [c](const auto& range) { return c >= range.first && c <= range.second; });
+}
+
+/// Whether `is` holds of one of its whole characters.
+template <class Is>
+bool any_character(std::string_view text, const Is& is) {
+  while (!text.empty()) {
+    const std::size_t n = utf8_length(text);
+    if (n != 0 && is(code_of(text, n))) return true;
+    text.remove_prefix(n == 0 ? 1 : n);
+  }
+  return false;
+}
 
 /// Copies `text` character by character; `control` writes what stands for a control character, `plain` for another of one byte.
 template <class Control, class Plain>
@@ -97,6 +119,12 @@ bool is_plain_text(std::string_view text) noexcept {
   }
   return true;
 }
+
+bool is_seen_text(std::string_view text) noexcept {
+  return is_plain_text(text) && any_character(text, [](char32_t c) { return c != U' ' && !is_unseen(c); });
+}
+
+bool holds_unseen(std::string_view text) noexcept { return any_character(text, is_unseen); }
 
 std::string one_line(std::string_view text) {
   return rewritten(

@@ -12,6 +12,10 @@ namespace cavum {
 
 /// True for valid UTF-8 without control characters.
 [[nodiscard]] bool is_plain_text(std::string_view text) noexcept;
+/// True for plain text in which something can be seen: not blanks, joiners and other characters without a picture alone.
+[[nodiscard]] bool is_seen_text(std::string_view text) noexcept;
+/// True where a blank other than a space, or a character without a picture, stands in it: two texts that look alike may differ by it.
+[[nodiscard]] bool holds_unseen(std::string_view text) noexcept;
 /// The same text on one line of valid UTF-8: control characters become spaces, bytes that are no UTF-8 become '?'.
 [[nodiscard]] std::string one_line(std::string_view text);
 /// Text for XML and HTML, in elements and attributes: & < > " ' and line ends as references; other control characters,

@@ -98,6 +98,7 @@ Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, c
     if (columns[c] != nullptr && !row.fields[c].empty()) columns[c]->put(p, row.fields[c], fmt::format("{}: {}", at, columns[c]->name));
   if (p.id.empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
   require_candidate_id(at + ": id", p.id);
+  if (holds_unseen(p.id)) throw Error(at + ": id", "holds a character that is not seen, such as a no-break space", "type the number anew");
   require_candidate_id(at + ": name", p.name);
   require_candidate_id(at + ": station", p.station);
   scenarios::require_sound(p.grant, at);

@@ -93,7 +93,7 @@ json select_erasures(const LedgerContent& c, const ErasureWish& wish) {
 
 json erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason) {
   constexpr std::size_t k_longest = 2000;
-  if (reason.empty() || reason.size() > k_longest || !is_plain_text(reason))
+  if (reason.size() > k_longest || !is_seen_text(reason))
     throw Error("--reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
   json erased;
   struct Nothing {};

@@ -16,7 +16,7 @@ namespace {
 using nlohmann::json;
 
 void require_words(const std::string& what, const std::string& text) {
-  if (text.empty() || text.size() > k_longest_words || !is_plain_text(text))
+  if (text.size() > k_longest_words || !is_seen_text(text))
     throw Error(what, fmt::format("is no line of text of at most {} bytes", k_longest_words), "say it in one line, without names: it is kept");
 }
 

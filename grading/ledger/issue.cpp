@@ -46,7 +46,7 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, A
 
 const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason) {
   constexpr std::size_t k_longest = 2000;
-  if (reason.empty() || reason.size() > k_longest || !is_plain_text(reason))
+  if (reason.size() > k_longest || !is_seen_text(reason))
     throw Error("--reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
   return ledger.append("cancel", [&](const LedgerContent& now) -> nlohmann::json {
     const Registry registry = read_registry(now);

@@ -56,7 +56,7 @@ std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const 
 }
 
 void require_reason(const std::string& reason) {
-  if (reason.find_first_not_of(" \t") == std::string::npos || reason.size() > k_longest_reason || !is_plain_text(reason))
+  if (reason.size() > k_longest_reason || !is_seen_text(reason))
     throw Error("--reason", reason.size() > k_longest_reason ? fmt::format("is longer than {} bytes", k_longest_reason) : "is no line of text",
                 "say in one line of UTF-8 why, without names: it is kept for ever");
 }

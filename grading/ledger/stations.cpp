@@ -175,7 +175,7 @@ std::string station_request(const SigningKey& key, const std::string& school, co
 }
 
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
-  if (name.empty() || name.size() > k_longest_station_name || !is_plain_text(name))
+  if (name.size() > k_longest_station_name || !is_seen_text(name) || holds_unseen(name))
     throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_station_name))),
                 fmt::format("give one line of at most {} bytes", k_longest_station_name));
   std::string code = new_station_code();

@@ -125,7 +125,7 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const j
 
 std::string reason_in(const json& asked) {
   std::string reason = text_in(asked, "reason");
-  if (reason.find_first_not_of(" \t") == std::string::npos || reason.size() > ledger::k_longest_reason || !is_plain_text(reason))
+  if (reason.size() > ledger::k_longest_reason || !is_seen_text(reason))
     throw Error("the reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
   return reason;
 }

@@ -46,8 +46,8 @@ asio::ssl::context make_context(const CertificateFiles& files) {
 }  // namespace
 
 struct HttpServer::Parts {
-  /// How far a connection has come. Whoever is known keeps its place; of the others the least gives way when there is no more room.
-  enum class Stage { silent, speaks, known, leaves };
+  /// How far a connection has come. Whoever is trusted keeps its place; of the others the least gives way when there is no more room.
+  enum class Stage { silent, speaks, asks, trusted, leaves };
   /// Of a connection, for whoever watches the clock: its socket is shut when the time is over, which ends every read and write on it.
   struct Open {
     int socket = -1;
@@ -104,12 +104,12 @@ struct HttpServer::Parts {
   }
 
   /// Makes room for one more, where there is none, and nobody's address counts: the oldest of those that have not said a byte leaves, or else of
-  /// those whose first head was not read yet. False: all that are here are known.
+  /// those whose first head was not read yet, or else of those who asked as nobody. False: all that are here are trusted.
   bool room(std::unique_lock<std::mutex>& guard) {
     const auto free = [&] { return open.size() < limits.most_connections; };
     if (free()) return true;
     const auto least = std::min_element(open.begin(), open.end(), [](const Open& a, const Open& b) { return a.stage < b.stage; });
-    if (least->stage >= Stage::known) return false;
+    if (least->stage >= Stage::trusted) return false;
     least->stage = Stage::leaves;
     ::shutdown(least->socket, SHUT_RDWR);
     return ended.wait_for(guard, k_watch, free);
@@ -124,10 +124,10 @@ struct HttpServer::Parts {
     }
   }
 
-  /// Time for who is known; the others keep what they had when they came.
+  /// Time for who has asked something; the others keep what they had when they came.
   void allow(std::list<Open>::iterator place, std::int64_t seconds) {
     const std::lock_guard guard(lock);
-    if (place->stage == Stage::known) place->deadline = Steady::now() + std::chrono::seconds(seconds);
+    if (place->stage == Stage::asks || place->stage == Stage::trusted) place->deadline = Steady::now() + std::chrono::seconds(seconds);
   }
   void reach(std::list<Open>::iterator place, Stage stage) {
     const std::lock_guard guard(lock);
@@ -152,8 +152,10 @@ struct HttpServer::Parts {
         if (!wrong) {
           const std::function<void(std::int64_t)> allows = [&](std::int64_t seconds) { allow(place, seconds); };
           const Welcome knows = [&](const Head& head) {
-            reach(place, Stage::known);
-            return welcome(head);
+            reach(place, Stage::asks);
+            auto exchange = welcome(head);
+            if (exchange->trusted()) reach(place, Stage::trusted);
+            return exchange;
           };
           http_talk::Talk<Tls>(stream, {knows, limits, address, allows, stopping}).run();
         }

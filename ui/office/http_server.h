@@ -44,6 +44,8 @@ class Exchange {
   virtual ~Exchange() = default;
   /// What is answered without reading any of the body: the request is refused.
   [[nodiscard]] virtual const Reply* refusal() const = 0;
+  /// Somebody who is signed in asks, or a station that is enrolled: the connection keeps its place from then on.
+  [[nodiscard]] virtual bool trusted() const = 0;
   [[nodiscard]] virtual std::uint64_t largest_bytes() const = 0;
   virtual void take(std::string_view part) = 0;
   [[nodiscard]] virtual Reply answer() = 0;

@@ -107,6 +107,10 @@ class Talk {
     auto head = head_of(parser.get(), needs_.address);
     if (!head) return write(refused(400, "a field stands twice, or this is no path"), false);
     if (parser.get().version() == k_http_1_1 && !head->fields.contains("host")) return write(refused(400, "say for whom this is (Host)"), false);
+    if (const auto length = head->fields.find("content-length");
+        head->fields.contains("transfer-encoding") ||
+        (length != head->fields.end() && length->second.find_first_not_of("0123456789") != std::string::npos))
+      return write(refused(411, "say how long the body is (Content-Length)"), false);
     if (parser.chunked()) return write(refused(411, "say how long the body is (Content-Length)"), false);
     if (head_alone_) head->method = "GET";  // answered as that is, without what would come after the head
     const std::unique_ptr<Exchange> exchange = needs_.welcome(*head);

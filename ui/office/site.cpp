@@ -72,6 +72,7 @@ class Site::Visit : public Exchange {
   }
 
   [[nodiscard]] const Reply* refusal() const override { return refusal_ ? &*refusal_ : nullptr; }
+  [[nodiscard]] bool trusted() const override { return call_.by.has_value() || !call_.station.empty(); }
   [[nodiscard]] std::uint64_t largest_bytes() const override { return largest_; }
   void take(std::string_view part) override {
     if (!body_sha256_.empty()) crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());

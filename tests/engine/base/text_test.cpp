@@ -105,5 +105,17 @@ TEST(Text, NumbersReadAsPeopleWriteThem) {
   EXPECT_EQ(fixed(-0.2, 0), "0");
 }
 
+TEST(Text, WhatCannotBeSeenSaysNothing) {
+  for (const char* nothing : {"", " ", "   ", "\u00a0", "\u200b", "\u3164", "\u2800", "\u2003 \u00a0", "\ufe0f", "\ufeff"})
+    EXPECT_FALSE(is_seen_text(nothing)) << '"' << nothing << '"';
+  for (const char* something : {"x", " a b ", "\u00e4", "\u5f20\u4f1f", "\u0646\u200c\u0645", "\U0001f9b7"})
+    EXPECT_TRUE(is_seen_text(something)) << something;
+  EXPECT_FALSE(is_seen_text("two\nlines"));
+  EXPECT_FALSE(is_seen_text("\xff"));
+  EXPECT_TRUE(holds_unseen("8002\u00a0"));
+  EXPECT_TRUE(holds_unseen("Seat\u200b 1"));
+  EXPECT_FALSE(holds_unseen("Seat 1, Süd"));
+}
+
 }  // namespace
 }  // namespace cavum

@@ -68,6 +68,7 @@ TEST_F(Strangers, FindNothingBehindTrickyPaths) {
 TEST_F(Strangers, GetNoRequestPastAnotherByItsHead) {
   const std::string rest = "Host: x\r\nContent-Type: application/json\r\n";
   EXPECT_EQ(raw("POST /api/sign-in HTTP/1.1\r\n" + rest + "Transfer-Encoding: chunked\r\n\r\n0\r\n\r\n").status, 411);
+  EXPECT_EQ(raw("POST /api/sign-in HTTP/1.1\r\n" + rest + "Content-Length: 4\r\nTransfer-Encoding: xchunked\r\n\r\nabcd").status, 411);
   const int both = raw("POST /api/sign-in HTTP/1.1\r\n" + rest + "Content-Length: 4\r\nTransfer-Encoding: chunked\r\n\r\n0\r\n\r\n").status;
   EXPECT_TRUE(both == 400 || both == 411) << both;
   EXPECT_EQ(raw("POST /api/sign-in HTTP/1.1\r\n" + rest + "Content-Length: 2\r\nContent-Length: 3\r\n\r\n{} ").status, 400);
@@ -201,6 +202,25 @@ TEST(ManySilentConnections, LeaveTheirPlaceToWhoAsksSomething) {
   EXPECT_GT(silent.opened(), k_silent) << "none of them was ever dropped";
   EXPECT_LT(served.peak_kb(), k_most_kb);
   std::printf("%zu silent connections opened, the server's memory at most %ld kB\n", silent.opened(), served.peak_kb());
+}
+
+TEST(ManyWhoAskAsNobody, LeaveTheirPlaceToOthersAndTakeNoneFromWhoIsSignedIn) {
+  const Opened opened;
+  const Visitor officer = opened.signed_in(Role::officer);
+  const std::string ask = "GET /station/hello HTTP/1.1\r\nHost: x\r\n\r\n";
+  Wire trusted(opened.port());
+  const std::string me = "GET /api/me HTTP/1.1\r\nHost: x\r\nCookie: __Host-cavum=" + officer.cookie + "\r\n\r\n";
+  trusted.send(me);
+  ASSERT_EQ(trusted.hear().status, 200);
+  std::vector<std::unique_ptr<Wire>> nobody;
+  for (int i = 0; i < 600; ++i) {
+    nobody.push_back(std::make_unique<Wire>(opened.port()));
+    nobody.back()->send(ask);
+    ASSERT_EQ(nobody.back()->hear().status, 200) << i;
+  }
+  EXPECT_EQ(officer.get("/api/me").status, 200) << "a new connection";
+  trusted.send(me);
+  EXPECT_EQ(trusted.hear().status, 200) << "who is signed in stays";
 }
 
 TEST(Certificate, IsMadeOnceWithAKeyForItsOwnerAlone) {
