@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -241,10 +242,17 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
     EXPECT_EQ(sitting.setup().session.candidate, candidate);
     EXPECT_EQ(asked, 1);
   }
+  std::string bare = candidate, spaced = typed;  // without dashes; with blanks in their place
+  std::erase(bare, '-');
+  std::replace(spaced.begin(), spaced.end(), '-', ' ');
+  for (const std::string& code : {bare, spaced}) EXPECT_EQ(Sitting(options_, code).candidate(), candidate) << code;
+  EXPECT_THROW(Sitting(options_, bare.substr(0, 12)), Error) << "a letter is missing";
+  EXPECT_THROW(Sitting(options_, bare + "0"), Error) << "one too many";
+  const int before = asked;
   options_.model = "paper";
   Sitting other(options_, candidate);
   EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
-  EXPECT_EQ(asked, 1) << "the office would take it for begun";
+  EXPECT_EQ(asked, before) << "the office would take it for begun";
 }
 
 TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
