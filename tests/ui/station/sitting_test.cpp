@@ -258,7 +258,7 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
 TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
   std::int64_t before = 0;
   {
-    Sitting sitting(options_, "K7");
+    Sitting sitting(options_, "C-7K3M-Q9WD-XT20");
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     sitting.begin();
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 2000; }));
@@ -268,12 +268,13 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
   SittingOptions again;
   again.resume = options_.out;
   again.device.name = "simulated";
-  EXPECT_THROW(Sitting(again, "K8"), Error) << "another candidate";
+  EXPECT_THROW(Sitting(again, "C-7K3M-Q9WD-XT21"), Error) << "another candidate";
   SittingOptions mouse = again;
   mouse.device.name = "mouse";
-  EXPECT_THROW(Sitting(mouse, "K7"), Error) << "another encoder";
+  EXPECT_THROW(Sitting(mouse, "C-7K3M-Q9WD-XT20"), Error) << "another encoder";
   {
-    Sitting sitting(again, "K7");
+    Sitting sitting(again, "c7k3m q9wdxt20");
+    EXPECT_EQ(sitting.candidate(), "C-7K3M-Q9WD-XT20") << "as it was begun, however it is typed";
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     ASSERT_TRUE(sitting.begun());
     EXPECT_NEAR(sitting.begun()->left_s, 0.001 * static_cast<double>(scenarios::exam_limit_ticks(sitting.setup().scenario) - before), 1e-9);
@@ -288,7 +289,7 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
     EXPECT_GT(sitting.closed().result.motion.time_s, 0.001 * static_cast<double>(before));
   }
   EXPECT_TRUE(verify_session(options_.out).verified);
-  EXPECT_THROW(Sitting(again, "K7"), Error) << "it is closed now";
+  EXPECT_THROW(Sitting(again, "C-7K3M-Q9WD-XT20"), Error) << "it is closed now";
 }
 
 }  // namespace
