@@ -1,11 +1,12 @@
 // What the pages say once something was done, refused, or is over: of which station, of which recording, and why somebody is out.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
 import { add_account, close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { download } from "./hall.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => {
@@ -157,6 +158,7 @@ test("a class list says what it knows, and outlives a look at another page", { s
     ["2027-03-28T01:30:00Z", "2027-03-28T01:30:00Z"], "by summer time");
   await go(page, "Tickets");
   await said(page, "takes 2:00 min");
+  assert.equal(readFileSync(await download(page, "Candidate cards (PDF)", "cards.pdf")).subarray(0, 5).toString(), "%PDF-");
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   await type(page, "Name", "Anna Officer");
