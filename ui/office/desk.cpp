@@ -57,7 +57,12 @@ json Desk::preview(const json& asked) {
     roster.people.clear();
     roster.problem = lines_of_mistakes(wrong);
   }
-  return shown_roster(roster);
+  json out = shown_roster(roster);
+  Grants grants;
+  for (const auto& p : roster.people) grants.push_back(scenarios::notes_of(p.grant));
+  out["longest_s"] = json::object();  // of each exam, for who of the list has most time
+  for (const std::string& file : exams_) out["longest_s"][exam_facts(file)["id"].get<std::string>()] = time_limit_s(file, grants);
+  return out;
 }
 
 json Desk::issue(const json& asked, const Account& by) {
@@ -153,18 +158,23 @@ std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledge
   return ledger::accommodations_in(SessionReader(ledger::recording_of(book.places(), *sat)).setup());
 }
 
+std::vector<std::pair<std::string, std::string>> Desk::grant_on(const std::string& nonce) const {
+  if (!std::filesystem::exists(places_.ticket(nonce))) return {};
+  return ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant;
+}
+
 std::string Desk::granted_on(const std::string& nonce) const {
-  if (!std::filesystem::exists(places_.ticket(nonce))) return "";
-  return shown(scenarios::accommodations_text(
-      scenarios::granted({}, ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant, "the ticket")));
+  return shown(scenarios::accommodations_text(scenarios::granted({}, grant_on(nonce), "the ticket")));
 }
 
 json Desk::tickets(bool grants, const std::set<std::string>& seen) {
+  json offered = exams().at("exams");  // files are read while nobody waits
   Turn turn(*this);
   const auto people = people_of(turn.book);
   const std::int64_t now = read_clocks().utc_ns;
   remove_dead_tickets(turn.book, now);
   json out = json::array();
+  std::map<std::string, Grants> granted;  // by exam
   for (const auto& t : turn.book.registry().tickets) {
     const TicketState state = state_of(t, now);
     json row = {{"entry", t.seq},
@@ -186,9 +196,17 @@ json Desk::tickets(bool grants, const std::set<std::string>& seen) {
     row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
     put_name(row, people, t.ticket.candidate);
     if (grants) row["accommodations"] = granted_on(t.ticket.nonce);
+    if (state.live) granted[t.ticket.exam].push_back(grant_on(t.ticket.nonce));
     out.push_back(std::move(row));
   }
-  return {{"tickets", out}};
+  json exams = json::array();  // those of which tickets are good, with how long they take
+  for (json& facts : offered) {
+    const auto good = granted.find(facts["id"]);
+    if (good == granted.end()) continue;
+    if (grants) facts["longest_s"] = time_limit_s(facts["file"], good->second);
+    exams.push_back(std::move(facts));
+  }
+  return {{"tickets", out}, {"exams", exams}};
 }
 
 json Desk::cancel(const json& asked, const Account& by, const std::set<std::string>& seen) {

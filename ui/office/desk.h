@@ -126,7 +126,9 @@ class Desk {
  private:
   /// The ledger as it is now, for one call, in the name of an actor.
   class Turn;
-  /// Accommodations on a ticket's file, for people; empty: none, or the file is not kept any more.
+  /// Accommodations on a ticket's file, as notes of a session; none where the file is not kept any more.
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> grant_on(const std::string& nonce) const;
+  /// The same for people; empty: none, or the file is not kept any more.
   [[nodiscard]] std::string granted_on(const std::string& nonce) const;
   /// Whether first_grant finds something.
   [[nodiscard]] bool keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& ticket) const;

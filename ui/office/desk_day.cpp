@@ -135,7 +135,12 @@ json Desk::seat(const json& asked, const Account& by) {
 std::vector<Invited> Desk::invited_now() {
   Turn turn(*this);
   auto people = invited(turn.book, read_clocks().utc_ns);
-  for (auto& i : people) i.accommodations = granted_on(i.nonce);
+  const json offered = exams().at("exams");
+  for (auto& i : people) {
+    i.accommodations = granted_on(i.nonce);
+    for (const json& e : offered)
+      if (e["id"] == i.exam) i.title = e["title"];
+  }
   return people;
 }
 

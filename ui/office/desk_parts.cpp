@@ -13,6 +13,7 @@
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
+#include "scenarios/exam/runner.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
 
@@ -73,7 +74,18 @@ json exam_facts(const std::string& file) {
   const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
   const auto words = s.languages.find(language());
   const bool translated = words != s.languages.end() && words->second.contains(s.title);
-  return {{"id", s.id}, {"title", translated ? words->second.at(s.title) : s.title}, {"file", file}};
+  return {{"id", s.id}, {"title", translated ? words->second.at(s.title) : s.title}, {"file", file}, {"time_limit_s", time_limit_s(file, {})}};
+}
+
+std::int64_t time_limit_s(const std::string& file, const Grants& grants) {
+  const scenarios::Scenario s = scenarios::parse_scenario(read_text_file(file), file);
+  std::int64_t longest = scenarios::exam_limit_ticks(s);
+  for (const auto& grant : grants) {
+    scenarios::Scenario granted = s;
+    granted.accommodations = scenarios::granted(s.accommodations, grant, "the exam");
+    longest = std::max(longest, scenarios::exam_limit_ticks(granted));
+  }
+  return (longest + k_ticks_per_second - 1) / k_ticks_per_second;
 }
 
 IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {

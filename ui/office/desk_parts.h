@@ -28,8 +28,13 @@ void put_name(nlohmann::json& row, const std::map<std::string, ledger::Identity>
 [[nodiscard]] Roster roster_of(const nlohmann::json& asked);
 [[nodiscard]] nlohmann::json shown_roster(const Roster& roster);
 
-/// {"id","title","file"} of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
+/// {"id","title","file","time_limit_s"} of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
 [[nodiscard]] nlohmann::json exam_facts(const std::string& scenario_file);
+
+/// Notes of sessions, of each what one candidate is granted.
+using Grants = std::vector<std::vector<std::pair<std::string, std::string>>>;
+/// How long an exam of this scenario may take, for who of these has most time, in whole seconds; 0: without limit.
+[[nodiscard]] std::int64_t time_limit_s(const std::string& scenario_file, const Grants& grants);
 
 /// What tickets are issued for.
 struct IssueWish {

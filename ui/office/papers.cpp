@@ -36,6 +36,8 @@ std::string span_text(std::int64_t from_utc_ns, std::int64_t until_utc_ns) {
   return tr("{0} {1} to {2} {3}", from.day, from.time, from.day == until.day ? until.time : until.day + " " + until.time, until.zone);
 }
 
+std::string exam_name(const Invited& i) { return i.title.empty() ? i.exam : fmt::format("{} ({})", i.title, i.exam); }
+
 report::Document paper(const std::string& title, const std::string& school, const std::vector<Invited>& people) {
   if (people.empty()) throw Error("the paper", "would be empty: no ticket is good", "issue tickets first");
   report::Document d;
@@ -86,25 +88,27 @@ std::string candidate_cards(const std::string& school, const std::vector<Invited
     if (!i.station.empty()) d.blocks.push_back(report::Paragraph{i.room.empty() ? i.station : fmt::format("{}, {}", i.room, i.station), tr("Place")});
     if (!i.accommodations.empty()) d.blocks.push_back(report::Paragraph{i.accommodations, tr("Granted")});
     d.blocks.push_back(
-        report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", as_is(i.exam)), "", report::Paragraph::Kind::small});
+        report::Paragraph{tr("Type this code at the station, never your name. Exam: {}", as_is(exam_name(i))), "", report::Paragraph::Kind::small});
   }
   return report::pdf_of(d);
 }
 
 std::string sheet_to_sign(const std::string& school, const std::vector<Invited>& people) {
   report::Document d = paper(tr("Sign-in sheet"), school, people);
+  constexpr double k_row_pt = 12 / 25.4 * 72;  // 12 mm: room for a hand
   for (std::size_t at = 0; at < people.size();) {
     const Invited& first = people[at];
     d.blocks.push_back(report::Heading{
-        fmt::format("{}: {}{}", first.exam, span_text(first.from_utc_ns, first.until_utc_ns), first.room.empty() ? "" : ", " + first.room)});
+        fmt::format("{}: {}{}", exam_name(first), span_text(first.from_utc_ns, first.until_utc_ns), first.room.empty() ? "" : ", " + first.room)});
     report::ReportTable table{
         {{tr("Number"), false, 2}, {tr("Name"), false, 4}, {tr("Code"), false, 4}, {tr("Station"), false, 2}, {tr("Signature"), false, 4.5}},
         {},
-        tr("Sign-in sheet")};
+        tr("Sign-in sheet"),
+        k_row_pt};
     for (; at < people.size() && people[at].exam == first.exam && people[at].from_utc_ns == first.from_utc_ns &&
            people[at].until_utc_ns == first.until_utc_ns && people[at].room == first.room;
          ++at)
-      table.rows.push_back({{{people[at].id}, {people[at].name}, {people[at].code}, {people[at].station}, {"\n\n"}}});
+      table.rows.push_back({{{people[at].id}, {people[at].name}, {people[at].code}, {people[at].station}, {""}}});
     d.blocks.push_back(std::move(table));
   }
   return report::pdf_of(d);

@@ -12,6 +12,7 @@ namespace cavum::office {
 /// One whose ticket is good.
 struct Invited {
   std::string code = {}, nonce = {}, id = {}, name = {}, exam = {};
+  std::string title = {};  ///< of the exam; who makes the papers fills it in
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
   std::string room = {}, station = {};  ///< empty: none was given
   std::string accommodations = {};      ///< for people; who makes the cards fills it in

@@ -13,6 +13,7 @@
 #include "engine/base/write_file.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/begin.h"
+#include "grading/ledger/candidate_id.h"
 #include "grading/ledger/station_ticket.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/station/replay_player.h"
@@ -25,11 +26,13 @@ bool is_ready(const std::future<T>& f) {
   return f.valid() && f.wait_for(std::chrono::seconds(0)) == std::future_status::ready;
 }
 
-/// The ticket of a candidate who typed this code, in capitals or not.
+/// The ticket of a candidate who typed this code, in capitals or not, a pseudonym also without its dashes.
 ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
-  const std::string path = fmt::format("{}/{}.ticket", folder, file_name_of(name));
+  const auto path_of = [&folder](const std::string& candidate) { return fmt::format("{}/{}.ticket", folder, file_name_of(candidate)); };
+  std::string path = path_of(name);
+  if (const std::string pseudonym = ledger::pseudonym_typed(code); !pseudonym.empty() && !std::filesystem::exists(path)) path = path_of(pseudonym);
   if (!std::filesystem::exists(path))
     throw Error(fmt::format("candidate '{}'", one_line(code)), "has no ticket here", "check the code, or ask the school");
   return ledger::read_ticket(path);
@@ -58,16 +61,17 @@ bool has_room(const std::string& path) {
   return !none && space.available > k_room_bytes;
 }
 
-void require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
+std::string require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
   if (session.closed())
     throw Error(path, "is closed: there is nothing to go on with", fmt::format("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
-  if (setup.candidate != candidate)
+  if (setup.candidate != candidate && setup.candidate != ledger::pseudonym_typed(candidate))
     throw Error(fmt::format("candidate '{}'", one_line(candidate)), "did not begin this exam", "type the code that it was begun with");
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
     throw Error(device.name(), "has another encoder than the stylus that this exam was begun with", "go on with that one");
+  return setup.candidate;
 }
 
 /// What was recorded so far, taken again from its inputs.
@@ -111,7 +115,7 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     }
   }
   if (!options_.resume.empty()) {
-    require_resumable(options_.resume, candidate_, *device_);
+    candidate_ = require_resumable(options_.resume, candidate_, *device_);
     options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
   }
   preparing_ = std::async(std::launch::async, [this, exam, held]() mutable {

@@ -229,6 +229,37 @@ std::string words_of(const std::string& pdf, const std::string& path) {
   return read_text_file(text);
 }
 
+/// Where a word stands on its page, pt from its top, by poppler.
+double line_of(const std::string& word, const std::string& pdf) {
+  EXPECT_EQ(std::system(("pdftotext -bbox " + pdf + " " + pdf + ".html").c_str()), 0);
+  const std::string page = read_text_file(pdf + ".html");
+  const auto end = page.find(">" + word + "</word>"), at = page.rfind("yMin=\"", end);
+  EXPECT_NE(end, std::string::npos) << word;
+  return end == std::string::npos ? 0 : std::stod(page.substr(at + 6));
+}
+
+TEST_F(ADay, ListAndTicketsSayHowLongTheExamIs) {
+  const json list = Opened::list("id,extra_time_percent,extra_time_s\n4711,25,\n4712,,90\n4713,,\n");
+  const json preview = officer_.post("/api/roster/preview", list).json();
+  EXPECT_EQ(officer_.get("/api/exams").json()["exams"][0]["time_limit_s"], 120);
+  EXPECT_EQ(preview["longest_s"]["block_cavity"], 210) << "120 s and 90 s; 25 % are 30 s";
+  EXPECT_EQ(officer_.get("/api/tickets").json()["exams"].size(), 0u) << "no ticket is good";
+  json asked = list;
+  asked.update({{"exam", "block_cavity"}, {"from", "2031-01-21T08:00:00Z"}, {"until", "2031-01-21T11:30:00Z"}, {"reason", "class"}});
+  ASSERT_EQ(officer_.post("/api/roster/issue", asked).status, 200);
+  const json exam = officer_.get("/api/tickets").json()["exams"].at(0);
+  EXPECT_EQ(exam["time_limit_s"], 120);
+  EXPECT_EQ(exam["longest_s"], 210);
+  EXPECT_FALSE(opened_.signed_in(Role::invigilator).get("/api/tickets").json()["exams"].at(0).contains("longest_s")) << "it may tell of health";
+  const std::string sheet = opened_.school().file("rows.pdf");
+  write_text_file(sheet, officer_.get("/api/sign-in-sheet.pdf").body);
+  for (const auto& [upper, lower] : {std::pair("4711", "4712"), std::pair("4712", "4713")}) {
+    const double apart_mm = (line_of(lower, sheet) - line_of(upper, sheet)) / 72 * 25.4;
+    EXPECT_GE(apart_mm, 10) << "room to sign";
+    EXPECT_LE(apart_mm, 20);
+  }
+}
+
 TEST_F(ADay, CardsAndSheetSayWhoWhenAndWhereInANamedTimeZone) {
   EXPECT_EQ(officer_.get("/api/cards.pdf").status, 400) << "nobody is invited";
   json asked = Opened::list("id,name,extra_time_percent\n4711,Anna Ärmel,25\n4712,Bert B.,\n");
@@ -252,6 +283,7 @@ TEST_F(ADay, CardsAndSheetSayWhoWhenAndWhereInANamedTimeZone) {
       EXPECT_NE(words.find(part), std::string::npos) << part << " in\n" << words;
     EXPECT_NE(words.find(t["candidate"].get<std::string>()), std::string::npos);
   }
+  for (const std::string& words : {card, sheet}) EXPECT_NE(words.find("Round cavity in a layered block (block_cavity)"), std::string::npos) << words;
   EXPECT_NE(sheet.find("Signature"), std::string::npos);
   EXPECT_NE(card.find("25 %"), std::string::npos) << "the candidate is told what is granted\n" << card;
   EXPECT_EQ(sheet.find("25 %"), std::string::npos) << "the sheet goes from hand to hand\n" << sheet;

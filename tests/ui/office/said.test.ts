@@ -1,11 +1,12 @@
 // What the pages say once something was done, refused, or is over: of which station, of which recording, and why somebody is out.
 import assert from "node:assert/strict";
-import { writeFileSync } from "node:fs";
+import { readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import type { Page } from "puppeteer-core";
 import { k_skip, until } from "../report_test/chromium.ts";
 import { add_account, close_office, control, desk, folder, go, invite, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { download } from "./hall.ts";
 
 const seats = ["seat1", "seat2", "seat3"];
 before(async () => {
@@ -132,6 +133,32 @@ test("a class list says what it knows, and outlives a look at another page", { s
   await said(page, "Columns that wait for your answer: 1");
   await page.select(await control(page, "Use of column Platz"), "pass over");
   await said(page, "Weber, Ada");
+  await said(page, "takes 2:00 min");
+
+  // a time that the clocks leave out
+  await page.emulateTimezone("Europe/Berlin");
+  const issues = async (from: string): Promise<void> => {
+    for (const [label, time] of [["May begin from", from], ["May begin until", "2027-03-28T09:00"]])
+      await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), time);
+    await type(page, "Reason", "class");
+    await press(page, "Issue the tickets");
+  };
+  await issues("2027-03-28T02:30");
+  await said(page, "There is no 2027-03-28 02:30 in Europe/Berlin");
+  await go(page, "Tickets");
+  await said(page, "There is no ticket yet.");
+  await page.click("::-p-xpath(//a[normalize-space()='Candidate cards (PDF)'])");
+  await said(page, "would be empty: no ticket is good");
+  await go(page, "Class list");
+  await read();
+  await said(page, "Weber, Ada");
+  await issues("2027-03-28T03:30");
+  await said(page, "Issued: 2. Refused: 0.");
+  assert.deepEqual(await page.evaluate(async () => ((await (await fetch("/api/tickets")).json()) as { tickets: { not_before: string }[] }).tickets.map((t) => t.not_before)),
+    ["2027-03-28T01:30:00Z", "2027-03-28T01:30:00Z"], "by summer time");
+  await go(page, "Tickets");
+  await said(page, "takes 2:00 min");
+  assert.equal(readFileSync(await download(page, "Candidate cards (PDF)", "cards.pdf")).subarray(0, 5).toString(), "%PDF-");
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   await type(page, "Name", "Anna Officer");

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <chrono>
 #include <filesystem>
 #include <functional>
@@ -241,16 +242,23 @@ TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
     EXPECT_EQ(sitting.setup().session.candidate, candidate);
     EXPECT_EQ(asked, 1);
   }
+  std::string bare = candidate, spaced = typed;  // without dashes; with blanks in their place
+  std::erase(bare, '-');
+  std::replace(spaced.begin(), spaced.end(), '-', ' ');
+  for (const std::string& code : {bare, spaced}) EXPECT_EQ(Sitting(options_, code).candidate(), candidate) << code;
+  EXPECT_THROW(Sitting(options_, bare.substr(0, 12)), Error) << "a letter is missing";
+  EXPECT_THROW(Sitting(options_, bare + "0"), Error) << "one too many";
+  const int before = asked;
   options_.model = "paper";
   Sitting other(options_, candidate);
   EXPECT_THROW(goes_on(other, [&] { return other.stage() == Stage::checking; }), Error) << "another force model than promised";
-  EXPECT_EQ(asked, 1) << "the office would take it for begun";
+  EXPECT_EQ(asked, before) << "the office would take it for begun";
 }
 
 TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
   std::int64_t before = 0;
   {
-    Sitting sitting(options_, "K7");
+    Sitting sitting(options_, "C-7K3M-Q9WD-XT20");
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     sitting.begin();
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 2000; }));
@@ -260,12 +268,13 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
   SittingOptions again;
   again.resume = options_.out;
   again.device.name = "simulated";
-  EXPECT_THROW(Sitting(again, "K8"), Error) << "another candidate";
+  EXPECT_THROW(Sitting(again, "C-7K3M-Q9WD-XT21"), Error) << "another candidate";
   SittingOptions mouse = again;
   mouse.device.name = "mouse";
-  EXPECT_THROW(Sitting(mouse, "K7"), Error) << "another encoder";
+  EXPECT_THROW(Sitting(mouse, "C-7K3M-Q9WD-XT20"), Error) << "another encoder";
   {
-    Sitting sitting(again, "K7");
+    Sitting sitting(again, "c7k3m q9wdxt20");
+    EXPECT_EQ(sitting.candidate(), "C-7K3M-Q9WD-XT20") << "as it was begun, however it is typed";
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     ASSERT_TRUE(sitting.begun());
     EXPECT_NEAR(sitting.begun()->left_s, 0.001 * static_cast<double>(scenarios::exam_limit_ticks(sitting.setup().scenario) - before), 1e-9);
@@ -280,7 +289,7 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
     EXPECT_GT(sitting.closed().result.motion.time_s, 0.001 * static_cast<double>(before));
   }
   EXPECT_TRUE(verify_session(options_.out).verified);
-  EXPECT_THROW(Sitting(again, "K7"), Error) << "it is closed now";
+  EXPECT_THROW(Sitting(again, "C-7K3M-Q9WD-XT20"), Error) << "it is closed now";
 }
 
 }  // namespace

@@ -49,7 +49,8 @@ struct TableRow {
 struct ReportTable {
   std::vector<TableColumn> columns;
   std::vector<TableRow> rows;
-  std::string name;  ///< for those who cannot see it
+  std::string name;         ///< for those who cannot see it
+  double least_row_pt = 0;  ///< height of each row below the heads, where somebody writes into it; 0: its text's
 };
 
 struct VerdictBox {

@@ -230,7 +230,7 @@ class Printer {
     double height = 0;
     for (std::size_t i = 0; i < r.cells.size(); ++i)
       height = std::max(height, s_.height(cell_text(r.cells[i].text, t.columns[i].number, head), widths[i] - 2 * k_padding_pt));
-    return height + 2 * k_padding_pt;
+    return std::max(height + 2 * k_padding_pt, head ? 0.0 : t.least_row_pt);
   }
   void row(const ReportTable& t, const TableRow& r, const std::vector<double>& widths, bool head, double most = 0, bool tagged = true) {
     double x = 0;

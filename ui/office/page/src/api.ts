@@ -46,6 +46,12 @@ async function ask(method: string, path: string, body?: unknown): Promise<Respon
 export async function get<T>(path: string): Promise<T> {
   return (await ask("GET", path)).json() as Promise<T>;
 }
+/** A file, given to the browser to keep; what the office says instead is thrown. */
+export async function download(path: string, name: string): Promise<void> {
+  const href = URL.createObjectURL(await (await ask("GET", path)).blob());
+  Object.assign(document.createElement("a"), { href, download: name }).click();
+  setTimeout(() => URL.revokeObjectURL(href), 60_000);
+}
 export async function post<T>(path: string, body: unknown): Promise<T> {
   return (await ask("POST", path, body)).json() as Promise<T>;
 }

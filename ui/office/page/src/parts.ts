@@ -179,9 +179,21 @@ export function local_span(from: string, until: string): string {
   const same_day = new Date(from).toDateString() === new Date(until).toDateString();
   return tr("{0} to {1}", local_time(from), same_day ? new Date(until).toLocaleTimeString(locale(), { timeStyle: "short" }) : local_time(until));
 }
-/** What a control for a moment says, as UTC to the second. */
+/** What a control for a moment says, as UTC to the second. Throws for what the clocks leave out when they are put forward. */
 export function utc(local: string): string {
-  return new Date(local).toISOString().replace(/\.\d+Z$/, "Z");
+  const t = new Date(local), two = (n: number): string => String(n).padStart(2, "0");
+  const clock = `${t.getFullYear()}-${two(t.getMonth() + 1)}-${two(t.getDate())}T${two(t.getHours())}:${two(t.getMinutes())}`;
+  if (clock !== local.slice(0, 16)) throw new Error(tr("There is no {0} in {1}: the clocks are put forward then. Choose another time.", local.replace("T", " "), time_zone()));
+  return t.toISOString().replace(/\.\d+Z$/, "Z");
+}
+/** "m:ss" */
+function minutes(s: number): string {
+  return `${Math.floor(s / 60)}:${String(s % 60).padStart(2, "0")}`;
+}
+/** How long an exam takes, and the longest with what is granted to somebody. */
+export function length_words(limit_s: number, longest_s: number): string {
+  if (limit_s === 0) return tr("without a time limit");
+  return longest_s > limit_s ? tr("takes {0} min, with accommodations up to {1} min", minutes(limit_s), minutes(longest_s)) : tr("takes {} min", minutes(limit_s));
 }
 export function time_zone(): string {
   return Intl.DateTimeFormat().resolvedOptions().timeZone;

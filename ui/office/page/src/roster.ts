@@ -2,7 +2,7 @@
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { field, form, input, local_span, say, select, table, time_zone, utc, type View } from "./parts.ts";
+import { field, form, input, length_words, local_span, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
 interface Column { heading: string; use: string; known: boolean; samples: string[] }
 interface Preview {
@@ -14,6 +14,7 @@ interface Preview {
   people: { id: string; name: string; station: string; accommodations: string }[];
   problem: string;
   uses: string[];
+  longest_s: { [exam: string]: number };
 }
 interface Issued {
   issued: { candidate: string; id: string; name: string; station: string; not_before: string; not_after: string }[];
@@ -94,7 +95,7 @@ class Roster {
     if (preview.problem !== "")
       for (const line of preview.problem.split("\n")) this.found.append(make("p", { class: "wrong" }, line));
     if (open > 0) this.found.append(make("p", { class: "wrong", id: "open-columns" }, tr("Columns that wait for your answer: {}. Use each, or pass it over.", open)));
-    if (preview.people.length > 0) this.found.append(this.people(preview), await this.issue());
+    if (preview.people.length > 0) this.found.append(this.people(preview), await this.issue(preview.longest_s));
     this.found.querySelector("h2")!.focus();
   }
 
@@ -120,9 +121,9 @@ class Roster {
     return table(tr("Who gets a ticket"), [tr("Number"), tr("Name"), tr("Station"), tr("Accommodations")], preview.people.map((p) => [p.id, p.name, p.station, p.accommodations]));
   }
 
-  private async issue(): Promise<HTMLElement> {
-    const { exams } = await get<{ exams: { id: string; title: string }[] }>("/api/exams");
-    const exam = select(tr("Exam"), exams.map((e) => [e.id, `${e.title} (${e.id})`]));
+  private async issue(longest_s: { [exam: string]: number }): Promise<HTMLElement> {
+    const { exams } = await get<{ exams: { id: string; title: string; time_limit_s: number }[] }>("/api/exams");
+    const exam = select(tr("Exam"), exams.map((e) => [e.id, `${e.title} (${e.id}): ${length_words(e.time_limit_s, longest_s[e.id] ?? 0)}`]));
     const zone = tr("In your computer's time zone, {}.", time_zone());
     const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
     const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);

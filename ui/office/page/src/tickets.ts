@@ -1,9 +1,9 @@
 // All tickets with their state and seat; one that lives can be cancelled, with a reason. Sittings are seated at once, and papers printed.
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
-import { get, post } from "./api.ts";
+import { download, get, post } from "./api.ts";
 import { with_makeup } from "./makeup.ts";
-import { act, form, local_span, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
+import { act, form, length_words, local_span, say, select, table, time_zone, with_reason, type View } from "./parts.ts";
 
 interface Ticket {
   entry: number; candidate: string; exam: string; not_before: string; not_after: string; state: string; live: boolean; at_station: boolean; grant_kept: boolean; begun: boolean;
@@ -13,11 +13,12 @@ interface Station { name: string; public_key: string; room: string; revoked: boo
 
 export async function tickets(may: (door: string) => boolean): Promise<View> {
   const root = make("div", {}, make("h1", {}, tr("Tickets")));
-  const list = make("div");
+  const list = make("div"), lengths = make("ul");
   const sittings = make("div");
   const show = async (): Promise<void> => {
-    const [{ tickets }, { stations }] = await Promise.all([get<{ tickets: Ticket[] }>("/api/tickets"), get<{ stations: Station[] }>("/api/board")]);
+    const [{ tickets, exams }, { stations }] = await Promise.all([get<{ tickets: Ticket[]; exams: { id: string; title: string; time_limit_s: number; longest_s?: number }[] }>("/api/tickets"), get<{ stations: Station[] }>("/api/board")]);
     if (tickets.length === 0) return void list.replaceChildren(make("p", {}, tr("There is no ticket yet. Begin with the class list.")));
+    lengths.replaceChildren(...exams.map((e) => make("li", {}, `${e.title} (${e.id}): ${length_words(e.time_limit_s, e.longest_s ?? 0)}`)));
     const names = new Map(stations.map((s) => [s.public_key, s.name]));
     const rows = tickets.map((t) => {
       const cancel = t.live && may("POST /api/tickets/cancel") ? with_cancel(t, show) : "";
@@ -33,7 +34,7 @@ export async function tickets(may: (door: string) => boolean): Promise<View> {
     sittings.replaceChildren(...(may("POST /api/seats") ? seatings(tickets.filter((t) => t.live), stations, show) : []));
   };
   await show();
-  root.append(act(tr("Look again"), {}, show), papers(may), sittings, list);
+  root.append(act(tr("Look again"), {}, show), lengths, papers(may), sittings, list);
   return { root };
 }
 
@@ -43,7 +44,15 @@ function papers(may: (door: string) => boolean): HTMLElement {
     ["GET /api/cards.pdf", "cards.pdf", tr("Candidate cards (PDF)")],
     ["GET /api/sign-in-sheet.pdf", "sign-in-sheet.pdf", tr("Sign-in sheet (PDF)")],
   ] as [string, string, string][])
-    if (may(door)) links.append(make("li", {}, make("a", { href: `/api/${href}`, download: href }, text)));
+    if (may(door)) {
+      const link = make("a", { href: `/api/${href}`, download: href }, text);
+      link.addEventListener("click", (event) => {  // by itself a link says nothing of why there is no paper
+        event.preventDefault();
+        say("");
+        download(`/api/${href}`, href).catch((wrong: Error) => say(wrong.message, true));
+      });
+      links.append(make("li", {}, link));
+    }
   return links;
 }
 
