@@ -13,6 +13,8 @@
 namespace cavum::grading {
 namespace {
 
+constexpr char k_exam_time[] = "time_s";
+
 struct Work {
   double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
   std::string where;
@@ -57,6 +59,7 @@ bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
   return r.perforation.fault.perforated && measure.tissue == r.perforation.fault.tissue;
 }
 
+/// `c`: as_marked.
 CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   const Asked a = asked(c.metric, c.full);
   CriterionResult out;
@@ -101,6 +104,8 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     out.reason = fmt::format("{} where {} gives full marks{}", value_text(a.measure, *v.value, v.bound, digits),
                              value_text(a.measure, c.full, 0, digits), loss.text.empty() ? "" : ": " + loss.text);
   }
+  if (const double stretch = granted_stretch(r); c.metric == k_exam_time && stretch != 1)
+    out.reason += fmt::format("; the limits are {} times the rubric's, for the time that was granted", plain_number(std::round(100 * stretch) / 100));
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
   if (out.critical_failed) {
@@ -192,6 +197,25 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
 
 }  // namespace
 
+double granted_stretch(const Result& r) {
+  const scenarios::Accommodations& granted = r.accommodations;
+  const double with_s = static_cast<double>(r.limit_ticks) * k_tick_s,
+               own_s = (with_s - granted.extra_time_s) / (1 + granted.extra_time_percent / 100);
+  if (!(granted.extra_time_percent > 0) && !(granted.extra_time_s > 0)) return 1;
+  if (!(granted.extra_time_s > 0)) return 1 + granted.extra_time_percent / 100;  // to the digit, whatever the limit's ticks
+  return own_s > 0 ? with_s / own_s : 1;
+}
+
+scenarios::CriterionSpec as_marked(scenarios::CriterionSpec c, const Result& r) {
+  const double stretch = granted_stretch(r);
+  if (c.metric != k_exam_time || stretch == 1) return c;
+  c.full *= stretch, c.zero *= stretch;
+  for (auto* limit : {&c.critical_above, &c.critical_below})
+    if (*limit) **limit *= stretch;
+  for (double& limit : c.band_limits) limit *= stretch;
+  return c;
+}
+
 void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.criteria.clear();
   r.verdict_reasons.clear();
@@ -202,8 +226,9 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.bands.clear();
   for (const auto& b : rubric.bands) r.bands.push_back({b.name, b.most});
   for (const auto& c : rubric.criteria) {
-    r.criteria.push_back(mark_one(r, c));
-    put_in_band(r, c, r.criteria.back());
+    const scenarios::CriterionSpec as = as_marked(c, r);
+    r.criteria.push_back(mark_one(r, as));
+    put_in_band(r, as, r.criteria.back());
     r.points += r.criteria.back().points;
     r.points_bound += r.criteria.back().points_bound;
     (r.criteria.back().judged ? r.max_points : r.unjudged_points) += r.criteria.back().max;

@@ -26,6 +26,12 @@ inline constexpr char k_critical_reason[] = "critical criterion ";
 /// How a reason ends that says which of two detectors counts: of use to examiners.
 inline constexpr char k_detectors_differ[] = ": the tissue decides";
 
+/// By how much a grant stretches the exam's limit: the limit with what was granted over the one without; 1 where nothing was.
+[[nodiscard]] double granted_stretch(const Result& measured);
+/// A criterion as it is marked: one on the exam's time has its limits stretched by `granted_stretch`, so that the same share of the limit gets the
+/// same points; any other is as the rubric has it.
+[[nodiscard]] scenarios::CriterionSpec as_marked(scenarios::CriterionSpec criterion, const Result& measured);
+
 /// Marks an already measured result by a rubric: criteria, points and verdict are replaced.
 void mark(Result& result, const scenarios::RubricSpec& rubric);
 

@@ -16,7 +16,7 @@ namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points, another criterion or other words than before: sealed results are
 /// compared as a whole. It stands in every result.
-inline constexpr int k_grading_version = 8;
+inline constexpr int k_grading_version = 9;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
 inline constexpr std::int64_t k_untimed_tick = 0x7fffffff;

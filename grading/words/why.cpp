@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/kept.h"
+#include "grading/result/mark.h"
 #include "grading/words/loss_finder.h"
 
 namespace cavum::grading {
@@ -17,9 +18,10 @@ Why why(const GradeInput& input, const Result& result, const scenarios::RubricSp
     known += (known.empty() ? "" : ", ") + kept(rubric.criteria[i].id);
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
-    w.full = rubric.criteria[i].full;
-    w.zero = rubric.criteria[i].zero;
-    LossFinder finder(input, result, rubric.criteria[i], w);
+    const scenarios::CriterionSpec spec = as_marked(rubric.criteria[i], result);
+    w.full = spec.full;
+    w.zero = spec.zero;
+    LossFinder finder(input, result, spec, w);
     finder.find();
     std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
     return w;

@@ -163,6 +163,39 @@ TEST(Grade, PointsRunLinearlyFromFullToZero) {
   }
 }
 
+TEST(Grade, TimeIsMarkedOnLimitsStretchedByWhatWasGranted) {
+  scenarios::RubricSpec rubric;
+  rubric.criteria = {{"t", "t", "time_s", 300, 540, 5, 600.0, {}}, {"h", "h", "handpiece_time_s", 300, 540, 5, {}, {}}};
+  const auto marked = [&](double time_s, double extra_percent, double extra_s) {
+    constexpr double k_own_s = 480;
+    Result r;
+    r.motion.time_s = r.motion.handpiece_time_s = time_s;
+    r.accommodations.extra_time_percent = extra_percent;
+    r.accommodations.extra_time_s = extra_s;
+    r.limit_ticks = std::llround(1000 * (k_own_s * (1 + extra_percent / 100) + extra_s));
+    mark(r, rubric);
+    return r;
+  };
+  for (const double share : {0.5, 0.7, 0.9, 1.0}) {  // of the limit: the same points, whatever was granted
+    const double points = marked(480 * share, 0, 0).criteria[0].points;
+    EXPECT_NEAR(points, 5 * std::clamp((540 - 480 * share) / 240, 0.0, 1.0), 1e-9);
+    EXPECT_NEAR(marked(960 * share, 100, 0).criteria[0].points, points, 1e-9) << share;
+    EXPECT_NEAR(marked(600 * share, 25, 0).criteria[0].points, points, 1e-9) << share;
+    EXPECT_NEAR(marked(720 * share, 0, 240).criteria[0].points, points, 1e-9) << share;
+    EXPECT_NEAR(marked(840 * share, 25, 240).criteria[0].points, points, 1e-9) << share;
+  }
+  const Result twice = marked(900, 100, 0);
+  EXPECT_NE(twice.criteria[0].reason.find("900.00 s where 600.00 s gives full marks"), std::string::npos) << twice.criteria[0].reason;
+  EXPECT_NE(twice.criteria[0].reason.find("the limits are 2 times the rubric's, for the time that was granted"), std::string::npos);
+  EXPECT_FALSE(twice.criteria[0].critical_failed) << "1200 s would fail";
+  EXPECT_TRUE(marked(1201, 100, 0).criteria[0].critical_failed);
+  EXPECT_TRUE(marked(601, 0, 0).criteria[0].critical_failed);
+  EXPECT_EQ(twice.criteria[1].points, 0) << "of the exam's time alone";
+  EXPECT_EQ(twice.criteria[1].reason.find("granted"), std::string::npos);
+  EXPECT_EQ(marked(400, 0, 0).criteria[0].reason.find("granted"), std::string::npos);
+  EXPECT_NE(marked(400, 100, 0).criteria[0].reason.find("full marks; the limits are 2 times"), std::string::npos);
+}
+
 TEST(Grade, VerdictFollowsRuleBandAndCriticalCriteria) {
   Result r;
   r.motion.time_s = 200;

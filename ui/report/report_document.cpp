@@ -11,6 +11,7 @@
 #include "engine/language/say.h"
 #include "grading/grade.h"
 #include "grading/result/loss.h"
+#include "grading/result/mark.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/review/picture.h"
 #include "ui/parts/scenario_words.h"
@@ -100,7 +101,7 @@ void add_criteria(Document& d, const ReportSource& s) {
     const std::string points =
         !c.judged ? tr("not judged")
                   : fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
-    const std::string limits = i < s.rubric.criteria.size() ? limits_text(s.rubric.criteria[i], c.unit) : "";
+    const std::string limits = i < s.rubric.criteria.size() ? limits_text(grading::as_marked(s.rubric.criteria[i], s.result), c.unit) : "";
     t.rows.push_back({{{c.title}, {shown_value(c)}, {limits}, {points}, {for_reader(c.reason, s)}}, c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
@@ -108,8 +109,10 @@ void add_criteria(Document& d, const ReportSource& s) {
 }
 
 /// What is asked of a criterion, and why care gives fewer points than its value would.
-std::string asked_text(const grading::CriterionResult& c, const scenarios::CriterionSpec& spec) {
-  std::string text = limits_text(spec, c.unit);
+std::string asked_text(const grading::CriterionResult& c, const scenarios::CriterionSpec& spec, const grading::Result& r) {
+  const scenarios::CriterionSpec as = grading::as_marked(spec, r);
+  std::string text = limits_text(as, c.unit);
+  if (as.zero != spec.zero) text += tr("; longer than the rubric's, by the time that was granted");
   if (c.work_share < 1) text += tr("; only {} % of these points can be had, for so little of the cavity was cut there", fixed(100 * c.work_share, 0));
   return text;
 }
@@ -123,7 +126,7 @@ void add_marks(Document& d, const ReportSource& s) {
     const grading::CriterionResult& c = s.result.criteria[i];
     t.rows.push_back({{{c.title},
                        {shown_value(c, false)},
-                       {i < s.rubric.criteria.size() ? asked_text(c, s.rubric.criteria[i]) : ""},
+                       {i < s.rubric.criteria.size() ? asked_text(c, s.rubric.criteria[i], s.result) : ""},
                        {c.judged ? fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)) : tr("not judged")}},
                       c.judged && c.max - c.points > 1e-9});
   }
@@ -180,7 +183,8 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
   for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     if (!c.critical_failed) continue;
-    out.push_back(tr("{}: {} ({}); this alone fails the exam", c.title, shown_value(c, false), limits_text(s.rubric.criteria[i], c.unit)));
+    out.push_back(tr("{}: {} ({}); this alone fails the exam", c.title, shown_value(c, false),
+                     limits_text(grading::as_marked(s.rubric.criteria[i], s.result), c.unit)));
   }
   for (const auto& reason : s.result.verdict_reasons)
     if (!reason.starts_with(grading::k_critical_reason) && !reason.ends_with(grading::k_detectors_differ)) out.push_back(for_reader(reason, s));
