@@ -49,7 +49,7 @@ std::optional<int> fewest(const Phi& phi) {
 
 }  // namespace
 
-CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, double cut) {
+CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, std::optional<double> cut) {
   const VarianceStudy study(std::move(design), marks);
   CircuitStudy s;
   s.design = study.design();
@@ -66,13 +66,13 @@ CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& mar
   s.as_sat = s.by_tasks.front();
   s.by_tasks.erase(s.by_tasks.begin());
   s.mean = mean_of_candidates(marks);
-  s.at_cut = cut_decision(s.as_sat, s.mean, cut);
+  if (cut) s.at_cut = cut_decision(s.as_sat, s.mean, *cut);
   s.for_enough = {fewest([&](std::size_t i) { return s.by_tasks[i].phi; }), fewest([&](std::size_t i) { return ranges.circuits[i + 1].phi_high; }),
                   fewest([&](std::size_t i) { return ranges.circuits[i + 1].phi_low; })};
   return s;
 }
 
-CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, double cut) {
+CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, std::optional<double> cut) {
   if (most_partners(marks, 1, 2) <= 1)
     throw Error("people's marks", "are one judge's in each exam: judge and exam cannot be told apart",
                 "have each exam marked by two judges at least");

@@ -25,15 +25,15 @@ struct CircuitStudy {
   double mean = 0.0;          ///< of the candidates' marks
   Dependability as_sat;       ///< of the marks that candidates have, on average over the candidates
   DependabilityRange range;
-  CutDecision at_cut;
+  std::optional<CutDecision> at_cut;    ///< none where there is no one cut
   std::vector<Dependability> by_tasks;  ///< everybody at 1, 2, ... k_most_tasks exams, judges as they were
   TasksNeeded for_enough;               ///< the fewest exams with a phi of k_enough_phi; its range from the bounds of phi
 };
-/// `cut`: what passes, in the marks' unit. Facet 1 is the exam. Throws what VarianceStudy and require_differences throw.
-[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, double cut);
+/// `cut`: what passes, in the marks' unit, where that is one. Facet 1 is the exam. Throws what VarianceStudy and require_differences throw.
+[[nodiscard]] CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& marks, std::optional<double> cut);
 /// Of marks by candidate, exam and judge. Judges who marked one exam each are nested in it; else they are crossed with exams. Throws Error, too,
 /// where each exam has one judge.
-[[nodiscard]] CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, double cut);
+[[nodiscard]] CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, std::optional<double> cut);
 inline constexpr double k_enough_phi = 0.80;
 inline constexpr int k_most_tasks = 40;
 

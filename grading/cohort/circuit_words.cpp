@@ -33,7 +33,7 @@ Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not
   j["as_sat"]["conditions"] = s->marking.conditions();
   j["as_sat"]["g_range"] = {s->range.g_low, s->range.g_high};
   j["as_sat"]["phi_range"] = {s->range.phi_low, s->range.phi_high};
-  j["at_cut"] = {{"phi", s->at_cut.phi_at_cut}, {"consistency", s->at_cut.consistency}, {"accuracy", s->at_cut.accuracy}};
+  j["at_cut"] = s->at_cut ? Json{{"phi", s->at_cut->phi_at_cut}, {"consistency", s->at_cut->consistency}, {"accuracy", s->at_cut->accuracy}} : Json();
   j["by_exams"] = Json::array();
   for (const auto& d : s->by_tasks) j["by_exams"].push_back(coefficients(d));
   const auto whole = [](const std::optional<int>& n) { return n ? Json(*n) : Json(); };
@@ -71,7 +71,7 @@ std::string tasks_text(const TasksNeeded& n) {
   return fmt::format("\n  for phi 0.80: {} exams{}\n", number(n.estimate), range);
 }
 
-std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, double cut) {
+std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, std::optional<double> cut) {
   if (!s) return fmt::format("{}: no study: {}\n", whose, why_not);
   double total = 0;
   for (const double v : s->components.variance) total += std::max(0.0, v);
@@ -84,8 +84,9 @@ std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, 
   text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
                       fixed(s->range.phi_low, 2), fixed(s->range.phi_high, 2), fixed(s->as_sat.g, 2), fixed(s->range.g_low, 2),
                       fixed(s->range.g_high, 2), fixed(s->as_sat.absolute_sem, 1));
-  text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(cut, 1),
-                      fixed(100 * s->at_cut.consistency, 0), fixed(s->at_cut.phi_at_cut, 2));
+  if (cut && s->at_cut)
+    text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(*cut, 1),
+                        fixed(100 * s->at_cut->consistency, 0), fixed(s->at_cut->phi_at_cut, 2));
   text += "  phi by the number of exams:";
   for (int n = 1; n <= k_tasks_in_words; ++n) text += fmt::format(" {}: {}", n, fixed(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2));
   return text + tasks_text(s->for_enough);

@@ -31,7 +31,7 @@ void expect_sound(const CircuitStudy& s, const std::string& what) {
   EXPECT_GE(s.range.g_high, s.as_sat.g) << what;
   EXPECT_LE(s.range.phi_low, s.as_sat.phi) << what;
   EXPECT_GE(s.range.phi_high, s.as_sat.phi) << what;
-  EXPECT_GE(s.at_cut.phi_at_cut, s.as_sat.phi) << what;
+  EXPECT_GE(s.at_cut->phi_at_cut, s.as_sat.phi) << what;
   CircuitFigures f;
   f.exams = {"a", "b"};
   f.candidates = 3;
