@@ -1,5 +1,6 @@
 // `verify-all` of a ledger and of a folder: threads, shards and Slurm's tasks give one answer, and nothing that is read is written over.
 #include <algorithm>
+#include <cstdlib>
 #include <filesystem>
 #include <nlohmann/json.hpp>
 #include <sstream>
@@ -53,8 +54,26 @@ class VerifyAllOfALedger : public VerifyAll {
     for (const char* k : {"1.part", "2.part"}) fs::remove(path(k));
     return merged;
   }
+  /// Of Slurm's tasks, run one after the other by an sbatch of the test's own.
+  [[nodiscard]] Answer by_tasks(const std::string& options) const {
+    fs::create_directories(path("bin"));
+    write_text_file(path("bin/sbatch"),
+                    "#!/bin/sh\nfor word; do case $word in --array=0-*) last=${word#--array=0-};; esac; script=$word; done\n"
+                    "for task in $(seq 0 \"$last\"); do SLURM_ARRAY_TASK_ID=$task sh \"$script\" >&2 || exit 1; done\necho 7\n");
+    write_text_file(path("bin/squeue"), "#!/bin/sh\n");
+    for (const char* program : {"bin/sbatch", "bin/squeue"}) fs::permissions(path(program), fs::perms::owner_all);
+    const std::string before = std::getenv("PATH");
+    setenv("PATH", (path("bin") + ":" + before).c_str(), 1);
+    const Answer tasks = answer(options + " --slurm --a-task 1 --work " + path("slurm"));
+    setenv("PATH", before.c_str(), 1);
+    fs::remove_all(path("slurm"));
+    return tasks;
+  }
   void expect_one_answer(const std::string& options, int exit_code) const {
-    const Answer threads = answer(options), shards = by_shards(options);
+    const Answer threads = answer(options), shards = by_shards(options), tasks = by_tasks(options);
+    EXPECT_EQ(tasks.exit_code, exit_code) << tasks.said;
+    EXPECT_EQ(threads.ledger_findings, tasks.ledger_findings);
+    EXPECT_EQ(threads.lines, tasks.lines);
     EXPECT_EQ(threads.exit_code, exit_code) << threads.said;
     EXPECT_EQ(shards.exit_code, exit_code) << shards.said;
     EXPECT_EQ(threads.ledger_findings, shards.ledger_findings);
@@ -68,8 +87,8 @@ class VerifyAllOfALedger : public VerifyAll {
   std::vector<std::string> files_;
 };
 
-TEST_F(VerifyAllOfALedger, ThreadsAndShardsGiveOneAnswer) {
-  for (const char* options : {"", " --mark"}) expect_one_answer(options, 0);
+TEST_F(VerifyAllOfALedger, ThreadsShardsAndTasksGiveOneAnswer) {
+  expect_one_answer("", 0);
   fs::remove(files_[1]);
   fs::copy_file(files_[0], files_[2], fs::copy_options::overwrite_existing);  // a session, and another one than was filed
   for (const char* options : {"", " --mark"}) {
