@@ -155,7 +155,7 @@ SeverityStudy study_severity(std::span<const StudyMark> marks) {
     const double rounding = 1e-9 * largest;
     SeverityOfFacet facet;
     for (const std::uint32_t pair : interactions.untold)
-      if ((pair >> f & 1U) != 0) facet.not_told_from.push_back(pair & ~(1U << f));
+      if ((pair >> f & 1U) != 0 && levels > 1) facet.not_told_from.push_back(pair & ~(1U << f));
     for (std::size_t i = first; i < columns.first[f]; ++i) {
       const ErrorOfSum of = error_of_sum(interactions, model.weights(i));
       const double error = std::sqrt(of.variance);

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <filesystem>
 #include <map>
 #include <optional>
@@ -30,7 +31,7 @@ using nlohmann::json;
 void compare_with_line(const FiledSession& s, const std::string& line, const std::string& name, LedgerCheck& out) {
   const json again = parse_json_or_null(line, k_json_part);
   if (line.empty() || !again.is_object()) {
-    out.findings.push_back(fmt::format("{}: could not be simulated again; run the same command once more", name));
+    out.not_made.push_back(fmt::format("{}: could not be simulated again; run the same command once more", name));
     return;
   }
   if (const std::string error = text_in(again, "error"); !error.empty()) {
@@ -100,10 +101,19 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
   return Recording::there;
 }
 
+pool::Work work_on(const LedgerPlaces& places, const Registry& registry, pool::What what) {
+  std::set<std::string> names;
+  for (const auto& s : registry.sessions)
+    if (!s.motion_erased_by && (what != pool::What::verify || s.findings.empty())) names.insert(fmt::format("sessions/{}.cavum", s.file_sha256));
+  pool::Work work;
+  work.what = what;
+  work.folder = places.folder;
+  work.sessions.assign(names.begin(), names.end());
+  return work;
+}
+
 /// All of them, and how many could not be shown again.
 void check_recordings(const LedgerPlaces& places, const LedgerContent& content, const Registry& registry, const pool::Maker& by, LedgerCheck& out) {
-  pool::Work work;
-  work.folder = places.folder;
   std::vector<const FiledSession*> replayed;
   std::size_t filed_with_findings = 0, erased = 0;
   const auto gone = erased_recordings(content);
@@ -111,10 +121,7 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     try {
       const Recording recording = check_recording(s, places, gone, out);
       erased += recording == Recording::erased ? 1 : 0;
-      if (by && recording == Recording::there && s.findings.empty()) {
-        work.sessions.push_back(fmt::format("sessions/{}.cavum", s.file_sha256));
-        replayed.push_back(&s);
-      }
+      if (recording == Recording::there && s.findings.empty()) replayed.push_back(&s);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
@@ -127,9 +134,13 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
             "{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
             s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
   }
-  if (!replayed.empty()) {
+  const pool::Work work = work_on(places, registry, pool::What::verify);
+  if (by && !work.sessions.empty()) {
     const pool::Made made = by(work);
-    for (std::size_t i = 0; i < replayed.size(); ++i) compare_with_line(*replayed[i], made.lines[i], name_of(*replayed[i]), out);
+    for (const FiledSession* s : replayed) {
+      const auto at = std::lower_bound(work.sessions.begin(), work.sessions.end(), fmt::format("sessions/{}.cavum", s->file_sha256));
+      compare_with_line(*s, made.lines[static_cast<std::size_t>(at - work.sessions.begin())], name_of(*s), out);
+    }
   }
   if (by && filed_with_findings > 0)
     out.not_checked.push_back(fmt::format("{} sessions that were filed with findings are not simulated again", filed_with_findings));
@@ -163,13 +174,17 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
 
 }  // namespace
 
+pool::Work filed_work(const LedgerPlaces& places, pool::What what) { return work_on(places, read_registry(read_ledger(places)), what); }
+
 LedgerCheck check_ledger(const LedgerPlaces& places, bool replay) {
-  return check_ledger(places, replay ? pool::Maker([](const pool::Work& work) { return pool::by_threads(work); }) : pool::Maker());
+  LedgerCheck check = check_ledger(places, replay ? pool::Maker([](const pool::Work& work) { return pool::by_threads(work); }) : pool::Maker());
+  check.findings.insert(check.findings.end(), check.not_made.begin(), check.not_made.end());
+  return check;
 }
 
 LedgerCheck check_ledger(const LedgerPlaces& places, const pool::Maker& by) {
   const LedgerContent content = read_ledger(places);
-  LedgerCheck out{content.findings, {}, content.remarks};
+  LedgerCheck out{content.findings, {}, content.remarks, {}};
   check_times(content, out.remarks);
   const Registry registry = read_registry(content);
   out.findings.insert(out.findings.end(), registry.findings.begin(), registry.findings.end());

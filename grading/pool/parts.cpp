@@ -135,8 +135,7 @@ std::vector<std::string> part_files(const std::string& folder) {
 void leave_out_changed(const Work& work, Parts& parts) {
   for (std::size_t i = 0; i < parts.lines.size(); ++i) {
     if (!parts.lines[i]) continue;
-    const std::string now = sha256_now(work, i);
-    if (!now.empty() && sha256_in(*parts.lines[i]) == now) continue;
+    if (sha256_in(*parts.lines[i]) == sha256_now(work, i)) continue;  // both are empty of a file that is gone: its line says so
     parts.lines[i].reset();
     parts.spent[i] = {};
   }

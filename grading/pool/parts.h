@@ -43,7 +43,7 @@ struct Parts {
 [[nodiscard]] Parts read_parts(const Work& work, const std::vector<std::string>& files);
 /// The part files in a folder, sorted; none when it is not there.
 [[nodiscard]] std::vector<std::string> part_files(const std::string& folder);
-/// Leaves out lines of sessions that are other bytes by now, or could not be read.
+/// Leaves out lines of sessions that are other bytes by now; the line of one that could not be read stays while it cannot be.
 void leave_out_changed(const Work& work, Parts& parts);
 
 }  // namespace cavum::pool

@@ -44,6 +44,14 @@ Bytes from_hex(const std::string& text, const std::string& where) {
   return bytes;
 }
 
+/// An error's words without the folder, which is another one on each machine.
+std::string below(const std::string& folder, std::string words) {
+  if (folder.empty()) return words;
+  const std::string begin = folder + "/";
+  for (auto at = words.find(begin); at != std::string::npos; at = words.find(begin, at)) words.erase(at, begin.size());
+  return words;
+}
+
 /// The session marked as the work asks.
 json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
   const auto graded = grading::load_for_grading(session, grounds);
@@ -121,7 +129,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the session
   } catch (const std::exception& e) {
-    line["error"] = one_line(e.what());
+    line["error"] = one_line(below(work.folder, e.what()));
   }
   return dumped(line);
 }

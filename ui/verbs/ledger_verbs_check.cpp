@@ -25,6 +25,7 @@ int ledger_verify(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger(places);
   const pool::Maker by = o.replay ? pool::Maker([&](const pool::Work& work) { return make_lines(work, o.pool); }) : pool::Maker();
   ledger::LedgerCheck check = ledger::check_ledger(places, by);
+  check.findings.insert(check.findings.end(), check.not_made.begin(), check.not_made.end());
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));

@@ -40,12 +40,16 @@ bool is_ledger(const std::string& folder) { return std::filesystem::exists(ledge
 
 pool::Work work_of(const VerifyAll& o) {
   pool::Work work;
-  work.folder = o.target;
-  const std::string below = is_ledger(o.target) ? o.target + "/sessions" : o.target;
-  for (const auto& path : sessions_in(below)) work.sessions.push_back(std::filesystem::path(path).lexically_relative(o.target).string());
   const bool anew = !o.rubric.empty() || !o.scenario.empty();
   if (anew && o.mark) throw Error("--mark", "is given with a rubric or scenario", "give either: --mark marks by the session's own");
-  work.what = anew ? pool::What::regrade : o.mark ? pool::What::mark : pool::What::verify;
+  const pool::What what = anew ? pool::What::regrade : o.mark ? pool::What::mark : pool::What::verify;
+  if (is_ledger(o.target)) {
+    work = ledger::filed_work({o.target}, what);
+  } else {
+    work.what = what;
+    work.folder = o.target;
+    for (const auto& path : sessions_in(o.target)) work.sessions.push_back(std::filesystem::path(path).lexically_relative(o.target).string());
+  }
   ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
   work.rubric_toml = std::move(basis.rubric_toml);
   work.scenario_toml = std::move(basis.scenario_toml);
@@ -74,15 +78,36 @@ void write_lines(const std::string& path, const std::vector<std::string>& lines)
   write_text_file(path, all);
 }
 
-int write_shard(const VerifyAll& o) {
+int write_shard(const VerifyAll& o, const pool::Work& work) {
   if (o.out.empty()) throw Error("--shard", "has no file for its part", "name it by --out");
   const auto [shard, of] = parse_shard(o.shard);
   pool::Run run;
   run.threads = o.pool.threads;
   run.told = shown_progress();
-  const std::size_t made = pool::make_shard(work_of(o), shard, of, o.out, run);
+  const std::size_t made = pool::make_shard(work, shard, of, o.out, run);
   std::cout << "written: " << one_line(o.out) << ", " << made << (made == 1 ? " line" : " lines") << "\n";
   return 0;
+}
+
+/// "--shard 2/3, --shard 3/3", where just these shards' lines are missing; else empty.
+std::string missing_shards(const pool::Made& made, std::size_t parts) {
+  const std::size_t lines = made.lines.size();
+  std::vector<bool> missing(lines);
+  for (const auto i : made.missing) missing[i] = true;
+  for (std::size_t of = parts + 1; of <= std::min(lines, parts + k_named); ++of) {
+    std::string names;
+    std::size_t whole = 0;
+    bool fits = true;
+    for (std::size_t shard = 0; shard < of && fits; ++shard) {
+      std::size_t gone = 0, all = 0;
+      for (std::size_t i = shard; i < lines; i += of) ++all, gone += missing[i] ? 1 : 0;
+      fits = gone == 0 || gone == all;
+      if (gone > 0) names += fmt::format("{}--shard {}/{}", names.empty() ? "" : ", ", shard + 1, of);
+      whole += gone == 0 ? 1 : 0;
+    }
+    if (fits && whole == parts) return names;
+  }
+  return {};
 }
 
 /// Lines out of parts that others made; what is missing is named.
@@ -92,10 +117,15 @@ pool::Made merged(const VerifyAll& o, const pool::Work& work) {
   pool::Made made;
   made.missing = parts.missing();
   made.found = work.sessions.size() - made.missing.size();
-  for (const auto& r : parts.remarks) std::cerr << "cavum: notice: " << one_line(r) << "\n";
-  for (const auto i : made.missing) std::cerr << "cavum: " << one_line(work.sessions[i]) << ": is missing in the parts, or damaged there\n";
   for (auto& line : parts.lines) made.lines.push_back(line ? std::move(*line) : std::string());
   for (const auto& s : parts.spent) made.spent += s;
+  for (const auto& r : parts.remarks) std::cerr << "cavum: notice: " << one_line(r) << "\n";
+  if (const std::string shards = missing_shards(made, o.merge.size()); !made.missing.empty() && !shards.empty())
+    std::cerr << fmt::format("cavum: {} of {} sessions have no line: the parts of {} are missing\n", made.missing.size(), work.sessions.size(),
+                             shards);
+  for (std::size_t i = 0; i < made.missing.size() && i < k_named; ++i)
+    std::cerr << "cavum: " << one_line(work.sessions[made.missing[i]]) << ": is missing in the parts, or damaged there\n";
+  if (made.missing.size() > k_named) std::cerr << fmt::format("cavum: and {} more\n", made.missing.size() - k_named);
   return made;
 }
 
@@ -124,7 +154,7 @@ Sums sums_of(const pool::Made& made) {
 int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, const ledger::LedgerCheck* ledger) {
   const Sums sums = sums_of(made);
   if (!o.out.empty()) write_lines(o.out, made.lines);
-  const bool sound = sums.wrong.empty() && made.missing.empty() && (ledger == nullptr || ledger->findings.empty());
+  const bool none_wrong = sums.wrong.empty() && (ledger == nullptr || ledger->findings.empty()), sound = none_wrong && made.missing.empty();
   const double session_s = static_cast<double>(sums.ticks) * k_tick_s;
   const double real_time = made.spent.core_s > 0 ? session_s / made.spent.core_s : 0.0;
   const double efficiency = made.workers > 0 && made.found == 0 ? made.spent.wall_s / (made.wall_s * static_cast<double>(made.workers)) : 0.0;
@@ -137,8 +167,13 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
     print_json(all);
     return sound ? 0 : 1;
   }
-  std::cout << one_line(o.target) << ": " << (sound ? "all hold" : "NOT ALL HOLD") << ", " << sums.sound << " of " << work.sessions.size()
-            << " sessions sound\n";
+  std::cout << one_line(o.target) << ": "
+            << (sound        ? "all hold"
+                : none_wrong ? "NOT COMPLETE"
+                             : "NOT ALL HOLD")
+            << ", " << sums.sound << " of " << work.sessions.size() << " sessions sound";
+  if (!made.missing.empty()) std::cout << fmt::format(", {} without a line", made.missing.size());
+  std::cout << "\n";
   for (std::size_t i = 0; i < sums.wrong.size() && i < k_named; ++i) std::cout << "  - " << one_line(sums.wrong[i]) << "\n";
   if (sums.wrong.size() > k_named) std::cout << "  - and " << sums.wrong.size() - k_named << " more, in the lines of --out\n";
   if (ledger != nullptr) {
@@ -155,27 +190,54 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
   return sound ? 0 : 1;
 }
 
+/// Throws Error where --out or --work is something that is read: a session, a part, a ledger, a rubric.
+void require_apart(const VerifyAll& o, const pool::Work& work) {
+  namespace fs = std::filesystem;
+  std::error_code none;
+  const auto within = [&](const std::string& path) {  // the folder that is read
+    const auto rest = fs::weakly_canonical(path, none).lexically_relative(fs::weakly_canonical(o.target, none));
+    return !rest.empty() && *rest.begin() != "..";
+  };
+  const auto is = [&](const std::string& written, const std::string& read) { return !read.empty() && fs::equivalent(written, read, none); };
+  std::vector<std::string> read = o.merge;
+  read.insert(read.end(), {o.rubric, o.scenario});
+  for (const auto& [option, path] : {std::pair{"--out", o.out}, std::pair{"--work", o.pool.work}}) {
+    if (path.empty()) continue;
+    const std::string named = fmt::format("{} {}", option, path);
+    if (is_ledger(o.target) && within(path)) throw Error(named, "lies in the ledger that is read", "write outside of it");
+    if (path.ends_with(".cavum")) throw Error(named, "is a name of a recording", "write to a file with another ending");
+    bool taken = is(path, o.target);
+    for (const auto& r : read) taken = taken || is(path, r);
+    if (fs::exists(path, none))
+      for (const auto& session : work.sessions) {
+        const fs::path file = fs::path(work.folder) / session;
+        taken = taken || is(path, file.string()) || (fs::is_directory(path, none) && is(path, file.parent_path().string()));
+      }
+    if (taken) throw Error(named, "is also what is read", "write to another file or folder");
+  }
+  require_own_places({{"--out " + o.out, o.out}}, {});
+}
+
 int verify_all(const VerifyAll& o) {
   if (!o.task.empty()) {
     pool::slurm_task(o.task, o.attempt, o.target);
     return 0;
   }
   if (!std::filesystem::is_directory(o.target)) throw Error(o.target, "is no folder", "name a folder of sessions, or a ledger");
-  require_own_places({{"--out " + o.out, o.out}},
-                     {{"", ledger::LedgerPlaces{o.target}.database()}, {"", ledger::LedgerPlaces{o.target}.identities()}});
-  if (!o.shard.empty()) return write_shard(o);
-  if (!o.out.empty()) require_writable(o.out);
-  const bool all_of_ledger = is_ledger(o.target) && !o.mark && o.rubric.empty() && o.scenario.empty() && o.merge.empty();
-  if (!all_of_ledger) {
-    const pool::Work work = work_of(o);
-    return tell(o, work, o.merge.empty() ? make_lines(work, o.pool) : merged(o, work), nullptr);
-  }
-  pool::Work work;
+  pool::Work work = work_of(o);
+  require_apart(o, work);
+  if (!o.shard.empty()) return write_shard(o, work);
+  const pool::Maker by = [&](const pool::Work& wanted) { return o.merge.empty() ? make_lines(wanted, o.pool) : merged(o, wanted); };
   pool::Made made;
-  const auto check = ledger::check_ledger({o.target}, [&](const pool::Work& wanted) {
-    work = wanted;
-    return made = make_lines(wanted, o.pool);
-  });
+  if (!is_ledger(o.target)) return tell(o, work, made = by(work), nullptr);
+  // A ledger's own check says whether the files are those that were filed, whoever makes the lines.
+  const bool verify = work.what == pool::What::verify;
+  const auto check = ledger::check_ledger({o.target}, verify ? pool::Maker([&](const pool::Work& wanted) {
+                                            work = wanted;
+                                            return made = by(wanted);
+                                          })
+                                                             : pool::Maker());
+  if (!verify) made = by(work);
   return tell(o, work, made, &check);
 }
 

@@ -7,8 +7,8 @@
 #include "engine/base/error.h"
 #include "engine/base/random.h"
 #include "tests/engine/support/basics.h"
-#include "tests/grading/ledger/school.h"
 #include "tests/grading/cohort/drawn_class.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::cohort {
 namespace {

@@ -161,6 +161,11 @@ TEST(SeverityOfConditions, WhereAnInteractionMayBeItNobodyIsNamed) {
   EXPECT_EQ(judges.not_told_from, (std::vector<std::uint32_t>{2})) << "one exam: it and a judge may do this together";
   EXPECT_NEAR(judges.conditions[0].severity, 40.0 / 3, 2) << "is told, and judged by nobody";
   EXPECT_FALSE(judges.conditions[0].beyond_chance);
+  for (StudyMark& m : marks) m.level[1] = m.level[0] % 3, m.level[2] = 0;
+  std::erase_if(marks,
+                [&, seen = std::set<std::uint32_t>()](const StudyMark& m) mutable { return !seen.insert(m.level[0] * 3 + m.level[1]).second; });
+  for (std::uint32_t p = 0; p < 30; ++p) marks.push_back({{p, (p + 1) % 3, 0}, 50.0 + p % 4});
+  EXPECT_TRUE(study_severity(marks).facets[1].not_told_from.empty()) << "one judge is compared with nobody";
 }
 
 }  // namespace

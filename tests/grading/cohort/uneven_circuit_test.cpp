@@ -28,7 +28,8 @@ const Design k_designs[] = {{"2 of 6 judges for each candidate", fixed_pairs, {}
 
 TEST(UnevenCircuit, StatedErrorAndRangeAreThoseOfTheMarksThatCandidatesHave) {
   Random random(testing_basics::drawn_seed("UnevenCircuit"));
-  const int classes = std::getenv("CAVUM_DEEP") != nullptr ? 400 : 60, draws = 200, drawn_for_truth = 2000;
+  const bool deep = std::getenv("CAVUM_DEEP") != nullptr;
+  const int classes = deep ? 400 : 60, draws = deep ? 1000 : 200, drawn_for_truth = deep ? 20000 : 2000;
   for (const Design& d : k_designs) {
     std::vector<double> truth;
     for (int i = 0; i < drawn_for_truth; ++i) truth.push_back(draw(d.places(random), d.truth, random).squared_error);

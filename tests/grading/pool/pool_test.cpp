@@ -114,6 +114,19 @@ TEST_F(Pool, ASessionThatChangedMeanwhileIsMadeAgain) {
   EXPECT_EQ(by_threads(work_, run).found, 4u);
 }
 
+TEST_F(Pool, AFileThatIsGoneIsALineInAPartToo) {
+  std::filesystem::remove(work_.folder + "/d.cavum");
+  EXPECT_EQ(shard(1, 2) + shard(2, 2), 4u);
+  Parts parts = read_parts(work_, {file("1.part"), file("2.part")});
+  leave_out_changed(work_, parts);
+  ASSERT_TRUE(parts.missing().empty()) << "it is not made again for ever";
+  EXPECT_EQ(*parts.lines[3], by_threads(work_).lines[3]);
+  EXPECT_EQ(parts.lines[3]->find(work_.folder), std::string::npos) << "no place stands in it: " << *parts.lines[3];
+  std::filesystem::copy_file(work_.folder + "/b.cavum", work_.folder + "/d.cavum");
+  leave_out_changed(work_, parts);
+  EXPECT_EQ(parts.missing(), (std::vector<std::size_t>{3})) << "it is there again";
+}
+
 TEST_F(Pool, AFileThatIsNoSessionIsALineThatSaysSo) {
   write_text_file(work_.folder + "/c.cavum", "no session");
   std::filesystem::remove(work_.folder + "/d.cavum");

@@ -127,11 +127,11 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
   EXPECT_EQ(three["people"]["as_sat"]["candidates"], 3);
   EXPECT_EQ(three["people"]["as_sat"]["conditions"], json({2.0, 2.0}));
   const double phi = three["people"]["as_sat"]["phi"], delta = std::pow(three["people"]["as_sat"]["relative_sem_percent"].get<double>(), 2),
-               error = std::pow(three["people"]["as_sat"]["absolute_sem_percent"].get<double>(), 2), truth = phi / (1 - phi) * error;
+               of_mark = std::pow(three["people"]["as_sat"]["absolute_sem_percent"].get<double>(), 2), truth = phi / (1 - phi) * of_mark;
   const double away = three["people"]["mean_percent"].get<double>() - three["cut_percent"].get<double>();
-  const double signal = away * away - ((truth + delta) / 3 + error - delta);
+  const double signal = away * away - ((truth + delta) / 3 + of_mark - delta);
   ASSERT_GT(signal, 0) << "else it counts as 0, and the number of candidates does not show";
-  EXPECT_NEAR(three["people"]["at_cut"]["phi"].get<double>(), (truth + signal) / (truth + signal + error), 1e-9);
+  EXPECT_NEAR(three["people"]["at_cut"]["phi"].get<double>(), (truth + signal) / (truth + signal + of_mark), 1e-9);
 
   // One judge written in two ways.
   some.replace(some.find(",A,"), 3, ",a ,");
