@@ -20,7 +20,7 @@ std::string pseudo(std::string_view english) {
       continue;
     }
     if (printf_like && c == '%' && i + 1 < english.size() && english[i + 1] != ' ') conversion = true;
-    if (c == '{') gap = !gap || (i > 0 && english[i - 1] == '{' ? false : true);
+    if (c == '{') gap = !gap || i == 0 || english[i - 1] != '{';
     const char* accent = nullptr;
     for (const auto& [plain, with] : k_accents)
       if (plain == c && !gap && !conversion) accent = with;

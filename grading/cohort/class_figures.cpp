@@ -355,7 +355,7 @@ std::optional<double> one_pass_percent(const std::vector<MarkedBy>& by) {
 
 std::string station_label(const ledger::Registry& registry, const std::string& key) {
   constexpr std::size_t k_shown = 8;
-  const std::string beginning = key.size() > k_shown ? key.substr(0, k_shown) + "…" : key;
+  std::string beginning = key.size() > k_shown ? key.substr(0, k_shown) + "…" : key;
   const ledger::Station* own = registry.stations.of(key);
   if (own == nullptr || own->name.empty()) return beginning;
   const auto& all = registry.stations.stations;

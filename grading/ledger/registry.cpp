@@ -116,10 +116,10 @@ std::pair<Documents, std::uint64_t> class_documents(const std::vector<const File
         seq = std::min(seq, r.seq);
       }
   std::pair<Documents, std::uint64_t> last;
-  for (const auto& [documents, seq] : first) {
-    const auto before = [&](const FiledSession* s) { return s->seq < seq; };
-    const bool all = std::all_of(exam.begin(), exam.end(), [&](const FiledSession* s) { return !before(s) || marked_by(*s, documents); });
-    if (all && seq > last.second && std::count_if(exam.begin(), exam.end(), before) > 1) last = {documents, seq};
+  for (const auto& one : first) {
+    const auto before = [&](const FiledSession* s) { return s->seq < one.second; };
+    const bool all = std::all_of(exam.begin(), exam.end(), [&](const FiledSession* s) { return !before(s) || marked_by(*s, one.first); });
+    if (all && one.second > last.second && std::count_if(exam.begin(), exam.end(), before) > 1) last = one;
   }
   return last;
 }
