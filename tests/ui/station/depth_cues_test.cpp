@@ -194,7 +194,7 @@ class DepthCues : public ::testing::Test {
 TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
   const bool deep = std::getenv("CAVUM_DEEP") != nullptr;
   const int poses = deep ? 60 : 12;
-  // the everyday poses are the first of the sixty of seed 5, the same every time: what held once must hold again. How often it holds, sixty others say.
+  // the everyday poses are the first of the sixty of seed 5, the same every time: what held once must hold again; sixty others say how often
   const char* other = deep ? std::getenv("CAVUM_TEST_SEED") : nullptr;
   Random random(other != nullptr ? std::strtoull(other, nullptr, 10) : 5);
   MolarShape shape;
