@@ -18,6 +18,7 @@ class Shared {
     if (value_.use_count() > 1) value_ = std::make_shared<T>(*value_);
     return *value_;
   }
+  friend bool operator==(const Shared& a, const Shared& b) { return *a == *b; }
 
  private:
   std::shared_ptr<T> value_;

@@ -78,12 +78,12 @@ class Collected {
         continue;
       }
       if (!session->simulated.empty()) ++figures_.simulated;
-      const auto& score = session->result.at("score");
+      const auto& score = session->result->at("score");
       const CircuitMark m{candidates.of(known->id), number, stations.of(station_label(registry_, session->station_key)), 0,
                           100 * score.at("points").get<double>() / score.at("max").get<double>()};
       person_of[pseudonym] = m.candidate;
       program.push_back(m);
-      verdict[{m.candidate, number}] = session->result.value("verdict", "");
+      verdict[{m.candidate, number}] = session->result->value("verdict", "");
     }
     for (const HumanMark& h : by_people) {
       if (const auto at = person_of.find(h.candidate); at != person_of.end()) {

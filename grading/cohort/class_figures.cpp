@@ -29,7 +29,7 @@ double max_in(const json& result) { return result.at("score").at("max").get<doub
 ledger::ExamScale scale_of(const ledger::Registry& registry, const std::string& exam, const std::map<std::string, const ledger::FiledSession*>& sat) {
   const auto own = ledger::own_scales(registry);
   const auto at = own.find(exam);
-  return at != own.end() ? at->second : ledger::scale_in(sat.begin()->second->result);
+  return at != own.end() ? at->second : ledger::scale_in(*sat.begin()->second->result);
 }
 
 /// On the scale of the class.
@@ -58,7 +58,7 @@ GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const ledger
     if (m.rating) {
       given.ratings.push_back(*m.rating);
       given.rated_candidates.insert(m.candidate);
-      given.rated.push_back(points_in(s->second->result, f.max_points));
+      given.rated.push_back(points_in(*s->second->result, f.max_points));
     }
   }
   return given;
@@ -75,7 +75,7 @@ struct MarkPairs {
 MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const ledger::FiledSession*>& sat, const ClassFigures& f, double band) {
   MarkPairs pairs;
   for (const auto& [candidate, by_judge] : given.by_candidate) {
-    const double own = points_in(sat.at(candidate)->result, f.max_points);
+    const double own = points_in(*sat.at(candidate)->result, f.max_points);
     double sum = 0;
     for (const auto& [judge, points] : by_judge) sum += points;
     pairs.program.push_back(own);
@@ -131,7 +131,7 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const ledger::File
     WallFigures f;
     f.wall = scenarios::wall_name(static_cast<scenarios::Wall>(w));
     for (const auto& [candidate, s] : sat) {
-      const json wall = s->result.value("walls", json::object()).value(f.wall, json::object());
+      const json wall = s->result->value("walls", json::object()).value(f.wall, json::object());
       if (!wall.value("mean_mm", json()).is_number() || !wall.value("p95_mm", json()).is_number()) continue;
       ++f.n;
       f.mean_mm += wall["mean_mm"].get<double>();
@@ -161,8 +161,8 @@ void look_at_sessions(ClassFigures& f, const ledger::Registry& registry, const s
   if (f.simulated > 0 && f.simulated < f.n)
     f.to_look_at.push_back({0, "", fmt::format("{} of the {} are simulated operators, and count among people", f.simulated, f.n)});
   for (const auto& [candidate, s] : sat) {
-    if (s->result.value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
-    const json truth = s->result.value("perforation", json::object()).value("truth", json::object());
+    if (s->result->value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
+    const json truth = s->result->value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
     f.to_look_at.push_back({s->seq, candidate,
@@ -184,7 +184,7 @@ std::vector<std::string> criteria_of(const json& result) {
 
 /// A result marked as most were.
 const json& result_by(const MarkedBy& most, const std::map<std::string, const ledger::FiledSession*>& sat) {
-  return std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return criteria_of(s.second->result) == most.criteria; })->second->result;
+  return *std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return criteria_of(*s.second->result) == most.criteria; })->second->result;
 }
 
 /// The points of a class.
@@ -198,15 +198,15 @@ struct ClassPoints {
 ClassPoints points_of(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const json& any) {
   ClassPoints all;
   for (const auto& [candidate, s] : sat) {
-    const double points = points_in(s->result, f.max_points);
+    const double points = points_in(*s->result, f.max_points);
     all.in_order.push_back(points);
-    const std::string verdict = s->result.value("verdict", "");
+    const std::string verdict = s->result->value("verdict", "");
     (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
     all.by_station[s->station_key].push_back(points);
     if (!s->simulated.empty()) ++f.simulated;
-    if (criteria_of(s->result) != criteria_of(any)) continue;  // regraded by another rubric
+    if (criteria_of(*s->result) != criteria_of(any)) continue;  // regraded by another rubric
     std::vector<double> row;
-    for (const auto& c : s->result.at("criteria")) row.push_back(c.at("points").get<double>());
+    for (const auto& c : s->result->at("criteria")) row.push_back(c.at("points").get<double>());
     all.by_criterion.push_back(std::move(row));
   }
   return all;
@@ -315,7 +315,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
 std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam) {
   std::map<std::string, const ledger::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
-    if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result.is_object()) sat[s.candidate] = &s;
+    if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result->is_object()) sat[s.candidate] = &s;
   if (sat.empty()) throw Error(fmt::format("exam '{}'", one_line(exam)), "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
   return sat;
 }
@@ -323,13 +323,13 @@ std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledge
 std::vector<MarkedBy> marked_by(const std::map<std::string, const ledger::FiledSession*>& sat) {
   std::vector<MarkedBy> out;
   for (const auto& [candidate, s] : sat) {
-    const ledger::ExamScale scale = ledger::scale_in(s->result);
+    const ledger::ExamScale scale = ledger::scale_in(*s->result);
     const ledger::Regrade* regrade = s->regrade(s->result_seq);
     MarkedBy by{0,
                 scale.pass_percent,
                 scale.borderline_percent,
                 regrade != nullptr ? regrade->documents : decltype(MarkedBy::documents){},
-                criteria_of(s->result),
+                criteria_of(*s->result),
                 1};
     for (const auto& r : s->regrades)  // a decision after a regrade is marked by what that one was
       if (by.entry == 0 && r.documents == by.documents && !(by.documents.empty() && !r.person.empty())) by.entry = r.seq;

@@ -27,10 +27,10 @@ json essence(const json& result) {
 }  // namespace
 
 bool changed_since(const FiledSession& session, const Appeal& appeal) {
-  const json* then = &session.filed;
+  const json* then = &*session.filed;
   for (const auto& r : session.regrades)
-    if (r.seq < appeal.seq) then = &r.result;
-  return session.result_seq > appeal.seq && essence(session.result) != essence(*then);
+    if (r.seq < appeal.seq) then = &*r.result;
+  return session.result_seq > appeal.seq && essence(*session.result) != essence(*then);
 }
 
 const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason) {
@@ -39,7 +39,7 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
     const Registry registry = read_registry(now);
     const FiledSession& s = appealed(registry, session);
     const std::string where = fmt::format("--session {}", session);
-    if (!s.result.is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
+    if (!s.result->is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
     if (const Appeal* open = s.open_appeal()) throw Error(where, fmt::format("an appeal is open (entry {})", open->seq), "answer that one first");
     return json{{"session", session}, {"reason", reason}};
   });

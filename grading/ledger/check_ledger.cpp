@@ -43,7 +43,7 @@ void compare_with_line(const FiledSession& s, const std::string& line, const std
   for (const auto& f : member_of(again, "findings"))
     if (f.is_string()) out.findings.push_back(fmt::format("{}: {}", name, f.get<std::string>()));
   const json& result = member_of(again, "result");
-  const auto differ = s.filed.is_object() && result.is_object() ? grading::result_differences(s.filed, result) : std::vector<std::string>();
+  const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<std::string>();
   if (differ.empty()) return;
   const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
   if (s.grading_version == grading::k_grading_version)

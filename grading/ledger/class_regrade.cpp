@@ -22,7 +22,7 @@ const FiledSession& session_in(const Registry& registry, std::uint64_t seq) {
 /// Marked anew by the same already.
 bool is_entered(const LedgerContent& content, const FiledSession& s, const ClassRegrade& plan, const json& result) {
   const Regrade* last = s.regrades.empty() ? nullptr : &s.regrades.back();
-  if (last == nullptr || last->seq != s.result_seq || s.result != result) return false;
+  if (last == nullptr || last->seq != s.result_seq || *s.result != result) return false;
   const auto kept = kept_basis(content, *last);
   return kept && kept->rubric_toml == plan.basis.rubric_toml && kept->scenario_toml == plan.basis.scenario_toml &&
          kept->surfaces == plan.basis.surfaces;
@@ -34,9 +34,9 @@ bool are_the_same(const MarkedAnew& a, const MarkedAnew& b) {
 
 }  // namespace
 
-bool MarkedAnew::other_verdict() const { return text_in(before, "verdict") != text_in(after, "verdict"); }
+bool MarkedAnew::other_verdict() const { return text_in(*before, "verdict") != text_in(after, "verdict"); }
 bool MarkedAnew::other_points() const {
-  const json &then = member_of(before, "score"), &now = member_of(after, "score");
+  const json &then = member_of(*before, "score"), &now = member_of(after, "score");
   return member_of(then, "points") != member_of(now, "points") || member_of(then, "max") != member_of(now, "max");
 }
 
@@ -44,7 +44,7 @@ ClassRegrade plan_class_regrade(const Registry& registry, const std::string& exa
   ClassRegrade plan{exam, std::move(basis), {}, 0};
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != exam) continue;
-    if (s.motion_erased_by || !s.result.is_object()) {
+    if (s.motion_erased_by || !s.result->is_object()) {
       ++plan.left_out;
       continue;
     }

@@ -14,10 +14,10 @@ namespace cavum::ledger {
 struct MarkedAnew {
   std::uint64_t session = 0, result_seq = 0;  ///< its entry, and the entry of the result that counts
   std::string candidate, file_sha256;
-  bool decided = false;   ///< a person has decided the result that counts
-  bool shown = false;     ///< one of its results is released
-  nlohmann::json before;  ///< the result that counts
-  nlohmann::json after;   ///< by the basis; null until it is marked
+  bool decided = false;  ///< a person has decided the result that counts
+  bool shown = false;    ///< one of its results is released
+  SharedJson before;     ///< the result that counts
+  nlohmann::json after;  ///< by the basis; null until it is marked
   [[nodiscard]] bool other_verdict() const;
   [[nodiscard]] bool other_points() const;
 };

@@ -27,13 +27,14 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   if (found->made_up_by)
     throw Error(where, fmt::format("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
                 "decide the makeup sitting's own result");
-  if (found->undecided() || (found->open_appeal() != nullptr && found->result.is_object())) return *found;
+  if (found->undecided() || (found->open_appeal() != nullptr && found->result->is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
-    throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result.value("verdict", "")),
+    throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
                 "after an appeal a person may: `cavum ledger appeal`");
   throw Error(where,
-              found->result.is_object() ? fmt::format("its verdict is {}: the program leaves nothing to a person", found->result.value("verdict", ""))
-                                        : "has no result",
+              found->result->is_object()
+                  ? fmt::format("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
+                  : "has no result",
               "after an appeal a person may: `cavum ledger appeal`");
 }
 
@@ -43,9 +44,9 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
   std::vector<ToDecide> queue;
   for (const FiledSession& s : registry.sessions) {
     if (!s.undecided() || s.made_up_by || registry.chosen_instead_of(s) != nullptr) continue;
-    const json& score = s.result.at("score");
+    const json& score = s.result->at("score");
     ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
-    for (const json& reason : member_of(s.result, "verdict_reasons"))
+    for (const json& reason : member_of(*s.result, "verdict_reasons"))
       if (reason.is_string()) d.reasons.push_back(reason.get<std::string>());
     queue.push_back(std::move(d));
   }
@@ -59,7 +60,7 @@ const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const D
   return ledger.append("regrade", [&](const LedgerContent& now) {
     const Registry registry = read_registry(now);
     const FiledSession& s = undecided_session(registry, session);
-    json result = s.result;
+    json result = *s.result;
     result["decision"] = {{"verdict_before", result.at("verdict")}, {"person", decision.person}};
     result["verdict"] = decision.verdict;
     const Regrade* before = s.regrade(s.result_seq);  // what the decided result was marked by, this one is, too
@@ -70,9 +71,9 @@ const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const D
 }
 
 std::string verdict_by_program(const FiledSession& session, std::uint64_t entry) {
-  const json* marked = &session.filed;
+  const json* marked = &*session.filed;
   for (const Regrade& r : session.regrades)
-    if (r.seq <= entry && r.person.empty()) marked = &r.result;
+    if (r.seq <= entry && r.person.empty()) marked = &*r.result;
   return text_in(*marked, "verdict");
 }
 

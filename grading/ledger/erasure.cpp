@@ -18,7 +18,7 @@ using nlohmann::json;
 std::set<std::string> erasable_of(const LedgerEntry& e) {
   std::set<std::string> out;
   if (e.kind == "session") out.insert(k_motion);
-  if (e.kind != "session" && e.kind != "regrade" && e.kind != "incident") return out;
+  if (!tells_of_people(e.kind)) return out;
   for (const char* name : {k_result, k_sealed, k_words})
     if (member_of(e.body, "opens").contains(name)) out.insert(name);
   if (!text_in(e.body, "result_sha256").empty()) out.insert(k_result);

@@ -66,7 +66,7 @@ void apply_day_entry(ExamDay& day, const LedgerEntry& e, const LedgerContent& co
     hold->ended_utc_ns = e.utc_ns;
   } else {
     day.incidents.push_back({e.seq, e.utc_ns, text_in(e.body, "account"), text_in(e.body, "about_station"), text_in(e.body, "candidate"),
-                             text_in(e.body, k_words), erased_by(content.erased, e.seq, k_words)});
+                             text_opened(e, k_words), erased_by(content.erased, e.seq, k_words)});
   }
 }
 

@@ -19,7 +19,7 @@ ExamScale scale_in(const json& result) {
 std::map<std::string, ExamScale> own_scales(const Registry& registry) {
   std::map<std::string, std::vector<std::pair<ExamScale, std::size_t>>> found;
   for (const auto& s : registry.sessions) {
-    const ExamScale scale = scale_in(s.filed);
+    const ExamScale scale = scale_in(*s.filed);
     if (scale.max <= 0) continue;
     auto& of_exam = found[s.scenario_id];
     const auto at = std::find_if(of_exam.begin(), of_exam.end(), [&](const auto& f) { return f.first == scale; });

@@ -57,7 +57,7 @@ std::string utc_ms_text(std::int64_t utc_ns) {
 ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales) {
   const auto known = own_scales.find(session.scenario_id);
   const ExamScale own = known == own_scales.end() ? ExamScale{} : known->second;
-  const json& result = session.shown;
+  const json& result = *session.shown;
   const json &points = result.at("score").at("points"), &max = result.at("score").at("max");
   const ExamScale by = scale_in(result);
   const std::string verdict = result.value("verdict", ""), critical = critical_in(result);

@@ -52,7 +52,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
   std::map<std::string, Columns> exams;
   std::set<std::string> numbers, unknown;
   for (const auto& s : registry.sessions) {
-    if (s.shown.is_null() || (!s.simulated.empty() && !with_simulated)) continue;
+    if (s.shown->is_null() || (!s.simulated.empty() && !with_simulated)) continue;
     Columns& exam = exams[s.scenario_id];
     const std::string number = number_of(s, identities);
     if (number.empty())
@@ -60,7 +60,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
     else
       numbers.insert(number), exam.by_number[number] = &s;
     if (exported_grade(s, scales).by_another_rubric) continue;
-    for (const auto& c : s.shown.at("criteria"))
+    for (const auto& c : s.shown->at("criteria"))
       if (const std::string id = c.at("id"); std::find(exam.criteria.begin(), exam.criteria.end(), id) == exam.criteria.end())
         exam.criteria.push_back(id);
   }
@@ -81,7 +81,7 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
         out += std::string(exam.criteria.size() + 4, ',');
         continue;
       }
-      const json& result = found->second->shown;
+      const json& result = *found->second->shown;
       const std::string mark = simulated_mark(*found->second);
       const ExportedGrade g = exported_grade(*found->second, scales);
       out += fmt::format(",{},{},{}", number_in(g.grade), csv_field(mark + g.verdict), number_in(g.points));
@@ -104,13 +104,13 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
     const std::string user = s.simulated.empty() ? number_of(s, identities) : "simulated:" + s.candidate;
     if (user.empty()) continue;  // the platform knows nobody by a pseudonym
     const FiledSession*& counts = last[{s.scenario_id, user}];
-    if (counts == nullptr || s.shown.is_object() || !counts->shown.is_object()) counts = &s;
+    if (counts == nullptr || s.shown->is_object() || !counts->shown->is_object()) counts = &s;
   }
   const auto scales = own_scales(registry);
   json out = json::array();
   for (const auto& [key, s] : last) {
-    const bool shown = s->shown.is_object();
-    const bool review = s->result.is_object() && s->result.value("verdict", "") == "review";
+    const bool shown = s->shown->is_object();
+    const bool review = s->result->is_object() && s->result->value("verdict", "") == "review";
     json score = {{"userId", key.second},
                   {"timestamp", utc_ms_text(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},
@@ -135,7 +135,7 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
 
 std::size_t released_simulated(const Registry& registry) {
   return static_cast<std::size_t>(std::count_if(registry.sessions.begin(), registry.sessions.end(),
-                                                [](const FiledSession& s) { return !s.simulated.empty() && !s.shown.is_null(); }));
+                                                [](const FiledSession& s) { return !s.simulated.empty() && !s.shown->is_null(); }));
 }
 
 std::string signed_results(const Registry& registry, const Ledger& ledger) {
@@ -145,8 +145,8 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"candidate", s.candidate},
                        {"file_sha256", s.file_sha256},
                        {"released", s.released},
-                       {"result", s.result},
-                       {"shown", s.shown},
+                       {"result", *s.result},
+                       {"shown", *s.shown},
                        {"simulated", s.simulated},
                        {"contested_by", s.contested_by},
                        {"chosen", s.chosen},
@@ -197,12 +197,12 @@ std::string tidy_csv(const Registry& registry) {
       "session,candidate,scenario,station,simulated,regraded,findings,contested,chosen,makes_up,made_up_by,verdict,released,criterion,metric,value,"
       "unit,points,max\n";
   for (const auto& s : registry.sessions) {
-    if (!s.result.is_object()) continue;
-    for (const auto& c : s.result.at("criteria"))
+    if (!s.result->is_object()) continue;
+    for (const auto& c : s.result->at("criteria"))
       out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + csv_field(s.station_key.substr(0, 16)) +
              "," + csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
              std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + (s.makes_up ? std::to_string(*s.makes_up) : "") + "," +
-             (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result.value("verdict", "")) + "," + (s.released ? "1" : "0") +
+             (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result->value("verdict", "")) + "," + (s.released ? "1" : "0") +
              "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) + "," +
              csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }

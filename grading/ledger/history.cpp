@@ -12,35 +12,15 @@
 #include "grading/ledger/witness.h"
 
 namespace cavum::ledger {
-namespace {
 
 using nlohmann::json;
 
-/// Roots of the first 1, 2, 3 … leaves, for the price of one tree: complete subtrees from the left, joined from the right.
-class GrowingRoot {
- public:
-  Sha256 add(const Sha256& leaf) {
-    complete_.push_back(leaf);
-    for (std::uint64_t n = ++size_; (n & 1) == 0; n >>= 1) {
-      const Sha256 right = complete_.back();
-      complete_.pop_back();
-      complete_.back() = node_hash(complete_.back(), right);
-    }
-    Sha256 root = complete_.back();
-    for (std::size_t i = complete_.size() - 1; i-- > 0;) root = node_hash(complete_[i], root);
-    return root;
-  }
-
- private:
-  std::vector<Sha256> complete_;
-  std::uint64_t size_ = 0;
-};
-
-}  // namespace
-
 History::History(const LedgerContent& c) : id_(c.id), restores_(restores_of(c)) {
   GrowingRoot growing;
-  for (const auto& e : c.entries) roots_.push_back(growing.add(leaf_hash(ledger_bytes(e.text))));
+  for (const auto& e : c.entries) {
+    growing.add(leaf_hash(ledger_bytes(e.text)));
+    roots_.push_back(growing.root());
+  }
 }
 
 std::vector<RestoredHere> restores_of(const LedgerContent& c) {

@@ -140,15 +140,17 @@ std::size_t Ledger::append_signed(const std::string& kind, const MakeBodies& bod
   refresh();
   std::vector<LedgerEntry> added;
   std::vector<Checkpoint> points;
-  auto leaves = leaves_of(content_);
+  GrowingRoot tree;
+  for (const LedgerEntry& e : content_.entries) tree.add(e.leaf);
   bool erases = false;
   for (json& body : bodies(content_)) {
-    LedgerEntry& e = added.emplace_back(make_entry(leaves.size(), kind, std::move(body)));
+    LedgerEntry& e = added.emplace_back(make_entry(tree.size(), kind, std::move(body)));
     e.erases = taken_out_by(content_, e.body);
-    leaves.push_back(e.leaf);
-    points.push_back(sign_checkpoint(content_.id, leaves.size(), merkle_root(leaves), e.utc_ns, key));
+    tree.add(e.leaf);
+    points.push_back(sign_checkpoint(content_.id, tree.size(), tree.root(), e.utc_ns, key));
     insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), points.back()),
            added.size() == 1 ? documents : std::span<const Bytes>());
+    e.openings.clear();  // the file has them
     erases = erases || !member_of(e.body, "erased").empty();
   }
   if (added.empty()) return 0;

@@ -55,7 +55,7 @@ bool has_table(Database& db, const std::string& name) {
   return db.integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name).c_str()) == 1;
 }
 
-/// Puts what openings, and attachments of before them, hold into the entries' bodies. Each must be as it was bound, named by one entry, and be gone
+/// Puts what openings, and attachments of before them, hold beside the entries. Each must be as it was bound, named by one entry, and be gone
 /// when, and only when, an entry says so.
 void take_openings(LedgerContent& c, const std::map<std::string, std::string>& stored) {
   c.erased = read_erased(c.entries, c.findings);
@@ -64,18 +64,18 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
     const std::string name = fmt::format("entry {}: its ", e.seq);
     const auto take = [&](const std::string& what, bool there, const std::function<json()>& value) {
       const auto by = erased_by(c.erased, e.seq, what);
-      e.body[what] = nullptr;
+      e.opened[what] = json();
       if (!there && !by) c.findings.push_back(fmt::format("{}{} was taken out of the ledger", name, what));
       if (there && by) c.findings.push_back(fmt::format("{}{} was erased by entry {}, and stands there again", name, what, *by));
       if (!there) return;
       try {
-        e.body[what] = value();
+        e.opened[what] = value();
       } catch (const Error&) {
         c.findings.push_back(fmt::format("{}{} was changed after it was entered", name, what));
       }
     };
     if (!e.body.is_object()) continue;
-    const json opens = member_of(e.body, "opens");
+    const json& opens = member_of(e.body, "opens");
     for (const char* what : {k_result, k_sealed, k_words}) {
       const std::string hash = text_in(opens, what);
       if (hash.empty()) continue;
@@ -172,17 +172,22 @@ LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
   e.kind = kind;
   e.utc_ns = read_clocks().utc_ns;
   e.body = std::move(body);
-  json told = e.body;
   for (const char* what : {k_result, k_sealed, k_words}) {
-    const auto value = told.find(what);
-    if (value == told.end()) continue;
+    const auto value = e.body.find(what);
+    if (value == e.body.end() || !tells_of_people(kind)) continue;
     e.openings.push_back(make_opening(*value));
-    told.erase(what);
-    told["opens"][what] = e.body["opens"][what] = e.openings.back().sha256;
+    e.opened[what] = std::move(*value);
+    e.body.erase(what);
+    e.body["opens"][what] = e.openings.back().sha256;
   }
-  e.text = json{{"body", told}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
+  e.text = json{{"body", e.body}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
   e.leaf = leaf_hash(ledger_bytes(e.text));
   return e;
+}
+
+std::string text_opened(const LedgerEntry& e, const char* what) {
+  const auto found = e.opened.find(what);
+  return found != e.opened.end() && found->second->is_string() ? found->second->get<std::string>() : "";
 }
 
 std::vector<Sha256> leaves_of(const LedgerContent& c) {

@@ -31,7 +31,8 @@ struct LedgerEntry {
   Sha256 leaf{};
   std::string attachment;  ///< before format 5 a result's JSON text, or nothing; its SHA-256 is in the text
   std::string kind;        ///< RegistryReader in registry.cpp lists them
-  nlohmann::json body;     ///< with what its openings hold, by name: `result`, `sealed`; null what was erased
+  nlohmann::json body;
+  std::map<std::string, SharedJson> opened;  ///< what its openings hold, by name: `result`, `sealed`, `words`; null what was erased
   std::int64_t utc_ns = 0;
   std::vector<Opening> openings;  ///< of an entry that is being made
   TakenOut erases;                ///< the same
@@ -87,6 +88,8 @@ struct LedgerPlaces {
   [[nodiscard]] std::string identities() const { return folder + "/identities.db"; }
   [[nodiscard]] std::string session(const std::string& file_sha256) const { return fmt::format("{}/sessions/{}.cavum", folder, file_sha256); }
 };
+/// The text that an entry's opening holds; empty when there is none, or it was erased.
+[[nodiscard]] std::string text_opened(const LedgerEntry& entry, const char* what);
 /// True where filed sessions or identities are, whose ledger may be gone.
 [[nodiscard]] bool holds_parts_of_a_ledger(const LedgerPlaces& places);
 /// Is the witness of this computer asked? A copy that was taken while others go on adding is behind it and sound.
@@ -96,7 +99,7 @@ enum class AskWitness { yes, no };
 /// The same of a database that is open. Throws DatabaseError when it cannot be read.
 [[nodiscard]] LedgerContent read_content(Database& database, const std::string& where, AskWitness ask = AskWitness::yes);
 
-/// The next entry, as it will be hashed. `result` and `sealed` of the body go into openings, named under `opens`.
+/// The next entry, as it will be hashed. What of the body can be erased (opening.h) goes into openings, named under `opens`.
 [[nodiscard]] LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, nlohmann::json body);
 /// The cosignatures of one size.
 [[nodiscard]] std::vector<NoteSignature> cosignatures_of(const LedgerContent& content, std::uint64_t size);

@@ -50,6 +50,22 @@ Sha256 merkle_root(std::span<const Sha256> leaves) {
   return node_hash(merkle_root(leaves.first(k)), merkle_root(leaves.subspan(k)));
 }
 
+void GrowingRoot::add(const Sha256& leaf) {
+  complete_.push_back(leaf);
+  for (std::uint64_t n = ++size_; (n & 1) == 0; n >>= 1) {
+    const Sha256 right = complete_.back();
+    complete_.pop_back();
+    complete_.back() = node_hash(complete_.back(), right);
+  }
+}
+
+Sha256 GrowingRoot::root() const {
+  if (complete_.empty()) return merkle_root({});
+  Sha256 root = complete_.back();
+  for (std::size_t i = complete_.size() - 1; i-- > 0;) root = node_hash(complete_[i], root);
+  return root;
+}
+
 std::vector<Sha256> inclusion_proof(std::span<const Sha256> leaves, std::size_t index) {
   if (index >= leaves.size()) throw std::out_of_range("inclusion_proof: no such leaf");
   std::vector<Sha256> path;

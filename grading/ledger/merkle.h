@@ -19,6 +19,18 @@ namespace cavum::ledger {
 /// Root over leaf hashes, MTH(D[n]); of none SHA-256 of nothing.
 [[nodiscard]] Sha256 merkle_root(std::span<const Sha256> leaves);
 
+/// The same root of leaves that are added one after the other, for the price of one tree: complete subtrees from the left, joined from the right.
+class GrowingRoot {
+ public:
+  void add(const Sha256& leaf);
+  [[nodiscard]] Sha256 root() const;
+  [[nodiscard]] std::uint64_t size() const noexcept { return size_; }
+
+ private:
+  std::vector<Sha256> complete_;
+  std::uint64_t size_ = 0;
+};
+
 /// Audit path of leaf `index` among `leaves`, PATH(m, D[n]), lowest first. `index` < leaves.size().
 [[nodiscard]] std::vector<Sha256> inclusion_proof(std::span<const Sha256> leaves, std::size_t index);
 /// True when `proof` leads from leaf `index` of `size` to `root`.

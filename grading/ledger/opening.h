@@ -9,7 +9,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/shared_value.h"
+
 namespace cavum::ledger {
+
+/// What openings hold is large, and stands in entries and in what they add up to: each value is there once.
+using SharedJson = Shared<nlohmann::json>;
 
 struct Opening {
   std::string sha256;  ///< of `text`, hexadecimal: what an entry or a ticket names
@@ -23,6 +28,8 @@ struct Opening {
 /// What can be erased: of a filed session or a regrade its recording (a file), its result, and the result that its station sealed instead; of an
 /// incident what was said.
 inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] = "sealed", k_words[] = "words";
+/// Kinds of entries that have any of it.
+[[nodiscard]] inline bool tells_of_people(const std::string& kind) { return kind == "session" || kind == "regrade" || kind == "incident"; }
 /// Of an entry, by its number: what was erased of it, and the entry that says so.
 using Erased = std::map<std::uint64_t, std::map<std::string, std::uint64_t>>;
 

@@ -53,7 +53,7 @@ std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& r
     if (s.scenario_id != exam || !s.simulated.empty()) continue;
     Candidate& c = candidates[s.candidate];
     c.last_session = s.seq;
-    if (s.shown.is_object()) c.counts = &s;
+    if (s.shown->is_object()) c.counts = &s;
     c.changed_utc_ns = std::max(c.changed_utc_ns, s.released_utc_ns);
     if (s.retracted_by) c.changed_utc_ns = std::max(c.changed_utc_ns, content.entries.at(*s.retracted_by).utc_ns);
   }
@@ -84,10 +84,11 @@ const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const st
 }
 
 Passback passback_in(const LedgerEntry& e) {
+  const auto apart = e.opened.find(k_result);  // where 0.2.0 put the number at first
   Passback p{e.seq,
              e.utc_ns,
              require_whole<std::uint64_t>(e.body, "session", "passback"),
-             require_whole<std::uint64_t>(e.body, "result", "passback"),
+             apart != e.opened.end() ? apart->second->get<std::uint64_t>() : require_whole<std::uint64_t>(e.body, "result", "passback"),
              text_in(e.body, "platform"),
              text_in(e.body, "line_item"),
              static_cast<int>(whole_in(e.body, "status")),

@@ -19,9 +19,10 @@ using nlohmann::json;
 namespace {
 
 /// The result of an entry, which exports rely on: null, or in the shape that grading gives it. Throws Error for another one.
-json result_in(const LedgerEntry& e) {
-  const json& result = e.body.at("result");
-  if (result.is_null()) return result;
+const SharedJson& result_in(const LedgerEntry& e) {
+  const SharedJson& opened = e.opened.at(k_result);
+  const json& result = *opened;
+  if (result.is_null()) return opened;
   const auto text = [](const json& j, const char* name) { return j.contains(name) && j[name].is_string(); };
   const auto number = [](const json& j, const char* name) { return j.contains(name) && j[name].is_number(); };
   const auto criterion = [&](const json& c) {
@@ -34,7 +35,7 @@ json result_in(const LedgerEntry& e) {
                      (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
                      std::all_of(criteria.begin(), criteria.end(), criterion);
   if (!sound) throw Error("result", "is none as grading writes it", "use an intact copy");
-  return result;
+  return opened;
 }
 
 bool contest_each_other(const FiledSession& a, const FiledSession& b) {
@@ -94,7 +95,7 @@ const FiledSession* Registry::shown_beside(const FiledSession& session) const {
 std::map<std::pair<std::string, std::string>, std::uint64_t> Registry::counting() const {
   std::map<std::pair<std::string, std::string>, std::uint64_t> last;
   for (const auto& s : sessions)
-    if (s.shown.is_object()) last[{s.candidate, s.scenario_id}] = s.seq;
+    if (s.shown->is_object()) last[{s.candidate, s.scenario_id}] = s.seq;
   return last;
 }
 
@@ -129,7 +130,7 @@ std::pair<Documents, std::uint64_t> class_documents(const std::vector<const File
 std::set<std::uint64_t> Registry::marked_otherwise() const {
   std::map<std::string, std::vector<const FiledSession*>> exams;
   for (const auto& s : sessions)
-    if (s.result.is_object() && !s.motion_erased_by) exams[s.scenario_id].push_back(&s);
+    if (s.result->is_object() && !s.motion_erased_by) exams[s.scenario_id].push_back(&s);
   std::set<std::uint64_t> out;
   for (const auto& [id, exam] : exams)
     if (const auto [documents, seq] = class_documents(exam); seq != 0)
@@ -177,6 +178,7 @@ class RegistryReader {
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
+  [[nodiscard]] Registry all() && noexcept { return std::move(r_); }
 
  private:
   void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back(fmt::format("entry {}: {}", e.seq, what)); }
@@ -276,7 +278,7 @@ class RegistryReader {
     s.result = s.filed = result_in(e);
     s.motion_erased_by = erased_by(content_->erased, e.seq, k_motion);
     s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
-    s.sealed = parse_json_or_null(text_in(e.body, k_sealed), k_json_part);
+    s.sealed = parse_json_or_null(text_opened(e, k_sealed), k_json_part);
     if (const auto sealed = content_->documents.find(text_in(e.body, "sealed_sha256")); sealed != content_->documents.end())  // before format 5
       s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
     s.grading_version = whole_in(e.body, "grading_version");
@@ -373,7 +375,7 @@ class RegistryReader {
 Registry read_registry(const LedgerContent& content) {
   RegistryReader reader;
   for (const auto& e : content.entries) reader.apply(content, e);
-  return reader.so_far();
+  return std::move(reader).all();
 }
 
 GrowingRegistry::GrowingRegistry() : reader_(std::make_unique<RegistryReader>()) {}

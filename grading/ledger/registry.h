@@ -22,7 +22,7 @@ struct Regrade {
   std::string reason;
   std::string person;                            ///< who decided a result that the program left to a person (decision.h); empty: it was marked anew
   std::map<std::string, std::string> documents;  ///< what it was marked by (documents_of); empty when that was not kept
-  nlohmann::json result;
+  SharedJson result;
 };
 
 /// A candidate's objection to a result, from its entry to the one that answers it.
@@ -39,15 +39,15 @@ struct FiledSession {
   std::uint64_t seq = 0;  ///< of its entry
   std::string file_sha256, chain_sha256, candidate, scenario_id, station_key;
   std::string nonce;                 ///< of its ticket; empty without one
-  nlohmann::json filed;              ///< the school's own mark on filing; null when the recording could not be marked
-  nlohmann::json sealed;             ///< what the station sealed, where that is another one; null where it is the same
+  SharedJson filed;                  ///< the school's own mark on filing; null when the recording could not be marked
+  SharedJson sealed;                 ///< what the station sealed, where that is another one; null where it is the same
   std::int64_t grading_version = 0;  ///< that marked it on filing; 0: older, the station's own result was filed
-  nlohmann::json result;             ///< that counts: the one that was filed, or the last regrade's
+  SharedJson result;                 ///< that counts: the one that was filed, or the last regrade's
   std::uint64_t result_seq;          ///< of the entry that holds it
   std::vector<std::string> findings;
   std::string simulated;             ///< what moved the stylus instead of a candidate's hand: an operator, a motion file, practice; empty for people
   bool released = false;             ///< the result that counts
-  nlohmann::json shown;              ///< the last one that was released: it stands until another is; null before
+  SharedJson shown;                  ///< the last one that was released: it stands until another is; null before
   std::uint64_t shown_seq = 0;       ///< of the entry that holds it
   std::int64_t released_utc_ns = 0;  ///< when that was released
   std::optional<std::uint64_t> retracted_by;  ///< entry that took the last one that was released back; none after a new release
@@ -76,7 +76,7 @@ struct FiledSession {
   std::uint64_t first_sitting = 0;  ///< entry of the ticket with which the row of sittings began that makeups go on; 0: there was no ticket
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
   /// The program leaves it to a person, and none has decided.
-  [[nodiscard]] bool undecided() const { return result.is_object() && result.value("verdict", "") == "review"; }
+  [[nodiscard]] bool undecided() const { return result->is_object() && result->value("verdict", "") == "review"; }
   /// Taken back, and no other result was entered since: it is released by name only.
   [[nodiscard]] bool taken_back() const { return retracted_by && result_seq < *retracted_by; }
   /// The person's decision that gave the result in `entry`; null: it was marked.

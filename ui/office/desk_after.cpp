@@ -45,7 +45,7 @@ void require_undecided(const ledger::Registry& registry, std::uint64_t session) 
   const ledger::Regrade* last = s->regrade(s->result_seq);
   throw Error(one_line(s->candidate),
               last != nullptr && !last->person.empty()
-                  ? fmt::format("was decided by {} (entry {}): {}", last->person, last->seq, text_in(s->result, "verdict"))
+                  ? fmt::format("was decided by {} (entry {}): {}", last->person, last->seq, text_in(*s->result, "verdict"))
                   : "waits for no decision",
               "nothing was changed; after an appeal it can be decided anew");
 }
@@ -55,7 +55,7 @@ json decided(const ledger::FiledSession& s) {
   const ledger::Regrade* r = s.last_decision();
   if (r == nullptr) return {};
   return {
-      {"entry", r->seq}, {"by", r->person}, {"verdict", text_in(r->result, "verdict")}, {"reason", r->reason}, {"counts", r->seq == s.result_seq}};
+      {"entry", r->seq}, {"by", r->person}, {"verdict", text_in(*r->result, "verdict")}, {"reason", r->reason}, {"counts", r->seq == s.result_seq}};
 }
 
 /// The station that a ticket was to be sat at; empty: any.
@@ -130,21 +130,21 @@ json Desk::results(bool names) {
                 {"seat", planned_seat(registry, s.nonce)},
                 {"why_back", s.taken_back() ? s.retracted_why : ""},
                 {"decided", decided(s)},
-                {"grade", s.shown.is_object() ? ledger::exported_grade(s, scales).grade : json()},
+                {"grade", s.shown->is_object() ? ledger::exported_grade(s, scales).grade : json()},
                 {"findings", shown_each(s.findings)},
                 {"simulated", s.simulated},
-                {"verdict", text_in(s.result, "verdict")},
+                {"verdict", text_in(*s.result, "verdict")},
                 {"sha256", recording_sha256(s)},
                 {"shown", s.shown_seq != 0},
                 {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
                 {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                 {"appeal", s.open_appeal() != nullptr}};
-    const json& score = member_of(s.result, "score");
+    const json& score = member_of(*s.result, "score");
     row["points"] = member_of(score, "points");
     row["max"] = member_of(score, "max");
-    if (s.shown.is_object() && s.shown_seq != s.result_seq)  // what is out is not what will be
-      row["out"] = {{"verdict", text_in(s.shown, "verdict")}, {"points", member_of(member_of(s.shown, "score"), "points")}};
-    if (const auto last = counting.find({s.candidate, s.scenario_id}); s.shown.is_object() && last->second != s.seq) row["later"] = last->second;
+    if (s.shown->is_object() && s.shown_seq != s.result_seq)  // what is out is not what will be
+      row["out"] = {{"verdict", text_in(*s.shown, "verdict")}, {"points", member_of(member_of(*s.shown, "score"), "points")}};
+    if (const auto last = counting.find({s.candidate, s.scenario_id}); s.shown->is_object() && last->second != s.seq) row["later"] = last->second;
     if (names) put_name(row, people, s.candidate);
     out.push_back(std::move(row));
   }
@@ -185,13 +185,13 @@ json Desk::appeals() {
   json out = json::array();
   for (const auto& s : turn.book.registry().sessions)
     for (const auto& a : s.appeals) {
-      const json& score = member_of(s.result, "score");
+      const json& score = member_of(*s.result, "score");
       out.push_back({{"entry", a.seq},
                      {"utc", utc_text(a.utc_ns)},
                      {"session", s.seq},
                      {"candidate", s.candidate},
                      {"exam", s.scenario_id},
-                     {"verdict", text_in(s.result, "verdict")},
+                     {"verdict", text_in(*s.result, "verdict")},
                      {"points", member_of(score, "points")},
                      {"max", member_of(score, "max")},
                      {"sha256", recording_sha256(s)},
@@ -250,7 +250,7 @@ std::uint64_t Desk::counted_regrades(const std::string& exam, const std::string&
 json Desk::filed_exams() {
   Turn turn(*this);
   std::map<std::string, std::size_t> exams;
-  for (const auto& s : turn.book.registry().sessions) exams[s.scenario_id] += !s.motion_erased_by && s.result.is_object() ? 1 : 0;
+  for (const auto& s : turn.book.registry().sessions) exams[s.scenario_id] += !s.motion_erased_by && s.result->is_object() ? 1 : 0;
   json out = json::array();
   for (const auto& [id, sessions] : exams)
     if (sessions > 0) out.push_back({{"id", id}, {"sessions", sessions}});

@@ -61,10 +61,10 @@ json Desk::own_results(const std::string& number, const std::string& exam) {
   const auto counting = turn.book.registry().counting();
   json out = json::array();
   for (const auto& s : turn.book.registry().sessions) {
-    if (!s.shown.is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
+    if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
     const ledger::ExportedGrade grade = ledger::exported_grade(s, scales);
     out.push_back({{"exam", s.scenario_id},
-                   {"verdict", text_in(s.shown, "verdict")},
+                   {"verdict", text_in(*s.shown, "verdict")},
                    {"points", grade.points},
                    {"max", grade.max},
                    {"released", local_text(s.released_utc_ns)},
@@ -79,7 +79,7 @@ Recording Desk::own_recording(const std::string& number, const std::string& file
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
   for (const auto& s : turn.book.registry().sessions)
-    if (s.file_sha256 == file_sha256 && s.shown.is_object() && is_own(identities, s, number))
+    if (s.file_sha256 == file_sha256 && s.shown->is_object() && is_own(identities, s, number))
       return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
   throw Error("this report", "is not there", "open the link on the platform again");
 }

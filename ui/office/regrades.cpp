@@ -184,9 +184,9 @@ json Regrades::state(bool rows) const {
   for (const auto& s : plan_.sessions)
     list.push_back({{"session", s.session},
                     {"candidate", s.candidate},
-                    {"points_before", points_of(s.before)},
-                    {"max_before", max_of(s.before)},
-                    {"verdict_before", text_in(s.before, "verdict")},
+                    {"points_before", points_of(*s.before)},
+                    {"max_before", max_of(*s.before)},
+                    {"verdict_before", text_in(*s.before, "verdict")},
                     {"points", points_of(s.after)},
                     {"max", max_of(s.after)},
                     {"verdict", text_in(s.after, "verdict")},

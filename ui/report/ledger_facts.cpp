@@ -19,7 +19,7 @@ namespace {
 
 /// Per cent of the scale that a session reached, where that counts for a comparison of attempts.
 std::optional<double> percent_of(const ledger::FiledSession& s, ReportReader reader) {
-  const json& result = reader == ReportReader::student ? s.shown : s.result;
+  const json& result = reader == ReportReader::student ? *s.shown : *s.result;
   if (s.doubtful() || !result.is_object() || !result.contains("score") || !result["score"].is_object()) return std::nullopt;
   const double max = result["score"].value("max", 0.0);
   return max > 0 ? std::optional(100 * result["score"].value("points", 0.0) / max) : std::nullopt;
@@ -68,7 +68,7 @@ const ledger::FiledSession& ReportLedger::session(const std::string& file_sha256
 
 ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name) {
   const std::string entry = fmt::format("entry {}", session.seq);
-  const bool shown = !session.shown.is_null();
+  const bool shown = !session.shown->is_null();
   if (reader == ReportReader::student && !shown)
     throw Error(entry, "is not released, and a student's report is of released results only",
                 fmt::format("release it with `cavum ledger release {} --session {}{}`, or use --for instructor", ledger.places.folder, session.seq,
@@ -87,7 +87,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
                               utc_text(r->utc_ns),
                               r->reason,
                               r->person,
-                              r->person.empty() ? "" : r->result.value("verdict", ""),
+                              r->person.empty() ? "" : r->result->value("verdict", ""),
                               ledger::verdict_by_program(session, r->seq)};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
@@ -104,9 +104,9 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
   }
   for (const auto& s : ledger.registry.sessions) {
     if (s.candidate != session.candidate || s.scenario_id != session.scenario_id) continue;
-    const bool released = !s.shown.is_null();
+    const bool released = !s.shown->is_null();
     if (reader == ReportReader::student && !released) continue;
-    const json& result = reader == ReportReader::student ? s.shown : s.result;
+    const json& result = reader == ReportReader::student ? *s.shown : *s.result;
     ReportAttempt a;
     a.entry = s.seq;
     a.date = utc_text(s.received_utc_ns);
@@ -132,7 +132,7 @@ const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportRe
 
 std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
-  const json& filed = reader == ReportReader::student ? session.shown : session.result;
+  const json& filed = reader == ReportReader::student ? *session.shown : *session.result;
   const std::string by_program = ledger::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
   const bool same = filed.is_object() && by_program == grading::verdict_name(result.verdict) && filed.contains("score") &&
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&

@@ -22,10 +22,10 @@ using nlohmann::json;
 int ledger_verify(const LedgerOptions& o) {
   const ledger::LedgerPlaces places{o.folder};
   if (!o.key.empty()) static_cast<void>(ledger::load_school_key(o.key));  // one that was named has to be there
-  const ledger::LedgerContent content = ledger::read_ledger(places);
   const pool::Maker by = o.replay ? pool::Maker([&](const pool::Work& work) { return make_lines(work, o.pool); }) : pool::Maker();
   ledger::LedgerCheck check = ledger::check_ledger(places, by);
   check.findings.insert(check.findings.end(), check.not_made.begin(), check.not_made.end());
+  const ledger::LedgerContent content = ledger::read_ledger(places);
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
@@ -77,8 +77,8 @@ int ledger_show(const LedgerOptions& o) {
       sessions.push_back({{"seq", s.seq},
                           {"candidate", s.candidate},
                           {"scenario", s.scenario_id},
-                          {"verdict", s.result.is_object() ? s.result.value("verdict", "") : ""},
-                          {"points", s.result.is_object() ? s.result["score"]["points"] : json()},
+                          {"verdict", s.result->is_object() ? s.result->value("verdict", "") : ""},
+                          {"points", s.result->is_object() ? s.result->at("score").at("points") : json()},
                           {"released", s.released},
                           {"motion_erased", s.motion_erased_by.has_value()},
                           {"result_erased", s.result_erased_by.has_value()},
@@ -101,11 +101,11 @@ int ledger_show(const LedgerOptions& o) {
   for (const auto& s : registry.sessions)
     std::printf("%6llu  %-16s %-28s %-7s %6s  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
                 one_line(s.scenario_id).c_str(),
-                one_line(s.result.is_object() ? s.result.value("verdict", "")
-                         : s.result_erased_by ? "erased"
-                                              : "?")
+                one_line(s.result->is_object() ? s.result->value("verdict", "")
+                         : s.result_erased_by  ? "erased"
+                                               : "?")
                     .c_str(),
-                s.result.is_object() ? fixed(s.result["score"]["points"].get<double>(), 1).c_str() : "-", s.released ? "released" : "pending",
+                s.result->is_object() ? fixed(s.result->at("score").at("points").get<double>(), 1).c_str() : "-", s.released ? "released" : "pending",
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +
                  (s.contested_by.empty() ? "" : fmt::format(", contested by entry {}", s.contested_by.back())) + (s.chosen ? ", chosen" : ""))

@@ -87,13 +87,13 @@ void regrade_session(const LedgerOptions& o) {
   const auto& entry = ledger::enter_regrade(ledger, found->seq, result, basis, o.reason);
   if (o.as_json)
     print_json(json{{"seq", entry.seq},
-                    {"before", member_of(found->result, "score")},
-                    {"verdict_before", text_in(found->result, "verdict")},
+                    {"before", member_of(*found->result, "score")},
+                    {"verdict_before", text_in(*found->result, "verdict")},
                     {"after", result.at("score")},
                     {"verdict", result.at("verdict")}});
   else
-    std::cout << "entry " << entry.seq << ": " << in_words(found->result) << " before; " << in_words(result) << " now"
-              << (found->shown.is_null() ? "" : "; the old result stands until the new one is released") << "\n";
+    std::cout << "entry " << entry.seq << ": " << in_words(*found->result) << " before; " << in_words(result) << " now"
+              << (found->shown->is_null() ? "" : "; the old result stands until the new one is released") << "\n";
 }
 
 /// A whole exam: nothing is entered before each session of it is marked.
@@ -110,12 +110,12 @@ int regrade_exam(const LedgerOptions& o) {
     other_points += s.other_points() ? 1 : 0;
     table.push_back({{"session", s.session},
                      {"candidate", s.candidate},
-                     {"before", member_of(s.before, "score")},
-                     {"verdict_before", text_in(s.before, "verdict")},
+                     {"before", member_of(*s.before, "score")},
+                     {"verdict_before", text_in(*s.before, "verdict")},
                      {"after", member_of(s.after, "score")},
                      {"verdict", text_in(s.after, "verdict")}});
     if (!o.as_json && (s.other_verdict() || s.other_points()))
-      std::cout << fmt::format("{:>6}  {:<16} {} before; {} now\n", s.session, one_line(s.candidate), in_words(s.before), in_words(s.after));
+      std::cout << fmt::format("{:>6}  {:<16} {} before; {} now\n", s.session, one_line(s.candidate), in_words(*s.before), in_words(s.after));
   }
   const std::size_t entered = o.preview ? 0 : ledger::enter_class_regrade(ledger, plan, o.reason);
   if (o.as_json)
@@ -245,7 +245,7 @@ void ledger_export(const LedgerOptions& o) {
   require_new(o, o.out);
   write_school_file(o, o.out, text);
   std::cout << "written: " << one_line(o.out) << "\n";
-  if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const ledger::FiledSession& s) { return s.shown.is_object(); }))
+  if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const ledger::FiledSession& s) { return s.shown->is_object(); }))
     std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
   if (const auto simulated = ledger::released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
     std::cout << simulated << (simulated == 1 ? " released result of a simulated operator is " : " released results of simulated operators are ")

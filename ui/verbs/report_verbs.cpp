@@ -189,7 +189,7 @@ int run_all(const ReportArguments& o) {
   grading::ExamGrounds grounds;  // of the class
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
-    if (s.shown.is_null()) continue;
+    if (s.shown->is_null()) continue;
     each.out = fmt::format("{}/{}-{}{}", o.out, file_name_of(s.candidate), s.seq, o.pdf ? ".pdf" : ".html");
     try {
       report::require_report_place(each.out, each.overwrite);

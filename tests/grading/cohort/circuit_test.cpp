@@ -98,14 +98,14 @@ TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
       s.seq = s.result_seq = seq++;
       s.candidate = identities.enrol("c" + std::to_string(c), "", exam, testing_ledger::School::key());
       s.scenario_id = exam;
-      s.result = {{"verdict", "pass"},
-                  {"score", {{"points", 40.0 + 9 * c + (exam == "a" ? c % 3 : 0)}, {"max", 100.0}, {"pass_percent", 65.0}}},
-                  {"criteria", nlohmann::json::array()}};
+      s.result = nlohmann::json{{"verdict", "pass"},
+                                {"score", {{"points", 40.0 + 9 * c + (exam == "a" ? c % 3 : 0)}, {"max", 100.0}, {"pass_percent", 65.0}}},
+                                {"criteria", nlohmann::json::array()}};
       s.filed = s.result;
       r.sessions.push_back(s);
     }
   const auto regrade = [&](ledger::FiledSession& s) {
-    s.result["score"]["pass_percent"] = 75.0;
+    s.result.change()["score"]["pass_percent"] = 75.0;
     s.result_seq = seq++;
     s.regrades.push_back({s.result_seq, 0, "misprinted", "", {{"rubric.toml", "aa"}}, s.result});
   };

@@ -18,10 +18,10 @@ ledger::FiledSession session(std::uint64_t seq, const std::string& candidate, do
   s.candidate = candidate;
   s.scenario_id = "exam";
   s.station_key = station;
-  s.result = {{"verdict", verdict},
-              {"score", {{"points", first + second}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 2.0}}},
-              {"criteria", json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
-                                        {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
+  s.result = nlohmann::json{{"verdict", verdict},
+                            {"score", {{"points", first + second}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 2.0}}},
+                            {"criteria", json::array({{{"id", "a"}, {"metric", "dice"}, {"points", first}, {"max", 60.0}},
+                                                      {{"id", "b"}, {"metric", "time_s"}, {"points", second}, {"max", 40.0}}})}};
   s.filed = s.result;
   return s;
 }
@@ -73,10 +73,10 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
       if (l.session == seq) all += l.why + "; ";
     return all;
   };
-  r.sessions[0].result["perforation"] = {{"truth", {{"perforated", true}, {"first_t_s", 12.34}, {"tissue", "pulp"}}},
-                                         {"aim", {{"perforated", false}}}};
-  r.sessions[1].result["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
-                                         {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
+  r.sessions[0].result.change()["perforation"] = {{"truth", {{"perforated", true}, {"first_t_s", 12.34}, {"tissue", "pulp"}}},
+                                                  {"aim", {{"perforated", false}}}};
+  r.sessions[1].result.change()["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
+                                                  {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
   r.sessions.push_back(session(5, "C-5", 60, 40));
   r.sessions.back().findings = {"the chain breaks at second 7", "another"};
   r.sessions[2].simulated = "expert";
@@ -123,7 +123,7 @@ TEST(ClassFigures, FromFewAreCalledRough) {
 
 TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
   ledger::Registry r = four();
-  r.sessions[0].result["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
+  r.sessions[0].result.change()["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.max_points, 100.0);
   EXPECT_EQ(f.points, (std::vector<double>{25, 50, 50, 75})) << "15 of 30 are 50 of 100";
@@ -131,7 +131,7 @@ TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
 
 /// Entered as `seq` with the rubric of hash `rubric`, by another pass mark.
 void regrade(ledger::FiledSession& s, std::uint64_t seq, double pass_percent, const std::string& rubric) {
-  s.result["score"]["pass_percent"] = pass_percent;
+  s.result.change()["score"]["pass_percent"] = pass_percent;
   s.result_seq = seq;
   s.regrades.push_back({seq, 0, "misprinted", "", {{"rubric.toml", rubric}}, s.result});
 }

@@ -416,7 +416,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
   // both at once, as an older version released them, is no choice
   ledger.append("release", [](const LedgerContent&) { return nlohmann::json{{"results", {4, 5}}}; });
-  for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown.is_null() && s.doubtful()) << s.seq;
+  for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
   expect_finding(check_ledger(school_.places(), false).remarks, {"names two endings of the same exam"});
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {4}}).results, std::vector<std::uint64_t>{4});
   const std::string again = testing_basics::error_of([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
@@ -429,16 +429,16 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   expect_finding(check_ledger(school_.places(), false).remarks, {"has not released entry 5", "was chosen before"});
   EXPECT_FALSE(chosen.sessions[0].doubtful()) << "it counts in a class's figures";
   EXPECT_TRUE(chosen.sessions[1].doubtful());
-  EXPECT_TRUE(chosen.sessions[1].shown.is_null());
+  EXPECT_TRUE(chosen.sessions[1].shown->is_null());
   Identities identities(school_.places().identities());
   int left_out = 0;
   const std::string said = "Several endings of this exam were filed (also entry 5), and this one was chosen by a person.";
   const std::string csv = moodle_csv(chosen, identities, left_out);
-  EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed["score"]["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed->at("score")["points"].dump() + ","), std::string::npos) << csv;
   EXPECT_NE(csv.find(said), std::string::npos) << csv;
   const auto scores = lti_scores(chosen, identities);
   ASSERT_EQ(scores.size(), 1u);
-  EXPECT_EQ(scores[0]["score"]["scoreGiven"], chosen.sessions[0].filed["score"]["points"]);
+  EXPECT_EQ(scores[0]["score"]["scoreGiven"], chosen.sessions[0].filed->at("score")["points"]);
   EXPECT_NE(scores[0]["score"]["comment"].get<std::string>().find(said), std::string::npos);
 }
 TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
@@ -453,7 +453,7 @@ TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
   const std::uint64_t other = now().at(1).seq;
   EXPECT_TRUE(now()[0].released && now()[0].doubtful()) << "it stands, and a person has to look";
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {other}}).results.size(), 1u);
-  EXPECT_TRUE(now()[0].shown.is_null()) << "one counts";
+  EXPECT_TRUE(now()[0].shown->is_null()) << "one counts";
   EXPECT_FALSE(now()[0].released);
   EXPECT_TRUE(now()[1].chosen);
   EXPECT_EQ(now()[1].shown, now()[1].filed);

@@ -25,7 +25,7 @@ class LeftToAPerson : public testing::Test {
   static void TearDownTestSuite() { delete shared_; }
   void SetUp() override {
     Ledger ledger = school_.ledger();
-    json review = session().result;
+    json review = *session().result;
     entry_ = session().seq;
     review["verdict"] = "review";
     review["verdict_reasons"] = {"the force fell as at an opening, and the tissue says that none was made"};
@@ -60,9 +60,9 @@ TEST_F(LeftToAPerson, WaitsAndGoesOutAsHeDecides) {
 
   enter_decision(ledger, entry_, {"fail", "Dr. Examiner", "the floor is cut through at the distal canal"});
   const FiledSession s = session();
-  EXPECT_EQ(s.result["verdict"], "fail");
-  EXPECT_EQ(s.result["decision"], (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
-  EXPECT_EQ(s.result["score"], s.filed["score"]) << "a decision changes no points";
+  EXPECT_EQ(s.result->at("verdict"), "fail");
+  EXPECT_EQ(s.result->at("decision"), (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
+  EXPECT_EQ(s.result->at("score"), s.filed->at("score")) << "a decision changes no points";
   EXPECT_EQ(s.regrade(s.result_seq)->person, "Dr. Examiner");
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
   EXPECT_FALSE(s.released);
@@ -89,7 +89,7 @@ TEST_F(LeftToAPerson, IsDecidedOnceAndOnlyWhereThereIsSomethingToDecide) {
   refused({"pass", std::string(k_longest_person + 1, 'x'), "x"}, "is longer than");
   enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
   refused({"fail", "Dr. Other", "x"}, "was decided by Dr. Examiner");
-  json again = session().filed;
+  json again = *session().filed;
   again["verdict"] = "pass";
   enter_regrade(ledger, entry_, again, {}, "marked anew");
   refused({"fail", "Dr. Other", "x"}, "leaves nothing to a person");
@@ -109,14 +109,14 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
   release_results(ledger, {.all = true});
   EXPECT_NE(moodle().find(",pass,"), std::string::npos);
   EXPECT_EQ(lti()["gradingProgress"], "FullyGraded");
-  EXPECT_EQ(lti()["scoreGiven"], session().shown["score"]["points"]);
+  EXPECT_EQ(lti()["scoreGiven"], session().shown->at("score")["points"]);
 }
 
 TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
   Ledger ledger = school_.ledger();
   enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
   EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u) << "mark, regrade, decision";
-  EXPECT_TRUE(session().result.is_null());
+  EXPECT_TRUE(session().result->is_null());
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
 }
 
@@ -141,7 +141,7 @@ TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
   open_appeal(ledger, entry_, "the floor was probed twice");
   EXPECT_TRUE(holds_text(refusal([&] { open_appeal(ledger, entry_, "again"); }), "an appeal is open"));
   EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
-  enter_regrade(ledger, entry_, session().result, {}, "measured once more, and the same came out");
+  enter_regrade(ledger, entry_, *session().result, {}, "measured once more, and the same came out");
   EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
   EXPECT_EQ(refusal(again), "");
   EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_stands, "no"); }), "another result was entered"))
@@ -154,7 +154,7 @@ TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
   EXPECT_EQ(s.appeals[0].outcome, "changed");
   EXPECT_EQ(s.appeals[0].answer, "a second examiner measured");
   EXPECT_EQ(s.open_appeal(), nullptr);
-  EXPECT_EQ(s.result["verdict"], "pass");
+  EXPECT_EQ(s.result->at("verdict"), "pass");
   EXPECT_TRUE(read_registry(read_ledger(school_.places())).findings.empty());
 }
 

@@ -156,7 +156,7 @@ TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   expect_finding(check_ledger(school_.places(), true).not_checked, {"1 recording was erased"});
   const FiledSession s = read_registry(content()).sessions.at(0);
   EXPECT_EQ(s.motion_erased_by, content().entries.size() - 1);
-  EXPECT_TRUE(s.result.is_object()) << "the result is kept";
+  EXPECT_TRUE(s.result->is_object()) << "the result is kept";
   EXPECT_THROW(static_cast<void>(recording_of(school_.places(), s)), Error);
   EXPECT_TRUE(erase(ledger, {.sessions = {session_}, .motion = true}, "again").empty()) << "nothing is left";
 }
@@ -169,13 +169,13 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
   const FiledSession before = read_registry(ledger.content()).sessions.at(0);
   RegradeBasis basis;
   basis.rubric_toml = "x";
-  enter_regrade(ledger, session_, before.result, basis, "an appeal");
+  enter_regrade(ledger, session_, *before.result, basis, "an appeal");
   EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for").size(), 3u) << "recording, mark, regrade";
   EXPECT_EQ(where_it_stands(school_.file(""), words), "");
   EXPECT_EQ(where_it_stands(school_.file(""), "extra_time_percent"), "") << "a result tells of accommodations, too";
   expect_proofs_hold(receipt);
   const FiledSession s = read_registry(content()).sessions.at(0);
-  EXPECT_TRUE(s.result.is_null());
+  EXPECT_TRUE(s.result->is_null());
   EXPECT_TRUE(s.result_erased_by);
   Identities identities(school_.places().identities());
   int left_out = 0;
@@ -296,7 +296,7 @@ TEST_F(Kept, ResultsOfOlderEntriesCanBeErasedToo) {
     EXPECT_EQ(erase(ledger, {.sessions = {session_}, .results = true}, "asked for").size(), 1u);
   }
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  EXPECT_TRUE(read_registry(content()).sessions.at(0).result.is_null());
+  EXPECT_TRUE(read_registry(content()).sessions.at(0).result->is_null());
 }
 
 TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {

@@ -153,7 +153,7 @@ TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
   EXPECT_EQ(csv.find("4712"), std::string::npos);
   EXPECT_EQ(csv.find("C-"), std::string::npos) << "no pseudonym beside a name";
   const auto& released = registry_.sessions.at(0);
-  EXPECT_NE(csv.find("4711," + released.result["score"]["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find("4711," + released.result->at("score").at("points").dump() + ","), std::string::npos) << csv;
 
   const json scores = lti_scores(registry_, identities);
   ASSERT_EQ(scores.size(), 2u);
@@ -162,7 +162,7 @@ TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
     const json& score = s["score"];
     if (score["userId"] == "4711") {
       EXPECT_EQ(score["gradingProgress"], "FullyGraded");
-      EXPECT_EQ(score["scoreGiven"], released.result["score"]["points"]);
+      EXPECT_EQ(score["scoreGiven"], released.result->at("score").at("points"));
     } else {
       EXPECT_EQ(score["userId"], "4712");
       EXPECT_FALSE(score.contains("scoreGiven"));
@@ -175,7 +175,7 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
   Identities identities(school_.places().identities());
   const auto export_of = [&](const std::function<void(json&)>& change) {
     Registry registry = registry_;
-    json& shown = registry.sessions.at(0).shown;
+    json& shown = registry.sessions.at(0).shown.change();
     shown["score"] = {{"points", 86.0}, {"max", 100.0}, {"pass_percent", 60.0}};
     change(shown);
     int left_out = 0;
@@ -188,7 +188,7 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
     r["verdict"] = "fail";
     r["criteria"][0]["critical_failed"] = true;
   });
-  const std::string id = registry_.sessions.at(0).shown["criteria"][0]["id"];
+  const std::string id = registry_.sessions.at(0).shown->at("criteria").at(0).at("id");
   EXPECT_NE(critical_csv.find("\n4711,0,fail (critical: " + id + "),86"), std::string::npos) << critical_csv;
   EXPECT_NE(critical_csv.find("86.0 of 100 points do not count"), std::string::npos) << critical_csv;
   EXPECT_EQ(critical_lti["scoreGiven"], 0);
@@ -233,10 +233,10 @@ TEST_F(Released, AFailureByAnotherPassMarkIsNoPassByTheExamsOwn) {
   Identities identities(school_.places().identities());
   Registry registry = registry_;
   FiledSession& s = registry.sessions.at(0);
-  s.shown["score"]["points"] = 80.752695;
-  s.shown["score"]["pass_percent"] = 90.0;
-  s.shown["verdict"] = "fail";
-  ASSERT_EQ(s.filed["score"]["pass_percent"], 60.0);
+  s.shown.change()["score"]["points"] = 80.752695;
+  s.shown.change()["score"]["pass_percent"] = 90.0;
+  s.shown.change()["verdict"] = "fail";
+  ASSERT_EQ(s.filed->at("score").at("pass_percent"), 60.0);
   const Told failed = told_of(registry, identities);
   EXPECT_EQ(failed.field("block_cavity"), "0");
   EXPECT_EQ(failed.field("block_cavity points"), "80.752695");
@@ -244,10 +244,10 @@ TEST_F(Released, AFailureByAnotherPassMarkIsNoPassByTheExamsOwn) {
   for (const std::string& words : {failed.field("block_cavity feedback"), failed.score["comment"].get<std::string>()})
     EXPECT_NE(words.find("Failed by another pass mark (90 %, the exam's own is 60 %): the 80.8 of 100 points do not count."), std::string::npos)
         << words;
-  s.shown["score"]["points"] = 59.0;  // no pass by the exam's own mark either: it stays what it is
+  s.shown.change()["score"]["points"] = 59.0;  // no pass by the exam's own mark either: it stays what it is
   EXPECT_EQ(told_of(registry, identities).field("block_cavity"), "59.0");
-  s.shown["score"]["pass_percent"] = 50.0;
-  s.shown["verdict"] = "pass";
+  s.shown.change()["score"]["pass_percent"] = 50.0;
+  s.shown.change()["verdict"] = "pass";
   const Told passed = told_of(registry, identities);
   EXPECT_EQ(passed.field("block_cavity"), "60.0") << "a platform whose pass mark is the exam's would read 59 as a failure";
   EXPECT_EQ(passed.score["scoreGiven"], 60.0);
@@ -263,9 +263,9 @@ TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
   Registry registry = registry_;
   registry.sessions.at(1).shown = registry.sessions.at(1).result;  // another candidate, marked by the exam's own rubric
   FiledSession& s = registry.sessions.at(0);
-  s.shown["score"] = {{"points", 10.0}, {"max", 20.0}, {"pass_percent", 40.0}};
-  s.shown["verdict"] = "pass";
-  s.shown["criteria"] = json::array(
+  s.shown.change()["score"] = {{"points", 10.0}, {"max", 20.0}, {"pass_percent", 40.0}};
+  s.shown.change()["verdict"] = "pass";
+  s.shown.change()["criteria"] = json::array(
       {{{"id", "removed"}, {"points", 4.0}, {"max", 10.0}, {"reason", "short"}}, {{"id", "other"}, {"points", 6.0}, {"max", 10.0}, {"reason", "b"}}});
   const Told told = told_of(registry, identities);
   EXPECT_EQ(told.field("block_cavity"), "60.0") << "passed, so no less than the exam's own pass mark";
@@ -275,7 +275,7 @@ TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
   EXPECT_EQ(told.score["scoreGiven"], 60.0);
   EXPECT_EQ(told.score["scoreMaximum"], 100.0);
   EXPECT_NE(told.field("block_cavity feedback").find("Marked by another rubric: 10.0 of 20."), std::string::npos);
-  s.shown["verdict"] = "fail";  // by the other rubric's single-criterion rule: 50 of 100 is short of 60, and over its own 40 %
+  s.shown.change()["verdict"] = "fail";  // by the other rubric's single-criterion rule: 50 of 100 is short of 60, and over its own 40 %
   EXPECT_EQ(told_of(registry, identities).field("block_cavity"), "0");
 }
 
@@ -287,10 +287,10 @@ TEST_F(Released, TheLastReleasedAttemptStandsUntilANewerOneIsReleased) {
   later.released = false;
   later.shown = json();
   later.shown_seq = 0;
-  later.result["score"]["points"] = 73.5;
+  later.result.change()["score"]["points"] = 73.5;
   later.received_utc_ns += 1'000'000'000;
   registry.sessions.push_back(later);
-  const double first = registry.sessions.at(0).shown["score"]["points"].get<double>();
+  const double first = registry.sessions.at(0).shown->at("score").at("points").get<double>();
   Told told = told_of(registry, identities);
   EXPECT_EQ(std::stod(told.field("block_cavity")), first);
   EXPECT_EQ(told.score["gradingProgress"], "FullyGraded");
@@ -310,12 +310,12 @@ TEST_F(Released, WhatASimulatedOperatorSatIsNobodysGrade) {
   FiledSession operated = registry_.sessions.at(0);
   operated.seq = operated.shown_seq = operated.result_seq = 90;
   operated.simulated = "expert";
-  operated.shown["score"]["points"] = operated.result["score"]["points"] = 99.5;
+  operated.shown.change()["score"]["points"] = operated.result.change()["score"]["points"] = 99.5;
   registry_.sessions.push_back(operated);
   EXPECT_EQ(released_simulated(registry_), 1u);
   Identities identities(school_.places().identities());
   int left_out = 0;
-  const std::string own = registry_.sessions.at(0).shown["score"]["points"].dump();
+  const std::string own = registry_.sessions.at(0).shown->at("score").at("points").dump();
   const std::string plain = moodle_csv(registry_, identities, left_out);
   EXPECT_NE(plain.find("\n4711," + own + ","), std::string::npos) << "the candidate's own attempt counts, though it is older: " << plain;
   EXPECT_EQ(plain.find("99.5"), std::string::npos);
@@ -341,20 +341,20 @@ TEST_F(Released, WhatASimulatedOperatorSatIsNobodysGrade) {
 
 TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   Ledger ledger = school_.ledger();
-  json better = registry_.sessions.at(0).result;
+  json better = *registry_.sessions.at(0).result;
   better["score"]["points"] = 12.5;
   ledger.append("regrade", [&](const LedgerContent&) {
     return json{{"session", k_first_entries + 1}, {"result", better}, {"by", json::object()}, {"reason", "appeal"}};
   });
   auto registry = read_registry(ledger.content());
   EXPECT_FALSE(registry.sessions.at(0).released);
-  EXPECT_EQ(registry.sessions.at(0).result["score"]["points"], 12.5);
+  EXPECT_EQ(registry.sessions.at(0).result->at("score").at("points"), 12.5);
   EXPECT_EQ(registry.sessions.at(0).shown, registry_.sessions.at(0).result) << "until then the old one stands";
   Identities identities(school_.places().identities());
   int left_out = 0;
-  EXPECT_NE(moodle_csv(registry, identities, left_out).find("\n4711," + registry_.sessions.at(0).result["score"]["points"].dump()),
+  EXPECT_NE(moodle_csv(registry, identities, left_out).find("\n4711," + registry_.sessions.at(0).result->at("score").at("points").dump()),
             std::string::npos);
-  EXPECT_EQ(ledger.content().entries.at(k_first_entries + 1).body["result"], registry_.sessions.at(0).result) << "the sealed result stays";
+  EXPECT_EQ(ledger.content().entries.at(k_first_entries + 1).opened.at(k_result), registry_.sessions.at(0).result) << "the sealed result stays";
   ledger.append("release", [&](const LedgerContent&) { return json{{"results", {registry.sessions.at(0).result_seq}}}; });
   EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
   ledger.append("release", [&](const LedgerContent&) { return json{{"results", {99}}}; });

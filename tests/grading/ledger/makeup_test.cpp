@@ -95,7 +95,7 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
   EXPECT_EQ(release_all(), 0u) << "the first does not count";
   {
     Ledger ledger = school_.ledger();
-    json review = registry().sessions[0].result;
+    json review = *registry().sessions[0].result;
     review["verdict"] = "review";
     enter_regrade(ledger, *good.seq, review, {}, "as if the program had left it to a person");
     const std::size_t before = last_entry();
@@ -114,9 +114,9 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
   EXPECT_EQ(release_results(ledger, {.all = true, .undecided = true}).results, std::vector<std::uint64_t>{*worse.seq});
   const auto shown = registry();
   EXPECT_EQ(shown.sessions[0].shown_seq, 0u);
-  EXPECT_NE(shown.sessions[0].result["score"]["points"], shown.sessions[1].result["score"]["points"]) << "the test can tell them apart";
+  EXPECT_NE(shown.sessions[0].result->at("score")["points"], shown.sessions[1].result->at("score")["points"]) << "the test can tell them apart";
   const std::string csv = gradebook();
-  EXPECT_NE(csv.find("\n4711," + shown.sessions[1].result["score"]["points"].dump() + ","), std::string::npos) << csv;
+  EXPECT_NE(csv.find("\n4711," + shown.sessions[1].result->at("score")["points"].dump() + ","), std::string::npos) << csv;
   EXPECT_NE(csv.find("was interrupted"), std::string::npos) << csv;
   Identities identities(school_.places().identities());
   EXPECT_EQ(lti_scores(registry(), identities).size(), 1u);

@@ -38,10 +38,14 @@ std::uint64_t new_seed() { return testing_basics::drawn_seed("Merkle"); }
 
 TEST(Merkle, RootsAreThoseOfTheReference) {
   EXPECT_EQ(to_hex(merkle_root({})), "e3b0c44298fc1c149afbf4c8996fb92427ae41e4649b934ca495991b7852b855");
+  GrowingRoot growing;
+  EXPECT_EQ(growing.root(), merkle_root({}));
   std::vector<Sha256> leaves;
   for (std::size_t i = 0; i < k_entries.size(); ++i) {
     leaves.push_back(leaf_hash(k_entries[i]));
     EXPECT_EQ(to_hex(merkle_root(leaves)), k_roots[i]) << i + 1 << " entries";
+    growing.add(leaves.back());
+    EXPECT_EQ(to_hex(growing.root()), k_roots[i]) << i + 1 << " entries";
   }
 }
 

@@ -44,9 +44,8 @@ inline void make_old(const School& school, int format) {
   for (auto& e : now.entries) {  // results lay beside their entries
     nlohmann::json told = e.body;
     told.erase("opens");
-    for (const char* apart : {"result", "sealed"}) told.erase(apart);
-    if (e.body.contains("result")) {
-      e.attachment = e.body["result"].dump();
+    if (const auto result = e.opened.find("result"); result != e.opened.end()) {
+      e.attachment = result->second->dump();
       told["result_sha256"] = to_hex(sha256(e.attachment));
     }
     e.text = nlohmann::json{{"body", told}, {"kind", e.kind}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();

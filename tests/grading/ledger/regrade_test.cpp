@@ -26,7 +26,7 @@ class KeptRegrade : public testing::Test {
   void SetUp() override {
     const FiledSession s = read_registry(read_ledger(school_.places())).sessions.at(0);
     session_ = s.seq;
-    sealed_ = s.result;
+    sealed_ = *s.result;
     basis_.rubric_toml = k_rubric;
   }
   json better() const {
@@ -122,7 +122,7 @@ TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
   {
     Ledger ledger = school_.ledger();
     const FiledSession s = read_registry(ledger.content()).sessions.at(0);
-    EXPECT_EQ(s.result["score"]["points"], 12.5);
+    EXPECT_EQ(s.result->at("score")["points"], 12.5);
     EXPECT_FALSE(kept_basis(ledger.content(), s.regrades.at(0))) << "nothing was kept then";
     enter_regrade(ledger, session_, better(), basis_, "entered again, to be kept");
     EXPECT_TRUE(check_receipt(receipt, ledger.content().public_key, &ledger.content()).empty());

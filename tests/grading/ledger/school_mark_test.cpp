@@ -124,7 +124,7 @@ TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionCountsForNothing) {
   expect_finding(f.remarks, {"grading version", "the school's mark", "counts"});
   const FiledSession s = read_registry(read_ledger(school_.places())).sessions.at(0);
   EXPECT_EQ(s.filed, json::parse(SessionReader(session_).result_json())) << "the school's own";
-  EXPECT_EQ(s.sealed["score"]["points"], 100.0) << "the old beside it";
+  EXPECT_EQ(s.sealed->at("score")["points"], 100.0) << "the old beside it";
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }
 TEST_F(SchoolMarks, AResultThatNamesNoVersion) {

@@ -74,7 +74,7 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
     EXPECT_EQ(row["points"], wanted["score"]["points"]);
     EXPECT_EQ(row["max"], 10);
     EXPECT_EQ(row["verdict"], wanted["verdict"]);
-    EXPECT_EQ(row["points_before"], registry.sessions[i].result["score"]["points"]);
+    EXPECT_EQ(row["points_before"], registry.sessions[i].result->at("score").at("points"));
     EXPECT_FALSE(row.contains("name"));
   }
   ASSERT_EQ(count(begun).json()["counted"], 2) << "all in one";
@@ -86,7 +86,7 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
     EXPECT_EQ(content.entries[before + i].body["reason"], "question 3 was misprinted");
   }
   EXPECT_EQ(eva_.get("/api/regrade").json()["first_entry"], before);
-  EXPECT_EQ(ledger::read_registry(content).sessions[0].result["score"]["points"], state["sessions"][0]["points"]);
+  EXPECT_EQ(ledger::read_registry(content).sessions[0].result->at("score")["points"], state["sessions"][0]["points"]);
   EXPECT_TRUE(ledger::check_ledger(opened_.school().places(), true).findings.empty()) << "made again from what the ledger keeps";
   EXPECT_EQ(count(begun, 1).status, 400) << "once";
 }

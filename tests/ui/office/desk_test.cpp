@@ -32,7 +32,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   ASSERT_EQ(filed["state"], "filed") << filed;
   {  // as if the program had left it to a person
     ledger::Ledger ledger = opened.school().ledger();
-    json review = ledger::read_registry(ledger.content()).sessions.at(0).result;
+    json review = *ledger::read_registry(ledger.content()).sessions.at(0).result;
     review["verdict"] = "review";
     review["verdict_reasons"] = {"force and tissue differ"};
     ledger::enter_regrade(ledger, filed["entry"], review, {}, "as if");

@@ -32,7 +32,7 @@ class Grades : public testing::Test {
       const std::string number = ledger::Identities(opened_.school().places().identities()).of_pseudonym(session.candidate)->id;
       sessions_[number] = session.seq;
       hashes_[number] = session.file_sha256;
-      result_ = session.result;
+      result_ = *session.result;
     }
   }
   void TearDown() override { EXPECT_EQ(platform_.control()["violations"], json::array()) << "what this office sent and a standard refuses"; }
