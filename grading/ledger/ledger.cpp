@@ -155,6 +155,7 @@ std::size_t Ledger::append_signed(const std::string& kind, const MakeBodies& bod
   }
   if (added.empty()) return 0;
   require_memory(places_.folder);
+  make_room_for_witness(content_.id, points.size());
   all.commit();
   const std::size_t number = added.size();
   for (LedgerEntry& e : added) content_.entries.push_back(std::move(e));

@@ -46,11 +46,32 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
   return out;
 }
 
+namespace {
+
+int open_witness(const std::string& path) {
+  make_private_folder(std::filesystem::path(path).parent_path().string());
+  return ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+}
+
+}  // namespace
+
+void make_room_for_witness(const std::string& id, std::size_t lines) {
+  constexpr off_t k_longest_line = 256;
+  const std::string path = witness_path(id);
+  const int fd = open_witness(path);
+  const bool held = fd >= 0 && (::fallocate(fd, FALLOC_FL_KEEP_SIZE, ::lseek(fd, 0, SEEK_END), k_longest_line * static_cast<off_t>(lines)) == 0 ||
+                                errno == EOPNOTSUPP || errno == ENOSYS);  // a file system that promises nothing
+  const int why = errno;
+  if (fd >= 0) ::close(fd);
+  if (!held)
+    throw DatabaseError(path, fmt::format("the ledger's witness has no room for a line ({})", std::strerror(why)),
+                        "make room on the disk, or the folder writable; nothing was entered", 0);
+}
+
 void tell_witness(const std::string& id, const Checkpoint& p) {
   const std::string path = witness_path(id);
-  make_private_folder(std::filesystem::path(path).parent_path().string());
   std::string line = fmt::format("{} {} {} {}\n", p.size, to_hex(p.root), p.utc_ns, to_base64(p.signature));
-  const int fd = ::open(path.c_str(), O_RDWR | O_CREAT | O_APPEND | O_NOFOLLOW | O_CLOEXEC, 0600);
+  const int fd = open_witness(path);
   char last = '\n';  // after a line that a power cut left short, a new one begins
   const off_t end = fd >= 0 ? ::lseek(fd, 0, SEEK_END) : 0;
   if (end > 0 && ::pread(fd, &last, 1, end - 1) == 1 && last != '\n') line.insert(0, "\n");

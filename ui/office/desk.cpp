@@ -28,6 +28,27 @@ namespace cavum::office {
 
 using nlohmann::json;
 
+namespace {
+
+Grants grants_of(const Roster& roster) {
+  Grants grants;
+  for (const auto& p : roster.people) grants.push_back(scenarios::notes_of(p.grant));
+  return grants;
+}
+
+/// Who begins a sitting at its last moment is done before the next one begins, unless it is said that they may overlap.
+void require_apart(const IssueWish& wish, std::int64_t longest_s) {
+  constexpr std::int64_t k_second_ns = 1'000'000'000, k_minute_s = 60;
+  const std::int64_t late_s = (wish.until_utc_ns - wish.from_utc_ns - wish.apart_ns) / k_second_ns + longest_s;
+  if (late_s > 0 && !wish.overlap)
+    throw Error("the sittings",
+                fmt::format(said("overlap: who begins one at its last moment sits until {} min after the next may begin"),
+                            (late_s + k_minute_s - 1) / k_minute_s),
+                "set them farther apart, let each begin in a shorter time, or say that they may overlap");
+}
+
+}  // namespace
+
 Desk::Desk(const std::string& ledger_folder, const SigningKey& school, OfficePlaces places, std::vector<std::string> exams)
     : ledger_(ledger_folder, school), places_(std::move(places)), exams_(std::move(exams)) {
   id_ = ledger_.content().id;
@@ -58,8 +79,7 @@ json Desk::preview(const json& asked) {
     roster.problem = lines_of_mistakes(wrong);
   }
   json out = shown_roster(roster);
-  Grants grants;
-  for (const auto& p : roster.people) grants.push_back(scenarios::notes_of(p.grant));
+  const Grants grants = grants_of(roster);
   out["longest_s"] = json::object();  // of each exam, for who of the list has most time
   for (const std::string& file : exams_) out["longest_s"][exam_facts(file)["id"].get<std::string>()] = time_limit_s(file, grants);
   return out;
@@ -71,6 +91,7 @@ json Desk::issue(const json& asked, const Account& by) {
     throw Error("the list", roster.problem.empty() ? "has columns that nobody answered for" : roster.problem,
                 "answer, and look at the preview again");
   const IssueWish wish = issue_wish(asked, exams_);
+  if (wish.at_once != 0 && wish.at_once < roster.people.size()) require_apart(wish, time_limit_s(wish.scenario, grants_of(roster)));
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   Turn turn(*this, {by.name, wish.reason, ""});
   ledger::Identities identities = ledger::sound_identities(turn.book);

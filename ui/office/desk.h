@@ -78,6 +78,9 @@ class Desk {
   [[nodiscard]] nlohmann::json release(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json retract(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json appeals();
+  /// The ledger's entries in words, the newest first, up to 200: {"about","before"} asks for those of a pseudonym (or number, with `names`) and
+  /// before an entry. `earlier` of the answer is the next `before`, null at the beginning. Names, and what was said of incidents, where `names`.
+  [[nodiscard]] nlohmann::json trail(const nlohmann::json& asked, bool names);
   [[nodiscard]] nlohmann::json open_appeal(const nlohmann::json& asked, const Account& by);
   [[nodiscard]] nlohmann::json answer_appeal(const nlohmann::json& asked, const Account& by);
   /// Who would be marked anew by `basis`; `entries`: of the ledger then.

@@ -109,6 +109,7 @@ IssueWish issue_wish(const json& asked, const std::vector<std::string>& exams) {
       throw Error("the sittings", "are of no number of candidates, or too far apart", "say 1 to 10,000 candidates, and 1 to 10,080 minutes");
     wish.at_once = static_cast<std::size_t>(at_once);
     wish.apart_ns = apart_min * k_minute_ns;
+    wish.overlap = member_of(asked, "overlap") == true;
   }
   return wish;
 }

@@ -45,9 +45,10 @@ struct IssueWish {
   std::string reason;
   std::size_t at_once = 0;    ///< candidates of a sitting, in the list's order; 0: all in one
   std::int64_t apart_ns = 0;  ///< from the beginning of a sitting to the next one's
+  bool overlap = false;       ///< one may begin while the last is still sat
 };
 /// {"exam","from","until","begin_at_office","another","reason"}: the exam by its id, one of `exams`. With "at_once" (1 to 10,000) sittings follow
-/// each other "minutes_apart" (1 to 10,080). Throws Error.
+/// each other "minutes_apart" (1 to 10,080), and "overlap" says that one may begin while the last is still sat. Throws Error.
 [[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
 
 /// What a request grants, as notes of a session: `accommodations` is "none", "these" (with extra_time_percent, extra_time_s, left_handed,

@@ -59,6 +59,7 @@ constexpr Door k_doors[] = {
     {"GET", "/api/appeals", Asks::person, k_staff, 0},
     {"POST", "/api/appeals/open", Asks::person, k_officer, k_small},
     {"POST", "/api/appeals/answer", Asks::person, k_examiner, k_small},
+    {"POST", "/api/trail", Asks::person, k_results, k_small},
     {"GET", "/api/report/*", Asks::person, k_staff, 0},
     {"GET", "/api/gradebook.csv", Asks::person, k_officer, 0},
     {"GET", "/api/criteria.csv", Asks::person, k_results, 0},

@@ -138,6 +138,7 @@ struct Office::Parts {
                        {"token", who.token},
                        {"may", may},
                        {"school", desk.school()},
+                       {"rehearsal", rehearsal},
                        {"second_factor", !who.account.code_secret.empty()}});
   }
 
@@ -217,6 +218,7 @@ struct Office::Parts {
     get("/api/appeals", [this](const Call&) { return desk.appeals(); });
     post("/api/appeals/open", [this](const json& asked, const Account& by) { return desk.open_appeal(asked, by); });
     post("/api/appeals/answer", [this](const json& asked, const Account& by) { return desk.answer_appeal(asked, by); });
+    site.on("POST", "/api/trail", [this](const Call& c) { return json_reply(desk.trail(c.json(), c.by->account.role == Role::officer)); });
     site.on("GET", "/api/report/*", [this](const Call& c) { return reports.of(desk.recording(c.tail)); });
     const auto paper = [this](const char* path, const char* file, const char* type, auto make) {
       site.on("GET", path, [file, type, make](const Call&) {

@@ -1,8 +1,6 @@
 #include "engine/device/hardware/falcon_stylus.h"
 
-#include <chrono>
 #include <cstdlib>
-#include <limits>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -67,87 +65,28 @@ StylusKind falcon_kind() {
 }
 
 FalconStylus::FalconStylus(const StationStylus& station)
-    : station_(station), firmware_(firmware_of(station)), drive_(drive_of(station)), facts_(facts_of_this_one()), thread_([this] { run(); }) {}
-
-FalconStylus::~FalconStylus() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  stop_asked_.notify_all();
-  thread_.join();
-}
-
-DeviceReading FalconStylus::read(double) {
-  bool is_new = false;
-  last_ = place_.take(is_new);
-  if (last_.at_ns == 0) {  // nothing heard yet: not even an old place
-    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-    return {.pose = {{k_none, k_none, k_none}, {}}};
-  }
-  const bool fresh = static_cast<double>(monotonic_ns() - last_.at_ns) * 1e-9 <= k_stale_after_s;
-  return {.pose = to_tooth(station_.placement, last_.device_mm), .flags = static_cast<std::uint16_t>(fresh ? last_.flags | k_stylus_fresh : 0)};
-}
-
-void FalconStylus::send_force(Vec3 force_n) {
-  wanted_.put({force_n, monotonic_ns()});
-  cut_.store(false, std::memory_order_release);
-}
-
-StylusHealth FalconStylus::health() const {
-  StylusHealth h;
-  h.readings = meter_.count();
-  h.plugged_in = plugged_in_.load();
-  h.unplugged = unplugged_.load();
-  h.forces_cut = forces_cut_.load();
-  h.mean_period_s = meter_.mean_s();
-  h.jitter_s = meter_.scatter_s();
-  h.longest_gap_s = meter_.longest_s();
-  const std::lock_guard lock(mutex_);
-  h.problem = problem_;
-  h.ready = problem_.empty();
-  return h;
-}
-
-void FalconStylus::set_problem(const std::string& problem) {
-  const std::lock_guard lock(mutex_);
-  problem_ = problem;
-}
-
-bool FalconStylus::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_.load(); });
+    : ThreadedStylus(station, facts_of_this_one(), "stylus falcon: not looked for yet; wait a second"),
+      firmware_(firmware_of(station)),
+      drive_(drive_of(station)) {
+  start([this] { run(); });
 }
 
 void FalconStylus::run() {
-  constexpr double k_look_again_s = 0.2;
   const UsbWatch watch;
-  do {
-    try {
-      FalconUsb usb;
-      set_problem("stylus falcon: is being started; wait until its lights are on");
-      usb.start(firmware_);
-      plugged_in_.fetch_add(1);
-      serve(usb);
-    } catch (const std::exception& e) {
-      set_problem(e.what());
-    }
-    meter_.pause();
-  } while (!wait(k_look_again_s));
+  look_again_and_again([this] {
+    FalconUsb usb;
+    set_problem("stylus falcon: is being started; wait until its lights are on");
+    usb.start(firmware_);
+    plugged_in_.fetch_add(1);
+    serve(usb);
+  });
 }
 
 std::array<std::int16_t, 3> FalconStylus::motors(const FalconAngles& angles, Vec3 at_mm) noexcept {
-  const Wanted wanted = wanted_.take();
-  // A servo that says nothing any more is no servo: its last force must not stay.
-  const bool old = static_cast<double>(monotonic_ns() - wanted.at_ns) * 1e-9 > k_force_lasts_s;
-  if (old || cut_.load(std::memory_order_acquire) || !is_finite(wanted.tooth_n)) return {};
-  Vec3 force = force_to_device(station_.placement, wanted.tooth_n);
-  const double size = length(force);
-  bool cut = size > facts_.peak_n;
-  if (cut) force = force * (facts_.peak_n / size);
+  bool cut = false, motors_cut = false;
+  const Vec3 force = force_now(cut);
   std::array<Vec3, 3> columns;
   if (!falcon_jacobian(geometry_, angles, at_mm, columns)) return {};
-  bool motors_cut = false;
   const auto counts = falcon_counts(drive_, falcon_torques_nmm(columns, force), motors_cut);
   if (cut || motors_cut) forces_cut_.fetch_add(1, std::memory_order_relaxed);
   return counts;
@@ -164,7 +103,7 @@ void FalconStylus::serve(FalconUsb& usb) {
   static_cast<void>(ask_for_fifo(69));  // as the servo, where the system allows it; its periods are in the health either way
   ask_for_sharp_timers();
   for (std::int64_t due = monotonic_ns();; sleep_until(due)) {
-    if (stop_.load(std::memory_order_relaxed)) break;
+    if (is_to_stop()) break;
     due = std::max(due + k_period_ns, monotonic_ns() - k_period_ns);
     FalconAnswer answer;
     const auto heard = usb.exchange(command, answer, k_patience_ms);
@@ -191,11 +130,9 @@ void FalconStylus::serve(FalconUsb& usb) {
     }
     at = found;
     said_homing = false;
-    const std::int64_t now = monotonic_ns();
     const auto buttons = static_cast<std::uint16_t>(((answer.buttons & 1) != 0 ? k_button_1 : 0) | ((answer.buttons & 14) != 0 ? k_button_2 : 0));
-    place_.put({at, buttons, now});
+    put({at, {}, buttons, monotonic_ns()});
     if (!std::exchange(said_ready, true)) set_problem("");
-    meter_.add(now);
     command = {.motors = motors(angles, at), .lights = k_falcon_green};
   }
   FalconAnswer ignored;

@@ -3,8 +3,6 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -132,69 +130,16 @@ StylusKind inverse3_kind() {
   return kind;
 }
 
-Inverse3Stylus::Inverse3Stylus(const StationStylus& station) : station_(station), facts_(facts_of_this_one(station)), thread_([this] { run(); }) {}
-
-Inverse3Stylus::~Inverse3Stylus() {
-  {
-    const std::lock_guard lock(mutex_);
-    stop_ = true;
-  }
-  stop_asked_.notify_all();
-  thread_.join();
-}
-
-DeviceReading Inverse3Stylus::read(double) {
-  last_ = place_.take();
-  if (last_.at_ns == 0) {  // nothing heard yet: not even an old place
-    constexpr double k_none = std::numeric_limits<double>::quiet_NaN();
-    return {.pose = {{k_none, k_none, k_none}, {}}};
-  }
-  const bool fresh = static_cast<double>(monotonic_ns() - last_.at_ns) * 1e-9 <= k_stale_after_s;
-  const Pose pose =
-      facts_.measures_direction ? to_tooth(station_.placement, last_.device_mm, last_.tool_to_device) : to_tooth(station_.placement, last_.device_mm);
-  return {.pose = pose, .flags = static_cast<std::uint16_t>(fresh ? last_.flags | k_stylus_fresh : 0)};
-}
-
-void Inverse3Stylus::send_force(Vec3 force_n) {
-  wanted_.put({force_n, monotonic_ns()});
-  cut_.store(false, std::memory_order_release);
-}
-
-StylusHealth Inverse3Stylus::health() const {
-  StylusHealth h;
-  h.readings = meter_.count();
-  h.plugged_in = plugged_in_.load();
-  h.unplugged = unplugged_.load();
-  h.forces_cut = forces_cut_.load();
-  h.mean_period_s = meter_.mean_s();
-  h.jitter_s = meter_.scatter_s();
-  h.longest_gap_s = meter_.longest_s();
-  const std::lock_guard lock(mutex_);
-  h.problem = problem_;
-  h.ready = problem_.empty();
-  return h;
-}
-
-void Inverse3Stylus::set_problem(const std::string& problem) {
-  const std::lock_guard lock(mutex_);
-  problem_ = problem;
-}
-
-bool Inverse3Stylus::wait(double seconds) {
-  std::unique_lock lock(mutex_);
-  return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_.load(); });
+Inverse3Stylus::Inverse3Stylus(const StationStylus& station)
+    : ThreadedStylus(station, facts_of_this_one(station), "stylus inverse3: not looked for yet; wait a second") {
+  start([this] { run(); });
 }
 
 void Inverse3Stylus::run() {
-  constexpr double k_look_again_s = 0.2;
-  do {
-    try {
-      Inverse3Link link(port_of(station_), k_patience_s);
-      serve(link);
-    } catch (const std::exception& e) {
-      set_problem(e.what());
-    }
-  } while (!wait(k_look_again_s));
+  look_again_and_again([this] {
+    Inverse3Link link(port_of(station_), k_patience_s);
+    serve(link);
+  });
 }
 
 void Inverse3Stylus::lose() {
@@ -215,7 +160,7 @@ void Inverse3Stylus::serve(Inverse3Link& link) {
   ask_for_sharp_timers();
   const NoForceAtEnd no_force(link, inverse3_command(id, {}, vector));
   try {
-    for (std::int64_t due = monotonic_ns(); !stop_.load(std::memory_order_relaxed); sleep_until(due)) {
+    for (std::int64_t due = monotonic_ns(); !is_to_stop(); sleep_until(due)) {
       due = std::max(due + k_period_ns, monotonic_ns() - k_period_ns);
       exchange(link, id, vector);
     }
@@ -228,7 +173,7 @@ void Inverse3Stylus::serve(Inverse3Link& link) {
 /// One command for one state. Throws Error when the line is cut, for what is no state, and after a second of silence.
 void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool vector) {
   constexpr int k_most_silent = 10;
-  link.send(inverse3_command(id, force_now(), vector), k_silent_after_s);
+  link.send(inverse3_command(id, force(), vector), k_silent_after_s);
   int owed = 1;
   for (int silent = 0; owed > 0;) {
     if (link.hear(heard_, k_silent_after_s)) {
@@ -237,7 +182,7 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
       continue;
     }
     const std::string said = "the service is silent", todo = "see whether the Haply Inverse Service still runs, and the device's cables";
-    if (stop_.load(std::memory_order_relaxed) || ++silent >= k_most_silent) throw Error(k_where, said, todo);
+    if (is_to_stop() || ++silent >= k_most_silent) throw Error(k_where, said, todo);
     if (silent > 1) continue;
     lose();
     set_problem(Error(k_where, said, todo).what());
@@ -256,8 +201,7 @@ void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id)
   knows_its_place_ = problem.empty();
   if (!knows_its_place_) return meter_.pause();
   place.at_ns = monotonic_ns();
-  place_.put(place);
-  meter_.add(place.at_ns);
+  put(place);
   if (std::exchange(lost_, false)) plugged_in_.fetch_add(1);
 }
 
@@ -283,17 +227,12 @@ std::string Inverse3Stylus::direction_of(const Inverse3Message& message, Place& 
   }
 }
 
-Vec3 Inverse3Stylus::force_now() noexcept {
-  const Wanted wanted = wanted_.take();
-  // A servo that says nothing any more is no servo: its last force must not stay. Nor may one be felt where the place means nothing.
-  const std::int64_t now = monotonic_ns();
-  const bool old = static_cast<double>(now - wanted.at_ns) * 1e-9 > k_force_lasts_s;
-  if (old || !knows_its_place_ || cut_.load(std::memory_order_acquire) || !is_finite(wanted.tooth_n)) return {};
-  const Vec3 force = force_to_device(station_.placement, wanted.tooth_n);
-  const double size = length(force);
-  if (size <= facts_.peak_n) return force;
-  forces_cut_.fetch_add(1, std::memory_order_relaxed);
-  return force * (facts_.peak_n / size);
+Vec3 Inverse3Stylus::force() noexcept {
+  bool cut = false;
+  const Vec3 force = force_now(cut);
+  if (!knows_its_place_) return {};
+  if (cut) forces_cut_.fetch_add(1, std::memory_order_relaxed);
+  return force;
 }
 
 }  // namespace cavum

@@ -1,5 +1,11 @@
 // The disk refuses, or the power goes, at the first, second, third … change that entering anything makes to a file, until it goes through without.
 // Afterwards the ledger opens, holds, and has every entry that was acknowledged.
+#include <sched.h>
+#include <sys/mount.h>
+#include <sys/wait.h>
+#include <unistd.h>
+
+#include <fstream>
 #include <iostream>
 #include <random>
 
@@ -104,6 +110,69 @@ void try_together(DiskFault fault, const char* name) {
 
 TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenTheDiskRefuses) { try_together(DiskFault::refused, "together, refused"); }
 TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenThePowerGoes) { try_together(DiskFault::power_cut, "together, power cut"); }
+
+TEST(KilledLedger, AWitnessThatCannotBeWrittenRefusesTheEntryBeforeItIsMade) {
+  const School school;
+  std::vector<std::string> acknowledged;
+  enter_three(school, acknowledged);
+  const std::string witness = witness_path(read_ledger(school.places()).id);
+  const Bytes told = read_file(witness);
+  std::filesystem::remove(witness);
+  std::filesystem::create_symlink("/nowhere/witness", witness);
+  const std::size_t before = read_ledger(school.places(), AskWitness::no).entries.size();
+  std::vector<std::string> more;
+  EXPECT_THROW(enter_three(school, more), DatabaseError);
+  EXPECT_EQ(read_ledger(school.places(), AskWitness::no).entries.size(), before);
+  std::filesystem::remove(witness);
+  write_file(witness, told);
+  expect_nothing_lost(school, acknowledged, "the witness is there again");
+}
+
+/// What happens in a process whose witness lies on a full disk of its own: 0 when an entry is refused there and made once there is room.
+int with_a_full_witness(const School& school, const std::string& witness) {
+  const Bytes told = read_file(witness);
+  const std::string folder = std::filesystem::path(witness).parent_path().string();
+  const std::string nowhere = "none", kind = "tmpfs";
+  if (::mount(nowhere.c_str(), "/", nullptr, MS_REC | MS_PRIVATE, nullptr) != 0) return 77;
+  if (::mount(nowhere.c_str(), folder.c_str(), kind.c_str(), 0, "size=4096") != 0) return 77;
+  std::string whole(told.begin(), told.end());
+  whole.append(4095 - whole.size() % 4096, '-') += '\n';  // a line that is none; the next one needs a block
+  std::ofstream(witness) << whole;
+  const std::size_t before = read_ledger(school.places()).entries.size();
+  std::vector<std::string> more;
+  try {
+    enter_three(school, more);
+    return 1;
+  } catch (const DatabaseError&) {
+  }
+  if (read_ledger(school.places()).entries.size() != before) return 2;
+  if (::mount(nowhere.c_str(), folder.c_str(), kind.c_str(), MS_REMOUNT, "size=65536") != 0) return 3;
+  enter_three(school, more);
+  return check_ledger(school.places(), false).findings.empty() ? 0 : 4;
+}
+
+TEST(KilledLedger, AFullDiskOfTheWitnessRefusesTheEntryBeforeItIsMade) {
+  const School school;
+  std::vector<std::string> acknowledged;
+  enter_three(school, acknowledged);
+  const std::string witness = witness_path(read_ledger(school.places()).id);
+  ASSERT_LT(std::filesystem::file_size(witness), 4096u);
+  const pid_t child = ::fork();
+  ASSERT_GE(child, 0);
+  if (child == 0) {
+    if (::unshare(CLONE_NEWNS) != 0) ::_exit(77);
+    try {
+      ::_exit(with_a_full_witness(school, witness));
+    } catch (const std::exception&) {
+      ::_exit(5);
+    }
+  }
+  int status = 0;
+  ASSERT_EQ(::waitpid(child, &status, 0), child);
+  ASSERT_TRUE(WIFEXITED(status));
+  if (WEXITSTATUS(status) == 77) GTEST_SKIP() << "needs to be root, for a disk of its own";
+  EXPECT_EQ(WEXITSTATUS(status), 0) << "1: entered, 2: entered and refused, 3: no room was made, 4: it does not hold, 5: an exception";
+}
 
 TEST(KilledLedger, ADiskThatForgetsWhatItSyncedIsFound) {
   // the test's own test: with a disk that lies, an acknowledged entry is lost, and the witness shows it

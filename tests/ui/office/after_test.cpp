@@ -132,6 +132,42 @@ TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastTha
   EXPECT_FALSE(results[1].contains("later"));
 }
 
+TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
+  ASSERT_EQ(officer_.post("/api/incidents", {{"station", ""}, {"candidate", who_sat()}, {"words", "spilt water"}}).status, 200);
+  ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor"}}).status, 200);
+  ASSERT_EQ(officer_.post("/api/hold", {{"reason", "alarm"}, {"to", {{"all", true}}}}).status, 200);
+  const json all = officer_.post("/api/trail", json::object()).json();
+  const auto entries = opened_.content().entries;
+  ASSERT_EQ(all["entries"].size(), entries.size());
+  EXPECT_TRUE(all["earlier"].is_null());
+  for (std::size_t i = 0; i < entries.size(); ++i) {
+    const json& row = all["entries"][i];
+    const auto& e = entries[entries.size() - 1 - i];
+    EXPECT_EQ(row["entry"], e.seq);
+    EXPECT_EQ(row["utc"], utc_text(e.utc_ns));
+    EXPECT_TRUE(row["what"].get<std::string>().starts_with(e.kind)) << row;
+  }
+  EXPECT_EQ(all["entries"][0]["what"], "hold");
+  EXPECT_EQ(all["entries"][0]["why"], "alarm");
+  EXPECT_EQ(all["entries"][2]["why"], "spilt water");
+  const json before = officer_.post("/api/trail", {{"before", entries.size() - 3}}).json()["entries"];
+  ASSERT_EQ(before.size(), entries.size() - 3);
+  EXPECT_EQ(before[0]["entry"], entries.size() - 4);
+  const json his = officer_.post("/api/trail", {{"about", "4711"}}).json()["entries"];
+  std::vector<std::string> what;
+  for (const json& row : his) {
+    what.push_back(row["what"]);
+    EXPECT_EQ(row["people"][0], (json{{"candidate", who_sat()}, {"id", "4711"}, {"name", ""}}));
+  }
+  EXPECT_EQ(what, (std::vector<std::string>{"appeal", "incident", "session", "ticket"}));
+  EXPECT_EQ(examiner_.post("/api/trail", {{"about", "4711"}}).json()["entries"].size(), 0u) << "whose number that is he is not told";
+  const json seen = examiner_.post("/api/trail", {{"about", who_sat()}}).json()["entries"];
+  ASSERT_EQ(seen.size(), 4u);
+  EXPECT_EQ(seen[1]["why"], "") << "what was said of somebody";
+  EXPECT_EQ(seen.dump().find("4711"), std::string::npos);
+  EXPECT_EQ(opened_.signed_in(Role::invigilator).post("/api/trail", json::object()).status, 403);
+}
+
 TEST_F(AfterTheExam, AReportRunsItsOwnScriptAloneAndReachesNothingOfTheOffice) {
   EXPECT_EQ(examiner_.get("/api/queue").status, 200);
   const Heard report = examiner_.get("/api/report/" + hash_);

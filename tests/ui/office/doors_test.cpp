@@ -56,6 +56,7 @@ const std::map<std::string, std::string> k_expected = {
     {"GET /api/appeals", "oe"},
     {"POST /api/appeals/open", "o"},
     {"POST /api/appeals/answer", "e"},
+    {"POST /api/trail", "oer"},
     {"GET /api/report/*", "oe"},
     {"GET /api/gradebook.csv", "o"},
     {"GET /api/criteria.csv", "oer"},

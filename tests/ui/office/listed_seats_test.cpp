@@ -88,8 +88,12 @@ TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
     wrong.update({{"at_once", at_once}, {"minutes_apart", apart}});
     EXPECT_EQ(officer_.post("/api/roster/issue", wrong).status, 400) << wrong;
   }
+  // the exam takes two minutes: who begins at the end of five sits until the seventh
+  asked.update({{"at_once", 2}, {"minutes_apart", 5}});
+  EXPECT_NE(officer_.post("/api/roster/issue", asked).json()["error"].get<std::string>().find("sits until 2 min after the next may begin"),
+            std::string::npos);
   EXPECT_EQ(officer_.get("/api/tickets").json()["tickets"].size(), 0u) << "nothing by halves";
-  asked.update({{"at_once", 2}, {"minutes_apart", 30}});
+  asked.update({{"minutes_apart", 30}});
   const json issued = officer_.post("/api/roster/issue", asked).json()["issued"];
   ASSERT_EQ(issued.size(), 5u);
   const json tickets = officer_.get("/api/tickets").json()["tickets"];
@@ -100,6 +104,10 @@ TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
     EXPECT_EQ(tickets[i]["not_after"], utc_text(from + later + 5 * minute)) << i;
     EXPECT_EQ(issued[i]["not_before"], tickets[i]["not_before"]);
   }
+  asked.update({{"minutes_apart", 5}, {"another", true}});
+  EXPECT_EQ(officer_.post("/api/roster/issue", asked).status, 400);
+  asked["overlap"] = true;
+  EXPECT_EQ(officer_.post("/api/roster/issue", asked).json()["issued"].size(), 5u) << "it was said";
 }
 
 TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {

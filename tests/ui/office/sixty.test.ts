@@ -53,6 +53,7 @@ test("before: class list, stations, sittings, seats, papers", { skip }, async ()
   await say_times(page, -60, 5);
   await type(page, "Candidates in a sitting", "8");
   await type(page, "Minutes from one sitting to the next", "2");
+  await page.click("#sittings-overlap");
   await type(page, "Reason", "class of this year");
   await photo(officer, "list-preview");
   await press(page, "Issue the tickets");

@@ -9,6 +9,7 @@ export interface Me {
   may: string[];
   school: string;
   second_factor: boolean;
+  rehearsal: boolean;
 }
 
 /** What the server refused, in words. */

@@ -3,7 +3,7 @@ import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
 import { Announcements, Attendance, Pauses, type Announcement, type Hold } from "./day.ts";
-import { form, input, say, select, table, with_reason, type View } from "./parts.ts";
+import { form, input, local_time, say, select, table, with_reason, type View } from "./parts.ts";
 
 interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; held: boolean; refused: string; seen_utc_ns: number }
 interface Station { name: string; public_key: string; room: string; revoked: boolean; hold: number; unread: number; twins: string[]; said: Said | null }
@@ -126,7 +126,7 @@ function invite(): HTMLElement {
   const out = make("p");
   return make("section", {}, make("h2", {}, tr("Invite a station")), form(tr("Make a code"), async () => {
     const made = await post<{ code: string; until: string }>("/api/stations/invite", { name: name.value });
-    out.replaceChildren(tr("One-time code, shown only now:"), " ", make("code", {}, made.code));
+    out.replaceChildren(tr("One-time code of {0}, good until {1}, shown only now:", name.value, local_time(made.until)), " ", make("code", {}, made.code));
     say(tr("Type the code at the station."));
   }, name.block), out);
 }

@@ -13,6 +13,7 @@ import { results } from "./results.ts";
 import { forget_list, roster } from "./roster.ts";
 import { sign_in } from "./sign_in.ts";
 import { tickets } from "./tickets.ts";
+import { trail } from "./trail.ts";
 
 let me: Me | null = null;
 let by_proxy = false;
@@ -32,6 +33,7 @@ const places = (): Place[] => [
   { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
   { name: "platforms", title: tr("Learning platforms"), door: "GET /api/lti", open: () => platforms(me?.second_factor ?? false) },
   { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
+  { name: "trail", title: tr("Trail"), door: "POST /api/trail", open: trail },
 ];
 
 function put(next: View): void {
@@ -46,6 +48,7 @@ function head(mine: Place[], now: string): void {
   const bar = document.getElementById("head")!;
   bar.replaceChildren(make("strong", {}, me?.school ?? tr("Exam office")));
   if (me === null) return;
+  if (me.rehearsal) bar.append(make("span", { class: "rehearsal" }, tr("Rehearsal: exams that no hand moved are filed, too")));
   const list = make("ul");
   for (const p of mine) {
     const link = make("a", { href: `#${p.name}`, ...(p.name === now ? { "aria-current": "page" } : {}) }, p.title);

@@ -129,12 +129,15 @@ class Roster {
     const until = input(tr("May begin until"), { type: "datetime-local", required: "" }, zone);
     const at_once = input(tr("Candidates in a sitting"), { type: "number", min: "1", max: "10000", step: "1" }, tr("As many as there are stations, in the order of the list. Empty: all in one sitting."));
     const apart = input(tr("Minutes from one sitting to the next"), { type: "number", min: "1", max: "10080", step: "1" }, tr("Each later sitting may begin that much later."));
-    apart.block.hidden = true;
+    const overlap = make("input", { type: "checkbox", id: "sittings-overlap" });
+    const may_overlap = make("label", { class: "beside", for: overlap.id }, overlap, tr("Sittings may overlap: one may begin while the last is still sat"));
+    apart.block.hidden = may_overlap.hidden = true;
     at_once.addEventListener("input", () => {
-      apart.block.hidden = at_once.value === "";
+      apart.block.hidden = may_overlap.hidden = at_once.value === "";
       apart.required = at_once.value !== "";
     });
-    const sittings = (): { at_once?: number; minutes_apart?: number } => (at_once.value === "" ? {} : { at_once: Number(at_once.value), minutes_apart: Number(apart.value) });
+    const sittings = (): { at_once?: number; minutes_apart?: number; overlap?: boolean } =>
+      (at_once.value === "" ? {} : { at_once: Number(at_once.value), minutes_apart: Number(apart.value), overlap: overlap.checked });
     const word = make("input", { type: "checkbox", id: "begin-at-office" });
     const another = make("input", { type: "checkbox", id: "another-attempt" });
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
@@ -147,7 +150,7 @@ class Roster {
       out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("May begin"), tr("Station")],
         done.issued.map((p) => [p.id, p.name, p.candidate, local_span(p.not_before, p.not_after), p.station])));
       if (done.refused.length > 0) out.append(table(tr("Refused"), [tr("Number"), tr("Name"), tr("Why")], done.refused.map((p) => [p.id, p.name, p.why])));
-    }, exam.block, from.block, until.block, at_once.block, apart.block, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")),
+    }, exam.block, from.block, until.block, at_once.block, apart.block, may_overlap, make("label", { class: "beside", for: word.id }, word, tr("Begins only when the office lets it (stations need the network)")),
     make("label", { class: "beside", for: another.id }, another, tr("Also to those who have a good ticket for it, or have sat it: of several attempts the last one that is released counts")), reason.block);
     return make("section", {}, make("h2", {}, tr("Tickets for them")), asked, out);
   }
