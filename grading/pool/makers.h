@@ -43,7 +43,7 @@ void make_lines(const Work& work, std::span<const std::size_t> wanted, PartWrite
 struct Slurm {
   std::string folder;               ///< of the work: on a disk that all machines see under this name. Part files and logs stay in it
   std::string program;              ///< `cavum`, as the nodes find it
-  std::size_t a_task = 50;          ///< sessions
+  std::size_t a_task = 100;         ///< sessions
   std::vector<std::string> sbatch;  ///< further options of sbatch: partition, account, time, memory
   int attempts = 3;                 ///< at a session whose task died or whose part is damaged
   double poll_s = 2.0;

@@ -36,6 +36,12 @@ Grants grants_of(const Roster& roster) {
   return grants;
 }
 
+/// Made up by a ticket that can still be cancelled: then this one is good again.
+bool comes_back(const ledger::Registry& registry, const ledger::IssuedTicket& first, std::int64_t now_utc_ns) {
+  return std::any_of(registry.tickets.begin(), registry.tickets.end(),
+                     [&](const ledger::IssuedTicket& t) { return t.seq == first.made_up_by && t.begins.empty() && t.live(now_utc_ns); });
+}
+
 /// Who begins a sitting at its last moment is done before the next one begins, unless it is said that they may overlap.
 void require_apart(const IssueWish& wish, std::int64_t longest_s) {
   constexpr std::int64_t k_second_ns = 1'000'000'000, k_minute_s = 60;
@@ -86,6 +92,9 @@ json Desk::preview(const json& asked) {
 }
 
 json Desk::issue(const json& asked, const Account& by) {
+  const auto whole = [&](const char* name, std::size_t otherwise) {
+    return member_of(asked, name).is_null() ? otherwise : require_whole<std::size_t>(asked, name, "the portion");
+  };
   const Roster roster = roster_of(asked);
   if (!roster.ready())
     throw Error("the list", roster.problem.empty() ? "has columns that nobody answered for" : roster.problem,
@@ -107,7 +116,9 @@ json Desk::issue(const json& asked, const Account& by) {
   const auto stations = ledger::stations_of(turn.book.registry(), identities, roster.people, times, k_list);
   json issued = json::array(), refused = json::array();
   std::vector<ledger::Seat> seats;
-  for (std::size_t i = 0; i < roster.people.size(); ++i) {
+  const std::size_t first = std::min(whole("first", 0), roster.people.size());
+  const std::size_t end = first + std::min(whole("most", roster.people.size()), roster.people.size() - first);
+  for (std::size_t i = first; i < end; ++i) {
     const auto& person = roster.people[i];
     const ledger::TimeSpan& when = times[i];
     ticket.not_before_utc_ns = when.from_utc_ns;
@@ -130,7 +141,7 @@ json Desk::issue(const json& asked, const Account& by) {
     }
   }
   if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
-  return {{"issued", issued}, {"refused", refused}};
+  return {{"issued", issued}, {"refused", refused}, {"done", end}, {"of", roster.people.size()}};
 }
 
 json Desk::make_up(const json& asked, const Account& by) {
@@ -148,6 +159,10 @@ json Desk::make_up(const json& asked, const Account& by) {
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});
+  std::string why_not;
+  for (const auto& t : turn.book.registry().tickets)  // before what is granted: of one that has a makeup nothing may be kept
+    if (t.seq == first && ledger::makeup_reasons(turn.book.registry(), t, read_clocks().utc_ns, why_not).empty())
+      throw Error(fmt::format("the ticket of entry {}", first), why_not, "look at the list of tickets again");
   if (!grant) grant = first_grant(turn.book, first);
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
@@ -271,6 +286,8 @@ json Desk::board(const Board& board, const Inbox& inbox) {
   }
   json refused = json::array();
   for (const auto& [hash, exam] : inbox.refused()) {
+    const auto is_it = [&sha256 = hash](const ledger::FiledSession& s) { return s.file_sha256 == sha256; };
+    if (std::any_of(registry.sessions.begin(), registry.sessions.end(), is_it)) continue;  // and filed later
     const auto& all = registry.stations.stations;
     const auto from = std::find_if(all.begin(), all.end(), [&key = exam.station](const ledger::Station& s) { return s.public_key == key; });
     refused.push_back(
@@ -315,7 +332,7 @@ void Desk::remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) co
   for (const auto& t : book.registry().tickets) {
     const std::string file = places_.ticket(t.ticket.nonce);
     const TicketState state = state_of(t, now_utc_ns);
-    if (state.live || !std::filesystem::exists(file)) continue;
+    if (state.live || comes_back(book.registry(), t, now_utc_ns) || !std::filesystem::exists(file)) continue;
     if (state.group == "run out" && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
       if (!people) people = people_of(book);
       if (people->contains(t.ticket.candidate)) continue;  // not forgotten

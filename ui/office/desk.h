@@ -47,6 +47,7 @@ class Desk {
   // Each takes and gives JSON (docs/office.md), and throws Error in the words of what is wrong.
   [[nodiscard]] nlohmann::json exams() const;
   [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
+  /// Of "most" from the place "first" of the list on; without them of all. A portion at a time, so that stations are heard in between.
   [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
   /// `grants`: with what each candidate is granted, as long as the ticket's file is kept; it may tell of health.
   /// `seen`: candidates whom a station has said it has.

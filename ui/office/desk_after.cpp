@@ -198,6 +198,7 @@ json Desk::appeals() {
                      {"decided", decided(s)},
                      {"noted", noted(turn.book.registry(), s.candidate)},
                      {"reason", a.reason},
+                     {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                      {"open", !a.closed_by.has_value()},
                      {"changed", ledger::changed_since(s, a)},
                      {"outcome", a.outcome},

@@ -49,11 +49,16 @@ Handed facts_of(const std::string& path) {
   return facts;
 }
 
-void replace_all(std::string& text, const std::string& from, const std::string& to) {
-  for (std::size_t at = 0; (at = text.find(from, at)) != std::string::npos; at += to.size()) text.replace(at, from.size(), to);
-}
-
 }  // namespace
+
+std::string with_place_as(std::string text, const std::string& place, const std::string& name) {
+  if (place.find('/') == std::string::npos) {
+    if (text.starts_with(place + "/") || text.starts_with(place + ":")) text.replace(0, place.size(), name);
+    return text;
+  }
+  for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += name.size()) text.replace(at, place.size(), name);
+  return text;
+}
 
 Arriving::Arriving(const std::string& folder, std::string sha256)
     : folder_(folder), sha256_(std::move(sha256)), path_(temporary_name_beside(folder + "/" + sha256_ + ".cavum")) {
@@ -239,9 +244,8 @@ void Inbox::refuse(const std::string& hash, Handed why) {
 std::string Inbox::without_places(std::string text, const std::string& hash) const {
   const std::string file = path_of(hash);
   if (text.starts_with(file + ": ")) text.erase(0, file.size() + 2);
-  replace_all(text, file, "the recording");
-  replace_all(text, folder_, "the inbox");
-  replace_all(text, ledger_folder_, "the ledger");
+  for (const auto& [place, name] : {std::pair(file, "the recording"), std::pair(folder_, "the inbox"), std::pair(ledger_folder_, "the ledger")})
+    text = with_place_as(std::move(text), place, name);
   return text;
 }
 

@@ -20,6 +20,10 @@
 
 namespace cavum::office {
 
+/// A sentence in which a place on this computer is called otherwise. A folder that has a name alone may be called like any word: then only where a
+/// place stands, at the beginning.
+[[nodiscard]] std::string with_place_as(std::string text, const std::string& place, const std::string& name);
+
 /// An exam that is on its way to disk.
 class Arriving {
  public:

@@ -94,7 +94,8 @@ struct Office::Parts {
         proxied(o.proxy.has_value()),
         rehearsal(o.filing.simulated),
         reports(o.report),
-        regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json") {
+        regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json"),
+        used_codes(o.home + "/" + desk.ledger_id() + "/used_codes.json") {
     serve_pages();
     serve_people();
     serve_desk();
@@ -290,12 +291,10 @@ struct Office::Parts {
       throw Error("this", "needs a second factor, and this account has none",
                   fmt::format("cavum serve --add-account NAME --role {} --second-factor", name_of(by.role)));
     if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
-    const std::lock_guard guard(codes_lock);
-    std::uint64_t& used = used_codes[by.name];
     const auto counter = counter_of_code(from_base32(by.code_secret).value_or(Bytes()), code, utc_now_ns() / 1'000'000'000);
     if (!counter) throw Error("the code", "is not good", "type the one that the app shows now");
-    if (*counter <= used) throw Error("the code", "was used already: wait for the next one", "the app shows another one within 30 s");
-    used = *counter;
+    if (!used_codes.use(by.name, *counter))
+      throw Error("the code", "was used already: wait for the next one", "the app shows another one within 30 s");
   }
 
   void serve_stations() {
@@ -360,8 +359,7 @@ struct Office::Parts {
   Reports reports;
   Regrades regrades;
   Tries tries;
-  std::mutex codes_lock;
-  std::map<std::string, std::uint64_t> used_codes;
+  UsedCodes used_codes;
   std::unique_ptr<HttpServer> server;  // ends first: handlers use the rest
 };
 

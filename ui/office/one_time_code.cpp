@@ -6,8 +6,14 @@
 #include <sodium.h>
 
 #include <array>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/write_file.h"
 
 namespace cavum::office {
 namespace {
@@ -39,6 +45,23 @@ std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::str
     if (code.size() == right.size() && sodium_memcmp(code.data(), right.data(), right.size()) == 0) found = counter;
   }
   return found;
+}
+
+UsedCodes::UsedCodes(std::string path) : path_(std::move(path)) {
+  if (!std::filesystem::exists(path_)) return;
+  const nlohmann::json kept = parse_json(read_text_file(path_), path_);
+  for (const auto& [account, counter] : kept.items()) last_[account] = require_whole<std::uint64_t>(kept, account.c_str(), path_);
+}
+
+bool UsedCodes::use(const std::string& account, std::uint64_t counter) {
+  const std::lock_guard guard(lock_);
+  const auto last = last_.find(account);
+  if (last != last_.end() && counter <= last->second) return false;
+  std::map<std::string, std::uint64_t> now = last_;
+  now[account] = counter;
+  write_private_text_file(path_, nlohmann::json(now).dump() + "\n");
+  last_ = std::move(now);
+  return true;
 }
 
 Bytes new_code_secret() {

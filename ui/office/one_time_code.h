@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <map>
+#include <mutex>
 #include <optional>
 #include <string>
 
@@ -17,6 +19,19 @@ inline constexpr std::int64_t k_code_step_s = 30;
 /// The latest counter within one step of `unix_s` whose code this is; a code is good once, so take none up to the one that was taken last. None: it
 /// is not good.
 [[nodiscard]] std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s);
+/// Which codes were used, also before a restart: the last counter of each account lies in a file.
+class UsedCodes {
+ public:
+  /// Throws Error for a file that is none.
+  explicit UsedCodes(std::string path);
+  /// False where this counter or a later one was used. Throws Error when it cannot be kept; the code is then as good as before.
+  [[nodiscard]] bool use(const std::string& account, std::uint64_t counter);
+
+ private:
+  std::string path_;
+  std::mutex lock_;
+  std::map<std::string, std::uint64_t> last_;
+};
 /// 160 random bits.
 [[nodiscard]] Bytes new_code_secret();
 /// As people type it, without padding.

@@ -3,6 +3,7 @@
 #include <sodium.h>
 
 #include <algorithm>
+#include <regex>
 #include <stdexcept>
 
 #include "engine/base/csv.h"
@@ -109,7 +110,8 @@ class Site::Visit : public Exchange {
       for (const std::string& text : e.texts()) lines += (lines.empty() ? "" : "\n") + shown(one_line(text));
       refusal_ = json_reply({{"error", lines}}, 400);
     } catch (const Error& e) {
-      refusal_ = error_reply(400, e.what());
+      static const std::regex k_option("^--(ticket|session) ([0-9]+)(: )");  // how the command line calls it
+      refusal_ = error_reply(400, std::regex_replace(e.what(), k_option, "entry $2$3"));
     } catch (const std::bad_alloc&) {
       refusal_ = Reply{503, "application/json", R"({"error":"there is not enough memory"})"};
     } catch (const std::exception&) {  // its words may tell of our insides

@@ -179,7 +179,17 @@ json StationClient::enrol(const std::string& request) {
   return require(send("POST", "/station/enrol", request, ""));
 }
 json StationClient::tickets() { return require(ask("GET", "/station/tickets", "")).at("tickets"); }
+std::string clock_problem(std::int64_t behind_ns) {
+  constexpr std::int64_t k_most_ns = 120'000'000'000, k_second_ns = 1'000'000'000;
+  if (std::abs(behind_ns) <= k_most_ns) return {};
+  return behind_ns > 0 ? fmt::format(said("is {} s behind the office's"), behind_ns / k_second_ns)
+                       : fmt::format(said("is {} s ahead of the office's"), -behind_ns / k_second_ns);
+}
+
 std::string StationClient::begin(const std::string& nonce) {
+  meet();
+  if (const std::string problem = clock_problem(ahead_ns_); !problem.empty())
+    throw Error("this computer's clock", problem, "set it right, and begin then: the exam's times would be refused");
   return text_in(require(ask("POST", "/station/begin", json{{"ticket", nonce}}.dump())), "begin");
 }
 json StationClient::report(const json& state) { return require(ask("POST", "/station/report", state.dump())); }

@@ -28,6 +28,10 @@ class OfficeUnreachable : public Error {
   using Error::Error;
 };
 
+/// Why no exam begins at a station whose clock stands so far behind the office's (or, below 0, ahead), in words; empty: within two minutes. Filing
+/// refuses times that are off by more than five.
+[[nodiscard]] std::string clock_problem(std::int64_t behind_ns);
+
 class StationClient {
  public:
   /// `address`: "https://office.example:8443". `certificate`: the server's own certificate (PEM), which must then be exactly that one; empty: one

@@ -11,7 +11,7 @@ namespace cavum::ui {
 struct PoolOptions {
   int threads = 0;
   bool slurm = false;
-  std::size_t a_task = 50;
+  std::size_t a_task = 100;
   std::string work, sbatch;
 };
 void add_pool_options(CLI::App& verb, PoolOptions& options);

@@ -65,7 +65,7 @@ export async function say_times(page: Page, from_min: number, until_min: number)
   for (const [label, minutes] of [["May begin from", from_min], ["May begin until", until_min]] as [string, number][])
     await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(minutes / 60));
 }
-/** Pastes a list, passes the column over that nobody knows, and waits for the preview. */
+/** Pastes a list and waits for what was found in it. */
 export async function paste(page: Page, these: Person[]): Promise<void> {
   await go(page, "Class list");
   const place = await control(page, "Paste the list, with its line of column names");
@@ -73,9 +73,11 @@ export async function paste(page: Page, these: Person[]): Promise<void> {
   await page.focus(place);
   await page.keyboard.sendCharacter(list_of(these));
   await press(page, "Read the list");
-  await said(page, "Columns that wait for your answer: 1");
+  await said(page, "What was found");
 }
+/** The column that nobody knows; the page remembers that for the next list. */
 export async function pass_over(page: Page): Promise<void> {
+  await said(page, "Columns that wait for your answer: 1");
   await page.select(await control(page, "Use of column Tutor"), "pass over");
   await said(page, "Who gets a ticket");
 }

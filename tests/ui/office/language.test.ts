@@ -154,10 +154,13 @@ test("every text of every page is the language's", { skip: k_skip }, async () =>
   await read(page, "appeals");
   await go(page, "Learning platforms");
   await read(page, "platforms");
+  await go(page, "Trail");
+  await page.waitForSelector("main table");
+  await read(page, "trail");
 
   const examiner = await desk("Eva Examiner");
   await waits(examiner.page, "Left to a person");
-  for (const view of ["Decisions", "Appeals", "New rubric", "Results"]) {
+  for (const view of ["Decisions", "Appeals", "New rubric", "Results", "Trail"]) {
     await go(examiner.page, view);
     await read(examiner.page, `examiner's ${view}`);
   }

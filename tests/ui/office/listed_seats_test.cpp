@@ -110,6 +110,34 @@ TEST_F(ListedSeats, OfSeveralSittingsFollowEachOtherInTheListsOrder) {
   EXPECT_EQ(officer_.post("/api/roster/issue", asked).json()["issued"].size(), 5u) << "it was said";
 }
 
+TEST_F(ListedSeats, AListInPortionsIsTheListAsAWhole) {
+  const std::int64_t from = read_clocks().utc_ns / 1'000'000'000 * 1'000'000'000, minute = 60'000'000'000;
+  json asked = Opened::list("id,station\n1,\n2,\n3,Seat 1\n4,\n5,Seat 2\n");
+  asked.update({{"exam", "block_cavity"},
+                {"from", utc_text(from)},
+                {"until", utc_text(from + minute)},
+                {"reason", "x"},
+                {"at_once", 2},
+                {"minutes_apart", 10}});
+  for (const std::size_t first : {0, 2, 4}) {
+    asked.update({{"first", first}, {"most", 2}});
+    const json done = officer_.post("/api/roster/issue", asked).json();
+    EXPECT_EQ(done["done"], std::min<std::size_t>(first + 2, 5));
+    EXPECT_EQ(done["of"], 5);
+  }
+  const json tickets = officer_.get("/api/tickets").json()["tickets"];
+  ASSERT_EQ(tickets.size(), 5u);
+  for (std::size_t i = 0; i < 5; ++i) {
+    EXPECT_EQ(tickets[i]["id"], std::to_string(i + 1));
+    EXPECT_EQ(tickets[i]["not_before"], utc_text(from + static_cast<std::int64_t>(i / 2) * 10 * minute)) << i;
+    EXPECT_EQ(tickets[i]["seat"].get<std::string>().empty(), i != 2 && i != 4) << i;
+  }
+  asked.update({{"first", 5}, {"most", 2}});
+  EXPECT_EQ(officer_.post("/api/roster/issue", asked).json()["issued"].size(), 0u);
+  asked["first"] = -1;
+  EXPECT_EQ(officer_.post("/api/roster/issue", asked).status, 400);
+}
+
 TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
   const json invited_now = officer_.get("/api/board").json()["stations"];
   ASSERT_EQ(officer_.post("/api/stations/revoke", {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}}).status, 200);

@@ -63,6 +63,22 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   EXPECT_EQ(officer_.get("/api/board").json()["tickets"]["made up"], 1);
 }
 
+TEST_F(OfficeMakeup, ThatIsCancelledBeforeItBeganGivesTheFirstTicketBackToStations) {
+  const json first = issued("id,extra_time_percent\n4711,25\n", -1, 1);
+  auto station = opened_.station();
+  const std::string before = station.tickets()[0]["text"];
+  ASSERT_EQ(make_up(first).status, 200);
+  ASSERT_NE(station.tickets()[0]["text"], before);
+  const auto makeup = opened_.content().entries.back().seq;
+  const Heard again = make_up(first, {{"accommodations", "as before"}});
+  EXPECT_NE(again.body.find("has a makeup already"), std::string::npos) << again.body;
+  ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "is well again"}}).status, 200);
+  ASSERT_EQ(station.tickets().size(), 1u);
+  EXPECT_EQ(station.tickets()[0]["text"], before) << "with what it granted";
+  const Heard cancelled = officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "x"}});
+  EXPECT_NE(cancelled.body.find(fmt::format("entry {}: was cancelled before", makeup)), std::string::npos) << "in a page's words: " << cancelled.body;
+}
+
 TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
   const json missed = issued("id,extra_time_percent\n4711,25\n", -3, -2);
   EXPECT_EQ(missed["makeup"], json::array({"missed", "interrupted"}));
@@ -91,6 +107,10 @@ TEST_F(OfficeMakeup, WhoMissedTheExamHasWhatTheFirstTicketGrantedAsLongAsItIsKep
   EXPECT_EQ(row(missed["entry"])["grant_kept"], true);
   ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "as before"}}).status, 200);
   EXPECT_EQ(ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second, "25");
+  EXPECT_EQ(row(missed["entry"])["grant_kept"], true) << "the makeup may be cancelled still";
+  auto station = opened_.station();
+  static_cast<void>(station.begin(ledger::parse_ticket(station.tickets()[0]["text"], "", "t").nonce));
+  static_cast<void>(station.tickets());
   EXPECT_EQ(row(missed["entry"])["grant_kept"], false) << "for nothing any more";
 }
 

@@ -1,6 +1,7 @@
 // Accounts, sign-ins and their second factor.
 #include <sys/stat.h>
 
+#include "engine/base/scratch_folder.h"
 #include "tests/ui/office/opened.h"
 #include "ui/office/sign_ins.h"
 
@@ -34,6 +35,24 @@ TEST(OneTimeCode, IsGoodForAStepBeforeAndAfterAndOnce) {
   EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 998), 30'000), std::nullopt);
   EXPECT_EQ(counter_of_code(secret, one_time_code(secret, 1002), 30'000), std::nullopt);
   EXPECT_EQ(counter_of_code(secret, "", 30'000), std::nullopt);
+}
+
+TEST(SecondFactor, ACodeIsGoodOnceAlsoAfterARestart) {
+  const ScratchFolder folder;
+  const std::string path = folder.file("used_codes.json");
+  {
+    UsedCodes codes(path);
+    EXPECT_TRUE(codes.use("Anna", 1000));
+    EXPECT_FALSE(codes.use("Anna", 1000));
+    EXPECT_FALSE(codes.use("Anna", 999)) << "and none before it";
+    EXPECT_TRUE(codes.use("Bert \"B\"", 7));
+  }
+  UsedCodes again(path);
+  EXPECT_FALSE(again.use("Anna", 1000));
+  EXPECT_FALSE(again.use("Bert \"B\"", 7));
+  EXPECT_TRUE(again.use("Anna", 1001));
+  write_text_file(path, "[1]");
+  EXPECT_THROW(UsedCodes{path}, Error);
 }
 
 TEST(Accounts, KeepNoPasswordAndAreReadByTheirOwnerAlone) {

@@ -47,6 +47,7 @@ test("before: class list, stations, sittings, seats, papers", { skip }, async ()
   for (const seat of seats) await place(page, seat.name, seat.room);
   await photo(officer, "board-enrolled");
   await paste(page, people);
+  await said(page, "Columns that wait for your answer: 1");
   await photo(officer, "list-column-asked");
   assert.equal((await page.$$("::-p-xpath(//button[.='Issue the tickets'])")).length, 0, "nothing is issued while a column waits");
   await pass_over(page);
@@ -156,7 +157,7 @@ test("a station dies: its candidate has another ticket at another station", { sk
   await tickets_page(page);
   await cancel(page, code, "the station died");
   await paste(page, [dead]);
-  await pass_over(page);
+  await said(page, "Who gets a ticket");  // the column stays passed over
   await say_times(page, -60, 60);
   await type(page, "Reason", "the station died");
   await press(page, "Issue the tickets");
@@ -276,6 +277,7 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
     final.set(id, verdict);
   }
   const open = reviews[2];
+  rows = await results_page(page);  // what is released is what the page shows
   await release(page, "board of November");
   await said(page, "Released: 56.");
   await photo(officer, "results-released");
@@ -372,6 +374,30 @@ test("after: decisions by two, release, an appeal, a result taken back and corre
   await said(page, "Released: 1.");
   await photo(officer, "results-all");
   final.set(missed.id, sealed().get(missed.id)!.verdict);
+
+  // the trail of the day: all of its kinds, page by page to the beginning, and all of one candidate
+  await go(page, "Trail");
+  const trail = (): Promise<string[][]> => page.$$eval("main table tbody tr", (all) => all.map((tr) => [...tr.cells].map((td) => td.innerText.trim())));
+  await page.waitForSelector("main table");
+  await photo(officer, "trail");
+  const told: string[][] = [];
+  for (;;) {
+    told.push(...(await trail()));
+    if (told[told.length - 1]![0] === "0") break;
+    const [last] = await trail();
+    await press(page, "Earlier entries");
+    await page.waitForFunction((first) => document.querySelector("main table tbody td")?.textContent !== first, {}, last![0]);
+  }
+  assert.deepEqual(told.map((r) => Number(r[0])), told.map((_, i) => told.length - 1 - i), "every entry once, the newest first");
+  for (const what of ["Ticket cancelled", "Exams paused", "Pause ended", "Announcement", "Incident noted", "Decided", "Appeal entered", "Appeal answered", "Taken back", "Makeup sitting"])
+    assert.ok(told.some((r) => r[2]!.startsWith(what)), what);
+  await type(page, "Only of this candidate", wrong);
+  await press(page, "Show");
+  await page.waitForFunction(() => document.querySelectorAll("main table tbody tr").length < 30);
+  const his = (await trail()).map((r) => r[2]);
+  tell(`trail of ${wrong}: ${his.join(", ")}`);
+  for (const what of ["Ticket issued", "Exam filed", "Appeal entered", "Taken back"]) assert.ok(his.includes(what), what);
+  await photo(officer, "trail-of-one");
 
   // every one of the 60 once: in the gradebook, cancelled, or absent
   book = await gradebook(page);

@@ -3,6 +3,7 @@
 #include "grading/ledger/begin.h"
 #include "tests/grading/ledger/short_exam.h"
 #include "tests/ui/office/opened.h"
+#include "ui/office/inbox.h"
 #include "ui/office/station_request.h"
 
 namespace cavum::office {
@@ -272,6 +273,21 @@ TEST_F(OverTheNetwork, ABodyThatIsNotTheNamedOneLeavesNothing) {
   EXPECT_EQ(station.handed(std::string(64, 'b'))["state"], "unknown");
   for (const auto& file : std::filesystem::directory_iterator(opened_->home() + "/" + opened_->id() + "/inbox"))
     EXPECT_EQ(file.path().filename(), "refused");
+}
+
+TEST(Refusals, CallAFolderWhatItIsAndNoWordLikeIt) {
+  EXPECT_EQ(with_place_as("no SQLite header in L", "L", "the ledger"), "no SQLite header in L");
+  EXPECT_EQ(with_place_as("the exam ended", "exam", "the ledger"), "the exam ended");
+  EXPECT_EQ(with_place_as("L/ledger.db: is locked", "L", "the ledger"), "the ledger/ledger.db: is locked");
+  EXPECT_EQ(with_place_as("exam: is full", "exam", "the ledger"), "the ledger: is full");
+  EXPECT_EQ(with_place_as("copy /a/L/x to /a/L", "/a/L", "the ledger"), "copy the ledger/x to the ledger");
+}
+
+TEST(StationClock, TooFarOffBeginsNoExam) {
+  constexpr std::int64_t k_s = 1'000'000'000;
+  for (const std::int64_t s : {0, 120, -120}) EXPECT_EQ(clock_problem(s * k_s), "") << s;
+  EXPECT_EQ(clock_problem(600 * k_s), "is 600 s behind the office's");
+  EXPECT_EQ(clock_problem(-600 * k_s), "is 600 s ahead of the office's");
 }
 
 }  // namespace

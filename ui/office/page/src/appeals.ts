@@ -7,7 +7,7 @@ import { act, before_now, form, input, local_time, reason_to_read, report_link, 
 interface Appeal {
   entry: number; utc: string; session: number; candidate: string; exam: string; verdict: string; points: number | null; max: number | null; sha256: string;
   reason: string; open: boolean; changed: boolean; outcome: string; answer: string;
-  decided: Decided | null; noted: Noted[];
+  decided: Decided | null; noted: Noted[]; made_up_by: number | null;
 }
 interface Filed { session: number; candidate: string; exam: string; appeal: boolean; name?: string }
 
@@ -51,13 +51,14 @@ function card(a: Appeal, me: string, may: (door: string) => boolean, draw: (all:
     make("p", {}, [a.exam, tr("entry {}", a.session), words[a.verdict] ?? a.verdict, points].filter((t) => t !== "").join(", ")),
     make("p", {}, `${local_time(a.utc)}: ${a.reason}`));
   element.append(...before_now(a.decided, a.noted));
+  if (a.made_up_by !== null) element.append(make("p", { class: "wrong" }, tr("A makeup sitting (entry {}) counts in its place: nothing can be decided of this one any more.", a.made_up_by)));
   if (a.sha256 !== "" && may("GET /api/report/*")) element.append(report_link(a.sha256));
   if (!a.open) {
     element.append(make("p", {}, make("strong", {}, a.outcome === "changed" ? tr("The result was changed.") : tr("The result stands.")), ` ${a.answer}`));
     return element;
   }
   if (a.changed) element.append(make("p", {}, tr("Another result was entered since the appeal.")));
-  if (may("POST /api/decide")) element.append(deciding(a, draw));
+  if (may("POST /api/decide") && a.made_up_by === null) element.append(deciding(a, draw));
   if (may("POST /api/appeals/answer")) {
     if (a.decided?.by === me) element.append(make("p", {}, tr("You have decided this result yourself. Let another examiner answer where there is one.")));
     element.append(answering(a, draw));

@@ -69,7 +69,7 @@ export class Pauses {
       make("p", {}, tr("Since {}", local_time(new Date(h.utc_ns / 1e6).toISOString()))),
       with_reason(tr("Let them go on"), { class: "main" }, async (reason) => {
         await post("/api/go-on", { hold: h.entry, reason });
-        say(tr("The exams go on."));
+        say(holds.length > 1 ? tr("This pause is over. Other pauses still last: {}.", holds.length - 1) : tr("The exams go on."));
       }))));
   }
 }

@@ -33,7 +33,9 @@ export function input(label: string, attributes: { [name: string]: string } = {}
 
 /** For a code of the second factor. */
 export function code_field(): ReturnType<typeof input> {
-  return input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}", maxlength: "6" });
+  const code = input(tr("Code of your app"), { required: "", inputmode: "numeric", autocomplete: "one-time-code", pattern: "[0-9]{6}" });
+  code.addEventListener("input", () => { if (/\D/.test(code.value)) code.value = code.value.replace(/\D/g, ""); });  // apps show it in two halves
+  return code;
 }
 
 export function select(label: string, choices: [string, string][], chosen = ""): HTMLSelectElement & { block: HTMLElement } {
@@ -123,6 +125,7 @@ async function run(control: HTMLButtonElement, does: () => Promise<void>): Promi
     if (wrong instanceof Error && "status" in wrong && wrong.status === 401) window.dispatchEvent(new Event("signed-out"));
   } finally {
     control.disabled = false;
+    if (document.activeElement === document.body) document.getElementById("main")!.focus({ preventScroll: true });  // what had it is gone: not from the page's top
     control.scrollIntoView({ block: "nearest" });  // else the line that says it would take the next click
   }
 }
@@ -139,6 +142,7 @@ export function opens_form(text: string, attributes: { [name: string]: string },
       open.focus();
     };
     asked.addEventListener("done", close);
+    asked.addEventListener("keydown", (key) => { if (key.key === "Escape") close(); });
     asked.querySelector(".row:last-child")!.append(button(tr("Back"), {}, close));
     open.hidden = true;
     open.setAttribute("aria-expanded", "true");

@@ -19,7 +19,10 @@ interface Preview {
 interface Issued {
   issued: { candidate: string; id: string; name: string; station: string; not_before: string; not_after: string }[];
   refused: { id: string; name: string; why: string }[];
+  done: number;
+  of: number;
 }
+const k_portion = 100;
 
 function base64(bytes: Uint8Array): string {
   let binary = "";
@@ -143,9 +146,16 @@ class Roster {
     const reason = input(tr("Reason"), { required: "", maxlength: "2000", autocomplete: "off" }, tr("Kept for ever: no names."));
     const out = make("div");
     const asked = form(tr("Issue the tickets"), async () => {
-      const done = await post<Issued>("/api/roster/issue", {
-        ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), ...sittings(), begin_at_office: word.checked, another: another.checked, reason: reason.value,
-      });
+      const wish = { ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), ...sittings(), begin_at_office: word.checked, another: another.checked, reason: reason.value };
+      const done: Issued = { issued: [], refused: [], done: 0, of: 1 };
+      while (done.done < done.of) {  // by portions: the office hears stations in between
+        const next = await post<Issued>("/api/roster/issue", { ...wish, first: done.done, most: k_portion });
+        done.issued.push(...next.issued);
+        done.refused.push(...next.refused);
+        done.done = next.done;
+        done.of = next.of;
+        say(tr("{0} of {1} …", done.done, done.of));
+      }
       say(tr("Issued: {0}. Refused: {1}.", done.issued.length, done.refused.length), done.refused.length > 0);
       out.replaceChildren(table(tr("Issued"), [tr("Number"), tr("Name"), tr("Pseudonym"), tr("May begin"), tr("Station")],
         done.issued.map((p) => [p.id, p.name, p.candidate, local_span(p.not_before, p.not_after), p.station])));
