@@ -35,8 +35,8 @@ bool changed_since(const FiledSession& session, const Appeal& appeal) {
 
 const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason) {
   require_reason(reason);
-  return ledger.append("appeal", [&](const LedgerContent& now) {
-    const Registry registry = read_registry(now);
+  return ledger.append("appeal", [&](const LedgerContent&) {
+    const Registry& registry = ledger.registry();
     const FiledSession& s = appealed(registry, session);
     const std::string where = fmt::format("--session {}", session);
     if (!s.result->is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
@@ -48,8 +48,8 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
 const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, const std::string& outcome, const std::string& reason) {
   if (outcome != k_stands && outcome != k_changed) throw Error("--outcome " + outcome, "is none", "say stands or changed");
   require_reason(reason);
-  return ledger.append("appeal", [&](const LedgerContent& now) {
-    const Registry registry = read_registry(now);
+  return ledger.append("appeal", [&](const LedgerContent&) {
+    const Registry& registry = ledger.registry();
     const FiledSession& s = appealed(registry, session);
     const std::string where = fmt::format("--session {}", session);
     const Appeal* open = s.open_appeal();

@@ -28,7 +28,7 @@ Begin parse_begin(const std::string& text, const std::string& public_key, const 
   const json j = parse_json_or_null(text);
   const json& facts = member_of(j, "begin");
   if (text_in(facts, "format") != k_format) throw Error(where, "is not the ledger's word to begin", "name a file that `cavum ledger begin` wrote");
-  const Begin b{text_in(facts, "ledger"), text_in(facts, "ticket"), text_in(facts, "nonce"), require_whole<std::int64_t>(facts, "utc_ns", where),
+  Begin b{text_in(facts, "ledger"), text_in(facts, "ticket"), text_in(facts, "nonce"), require_whole<std::int64_t>(facts, "utc_ns", where),
                 text_in(facts, "public_key")};
   if (!public_key.empty() && b.public_key != public_key) throw Error(where, "is of another school", "ask this school's office");
   if (!is_signed_by(b.public_key, message_of(facts), text_in(j, "signature")))
@@ -36,10 +36,20 @@ Begin parse_begin(const std::string& text, const std::string& public_key, const 
   return b;
 }
 
+namespace {
+
+std::string begun_before(const Registry& registry, const LedgerEntry& begin) {
+  const Station* at = registry.stations.of(text_in(begin.body, "station"));
+  if (at == nullptr) return fmt::format("was let begin before, by entry {}", begin.seq);
+  return fmt::format("was let begin before, at {}, by entry {}", one_line(at->name), begin.seq);
+}
+
+}  // namespace
+
 std::string let_begin(Ledger& ledger, const std::string& nonce, const std::string& again) {
   std::string text;
   ledger.append("begin", [&](const LedgerContent& now) -> json {
-    const Registry registry = read_registry(now);
+    const Registry& registry = ledger.registry();
     const std::int64_t utc_ns = read_clocks().utc_ns;
     const auto t =
         std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
@@ -52,7 +62,7 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
       refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
              "wait, or give another");
     if (!t->begins.empty() && again.empty())
-      refuse(fmt::format("was let begin before, by entry {}", t->begins.back().seq),
+      refuse(begun_before(registry, now.entries.at(t->begins.back().seq)),
              "only the exam that bears the last word counts: say with --again why it begins anew");
     const json facts = {{"format", k_format},      {"ledger", now.id}, {"ticket", nonce},
                         {"nonce", random_hex(16)}, {"utc_ns", utc_ns}, {"public_key", now.public_key}};

@@ -57,8 +57,8 @@ const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const D
   if (decision.verdict != "pass" && decision.verdict != "fail") throw Error("--verdict " + decision.verdict, "is none", "say pass or fail");
   require_person(decision.person);
   require_reason(decision.reason);
-  return ledger.append("regrade", [&](const LedgerContent& now) {
-    const Registry registry = read_registry(now);
+  return ledger.append("regrade", [&](const LedgerContent&) {
+    const Registry& registry = ledger.registry();
     const FiledSession& s = undecided_session(registry, session);
     json result = *s.result;
     result["decision"] = {{"verdict_before", result.at("verdict")}, {"person", decision.person}};

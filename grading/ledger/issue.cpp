@@ -48,8 +48,8 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
   constexpr std::size_t k_longest = 2000;
   if (reason.size() > k_longest || !is_seen_text(reason))
     throw Error("--reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
-  return ledger.append("cancel", [&](const LedgerContent& now) -> nlohmann::json {
-    const Registry registry = read_registry(now);
+  return ledger.append("cancel", [&](const LedgerContent&) -> nlohmann::json {
+    const Registry& registry = ledger.registry();
     const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.seq == seq; });
     const std::string where = fmt::format("--ticket {}", seq);
     if (t == registry.tickets.end()) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");

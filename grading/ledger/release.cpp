@@ -84,8 +84,8 @@ Release release_results(Ledger& ledger, const ReleaseWish& wish) {
   Release out;
   struct Nothing {};
   try {
-    ledger.append("release", [&](const LedgerContent& now) -> nlohmann::json {
-      out = select_results(read_registry(now), wish);
+    ledger.append("release", [&](const LedgerContent&) -> nlohmann::json {
+      out = select_results(ledger.registry(), wish);
       if (out.results.empty()) throw Nothing();
       return {{"results", out.results}};
     });
@@ -97,8 +97,8 @@ Release release_results(Ledger& ledger, const ReleaseWish& wish) {
 const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64_t>& sessions, const std::string& reason) {
   if (sessions.empty()) throw Error("--session", "is missing", "name the entries of the sessions whose results are taken back");
   require_reason(reason);
-  return ledger.append("retract", [&](const LedgerContent& now) {
-    const Registry registry = read_registry(now);
+  return ledger.append("retract", [&](const LedgerContent&) {
+    const Registry& registry = ledger.registry();
     std::vector<std::uint64_t> results;
     for (const auto seq : sessions) {
       const auto s = std::find_if(registry.sessions.begin(), registry.sessions.end(), [seq](const FiledSession& one) { return one.seq == seq; });

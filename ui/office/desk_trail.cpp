@@ -32,8 +32,9 @@ class Trail {
   /// happened only with `words`.
   [[nodiscard]] json row(const ledger::LedgerEntry& e, bool words) const {
     const std::string account = text_in(e.body, "account");
+    const std::string station = text_in(e.body, e.kind == "session" ? "station_key" : "station");
     return {{"entry", e.seq},       {"utc", utc_text(e.utc_ns)},
-            {"what", what(e)},      {"by", account.empty() ? station_name(registry_, text_in(e.body, "station")) : account},
+            {"what", what(e)},      {"by", account.empty() ? station_name(registry_, station) : account},
             {"why", why(e, words)}, {"number", number(e)},
             {"people", people(e)}};
   }
@@ -110,16 +111,15 @@ json Desk::trail(const json& asked, bool names) {
   std::size_t seq = before.is_number_unsigned() ? std::min<std::size_t>(before.get<std::size_t>(), entries.size()) : entries.size();
   while (seq > 0 && out.size() < k_page) {
     json row = trail.row(entries[--seq], names);
-    if (!about.empty() && std::none_of(row["people"].begin(), row["people"].end(), is_asked)) continue;
-    json shown = json::array();
-    for (const json& who : row["people"]) {
-      json one = {{"candidate", who}};
-      if (names) put_name(one, people, who);
-      shown.push_back(std::move(one));
-      if (about.empty() && shown.size() == 1) break;  // of many the number is told
+    const json everybody = row["people"];
+    const auto asked_for = std::find_if(everybody.begin(), everybody.end(), is_asked);
+    if (!about.empty() && asked_for == everybody.end()) continue;
+    json& shown = row["people"] = json::array();  // who is asked for, or the only one: of many the number is told
+    if (!about.empty() || everybody.size() == 1) {
+      shown.push_back({{"candidate", about.empty() ? everybody.front() : *asked_for}});
+      if (names) put_name(shown.back(), people, shown.back()["candidate"]);
     }
-    row["count"] = row["people"].size();
-    row["people"] = std::move(shown);
+    row["count"] = everybody.size();
     out.push_back(std::move(row));
   }
   return {{"entries", out}, {"earlier", seq > 0 ? json(seq) : json()}};

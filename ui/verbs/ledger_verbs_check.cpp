@@ -61,6 +61,15 @@ int ledger_verify(const LedgerOptions& o) {
   return check.findings.empty() ? 0 : 1;
 }
 
+namespace {
+
+const char* state_in_words(const ledger::FiledSession& s) {
+  if (s.made_up_by) return "counts no more";
+  return s.released ? "released" : s.shown_seq != 0 ? "pending, an earlier result is out" : "pending";
+}
+
+}  // namespace
+
 int ledger_show(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   const ledger::Registry registry = ledger::read_registry(content);
@@ -80,6 +89,7 @@ int ledger_show(const LedgerOptions& o) {
                           {"verdict", s.result->is_object() ? s.result->value("verdict", "") : ""},
                           {"points", s.result->is_object() ? s.result->at("score").at("points") : json()},
                           {"released", s.released},
+                          {"shown", s.shown_seq != 0},
                           {"motion_erased", s.motion_erased_by.has_value()},
                           {"result_erased", s.result_erased_by.has_value()},
                           {"simulated", s.simulated},
@@ -94,7 +104,8 @@ int ledger_show(const LedgerOptions& o) {
                     {"findings", findings}});
     return code;
   }
-  const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(), [](const ledger::IssuedTicket& t) { return !t.used_by; });
+  const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(),
+                                  [](const ledger::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && !t.made_up_by; });
   std::printf("ledger %s: %zu entries, %zu tickets (%td not used), %zu sessions\n",
               content.id.empty() ? "whose id could not be read" : one_line(content.id).c_str(), content.entries.size(), registry.tickets.size(), open,
               registry.sessions.size());
@@ -105,7 +116,7 @@ int ledger_show(const LedgerOptions& o) {
                          : s.result_erased_by  ? "erased"
                                                : "?")
                     .c_str(),
-                s.result->is_object() ? fixed(s.result->at("score").at("points").get<double>(), 1).c_str() : "-", s.released ? "released" : "pending",
+                s.result->is_object() ? fixed(s.result->at("score").at("points").get<double>(), 1).c_str() : "-", state_in_words(s),
                 (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
                 ((s.findings.empty() ? std::string() : ", with findings") +
                  (s.contested_by.empty() ? "" : fmt::format(", contested by entry {}", s.contested_by.back())) + (s.chosen ? ", chosen" : ""))

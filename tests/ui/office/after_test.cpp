@@ -1,5 +1,6 @@
 // What becomes of results at the office: an appeal with its trail, a result that is taken back, and the report of an exam as a page of no site.
 #include "engine/base/hash.h"
+#include "grading/ledger/issue.h"
 #include "grading/ledger/signed_note.h"
 #include "tests/ui/office/opened.h"
 
@@ -153,6 +154,15 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
   const json before = officer_.post("/api/trail", {{"before", entries.size() - 3}}).json()["entries"];
   ASSERT_EQ(before.size(), entries.size() - 3);
   EXPECT_EQ(before[0]["entry"], entries.size() - 4);
+  ASSERT_EQ(opened_.issue(officer_, "4712\n4713\n").status, 200);
+  {
+    auto ledger = opened_.school().ledger();
+    const std::uint64_t last_ticket = ledger.content().entries.size() - 1;
+    static_cast<void>(ledger::seat_candidates(ledger, {{last_ticket - 1, ""}, {last_ticket, ""}}));
+  }
+  EXPECT_EQ(officer_.post("/api/trail", json::object()).json()["entries"][0]["people"], json::array()) << "of two the number is told";
+  EXPECT_EQ(officer_.post("/api/trail", {{"about", "4713"}}).json()["entries"][0]["people"][0]["id"], "4713")
+      << "who is asked for, and not the first";
   const json his = officer_.post("/api/trail", {{"about", "4711"}}).json()["entries"];
   std::vector<std::string> what;
   for (const json& row : his) {

@@ -71,7 +71,7 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   const invigilator = await desk("Ian Invigilator");
   assert.deepEqual(await invigilator.page.$$eval("nav a", (all) => all.map((a) => a.textContent)), ["Exam day", "Tickets", "Incidents"]);
   const reader = await desk("Rita Reader");
-  assert.deepEqual(await reader.page.$$eval("nav a", (all) => all.map((a) => a.textContent)), ["Results"]);
+  assert.deepEqual(await reader.page.$$eval("nav a", (all) => all.map((a) => a.textContent)), ["Results", "Trail"]);
   assert.ok(!(await reader.page.$eval("main", (m) => m.innerText)).includes("4711"), "a reader sees no number");
 
   const examiner = await desk("Eva Examiner");

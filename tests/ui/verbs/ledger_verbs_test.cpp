@@ -85,6 +85,8 @@ TEST_F(LedgerVerbs, AClassFromTicketToGradebook) {
   const auto shown = json::parse(run("ledger show " + path("L") + " --json").out);
   EXPECT_EQ(shown["sessions"][0]["regraded"], true);
   EXPECT_EQ(shown["sessions"][0]["released"], false) << "the new result waits for its release";
+  EXPECT_EQ(shown["sessions"][0]["shown"], true) << "and the old one is out";
+  EXPECT_NE(run("ledger show " + path("L")).out.find("pending, an earlier result is out"), std::string::npos);
 
   ASSERT_EQ(run(moodle + path("again.csv")).exit_code, 0);
   EXPECT_EQ(read_text_file(path("again.csv")), gradebook) << "until then the old one stands";

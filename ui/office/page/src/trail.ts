@@ -16,8 +16,7 @@ const whats = (): { [what: string]: string } => ({
 
 function who(e: Entry): string {
   const first = e.people[0];
-  if (first === undefined) return "";
-  if (e.count > e.people.length) return tr("{} candidates", e.count);
+  if (first === undefined) return e.count === 0 ? "" : tr("{} candidates", e.count);
   return [first.id ?? "", first.name ?? ""].filter((t) => t !== "").join(" ") || first.candidate;
 }
 
