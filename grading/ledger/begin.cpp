@@ -29,7 +29,7 @@ Begin parse_begin(const std::string& text, const std::string& public_key, const 
   const json& facts = member_of(j, "begin");
   if (text_in(facts, "format") != k_format) throw Error(where, "is not the ledger's word to begin", "name a file that `cavum ledger begin` wrote");
   Begin b{text_in(facts, "ledger"), text_in(facts, "ticket"), text_in(facts, "nonce"), require_whole<std::int64_t>(facts, "utc_ns", where),
-                text_in(facts, "public_key")};
+          text_in(facts, "public_key")};
   if (!public_key.empty() && b.public_key != public_key) throw Error(where, "is of another school", "ask this school's office");
   if (!is_signed_by(b.public_key, message_of(facts), text_in(j, "signature")))
     throw Error(where, "was changed after the school signed it", "ask the office again");
