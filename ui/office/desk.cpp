@@ -38,7 +38,8 @@ Grants grants_of(const Roster& roster) {
 
 /// Made up by a ticket that can still be cancelled: then this one is good again.
 bool comes_back(const ledger::Registry& registry, const ledger::IssuedTicket& first, std::int64_t now_utc_ns) {
-  return std::any_of(registry.tickets.begin(), registry.tickets.end(),
+  return first.made_up_by &&  // of few: not once for each ticket of a year
+         std::any_of(registry.tickets.begin(), registry.tickets.end(),
                      [&](const ledger::IssuedTicket& t) { return t.seq == first.made_up_by && t.begins.empty() && t.live(now_utc_ns); });
 }
 
