@@ -32,7 +32,7 @@ sed -n 's/^\([^#].*\)$/said("\1")/p' words.txt >"$new/words.cpp"
 extract "$new/all-below.pot" C++ --extract-all <"$new/below"
 awk 'BEGIN { RS = ""; ORS = "\n\n" } NR == 1 || !/msgid ""\nmsgstr ""$/' "$new/all-below.pot" >"$new/once.pot" && mv "$new/once.pot" "$new/all-below.pot"  # empty texts
 extract "$new/words.pot" C++ --keyword --keyword=said:1 <<<"$new/words.cpp"
-extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=Error:2 --keyword=error_reply:2 <"$new/above"
+extract "$new/above.pot" C++ --keyword --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 --keyword=msg:1 --keyword=msgn:1,2 --keyword=Error:2 --keyword=error_reply:2 <"$new/above"
 extract "$new/advice.pot" C++ --keyword --keyword=Error:3 <"$new/above"  # one place of a call in one run
 extract "$new/all-places.pot" C++ --keyword --keyword=Error:1 <"$new/above"
 sed -i 's/charset=CHARSET/charset=UTF-8/' "$new/all-places.pot"

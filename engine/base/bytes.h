@@ -63,7 +63,7 @@ class ByteReader {
     return value;
   }
   [[nodiscard]] std::span<const std::uint8_t> get_bytes(std::size_t n) {
-    if (n > bytes_.size() - at_) fail("the data end too early");
+    if (n > bytes_.size() - at_) fail(msg("the data end too early"));
     const auto b = bytes_.subspan(at_, n);
     at_ += n;
     return b;
@@ -78,17 +78,17 @@ class ByteReader {
       const auto b = get<std::uint8_t>();
       v |= static_cast<std::uint64_t>(b & 0x7f) << shift;
       if ((b & 0x80) != 0) continue;
-      if (b == 0 && shift > 0) fail("a number is written longer than it is");
+      if (b == 0 && shift > 0) fail(msg("a number is written longer than it is"));
       return v;
     }
-    fail("a number is too long");
+    fail(msg("a number is too long"));
   }
   [[nodiscard]] std::int64_t get_signed_varint() {
     const auto v = get_varint();
     return static_cast<std::int64_t>(v >> 1) ^ -static_cast<std::int64_t>(v & 1);
   }
   [[nodiscard]] std::size_t left() const noexcept { return bytes_.size() - at_; }
-  [[noreturn]] void fail(const std::string& what) const { throw Error(where_, what, "the file is damaged or incomplete: use an intact copy"); }
+  [[noreturn]] void fail(const Message& what) const { throw Error(where_, what, msg("the file is damaged or incomplete: use an intact copy")); }
 
  private:
   std::span<const std::uint8_t> bytes_;

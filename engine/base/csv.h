@@ -9,6 +9,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/message.h"
+
 namespace cavum {
 
 /// What a table may hold.
@@ -52,7 +54,7 @@ class CsvReader {
   /// What parts the fields; known once the heading was read.
   [[nodiscard]] char separator() const noexcept { return separator_; }
   /// Throws Error(where:line, what, what_to_do).
-  [[noreturn]] void fail(const std::string& what, const std::string& what_to_do) const;
+  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const;
 
  private:
   void read_row();

@@ -32,7 +32,7 @@ template <class Whole>
   const bool beyond = m.is_number_unsigned() && m.get<std::uint64_t>() > INT64_MAX,
              negative = !m.is_number_unsigned() && m.is_number_integer() && m.get<std::int64_t>() < 0;
   const bool fits = m.is_number_integer() && !(std::is_unsigned_v<Whole> ? negative : beyond);
-  if (!fits) throw Error(where, fmt::format("'{}' is no whole number in its range", key), "use an intact copy");
+  if (!fits) throw Error(where, msg("'{}' is no whole number in its range", key), msg("use an intact copy"));
   return m.get<Whole>();
 }
 /// A whole number of a member; 0 when it is none.

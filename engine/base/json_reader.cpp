@@ -23,7 +23,7 @@ std::string said(const json::exception& e) {
 /// again after each that is an object: 330,000 take minutes.
 class Count {
  public:
-  using Refuse = std::function<void(const std::string&)>;
+  using Refuse = std::function<void(const Message&)>;
   Count(const JsonLimits& limits, Refuse refuse) : limits_(limits), refuse_(std::move(refuse)) {}
 
   bool null() { return value(); }
@@ -43,11 +43,11 @@ class Count {
 
  private:
   bool value() {
-    if (++values_ > limits_.values) refuse_(fmt::format("of more than {} values", limits_.values));
+    if (++values_ > limits_.values) refuse_(msg("of more than {} values", limits_.values));
     return true;
   }
   bool open() {
-    if (depth_++ >= limits_.depth) refuse_(fmt::format("that is nested deeper than {}", limits_.depth));
+    if (depth_++ >= limits_.depth) refuse_(msg("that is nested deeper than {}", limits_.depth));
     return value();
   }
   bool close() {
@@ -62,16 +62,16 @@ class Count {
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
-  const auto refuse = [&where](const std::string& what) {
-    throw Error(where, "holds JSON " + what, "use an intact file: nothing that Cavum writes is like that");
+  const auto refuse = [&where](const Message& what) {
+    throw Error(where, msg("holds JSON {}", what), msg("use an intact file: nothing that Cavum writes is like that"));
   };
-  if (text.size() > limits.bytes) refuse(fmt::format("of {} bytes, more than {}", text.size(), limits.bytes));
+  if (text.size() > limits.bytes) refuse(msg("of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
   static_cast<void>(json::sax_parse(text, &counted));
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(where, fmt::format("is no JSON ({})", said(e)), "correct it, or use an intact copy");
+    throw Error(where, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
   }
 }
 

@@ -15,7 +15,7 @@ class ScratchFolder {
  public:
   ScratchFolder() {
     std::string name = (std::filesystem::temp_directory_path() / "cavum-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "set TMPDIR to a folder that is writable and has room");
+    if (::mkdtemp(name.data()) == nullptr) throw Error(name, msg("cannot be made"), msg("set TMPDIR to a folder that is writable and has room"));
     folder_ = name;
   }
   ~ScratchFolder() {

@@ -13,20 +13,20 @@ class Scan {
   explicit Scan(std::string_view text) : text_(text) {}
 
   std::optional<TomlExcess> run() {
-    if (text_.size() > k_toml_bytes) return excess(fmt::format("is a text of {} bytes", text_.size()), k_toml_bytes);
+    if (text_.size() > k_toml_bytes) return excess(msg("is a text of {} bytes", text_.size()), k_toml_bytes);
     while (at_ < text_.size()) {
       take();
-      if (parts_ > k_toml_parts) return excess(fmt::format("a name has {} parts or more", parts_), k_toml_parts);
-      if (depth_ > k_toml_depth) return excess(fmt::format("lists and tables are nested {} deep", depth_), k_toml_depth);
-      if (values_ > k_toml_values) return excess(fmt::format("there are {} values or more", values_), k_toml_values);
-      if (named_ > k_toml_named) return excess(fmt::format("headers and dotted names have {} parts or more", named_), k_toml_named);
+      if (parts_ > k_toml_parts) return excess(msg("a name has {} parts or more", parts_), k_toml_parts);
+      if (depth_ > k_toml_depth) return excess(msg("lists and tables are nested {} deep", depth_), k_toml_depth);
+      if (values_ > k_toml_values) return excess(msg("there are {} values or more", values_), k_toml_values);
+      if (named_ > k_toml_named) return excess(msg("headers and dotted names have {} parts or more", named_), k_toml_named);
     }
     return std::nullopt;
   }
 
  private:
-  [[nodiscard]] std::optional<TomlExcess> excess(const std::string& what, std::size_t limit) const {
-    return TomlExcess{line_, fmt::format("{}, beyond the limit of {}", what, limit), "shorten the file, or use an intact copy"};
+  [[nodiscard]] std::optional<TomlExcess> excess(const Message& what, std::size_t limit) const {
+    return TomlExcess{line_, msg("{}, beyond the limit of {}", what, limit), msg("shorten the file, or use an intact copy")};
   }
 
   void take() {

@@ -18,7 +18,7 @@ inline constexpr std::size_t k_toml_named = 4'000;     ///< parts of headers and
 /// What of a text is beyond a limit.
 struct TomlExcess {
   std::size_t line = 1;  ///< from 1
-  std::string what, what_to_do;
+  Message what, what_to_do;
 };
 
 /// The first place where `text` is beyond a limit. Nothing for a text within all of them; whether it is TOML at all is for the parser to say.

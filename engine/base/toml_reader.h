@@ -34,7 +34,7 @@ class TomlReader {
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   /// Throws Error naming the first key that was never asked for.
   void finish() const;
-  [[noreturn]] void fail(std::string_view key, const std::string& what, const std::string& todo) const;
+  [[noreturn]] void fail(std::string_view key, const Message& what, const Message& todo) const;
   [[nodiscard]] const std::string& where() const noexcept { return where_; }
 
  private:

@@ -61,7 +61,7 @@ void require_a_plane(const std::vector<Vec3>& marks) {
         if (longest > 0) width = std::max(width, length(cross(marks[j] - marks[i], marks[k] - marks[i])) / longest);
       }
   if (!(width >= k_least_mm))
-    throw Error("placement", "the marks lie on a line, or too close together", "touch marks further apart, in the order asked for");
+    throw Error(msg("placement"), msg("the marks lie on a line, or too close together"), msg("touch marks further apart, in the order asked for"));
 }
 
 }  // namespace
@@ -109,8 +109,8 @@ Placement upright_device(Vec3 middle_mm) noexcept {
 
 PlacementFit fit_placement(const std::vector<Vec3>& device_mm, const std::vector<Vec3>& tooth_mm) {
   if (device_mm.size() != tooth_mm.size() || device_mm.size() < 3)
-    throw Error("placement", fmt::format("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
-                "touch at least three, each once");
+    throw Error(msg("placement"), msg("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
+                msg("touch at least three, each once"));
   require_a_plane(device_mm);
   require_a_plane(tooth_mm);
   const Vec3 from = mean_of(device_mm), to = mean_of(tooth_mm);

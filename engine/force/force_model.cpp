@@ -11,10 +11,10 @@ namespace {
 std::vector<double> numbers(TomlReader& in, const char* key) {
   std::vector<double> out;
   const auto* array = in.array(key);
-  if (array == nullptr) in.fail(key, "is missing", "give a list of numbers, which may be empty");
+  if (array == nullptr) in.fail(key, msg("is missing"), msg("give a list of numbers, which may be empty"));
   for (const auto& node : *array) {
     const auto value = node.value<double>();
-    if (!value) in.fail(key, "holds something that is no number", "give numbers only");
+    if (!value) in.fail(key, msg("holds something that is no number"), msg("give numbers only"));
     out.push_back(*value);
   }
   return out;
@@ -23,10 +23,10 @@ std::vector<double> numbers(TomlReader& in, const char* key) {
 /// [cutting], and [handpiece] where the law knows a torque.
 void read_cutting(TomlReader& in, const std::string& where, ForceModel& model) {
   const auto* t = in.table("cutting");
-  if (t == nullptr) in.fail("cutting", "is missing", "add [cutting] with rpm_ref");
+  if (t == nullptr) in.fail("cutting", msg("is missing"), msg("add [cutting] with rpm_ref"));
   TomlReader cutting(*t, where);
   const std::string law = cutting.text_or("law", "penetration");
-  if (law != "penetration" && law != "pressure") cutting.fail("law", fmt::format("'{}' is no law of cutting", law), "write penetration or pressure");
+  if (law != "penetration" && law != "pressure") cutting.fail("law", msg("'{}' is no law of cutting", law), msg("write penetration or pressure"));
   if (law == "penetration") {
     model.rpm_ref = cutting.number("rpm_ref", 1, 1e6);
     cutting.finish();
@@ -59,9 +59,9 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     r.finish();
   }
   const auto* materials = in.table("materials");
-  if (materials == nullptr) in.fail("materials", "is missing", "add [materials.NAME] for each tissue");
+  if (materials == nullptr) in.fail("materials", msg("is missing"), msg("add [materials.NAME] for each tissue"));
   for (const auto& [name, node] : *materials) {
-    if (!node.is_table()) in.fail("materials", fmt::format("holds '{}', which is not a table", name.str()), "write [materials.NAME]");
+    if (!node.is_table()) in.fail("materials", msg("holds '{}', which is not a table", name.str()), msg("write [materials.NAME]"));
     TomlReader m(*node.as_table(), where);
     Material material;
     material.voigt = {m.number("k_n_per_mm", 0, 100), m.number("c_n_s_per_mm", 0, 100)};
@@ -73,9 +73,9 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     model.materials.emplace(name.str(), material);
   }
   if (const auto* terms = in.array("terms")) {
-    if (terms->size() > k_max_terms) in.fail("terms", fmt::format("are more than {}", k_max_terms), "leave out the smallest");
+    if (terms->size() > k_max_terms) in.fail("terms", msg("are more than {}", k_max_terms), msg("leave out the smallest"));
     for (const auto& node : *terms) {
-      if (!node.is_table()) in.fail("terms", "hold something that is not a table", "write [[terms]] with kind = \"…\" for each");
+      if (!node.is_table()) in.fail("terms", msg("hold something that is not a table"), msg("write [[terms]] with kind = \"…\" for each"));
       model.terms.push_back(read_force_term(*node.as_table(), where));
       TermValues values{node.as_table()->get("kind")->value_or(std::string()), {}};
       for (const auto& p : find_term_kind(values.kind)->parameters)
@@ -85,7 +85,8 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
   }
   if (const auto* effects = in.array("measurement"))
     for (const auto& node : *effects) {
-      if (!node.is_table()) in.fail("measurement", "holds something that is not a table", "write [[measurement]] with kind, shape and values");
+      if (!node.is_table())
+        in.fail("measurement", msg("holds something that is not a table"), msg("write [[measurement]] with kind, shape and values"));
       TomlReader m(*node.as_table(), where);
       MeasurementEffect effect{m.text("kind"), numbers(m, "shape"), numbers(m, "values")};
       m.finish();

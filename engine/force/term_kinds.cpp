@@ -64,7 +64,7 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   TomlReader in(table, where);
   const std::string name = in.text("kind");
   const TermKind* kind = find_term_kind(name);
-  if (kind == nullptr) in.fail("kind", fmt::format("is '{}', which is no force term", name), "use one of: " + all_kinds());
+  if (kind == nullptr) in.fail("kind", msg("is '{}', which is no force term", name), msg("use one of: {}", all_kinds()));
   std::vector<std::string> known{"kind"};
   std::vector<double> values;
   for (const auto& p : kind->parameters) {
@@ -73,8 +73,9 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   }
   for (const auto& [key, node] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
-      in.fail(key.str(), "is no parameter of " + name, "it has: " + listed({known.begin() + 1, known.end()}));
-  if (table.size() < 2) in.fail("kind", "stands alone, so this term does nothing", "give one of: " + listed({known.begin() + 1, known.end()}));
+      in.fail(key.str(), msg("is no parameter of {}", name), msg("it has: {}", listed({known.begin() + 1, known.end()})));
+  if (table.size() < 2)
+    in.fail("kind", msg("stands alone, so this term does nothing"), msg("give one of: {}", listed({known.begin() + 1, known.end()})));
   return kind->make(values);
 }
 

@@ -14,19 +14,19 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   point.title = in.text("title");
   point.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
   const toml::array* pieces = in.array("profile");
-  if (pieces == nullptr) in.fail("profile", "is missing", "list {r_mm, z_mm} from the tip upwards");
+  if (pieces == nullptr) in.fail("profile", msg("is missing"), msg("list {{r_mm, z_mm}} from the tip upwards"));
   constexpr std::size_t k_most_pieces = 64;  // the distance to each is taken at each node of the head's table
-  if (pieces->size() > k_most_pieces) in.fail("profile", fmt::format("has {} pieces", pieces->size()), fmt::format("list at most {}", k_most_pieces));
+  if (pieces->size() > k_most_pieces) in.fail("profile", msg("has {} pieces", pieces->size()), msg("list at most {}", k_most_pieces));
   std::vector<ProfileSegment> segments;
   for (const auto& node : *pieces) {
-    if (!node.is_table()) in.fail("profile", "has an entry that is not a table", "write {r_mm = .., z_mm = ..}");
+    if (!node.is_table()) in.fail("profile", msg("has an entry that is not a table"), msg("write {{r_mm = .., z_mm = ..}}"));
     TomlReader piece(*node.as_table(), where);
     ProfileSegment s;
     s.end = {piece.number("r_mm", 0, 5), piece.number("z_mm", 0, 60)};
     if (const toml::array* c = piece.array("centre")) {
       const auto r = c->size() == 2 ? c->get(0)->value<double>() : std::nullopt;
       const auto z = c->size() == 2 ? c->get(1)->value<double>() : std::nullopt;
-      if (!r || !z) piece.fail("centre", "is not [r, z]", "give two numbers in mm");
+      if (!r || !z) piece.fail("centre", msg("is not [r, z]"), msg("give two numbers in mm"));
       s.arc = true;
       s.centre = {*r, *z};
     }
@@ -37,14 +37,14 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   try {
     point.profile = Profile(std::move(segments));
   } catch (const Error& e) {
-    in.fail("profile", e.what(), "correct it");
+    in.fail("profile", e.problem(), msg("correct it"));
   }
   point.head = point.profile.below(point.cutting_length_mm);
   ProfilePoint facing{0, -1};
   for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm)) {
     // carving relies on it: see carve_head
     if (facing.r_mm * p.normal.z_mm - facing.z_mm * p.normal.r_mm < -1e-6)
-      in.fail("profile", fmt::format("is hollow at a height of {:f} mm", p.at.z_mm), "make it convex up to cutting_length_mm");
+      in.fail("profile", msg("is hollow at a height of {}", as_mm(p.at.z_mm, k_as_needed)), msg("make it convex up to cutting_length_mm"));
     facing = p.normal;
     point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
     if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down

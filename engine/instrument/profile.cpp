@@ -16,21 +16,21 @@ double squared(double v) noexcept { return v * v; }
 }  // namespace
 
 Profile::Profile(std::vector<ProfileSegment> segments) : segments_(std::move(segments)) {
-  const auto fail = [](const std::string& what) { throw Error("profile", what, "list the pieces from the tip upwards"); };
-  if (segments_.empty()) fail("has no pieces");
+  const auto fail = [](const Message& what) { throw Error(msg("profile"), what, msg("list the pieces from the tip upwards")); };
+  if (segments_.empty()) fail(msg("has no pieces"));
   ProfilePoint a;
   for (const auto& s : segments_) {
-    if (!(s.end.r_mm >= 0) || !std::isfinite(s.end.r_mm) || !std::isfinite(s.end.z_mm)) fail("a radius is negative or not a number");
-    if (s.end.z_mm < a.z_mm) fail("the heights fall");
-    if (s.end.z_mm == a.z_mm && s.end.r_mm == a.r_mm) fail("a piece has no length");
+    if (!(s.end.r_mm >= 0) || !std::isfinite(s.end.r_mm) || !std::isfinite(s.end.z_mm)) fail(msg("a radius is negative or not a number"));
+    if (s.end.z_mm < a.z_mm) fail(msg("the heights fall"));
+    if (s.end.z_mm == a.z_mm && s.end.r_mm == a.r_mm) fail(msg("a piece has no length"));
     if (s.arc) {
       const double one = std::sqrt(squared(a.r_mm - s.centre.r_mm) + squared(a.z_mm - s.centre.z_mm));
       const double two = std::sqrt(squared(s.end.r_mm - s.centre.r_mm) + squared(s.end.z_mm - s.centre.z_mm));
-      if (!(std::fabs(one - two) <= 1e-6) || !(one > 0)) fail("an arc's ends are not equally far from its centre");
+      if (!(std::fabs(one - two) <= 1e-6) || !(one > 0)) fail(msg("an arc's ends are not equally far from its centre"));
     }
     a = s.end;
   }
-  if (!(segments_.back().end.r_mm > 0)) fail("the shank has no radius");
+  if (!(segments_.back().end.r_mm > 0)) fail(msg("the shank has no radius"));
   a = {};
   for (const auto& s : segments_) {
     Piece p{a, s.end, s.centre, squared(s.end.r_mm - a.r_mm) + squared(s.end.z_mm - a.z_mm), 0, s.arc};

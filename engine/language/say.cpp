@@ -59,4 +59,26 @@ std::string filled(const std::string& translation, std::string_view english, fmt
 }
 
 }  // namespace language_detail
+
+namespace {
+
+class ReadersLocale final : public Locale {
+ public:
+  [[nodiscard]] std::string sentence(const char* english) const override { return catalogue().find(english).value_or(english); }
+  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override {
+    return catalogue().find(one, many, count).value_or(count == 1 ? one : many);
+  }
+  [[nodiscard]] std::string term(const std::string& english) const override { return catalogue().find(english).value_or(english); }
+  [[nodiscard]] std::string authored(const std::string& english) const override { return shown(english); }
+  [[nodiscard]] std::string name(const std::string& text) const override { return shown(text); }  // TODO: as_is() once no sentence is a name
+  [[nodiscard]] char decimal_sign() const noexcept override { return catalogue().decimal_sign(); }
+};
+
+}  // namespace
+
+std::string language_detail::rendered(const Message& message) {
+  static const ReadersLocale k_locale;
+  return remembered(render(message, k_locale));
+}
+
 }  // namespace cavum

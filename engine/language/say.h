@@ -8,6 +8,7 @@
 #include <type_traits>
 #include <utility>
 
+#include "engine/base/message.h"
 #include "engine/language/shown.h"
 
 namespace cavum {
@@ -64,6 +65,15 @@ template <class... A>
       rest(fmt::string_view(many).data(), fmt::string_view(many).size());
   return remembered(
       language_detail::fill(language_detail::translated(first, rest, count), count == 1 ? first : rest, language_detail::argument(arguments)...));
+}
+
+namespace language_detail {
+[[nodiscard]] std::string rendered(const Message& message);
+}  // namespace language_detail
+/// A message in the reader's language. A template, so that a literal is no message.
+template <std::same_as<Message> M>
+[[nodiscard]] std::string tr(const M& message) {
+  return language_detail::rendered(message);
 }
 
 }  // namespace cavum

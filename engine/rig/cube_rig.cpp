@@ -129,8 +129,9 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint
       row.seconds = k_time_constants * std::max(material.tau_s, branch_s);
       row.depth_mm = row.seconds * options.machine.speed_mm_s;
       if (row.depth_mm > k_cube_mm)
-        throw Error(fmt::format("force model '{}'", m.name),
-                    fmt::format("needs {:f} mm of feed until the force is steady, the cube has 10", row.depth_mm), "lower tau_s or c_n_s_per_mm");
+        throw Error(msg("force model '{}'", m.name),
+                    msg("needs {} of feed until the force is steady, the cube has 10", as_mm(row.depth_mm, k_as_needed)),
+                    msg("lower tau_s or c_n_s_per_mm"));
       row.expected_n = (k * material.tau_s + row.c_n_s_per_mm) * options.machine.speed_mm_s;
       row.runs.resize(static_cast<std::size_t>(options.runs));
       for (std::size_t i = 0; i < row.runs.size(); ++i) jobs.push_back({result.sets.size(), set.rows.size(), i});

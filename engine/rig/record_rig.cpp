@@ -59,11 +59,11 @@ std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& serv
 RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const DiamondPoint& point, const RecordOptions& options) {
   const auto material = force.materials.find(k_tissue);
   if (material == force.materials.end())
-    throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no material '{}'", k_tissue),
-                fmt::format("add [materials.{}]", k_tissue));
+    throw Error(msg("force model '{}'", force.name), msg("has no material '{}'", k_tissue), msg("add [materials.{}]", k_tissue));
   for (const auto& s : motion.samples)
     if (s.pose.tip_mm.z < -k_deepest_mm)
-      throw Error("motion", fmt::format("goes {:f} mm below the surface", -s.pose.tip_mm.z), "stay above 3 mm: z is the height over the cube");
+      throw Error(msg("motion"), msg("goes {} below the surface", as_mm(-s.pose.tip_mm.z, k_as_needed)),
+                  msg("stay above 3 mm: z is the height over the cube"));
   const Tooth cube = make_cube(k_cube_mm, k_tissue, k_leaf_mm);
   const ServoModel servo = make_servo_model(cube, {point}, force, {});
   RecordResult result;

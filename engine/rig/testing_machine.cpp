@@ -46,12 +46,11 @@ const MachineReading& TestingMachine::tick() noexcept {
 ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm) {
   const auto found = model.materials.find(tissue);
   if (found == model.materials.end())
-    throw Error(fmt::format("force model '{}'", model.name), fmt::format("has no material for '{}'", tissue),
-                fmt::format("add [materials.{}]", tissue));
+    throw Error(msg("force model '{}'", model.name), msg("has no material for '{}'", tissue), msg("add [materials.{}]", tissue));
   Viscoelastic& v = found->second.voigt;
   if (!(v.stiffness_n_per_mm > 0))
-    throw Error(fmt::format("force model '{}'", model.name), fmt::format("gives '{}' no stiffness, so its damping ratio is not known", tissue),
-                "give it a k_n_per_mm above 0");
+    throw Error(msg("force model '{}'", model.name), msg("gives '{}' no stiffness, so its damping ratio is not known", tissue),
+                msg("give it a k_n_per_mm above 0"));
   v.damping_n_s_per_mm *= std::sqrt(k_n_per_mm / v.stiffness_n_per_mm);
   v.stiffness_n_per_mm = k_n_per_mm;
   return model;
@@ -59,9 +58,9 @@ ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_
 
 void require_penetration(const ForceModel& model) {
   if (model.law == CuttingLaw::pressure)
-    throw Error(fmt::format("force model '{}'", model.name),
-                "cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s",
-                "name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one");
+    throw Error(msg("force model '{}'", model.name),
+                msg("cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s"),
+                msg("name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one"));
 }
 
 ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni) {

@@ -332,8 +332,8 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
       cut.unseen_mm3 += mm3;
     } else {
       if (before.centre_mm({0, 0, piece.lowest}).z < lowest_mm - k_below_mm)
-        throw Error(where, "what was removed runs below the end of the scan, or the scan has no inside: what lies there is not seen",
-                    "scan the tooth down to below the cavity, and close holes in the mesh");
+        throw Error(where, msg("what was removed runs below the end of the scan, or the scan has no inside: what lies there is not seen"),
+                    msg("scan the tooth down to below the cavity, and close holes in the mesh"));
       removed.push_back(std::move(piece));
     }
   }
@@ -365,7 +365,7 @@ ScanCut cut_by_scan(const TriangleMesh& scan, const TriangleMesh& caps, const Ou
   cut.after.reserve_edits(bricks + 4096);
   cut.removed.reserve(leaves + Octree::k_brick_leaves);
   if (!cut.after.carve(before.centre_mm(box.low - wide), before.centre_mm(box.high + wide), CarveByScan{lattice, mm, mark}, cut.removed))
-    throw Error(where, "what was removed needs more room than was reserved", "report it with the scan");
+    throw Error(where, msg("what was removed needs more room than was reserved"), msg("report it with the scan"));
   return cut;
 }
 

@@ -35,8 +35,8 @@ TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::v
     if (area > most) most = area, largest = i;
   }
   if (all - most > k_most_beside * all)
-    throw Error(path, fmt::format("is in {} parts, and the largest has {} % of the surface only", parts.size(), fixed(100 * most / all, 0)),
-                "give a mesh of the one tooth, whose triangles share their corners");
+    throw Error(path, msg("is in {} parts, and the largest has {} of the surface only", parts.size(), as_percent(100 * most / all, 0)),
+                msg("give a mesh of the one tooth, whose triangles share their corners"));
   notes.push_back(
       fmt::format("{} small parts beside the tooth were left out, {} % of the surface", parts.size() - 1, fixed(100 * (all - most) / all, 2)));
   return std::move(parts[largest]);
@@ -48,9 +48,9 @@ void require_few_holes(const std::vector<Rim>& rims, const std::string& path) {
   for (std::size_t i = 1; i < rims.size(); ++i) all += rims[i].length_mm;
   if (all > k_all_mm || (rims.size() > 1 && rims[1].length_mm > k_largest_mm))
     throw Error(path,
-                fmt::format("is open in {} places beside its end: holes of {} mm around in all, the largest of {} mm", rims.size() - 1, fixed(all, 1),
-                            fixed(rims[1].length_mm, 1)),
-                "close the holes in the scanner's program, and export one surface whose triangles share their corners");
+                msg("is open in {} places beside its end: holes of {} around in all, the largest of {}", rims.size() - 1, as_mm(all, 1),
+                    as_mm(rims[1].length_mm, 1)),
+                msg("close the holes in the scanner's program, and export one surface whose triangles share their corners"));
 }
 
 }  // namespace
@@ -60,8 +60,8 @@ Scan read_scan(const std::string& path, double unit_mm) {
   TriangleMesh mesh = read_open_mesh(path);
   for (Vec3& v : mesh.vertices_mm) v = v * unit_mm;
   if (mesh.triangles.size() < k_fewest)
-    throw Error(path, fmt::format("has {} triangles, which is too few to measure a cavity by: {} is the least", mesh.triangles.size(), k_fewest),
-                "export the scan as fine as it is");
+    throw Error(path, msg("has {} triangles, which is too few to measure a cavity by: {} is the least", mesh.triangles.size(), k_fewest),
+                msg("export the scan as fine as it is"));
   Scan scan;
   scan.mesh = main_part(mesh, path, scan.notes);
   std::vector<Rim> rims = rims_of(scan.mesh);

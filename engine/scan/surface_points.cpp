@@ -47,8 +47,8 @@ std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longes
     if (!(twice > 1e-12)) continue;
     halved(whole, longest_mm, [&](const Corners& part, int halvings) {
       if (points.size() >= k_most_scan_points)
-        throw Error(where, fmt::format("its triangles cover more than {} places", k_most_scan_points),
-                    "check the unit, and that it is the surface of one tooth");
+        throw Error(where, msg("its triangles cover more than {} places", k_most_scan_points),
+                    msg("check the unit, and that it is the surface of one tooth"));
       points.push_back({(part[0] + part[1] + part[2]) / 3, across / twice, 0.5 * twice / static_cast<double>(std::uint64_t{1} << halvings)});
     });
   }

@@ -28,20 +28,20 @@ std::string signed_text(Json j) {
 
 double number_at(const Json& j, const char* key, const std::string& where) {
   const Json& m = member_of(j, key);
-  if (!m.is_number() || !std::isfinite(m.get<double>())) throw Error(where, fmt::format("'{}' is no number", key), k_use_intact);
+  if (!m.is_number() || !std::isfinite(m.get<double>())) throw Error(where, msg("'{}' is no number", key), msg(k_use_intact));
   return m.get<double>();
 }
 
 std::string text_at(const Json& j, const char* key, std::size_t longest, const std::string& where) {
   const Json& m = member_of(j, key);
   if (!m.is_string() || m.get_ref<const std::string&>().size() > longest)
-    throw Error(where, fmt::format("'{}' is no text of at most {} bytes", key, longest), k_use_intact);
+    throw Error(where, msg("'{}' is no text of at most {} bytes", key, longest), msg(k_use_intact));
   return m.get<std::string>();
 }
 
 bool truth_at(const Json& j, const char* key, const std::string& where) {
   const Json& m = member_of(j, key);
-  if (!m.is_boolean()) throw Error(where, fmt::format("'{}' is neither true nor false", key), k_use_intact);
+  if (!m.is_boolean()) throw Error(where, msg("'{}' is neither true nor false", key), msg(k_use_intact));
   return m.get<bool>();
 }
 
@@ -106,14 +106,14 @@ CheckVerdict read_verdict(const Json& j, const std::string& where) {
   try {
     v.outcome = outcome_of(text_at(j, "outcome", k_longest_word, where));
   } catch (const std::invalid_argument&) {
-    throw Error(where, "'outcome' is none that is known", k_use_intact);
+    throw Error(where, msg("'outcome' is none that is known"), msg(k_use_intact));
   }
   v.compared = require_whole<std::size_t>(j, "compared", where);
   v.finds_friction_n = number_at(j, "finds_friction_n", where);
   v.finds_gain = number_at(j, "finds_gain", where);
   v.doubt = text_at(j, "doubt", k_longest_doubt, where);
   const Json& changes = member_of(j, "changes");
-  if (!changes.is_array() || changes.size() > k_most_changes) throw Error(where, "'changes' is no list of changes", k_use_intact);
+  if (!changes.is_array() || changes.size() > k_most_changes) throw Error(where, msg("'changes' is no list of changes"), msg(k_use_intact));
   for (const Json& c : changes)
     v.changes.push_back({text_at(c, "quantity", k_longest_word, where), text_at(c, "axis", 1, where), number_at(c, "before", where),
                          number_at(c, "now", where), number_at(c, "change", where), number_at(c, "uncertain", where)});
@@ -153,7 +153,7 @@ CheckEntry read_check_entry(const nlohmann::json& j, const std::string& where) {
   const std::string kind = text_at(j, "kind", k_longest_id, where);
   std::size_t at = 0;
   while (at < k_kinds.size() && kind != k_kinds[at]) ++at;
-  if (at == k_kinds.size()) throw Error(where, "is of a kind that is not known", k_use_intact);
+  if (at == k_kinds.size()) throw Error(where, msg("is of a kind that is not known"), msg(k_use_intact));
   e.kind = static_cast<CheckEntry::Kind>(at);
   e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", where);
   e.station = text_at(j, "station", k_longest_station_name, where);
@@ -173,7 +173,7 @@ CheckEntry read_check_entry(const nlohmann::json& j, const std::string& where) {
   }
   const std::string text = signed_text(j), signature = text_at(j, "signature", k_hex_of_signature, where);
   if (!is_signed_by(e.station_key, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), signature))
-    throw Error(where, "does not have the signature of its station", "somebody changed it; use an intact copy");
+    throw Error(where, msg("does not have the signature of its station"), msg("somebody changed it; use an intact copy"));
   return e;
 }
 

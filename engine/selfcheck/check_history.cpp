@@ -54,8 +54,7 @@ class LockedFile {
 
  private:
   [[noreturn]] void fail() const {
-    throw Error(path_, fmt::format("cannot be written ({})", std::strerror(errno)),
-                "make room on its disk and its folder writable, then check again");
+    throw Error(path_, msg("cannot be written ({})", std::strerror(errno)), msg("make room on its disk and its folder writable, then check again"));
   }
   std::string path_;
   int fd_;
@@ -72,13 +71,13 @@ std::string station_name(const SigningKey& key) {
   std::string name = read_text_file(path, 1024);
   while (!name.empty() && name.back() == '\n') name.pop_back();
   if (name.empty() || name.size() > k_longest_station_name || one_line(name) != name)
-    throw Error(path, "holds no station's name", "name it anew with `cavum devices --station-name NAME`");
+    throw Error(path, msg("holds no station's name"), msg("name it anew with `cavum devices --station-name NAME`"));
   return name;
 }
 
 void set_station_name(const std::string& name) {
   if (name.empty() || name.size() > k_longest_station_name || one_line(name) != name)
-    throw Error("--station-name", fmt::format("is no name: one line of 1 to {} bytes", k_longest_station_name), "name it as it stands on its desk");
+    throw Error("--station-name", msg("is no name: one line of 1 to {} bytes", k_longest_station_name), msg("name it as it stands on its desk"));
   const std::string path = station_path("station.name");
   make_private_folder(std::filesystem::path(path).parent_path().string());
   write_private_text_file(path, name + "\n");
@@ -90,15 +89,15 @@ CheckHistory::CheckHistory(std::string path) : path_(std::move(path)) {
   std::size_t from = 0;
   for (std::size_t end = text.find('\n'); end != std::string::npos; from = end + 1, end = text.find('\n', from)) {
     const std::string where = fmt::format("{}:{}", path_, lines_.size() + 1), line = text.substr(from, end - from);
-    if (line.size() > k_longest_line) throw Error(where, "is longer than a check", k_put_away);
+    if (line.size() > k_longest_line) throw Error(where, msg("is longer than a check"), msg(k_put_away));
     CheckEntry entry;
     try {
       entry = read_check_entry(parse_json(line, where), where);
     } catch (const Error& e) {
-      throw Error(where, fmt::format("is damaged ({})", without_advice(e.what())), k_put_away);
+      throw Error(where, msg("is damaged ({})", e.without_advice()), msg(k_put_away));
     }
     if (entry.previous != (lines_.empty() ? std::string() : to_hex(sha256(lines_.back()))))
-      throw Error(where, "does not follow the line before it: lines were changed or taken out", k_put_away);
+      throw Error(where, msg("does not follow the line before it: lines were changed or taken out"), msg(k_put_away));
     entries_.push_back(std::move(entry));
     lines_.push_back(line);
   }
@@ -181,7 +180,7 @@ void CheckHistory::add_decision(const CheckedStylus& stylus, bool go_on, const s
 }
 
 void CheckHistory::begin_anew(const CheckedStylus& stylus, const std::string& reason, std::int64_t utc_ns, const SigningKey& key) {
-  if (reason.empty()) throw Error("--new-history", "gives no reason", "say what was repaired or changed");
+  if (reason.empty()) throw Error("--new-history", msg("gives no reason"), msg("say what was repaired or changed"));
   CheckEntry e;
   e.kind = CheckEntry::Kind::new_history;
   e.utc_ns = utc_ns;
@@ -192,17 +191,17 @@ void CheckHistory::begin_anew(const CheckedStylus& stylus, const std::string& re
 
 void CheckHistory::add(CheckEntry entry, const SigningKey& key) {
   if (entry.reason.size() > k_longest_check_reason)
-    throw Error("the reason", fmt::format("is longer than {} bytes", k_longest_check_reason), "say it shorter");
+    throw Error(msg("the reason"), msg("is longer than {} bytes", k_longest_check_reason), msg("say it shorter"));
   entry.station = station_name(key);
   entry.station_key = to_hex(key.public_key);
   entry.previous = lines_.empty() ? std::string() : to_hex(sha256(lines_.back()));
   const std::string line = to_signed_json(entry, key).dump();
-  if (sound_bytes_ + line.size() + 1 > k_largest_history) throw Error(path_, "is full", k_put_away);
+  if (sound_bytes_ + line.size() + 1 > k_largest_history) throw Error(path_, msg("is full"), msg(k_put_away));
   make_private_folder(std::filesystem::path(path_).parent_path().string());
   const LockedFile file(path_);
   const std::size_t there = file.size();
   if (there < sound_bytes_ || (there > sound_bytes_ && CheckHistory(path_).lines_.size() != lines_.size()))
-    throw Error(path_, "was changed by another program meanwhile", "check again");
+    throw Error(path_, msg("was changed by another program meanwhile"), msg("check again"));
   file.write_at(sound_bytes_, line + "\n");
   sync_folder_of(path_);
   sound_bytes_ += line.size() + 1;

@@ -15,10 +15,10 @@ SessionCheck read_session_check(const std::string& note, const std::string& wher
   const nlohmann::json j = parse_json(note, where, k_json_part);
   SessionCheck s;
   s.check = read_check_entry(member_of(j, "check"), where);
-  if (s.check.kind != CheckEntry::Kind::check) throw Error(where, "holds no check", "use an intact copy");
+  if (s.check.kind != CheckEntry::Kind::check) throw Error(where, msg("holds no check"), msg("use an intact copy"));
   if (member_of(j, "decision").is_null()) return s;
   s.decision = read_check_entry(member_of(j, "decision"), where);
-  if (s.decision->kind != CheckEntry::Kind::decision) throw Error(where, "holds no decision", "use an intact copy");
+  if (s.decision->kind != CheckEntry::Kind::decision) throw Error(where, msg("holds no decision"), msg("use an intact copy"));
   return s;
 }
 

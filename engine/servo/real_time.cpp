@@ -173,7 +173,7 @@ RealTimeServo::~RealTimeServo() {
 }
 
 void RealTimeServo::start() {
-  if (loop_->thread.joinable() || loop_->finished) throw Error("servo", "was started already", "make a new one");
+  if (loop_->thread.joinable() || loop_->finished) throw Error(msg("servo"), msg("was started already"), msg("make a new one"));
   Loop* loop = loop_.get();
   try {
     loop->guard = std::thread([loop] { loop->watch(); });
@@ -183,8 +183,8 @@ void RealTimeServo::start() {
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
     loop->stream.close("device_failed", e.what());  // who empties it must not wait
-    throw Error("servo", fmt::format("cannot have its two threads ({})", e.what()),
-                "close other programs, or raise the limits of memory and processes");
+    throw Error(msg("servo"), msg("cannot have its two threads ({})", e.what()),
+                msg("close other programs, or raise the limits of memory and processes"));
   }
 }
 

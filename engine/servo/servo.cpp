@@ -25,7 +25,7 @@ auto material_of(const ForceModel& force, const std::string& tissue) {
 
 ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, const ServoConfig& config) {
   if (tray.empty() || tray.size() > k_most_points)
-    throw Error("tray", fmt::format("holds {} diamond points", tray.size()), "allow between 1 and 255");
+    throw Error(msg("tray"), msg("holds {} diamond points", tray.size()), msg("allow between 1 and 255"));
   ServoModel model;
   model.config = config;
   model.force = force;
@@ -35,16 +35,14 @@ ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>&
     const auto found = material_of(force, t.name);
     if (found == force.materials.end()) {
       if (!t.solid) continue;  // a void without entry resists nothing
-      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no material for tissue '{}'", t.name),
-                  fmt::format("add [materials.{}]", t.name));
+      throw Error(msg("force model '{}'", force.name), msg("has no material for tissue '{}'", t.name), msg("add [materials.{}]", t.name));
     }
     const Material& m = found->second;
     const bool by_pressure = force.law == CuttingLaw::pressure;
     const double cut = by_pressure ? m.wear_mm3_per_n_m : m.tau_s;
     const char* name = by_pressure ? "wear_mm3_per_n_m" : "tau_s";
     if (t.solid && !(cut > 0))
-      throw Error(fmt::format("force model '{}'", force.name), fmt::format("has no {} for solid tissue '{}'", name, t.name),
-                  fmt::format("add {}", name));
+      throw Error(msg("force model '{}'", force.name), msg("has no {} for solid tissue '{}'", name, t.name), msg("add {}", name));
     TissueConstants& of = model.tissue[t.id];
     of.stiffness_n_per_mm = m.voigt.stiffness_n_per_mm;
     of.damping_n_s_per_mm = m.voigt.damping_n_s_per_mm;

@@ -25,7 +25,7 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.spin_up_s = in.number("spin_up_s", 0, 10);
   c.position_quantum_mm = in.number_or("position_quantum_mm", 0, 1, 0.0);  // sessions of physics 1 and 2 have none
   const auto* limits = in.table("limits");
-  if (limits == nullptr) in.fail("limits", "is missing", "add [limits]");
+  if (limits == nullptr) in.fail("limits", msg("is missing"), msg("add [limits]"));
   TomlReader l(*limits, where);
   c.limits.peak_n = l.number("peak_n", 0, 100);
   c.limits.continuous_n = l.number("continuous_n", 0, 100);
@@ -33,7 +33,7 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.limits.sustained_budget_n_s = l.number("sustained_budget_n_s", 0.1, 1e6);
   c.limits.watchdog_s = l.number("watchdog_s", 0.001, 1);
   if (c.limits.slew_n_per_s * c.limits.watchdog_s < c.limits.peak_n)
-    l.fail("slew_n_per_s", "is too slow for the force to fade within watchdog_s", "raise it to at least peak_n / watchdog_s");
+    l.fail("slew_n_per_s", msg("is too slow for the force to fade within watchdog_s"), msg("raise it to at least peak_n / watchdog_s"));
   l.finish();
   in.finish();
   return c;

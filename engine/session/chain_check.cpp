@@ -59,7 +59,7 @@ void check_facts(const SessionReader& session, Findings& findings) {
       findings.push_back(fmt::format("table meta: a tick is said to last '{}' s, and by servo.toml it lasts {} s", one_line(session.fact("tick_s")),
                                      plain_number(tick_s)));
   } catch (const Error& e) {
-    findings.push_back(without_advice(e.what()));
+    findings.push_back(english_text(e.without_advice()));
   }
 }
 

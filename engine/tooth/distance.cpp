@@ -66,14 +66,13 @@ Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {
 }
 
 void check_lattice(IVec3 size, double leaf_mm, const std::string& where, std::uint64_t most) {
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");
-  if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, "nothing to build", "check the size of the input");
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
+  if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, msg("nothing to build"), msg("check the size of the input"));
   const int widest = std::max({size.x, size.y, size.z});
   if (widest > Octree::k_max_edge_leaves)
-    throw Error(where, fmt::format("{} leaves along one edge, 1024 is the most", widest), "use a larger --leaf-mm, or check that the unit is mm");
+    throw Error(where, msg("{} leaves along one edge, 1024 is the most", widest), msg("use a larger --leaf-mm, or check that the unit is mm"));
   const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
-  if (leaves > most)
-    throw Error(where, fmt::format("{} leaves, {} is the most", leaves, most), "use a larger --leaf-mm, or check that the unit is mm");
+  if (leaves > most) throw Error(where, msg("{} leaves, {} is the most", leaves, most), msg("use a larger --leaf-mm, or check that the unit is mm"));
 }
 
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where) {
@@ -88,8 +87,8 @@ void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, co
     const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
     near += leaves(high.x - low.x) * leaves(high.y - low.y) * leaves(high.z - low.z);
     if (near > k_most_near_triangles)
-      throw Error(where, fmt::format("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
-                  "use a larger --leaf-mm, or a mesh of fewer large triangles");
+      throw Error(where, msg("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
+                  msg("use a larger --leaf-mm, or a mesh of fewer large triangles"));
   }
 }
 

@@ -39,7 +39,7 @@ LeafBlocks::LeafBlocks(const Octree& tooth)
 
 void LeafBlocks::take(const Octree& now, std::vector<LeafBox>& changed) {
   if (!(now.size() == size_) || now.leaf_mm() != leaf_mm_ || !(now.origin_mm() == origin_mm_))
-    throw Error("tooth copy", "the octree is of another tooth", "make a new copy for each tooth");
+    throw Error(msg("tooth copy"), msg("the octree is of another tooth"), msg("make a new copy for each tooth"));
   LeafBox box{};
   for (int z = 0; z < blocks_.z; ++z)
     for (int y = 0; y < blocks_.y; ++y)

@@ -122,7 +122,7 @@ template <class Fraction>
         }
         if (filled == 0 || filled == 8) continue;
         if (mesh.triangles.size() > k_most_triangles)
-          throw Error("surface", fmt::format("has more than {} triangles", k_most_triangles), "use a tooth with larger leaves");
+          throw Error(msg("surface"), msg("has more than {} triangles", k_most_triangles), msg("use a tooth with larger leaves"));
         marching::add_cell({x, y, z}, in, edges, mesh.triangles);
       }
     }

@@ -16,8 +16,8 @@ Octree::Octree(const TissueGrid& grid, const std::vector<Tissue>& tissues)
   const int widest = std::max({grid.size.x, grid.size.y, grid.size.z});
   const int thinnest = std::min({grid.size.x, grid.size.y, grid.size.z});
   if (thinnest < 1 || grid.tissue.size() != grid.count() || grid.distance.size() != grid.count() || !(grid.leaf_mm > 0))
-    throw Error("tooth", "the tissue grid is empty", "check size and leaf of the input");
-  if (widest > k_max_edge_leaves) throw Error("tooth", fmt::format("{} leaves along one edge, 1024 is the most", widest), "use a larger leaf");
+    throw Error(msg("tooth"), msg("the tissue grid is empty"), msg("check size and leaf of the input"));
+  if (widest > k_max_edge_leaves) throw Error(msg("tooth"), msg("{} leaves along one edge, 1024 is the most", widest), msg("use a larger leaf"));
   for (const auto& t : tissues) solid_[t.id] = t.solid;
   while ((k_brick_edge << levels_) < widest) ++levels_;
   root_ = build(grid, {0, 0, 0}, levels_);
@@ -259,7 +259,7 @@ Octree Octree::with_leaves(IVec3 low, const TissueGrid& part) const {
   const auto whole = [&](int from, int n) { return from >= 0 && n > 0 && from % k_brick_edge == 0 && n % k_brick_edge == 0 && from + n <= edge; };
   if (!whole(low.x, part.size.x) || !whole(low.y, part.size.y) || !whole(low.z, part.size.z) || part.tissue.size() != part.count() ||
       part.distance.size() != part.count())
-    throw Error("tooth", "the part to be replaced is not of whole bricks", "report it with the tooth");
+    throw Error(msg("tooth"), msg("the part to be replaced is not of whole bricks"), msg("report it with the tooth"));
   Octree copy = *this;
   copy.root_ = copy.replaced(root_, levels_, {0, 0, 0}, low, part);
   ++copy.version_;
@@ -350,14 +350,13 @@ Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   constexpr double k_least_leaf_mm = 0.005, k_largest_leaf_mm = 2.0;
   if (!(tree.leaf_mm_ >= k_least_leaf_mm && tree.leaf_mm_ <= k_largest_leaf_mm) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) ||
       !usable(tree.size_.y) || !usable(tree.size_.z))
-    in.fail(
-        fmt::format("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and {} leaves a side", k_max_edge_leaves));
+    in.fail(msg("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and {} leaves a side", k_max_edge_leaves));
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
   while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;
   const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), "tooth"); };
   ByteReader shape = part(), tissue = part(), distance = part();
   tree.root_ = tree.read_ref(shape, tissue, distance, tree.levels_);
-  if (shape.left() + tissue.left() + distance.left() != 0) in.fail("data after the end of the octree");
+  if (shape.left() + tissue.left() + distance.left() != 0) in.fail(msg("data after the end of the octree"));
   return tree;
 }
 
@@ -365,14 +364,13 @@ std::uint32_t Octree::read_ref(ByteReader& shape, ByteReader& tissue, ByteReader
   const auto kind = static_cast<std::uint32_t>(shape.get<std::uint8_t>()) << 30;
   if (kind == k_uniform) return k_uniform | shape.get<std::uint8_t>();
   if (kind == k_node) {
-    if (level == 0) shape.fail("the octree is too deep");
+    if (level == 0) shape.fail(msg("the octree is too deep"));
     Node node;
     for (auto& c : node.child) c = read_ref(shape, tissue, distance, level - 1);
     return k_node | nodes_.add(node);
   }
-  if (level != 0) shape.fail("a brick in the wrong place");
-  if (labels_.items.size() + bricks_.items.size() >= k_most_bricks_read)
-    shape.fail(fmt::format("has more bricks than the limit of {}", k_most_bricks_read));
+  if (level != 0) shape.fail(msg("a brick in the wrong place"));
+  if (labels_.items.size() + bricks_.items.size() >= k_most_bricks_read) shape.fail(msg("has more bricks than the limit of {}", k_most_bricks_read));
   FullBrick brick;
   const auto labels = tissue.get_bytes(k_brick_leaves);
   std::copy(labels.begin(), labels.end(), brick.tissue.begin());

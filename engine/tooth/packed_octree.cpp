@@ -138,7 +138,7 @@ class Walk {
   using LabelWindow = std::array<std::uint16_t, 512>;
 
   [[noreturn]] static void throw_damaged() {
-    throw Error("tooth", "the packed octree does not fit its header", "the file is damaged: use an intact copy");
+    throw Error(msg("tooth"), msg("the packed octree does not fit its header"), msg("the file is damaged: use an intact copy"));
   }
 
   // --- cells
@@ -388,7 +388,7 @@ int copy_head(ByteReader& in, ByteWriter& out) {
   std::int32_t widest = 0;
   for (int i = 0; i < 3; ++i) {
     const auto n = size.get<std::int32_t>();
-    if (n < 1 || n > Octree::k_max_edge_leaves) in.fail("an impossible size");
+    if (n < 1 || n > Octree::k_max_edge_leaves) in.fail(msg("an impossible size"));
     widest = std::max(widest, n);
   }
   int levels = 0;
@@ -412,7 +412,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   for (std::size_t i = 0; i < streams.distance.size(); ++i)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] + streams.distance[i - 1]);
   const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
-  if (bricks > k_most_bricks) throw Error("tooth", fmt::format("too much detail for a tooth file: {} bricks", bricks), "use a larger leaf");
+  if (bricks > k_most_bricks) throw Error(msg("tooth"), msg("too much detail for a tooth file: {} bricks", bricks), msg("use a larger leaf"));
   RangeEncoder coder;
   const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
@@ -428,19 +428,19 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const Pa
   ByteWriter out;
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
-  if (bricks > k_most_bricks || full > bricks) in.fail(fmt::format("has {} bricks, more than the limit of {}", bricks, k_most_bricks));
+  if (bricks > k_most_bricks || full > bricks) in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_most_bricks));
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), "tooth");
   RangeDecoder coder(bits);
   Streams streams;
   const Walk walk(coder, streams, tissues, levels, bricks, full, like, keep);
-  if (bits.left() != 0) in.fail("data after the end of the octree");
+  if (bits.left() != 0) in.fail(msg("data after the end of the octree"));
   for (std::size_t i = streams.distance.size(); i-- > 0;)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] - streams.distance[i - 1]);
   for (const Bytes* part : {&streams.shape, &streams.tissue, &streams.distance}) {
     out.put(static_cast<std::uint64_t>(part->size()));
     out.put_bytes(*part);
   }
-  if (in.get<std::uint64_t>() != fast_hash(out.bytes().data(), out.bytes().size(), 0)) in.fail("the octree does not match its hash");
+  if (in.get<std::uint64_t>() != fast_hash(out.bytes().data(), out.bytes().size(), 0)) in.fail(msg("the octree does not match its hash"));
   return out.take();
 }
 

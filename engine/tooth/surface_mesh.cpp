@@ -75,7 +75,7 @@ namespace {
 TriangleMesh surface_around(const Tooth& tooth, const std::array<bool, 256>& wanted, const std::string& named) {
   const Body body = body_of(tooth.octree, wanted);
   if (body.inside.empty())
-    throw Error(fmt::format("tooth '{}'", tooth.name), "holds no " + named, "choose a tissue that `cavum tooth info` shows a volume for");
+    throw Error(msg("tooth '{}'", tooth.name), msg("holds no {}", named), msg("choose a tissue that `cavum tooth info` shows a volume for"));
   const auto fraction = [&](IVec3 a, IVec3 b) {
     const auto ia = body.grid.index(a), ib = body.grid.index(b);
     const double da = body.grid.distance[ia], db = body.grid.distance[ib];
@@ -163,7 +163,8 @@ Bytes to_ply(const TriangleMesh& mesh) {
 void write_mesh_file(const TriangleMesh& mesh, const std::string& path) {
   std::string extension = path.substr(std::min(path.size(), path.find_last_of('.')));
   for (char& c : extension) c = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
-  if (extension != ".stl" && extension != ".ply") throw Error(path, "the mesh format is not known by this name", "end the name in .stl or .ply");
+  if (extension != ".stl" && extension != ".ply")
+    throw Error(path, msg("the mesh format is not known by this name"), msg("end the name in .stl or .ply"));
   write_file(path, extension == ".stl" ? to_stl(mesh) : to_ply(mesh));
 }
 

@@ -41,19 +41,19 @@ void write_tissues(const Tooth& tooth, ByteWriter& out) {
 }
 
 /// What is wrong with landmarks that a person put; empty when nothing is.
-std::string fault_of(const std::vector<NamedPoint>& landmarks) {
+Message fault_of(const std::vector<NamedPoint>& landmarks) {
   constexpr double k_farthest_mm = 200.0;
-  if (landmarks.size() > k_most_placed) return fmt::format("{} landmarks, at most {} may be put", landmarks.size(), k_most_placed);
+  if (landmarks.size() > k_most_placed) return msg("{} landmarks, at most {} may be put", landmarks.size(), k_most_placed);
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const auto& [name, at] = landmarks[i];
     if (name.empty() || name.size() > k_longest_landmark_name || !is_plain_text(name))
-      return fmt::format("the name of landmark {} cannot be read, or has more than {} bytes", i + 1, k_longest_landmark_name);
+      return msg("the name of landmark {} cannot be read, or has more than {} bytes", i + 1, k_longest_landmark_name);
     if (!is_finite(at) || std::max({std::fabs(at.x), std::fabs(at.y), std::fabs(at.z)}) > k_farthest_mm)
-      return fmt::format("landmark {} lies nowhere in a tooth", i + 1);
+      return msg("landmark {} lies nowhere in a tooth", i + 1);
     for (std::size_t j = 0; j < i; ++j)
-      if (landmarks[j].name == name) return fmt::format("landmark {} has the name of another", i + 1);
+      if (landmarks[j].name == name) return msg("landmark {} has the name of another", i + 1);
   }
-  return "";
+  return {};
 }
 
 void write_landmarks(const Tooth& tooth, ByteWriter& out) {
@@ -66,7 +66,7 @@ void write_landmarks(const Tooth& tooth, ByteWriter& out) {
 
 std::vector<NamedPoint> read_landmarks(ByteReader& in) {
   const auto count = in.get<std::uint32_t>();
-  if (count == 0 || count > k_most_placed) in.fail(fmt::format("a tooth of version 3 has 1 to {} landmarks", k_most_placed));
+  if (count == 0 || count > k_most_placed) in.fail(msg("a tooth of version 3 has 1 to {} landmarks", k_most_placed));
   std::vector<NamedPoint> landmarks(count);
   for (auto& [name, at] : landmarks) {
     name = in.get_string();
@@ -87,7 +87,7 @@ Tooth read_all_but_octree(ByteReader& in) {
     t.id = in.get<std::uint8_t>();
     t.solid = in.get<std::uint8_t>() != 0;
     t.name = in.get_string();
-    if (!is_plain_text(t.name)) in.fail(fmt::format("the name of tissue {} cannot be read", t.id));
+    if (!is_plain_text(t.name)) in.fail(msg("the name of tissue {} cannot be read", t.id));
   }
   return tooth;
 }
@@ -106,16 +106,16 @@ Bytes unpack(std::span<const std::uint8_t> packed, std::uint64_t size, const Byt
     more = ZSTD_decompressStream(stream.get(), &to, &from);
     if (ZSTD_getErrorCode(more) == ZSTD_error_memory_allocation) throw std::bad_alloc();  // nothing is wrong with the file
     out.resize(had + to.pos);
-    if (ZSTD_isError(more) != 0 || (to.pos == 0 && more != 0)) in.fail("the compressed data are damaged");
+    if (ZSTD_isError(more) != 0 || (to.pos == 0 && more != 0)) in.fail(msg("the compressed data are damaged"));
   }
-  if (out.size() != size || from.pos != from.size) in.fail("the compressed data are damaged");
+  if (out.size() != size || from.pos != from.size) in.fail(msg("the compressed data are damaged"));
   return out;
 }
 
 Tooth read_body_1(ByteReader& in, const std::string& where) {
   const auto body_size = in.get<std::uint64_t>();
   const auto packed = in.get_bytes(in.get<std::uint64_t>());
-  if (body_size > k_largest_body_1) in.fail("the sizes in the header do not fit the file");
+  if (body_size > k_largest_body_1) in.fail(msg("the sizes in the header do not fit the file"));
   const Bytes body = unpack(packed, body_size, in);
   ByteReader from(body, where);
   Tooth tooth = read_all_but_octree(from);
@@ -146,13 +146,13 @@ std::string Tooth::tissue_name(std::uint8_t id) const {
 std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
   for (const auto& t : tissues)
     if (t.name == wanted) return t.id;
-  throw Error(fmt::format("tooth '{}'", name), fmt::format("has no tissue named '{}'", wanted), "use one that `cavum tooth info` lists");
+  throw Error(msg("tooth '{}'", name), msg("has no tissue named '{}'", wanted), msg("use one that `cavum tooth info` lists"));
 }
 
 Bytes save_tooth(const Tooth& tooth) {
   const bool placed = !tooth.placed_landmarks.empty();
   if (const auto fault = fault_of(tooth.placed_landmarks); !fault.empty())
-    throw Error(fmt::format("tooth '{}'", tooth.name), fault, "put fewer landmarks, or others");
+    throw Error(msg("tooth '{}'", tooth.name), fault, msg("put fewer landmarks, or others"));
   ByteWriter out;
   for (const char c : placed ? k_magic_3 : k_magic) out.put(c);
   out.put_string(tooth.name);
@@ -175,12 +175,14 @@ Tooth load_tooth_like(std::span<const std::uint8_t> bytes, const std::string& wh
   };
   const bool first_version = begins_with(k_magic_1), third_version = begins_with(k_magic_3);
   if (!first_version && !third_version && !begins_with(k_magic))
-    throw Error(where, "not a Cavum tooth file of version 1, 2 or 3", "make or import the tooth again with `cavum tooth`");
-  if (bytes.size() < k_magic.size() + sizeof(Sha256)) throw Error(where, "the data end too early", "the file is incomplete: use an intact copy");
+    throw Error(where, msg("not a Cavum tooth file of version 1, 2 or 3"), msg("make or import the tooth again with `cavum tooth`"));
+  if (bytes.size() < k_magic.size() + sizeof(Sha256))
+    throw Error(where, msg("the data end too early"), msg("the file is incomplete: use an intact copy"));
   const auto signed_bytes = bytes.first(bytes.size() - sizeof(Sha256));
   const Sha256 sum = sha256(signed_bytes);
   ByteReader in(signed_bytes.subspan(k_magic.size()), where);
-  if (!std::equal(sum.begin(), sum.end(), bytes.begin() + static_cast<std::ptrdiff_t>(signed_bytes.size()))) in.fail("the checksum does not match");
+  if (!std::equal(sum.begin(), sum.end(), bytes.begin() + static_cast<std::ptrdiff_t>(signed_bytes.size())))
+    in.fail(msg("the checksum does not match"));
   Tooth tooth;
   if (first_version) {
     tooth = read_body_1(in, where);
@@ -192,7 +194,7 @@ Tooth load_tooth_like(std::span<const std::uint8_t> bytes, const std::string& wh
     tooth.octree = Octree::read(from, tooth.tissues);
     if (third_version) tooth.placed_landmarks = read_landmarks(in);
   }
-  if (in.left() != 0) in.fail("data after the end");
+  if (in.left() != 0) in.fail(msg("data after the end"));
   return tooth;
 }
 

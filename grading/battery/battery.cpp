@@ -141,8 +141,8 @@ void judge_honest(const scenarios::Scenario& scenario, const Result& r, std::vec
                             : worst != nullptr ? fmt::format("begin with '{}': {}", worst->id, worst->reason)
                                                : "give the rubric criteria";
   problems.push_back(scenarios::problem_at(scenario, "rubric",
-                                           fmt::format("who removes exactly the target gets {} of {} points that need no hand, and the verdict is {}",
-                                                       fixed(points, 1), fixed(max, 1), verdict_name(r.verdict)),
+                                           msg("who removes exactly the target gets {} of {} points that need no hand, and the verdict is {}",
+                                               as_number(points, 1), as_number(max, 1), verdict_name(r.verdict)),
                                            to_do));
 }
 
@@ -244,8 +244,8 @@ void BatteryRun::put(const WrongWork& work, const Result& r) {
   if (r.verdict != Verdict::pass) return;
   battery_.problems.push_back(
       scenarios::problem_at(scenario_, "rubric",
-                            fmt::format("wrong work passes: '{}' ({}) gets {} of {} points{}", row.name, row.what, fixed(row.points, 1),
-                                        fixed(row.max, 1), row.should.empty() ? "" : ", and " + row.should + " should have caught it"),
+                            msg("wrong work passes: '{}' ({}) gets {} of {} points{}", row.name, row.what, as_number(row.points, 1),
+                                as_number(row.max, 1), row.should.empty() ? Message() : msg(", and {} should have caught it", row.should)),
                             advice_against(should)));
 }
 

@@ -43,18 +43,18 @@ std::vector<scenarios::Problem> judge_growth(const scenarios::Scenario& scenario
     if (failed && r.verdict == Verdict::pass && !told) {
       const std::size_t c = let_go(*failing, r);
       problems.push_back(scenarios::problem_at(scenario, at(c),
-                                               fmt::format("more of an error passes and less of it fails ({}): {} fails, {} passes with {} points",
-                                                           ladder.what, failed_at, amount(i), fixed(r.points, 1)),
-                                               fmt::format("see what '{}' measures there, and let another criterion fail it", r.criteria[c].id)));
+                                               msg("more of an error passes and less of it fails ({}): {} fails, {} passes with {} points",
+                                                   ladder.what, failed_at, amount(i), as_number(r.points, 1)),
+                                               msg("see what '{}' measures there, and let another criterion fail it", r.criteria[c].id)));
       told = true;
     }
     if (r.points > before->points + r.points_bound + 1e-9) {
       const std::size_t c = most_risen(*before, r);
       problems.push_back(scenarios::problem_at(scenario, at(c),
-                                               fmt::format("more of an error gains points ({}): {} gets {}, {} gets {}", ladder.what, before_text,
-                                                           fixed(before->points, 1), amount(i), fixed(r.points, 1)),
-                                               fmt::format("'{}' gives {} there and {} before: measure a largest value or a volume in its place",
-                                                           r.criteria[c].id, fixed(r.criteria[c].points, 1), fixed(before->criteria[c].points, 1))));
+                                               msg("more of an error gains points ({}): {} gets {}, {} gets {}", ladder.what, before_text,
+                                                   as_number(before->points, 1), amount(i), as_number(r.points, 1)),
+                                               msg("'{}' gives {} there and {} before: measure a largest value or a volume in its place",
+                                                   r.criteria[c].id, as_number(r.criteria[c].points, 1), as_number(before->criteria[c].points, 1))));
       problems.back().warning = true;
     }
     if (r.verdict == Verdict::fail && !failed) {

@@ -142,8 +142,9 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
 
 CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
                                const std::map<std::string, std::vector<HumanMark>>& marks) {
-  if (exams.size() < 2) throw Error("a circuit", "has two exams at least", "name them with --exams A,B");
-  if (std::set<std::string>(exams.begin(), exams.end()).size() != exams.size()) throw Error("a circuit", "names an exam twice", "name each once");
+  if (exams.size() < 2) throw Error(msg("a circuit"), msg("has two exams at least"), msg("name them with --exams A,B"));
+  if (std::set<std::string>(exams.begin(), exams.end()).size() != exams.size())
+    throw Error(msg("a circuit"), msg("names an exam twice"), msg("name each once"));
   CircuitFigures f;
   Collected all(registry, identities, f);
   for (const auto& exam : exams) {

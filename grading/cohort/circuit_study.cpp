@@ -74,8 +74,8 @@ CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& mar
 
 CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, std::optional<double> cut) {
   if (most_partners(marks, 1, 2) <= 1)
-    throw Error("people's marks", "are one judge's in each exam: judge and exam cannot be told apart",
-                "have each exam marked by two judges at least");
+    throw Error(msg("people's marks"), msg("are one judge's in each exam: judge and exam cannot be told apart"),
+                msg("have each exam marked by two judges at least"));
   const bool nested = most_partners(marks, 2, 1) <= 1;
   return study_circuit(nested ? nested_design("candidate", "exam", "judge") : crossed_design({"candidate", "exam", "judge"}), marks, cut);
 }

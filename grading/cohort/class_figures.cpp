@@ -277,7 +277,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
   const auto at = [&](const CsvRow& row) { return fmt::format("{}:{}", where, row.line); };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
-  if (!known) throw Error(where + ":1", "is no heading of marks", "begin with candidate,judge,points or candidate,judge,points,rating");
+  if (!known) throw Error(where + ":1", msg("is no heading of marks"), msg("begin with candidate,judge,points or candidate,judge,points,rating"));
   std::vector<HumanMark> out;
   std::set<std::string> judges;
   std::set<std::pair<std::string, std::string>> given;
@@ -287,12 +287,12 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       double v = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-        throw Error(fmt::format("{}: column {}", at(rows[i]), column), fmt::format("'{}' is no number of {}", one_line(field), what),
-                    "write it with a decimal point");
+        throw Error(msg("{}: column {}", at(rows[i]), column), msg("'{}' is no number of {}", one_line(field), what),
+                    msg("write it with a decimal point"));
       return v;
     };
     HumanMark m{f[0], f[1], number_in(f[2], "3 (points)", "points"), {}};
-    if (m.judge.empty()) throw Error(at(rows[i]), "names no judge", "give each judge a name or number");
+    if (m.judge.empty()) throw Error(at(rows[i]), msg("names no judge"), msg("give each judge a name or number"));
     if (m.points < 0 || m.points > max_points)
       throw Error(at(rows[i]) + ": column 3 (points)",
                   plain_number(m.points) +
@@ -303,12 +303,12 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
     if (!given.emplace(m.candidate, m.judge).second)
-      throw Error(at(rows[i]), fmt::format("is a second mark by judge {} for one candidate", m.judge), "leave one of them");
+      throw Error(at(rows[i]), msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
     judges.insert(m.judge);
     out.push_back(std::move(m));
   }
   require_distinct_judges(judges, where);
-  if (out.empty()) throw Error(where, "holds no mark", "write a row for each candidate and judge");
+  if (out.empty()) throw Error(where, msg("holds no mark"), msg("write a row for each candidate and judge"));
   return out;
 }
 
@@ -316,7 +316,8 @@ std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledge
   std::map<std::string, const ledger::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result->is_object()) sat[s.candidate] = &s;
-  if (sat.empty()) throw Error(fmt::format("exam '{}'", one_line(exam)), "was sat by nobody in this ledger", "see `cavum ledger show` for what was");
+  if (sat.empty())
+    throw Error(msg("exam '{}'", one_line(exam)), msg("was sat by nobody in this ledger"), msg("see `cavum ledger show` for what was"));
   return sat;
 }
 

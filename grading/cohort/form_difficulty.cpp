@@ -73,12 +73,13 @@ FormVerdict verdict_of(const FormDifficulty& f, double limit) {
 }
 
 void check_marks(const Matrix& marks, std::span<const double> skill, double limit) {
-  if (marks.size() < k_fewest_candidates) throw Error("difficulty", "needs ten candidates at least", "let more of them sit the forms");
-  if (marks[0].size() < 2) throw Error("difficulty", "needs two forms at least", "name more scenarios");
+  if (marks.size() < k_fewest_candidates) throw Error(msg("difficulty"), msg("needs ten candidates at least"), msg("let more of them sit the forms"));
+  if (marks[0].size() < 2) throw Error(msg("difficulty"), msg("needs two forms at least"), msg("name more scenarios"));
   for (const auto& row : marks)
-    if (row.size() != marks[0].size()) throw Error("difficulty", "needs a mark of each candidate on each form", "leave out who did not sit all");
-  if (skill.size() != marks.size()) throw Error("difficulty", "needs the skill of each candidate", "give one for each row of marks");
-  if (!(limit > 0)) throw Error("difficulty", "needs a limit above 0", "say from how many percent on forms count as unequal");
+    if (row.size() != marks[0].size())
+      throw Error(msg("difficulty"), msg("needs a mark of each candidate on each form"), msg("leave out who did not sit all"));
+  if (skill.size() != marks.size()) throw Error(msg("difficulty"), msg("needs the skill of each candidate"), msg("give one for each row of marks"));
+  if (!(limit > 0)) throw Error(msg("difficulty"), msg("needs a limit above 0"), msg("say from how many percent on forms count as unequal"));
 }
 
 }  // namespace

@@ -35,8 +35,8 @@ void require_distinct_judges(const std::set<std::string>& names, const std::stri
   for (const auto& name : names) {
     const auto [at, is_new] = seen.try_emplace(bare(name), name);
     if (!is_new)
-      throw Error(where, fmt::format("names judges '{}' and '{}', which differ by case or blanks alone", one_line(at->second), one_line(name)),
-                  "write each judge in one way; two people need two names");
+      throw Error(where, msg("names judges '{}' and '{}', which differ by case or blanks alone", one_line(at->second), one_line(name)),
+                  msg("write each judge in one way; two people need two names"));
   }
 }
 

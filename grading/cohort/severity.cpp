@@ -70,8 +70,9 @@ class Model {
         for (std::size_t k = columns_.first[f]; k < columns_.first[f + 1]; ++k) normal[i][k] += 1;
     auto inverse = inverted(std::move(normal));
     if (!inverse)
-      throw Error("these marks", "do not compare all stations and raters: some share no candidates with the others, or stand for one exam alone",
-                  "let candidates of one exam sit at several stations, and be marked by several people");
+      throw Error(msg("these marks"),
+                  msg("do not compare all stations and raters: some share no candidates with the others, or stand for one exam alone"),
+                  msg("let candidates of one exam sit at several stations, and be marked by several people"));
     inverse_ = std::move(*inverse);
   }
   [[nodiscard]] const Columns& columns() const noexcept { return columns_; }
@@ -147,7 +148,8 @@ SeverityStudy study_severity(std::span<const StudyMark> marks) {
   }
   const double free = static_cast<double>(marks.size()) - static_cast<double>(model.persons()) - static_cast<double>(columns.count() - (facets - 1));
   if (!(free >= 1))
-    throw Error("these marks", "are too few to tell severity from chance", "let candidates go to more stations, or be marked by more raters");
+    throw Error(msg("these marks"), msg("are too few to tell severity from chance"),
+                msg("let candidates go to more stations, or be marked by more raters"));
   study.residual_sd = std::sqrt(squares / free);
   const Interactions interactions = estimate_interactions(marks, free, [&](std::span<const double> v) { return model.residuals(v); });
   for (std::size_t f = 1; f < facets; ++f) {

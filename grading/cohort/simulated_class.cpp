@@ -60,7 +60,7 @@ ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, le
     s.skill = fmt::format("student-{}", level[static_cast<std::size_t>(i)]);
     s.candidate = identities.enrol(fmt::format("simulated-{}-{}", wanted.seed, i + 1), "", ticket.exam, ledger.key());
     s.path = fmt::format("{}/{}.cavum", wanted.sessions, file_name_of(s.candidate));
-    if (std::filesystem::exists(s.path)) throw Error(s.path, "is there already", "name another folder, or another --seed");
+    if (std::filesystem::exists(s.path)) throw Error(s.path, msg("is there already"), msg("name another folder, or another --seed"));
     s.ticket = ledger::issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));
   }

@@ -46,14 +46,14 @@ std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<st
     forms.push_back(scenarios::prepare_exam(file, options));
     const scenarios::Scenario& s = forms.back()->scenario;
     if (std::find(sat.ids.begin(), sat.ids.end(), s.id) != sat.ids.end())
-      throw Error(file, fmt::format("its id '{}' is that of another form", s.id), "name each form once");
+      throw Error(file, msg("its id '{}' is that of another form", s.id), msg("name each form once"));
     const bool first = sat.ids.empty();
     if (!first && s.rubric.pass_percent != sat.pass_percent)
-      throw Error(file, fmt::format("its pass mark is {} %, that of {} is {} %", s.rubric.pass_percent, sat.ids[0], sat.pass_percent),
-                  "forms of one exam have one pass mark");
+      throw Error(file, msg("its pass mark is {} %, that of {} is {} %", s.rubric.pass_percent, sat.ids[0], sat.pass_percent),
+                  msg("forms of one exam have one pass mark"));
     if (!first && !is_one_task(s, forms.front()->scenario))
-      throw Error(file, fmt::format("its target is made of other bodies than that of {}", sat.ids[0]),
-                  "forms of one exam are one task on several teeth");
+      throw Error(file, msg("its target is made of other bodies than that of {}", sat.ids[0]),
+                  msg("forms of one exam are one task on several teeth"));
     sat.pass_percent = s.rubric.pass_percent;
     sat.borderline_percent = first ? s.rubric.borderline_percent : std::min(sat.borderline_percent, s.rubric.borderline_percent);
     sat.ids.push_back(s.id);

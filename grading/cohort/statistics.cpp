@@ -11,7 +11,7 @@ namespace cavum::cohort {
 namespace {
 
 void require(bool enough, const char* what) {
-  if (!enough) throw Error("statistics", what, "wait for more results");
+  if (!enough) throw Error(msg("statistics"), what, msg("wait for more results"));
 }
 
 void require_table(const Matrix& m) {

@@ -99,7 +99,7 @@ std::string dependent_effects(const SquareMatrix& a, const std::vector<std::stri
 
 StudyDesign crossed_design(std::vector<std::string> facets) {
   if (facets.size() < 2 || facets.size() > k_most_facets)
-    throw Error("a study", "needs one to four facets beside the candidates", "name tasks, raters, stations");
+    throw Error(msg("a study"), msg("needs one to four facets beside the candidates"), msg("name tasks, raters, stations"));
   StudyDesign design{std::move(facets), {}, {}};
   const auto sets = static_cast<std::uint32_t>(1U << design.facets.size());
   for (std::uint32_t e = 1; e < sets; ++e) design.effects.push_back(e);
@@ -163,7 +163,7 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
     size_.push_back(std::move(size));
   }
   if (!size_.empty() && size_.back().size() != marks_)
-    throw Error("two marks", "stand for the same candidate under the same conditions", "keep one of them");
+    throw Error(msg("two marks"), msg("stand for the same candidate under the same conditions"), msg("keep one of them"));
   const std::size_t n = design_.effects.size();
   const std::vector<std::uint32_t> all(marks_, 0);
   const std::vector<double> all_size{static_cast<double>(marks_)};
@@ -179,8 +179,8 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   }
   auto inverse = inverted(expected_);
   if (!inverse)
-    throw Error("these marks", "cannot tell these effects apart: " + dependent_effects(a, design_.names),
-                "a study needs two conditions of each facet, and candidates who share them");
+    throw Error(msg("these marks"), msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
+                msg("a study needs two conditions of each facet, and candidates who share them"));
   of_squares_ = std::move(*inverse);
   marking_ = Marking(design_, marks);
 }
@@ -263,7 +263,7 @@ Dependability dependable(const StudyDesign& design, const VarianceComponents& co
 Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons) {
   if (plan.conditions.size() + 1 != design.facets.size()) throw Error("the plan of a circuit", "has another number of facets than the study", "");
   for (const double n : plan.conditions)
-    if (!(n >= 1)) throw Error("the plan of a circuit", "has fewer than one condition of a facet", "plan at least one");
+    if (!(n >= 1)) throw Error(msg("the plan of a circuit"), msg("has fewer than one condition of a facet"), msg("plan at least one"));
   MarkShares shares;
   std::vector<bool> fixed;
   for (const std::uint32_t e : design.effects) {
@@ -295,9 +295,10 @@ void require_differences(const StudyDesign& design, const VarianceComponents& co
   };
   if (there(true)) return;
   if (!there(false))
-    throw Error("these marks", "are all alike: nothing varies, and nothing tells how dependable they are", "study marks that differ");
-  throw Error("these marks", "differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are",
-              "study candidates who differ");
+    throw Error(msg("these marks"), msg("are all alike: nothing varies, and nothing tells how dependable they are"), msg("study marks that differ"));
+  throw Error(msg("these marks"),
+              msg("differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are"),
+              msg("study candidates who differ"));
 }
 
 CutDecision cut_decision(const Dependability& d, double mean_mark, double cut) {

@@ -32,10 +32,9 @@ inline std::string pseudonym_typed(const std::string& text) {
 /// Throws Error(`where`, ...) unless `id` is one line of UTF-8 of at most k_longest_candidate bytes.
 inline void require_candidate_id(const std::string& where, const std::string& id) {
   if (id.size() > k_longest_candidate)
-    throw Error(fmt::format("{} {}…", where, one_line(id.substr(0, 20))),
-                fmt::format("is longer than a candidate's number or address ({} bytes)", id.size()),
-                fmt::format("use {} at most", k_longest_candidate));
-  if (!is_plain_text(id)) throw Error(where, "holds a control character or bytes that are no UTF-8", "use letters and digits");
+    throw Error(fmt::format("{} {}…", where, one_line(id.substr(0, 20))), msg("is longer than a candidate's number or address ({} bytes)", id.size()),
+                msg("use {} at most", k_longest_candidate));
+  if (!is_plain_text(id)) throw Error(where, msg("holds a control character or bytes that are no UTF-8"), msg("use letters and digits"));
 }
 
 }  // namespace cavum::ledger

@@ -25,7 +25,7 @@ struct Column {
 
 double number_of(const std::string& field, const std::string& at) {
   const auto number = number_in_field(field);
-  if (!number) throw Error(at, fmt::format("'{}' is no number", field), "write it with a decimal point, or leave it empty");
+  if (!number) throw Error(at, msg("'{}' is no number", field), msg("write it with a decimal point, or leave it empty"));
   return *number;
 }
 /// As a person or a spreadsheet writes a percentage: 25, 25%, 25 %, 25,0.
@@ -40,10 +40,10 @@ double percent_of(const std::string& field, const std::string& at) {
   if (text.find('.') == std::string::npos)
     if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   const auto number = number_in_field(text);
-  if (!number) throw Error(at, fmt::format("'{}' is no percentage", field), "write it as 25, or leave it empty");
+  if (!number) throw Error(at, msg("'{}' is no percentage", field), msg("write it as 25, or leave it empty"));
   if (*number > 0 && *number < 1)
-    throw Error(at, fmt::format("'{}' is less than one percent", field),
-                fmt::format("write {} if the exam is to be longer by {} percent", plain_number(100 * *number), plain_number(100 * *number)));
+    throw Error(at, msg("'{}' is less than one percent", field),
+                msg("write {} if the exam is to be longer by {} percent", as_number(100 * *number), as_number(100 * *number)));
   return *number;
 }
 bool yes_of(const std::string& field, const std::string& at) {
@@ -52,7 +52,7 @@ bool yes_of(const std::string& field, const std::string& at) {
     if (word == yes) return true;
   for (const char* no : {"no", "nein", "false", "0"})
     if (word == no) return false;
-  throw Error(at, fmt::format("'{}' is neither yes nor no", field), "write yes (or ja, x), no (or nein), or nothing");
+  throw Error(at, msg("'{}' is neither yes nor no", field), msg("write yes (or ja, x), no (or nein), or nothing"));
 }
 
 constexpr Column k_columns[] = {
@@ -75,20 +75,21 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
     const bool passed = std::find(passed_over.begin(), passed_over.end(), field) != passed_over.end();
     const bool is_known = found != std::end(k_columns) && !passed;
     if (!is_known && !passed)
-      throw Error(at, fmt::format("a ticket knows no column '{}'", one_line(field)),
-                  fmt::format("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
+      throw Error(at, msg("a ticket knows no column '{}'", one_line(field)),
+                  msg("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
     if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
-      throw Error(at, fmt::format("has the column '{}' twice", found->name),
-                  std::string_view(found->name) == "name" ? "join surname and first name to one column in the spreadsheet" : "leave one of them");
+      throw Error(
+          at, msg("has the column '{}' twice", found->name),
+          std::string_view(found->name) == "name" ? msg("join surname and first name to one column in the spreadsheet") : msg("leave one of them"));
     columns.push_back(is_known ? found : nullptr);
   }
   if (std::find(columns.begin(), columns.end(), &k_columns[0]) == columns.end())
-    throw Error(at, "is no heading of candidates", "begin with a line of column names, of which one is id: " + known);
+    throw Error(at, msg("is no heading of candidates"), msg("begin with a line of column names, of which one is id: {}", known));
   return columns;
 }
 
 void require_all_fields(const CsvRow& row, std::size_t columns, const std::string& at) {
-  if (row.fields.size() != columns) throw Error(at, fmt::format("has {} fields for {} columns", row.fields.size(), columns), "complete the row");
+  if (row.fields.size() != columns) throw Error(at, msg("has {} fields for {} columns", row.fields.size(), columns), msg("complete the row"));
 }
 
 Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, const std::string& at) {
@@ -96,9 +97,9 @@ Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, c
   Person p;
   for (std::size_t c = 0; c < columns.size(); ++c)
     if (columns[c] != nullptr && !row.fields[c].empty()) columns[c]->put(p, row.fields[c], fmt::format("{}: {}", at, columns[c]->name));
-  if (p.id.empty()) throw Error(at, "has no id", "give each candidate the school's own number or address");
+  if (p.id.empty()) throw Error(at, msg("has no id"), msg("give each candidate the school's own number or address"));
   require_candidate_id(at + ": id", p.id);
-  if (holds_unseen(p.id)) throw Error(at + ": id", "holds a character that is not seen, such as a no-break space", "type the number anew");
+  if (holds_unseen(p.id)) throw Error(at + ": id", msg("holds a character that is not seen, such as a no-break space"), msg("type the number anew"));
   require_candidate_id(at + ": name", p.name);
   require_candidate_id(at + ": station", p.station);
   scenarios::require_sound(p.grant, at);
@@ -109,7 +110,7 @@ Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, c
 }  // namespace
 
 ListMistakes::ListMistakes(const std::string& where, std::vector<std::string> texts)
-    : Error(where, fmt::format("has {} mistakes", texts.size()), fmt::format("the first: {}", texts.at(0))), texts_(std::move(texts)) {}
+    : Error(where, msg("has {} mistakes", texts.size()), msg("the first: {}", texts.at(0))), texts_(std::move(texts)) {}
 
 void Mistakes::tell() {
   if (number_ > texts_.size()) texts_.push_back(fmt::format("{}: has {} mistakes more; put these right first", where_, number_ - texts_.size()));
@@ -133,7 +134,7 @@ void require_whole_rows(const std::vector<CsvRow>& rows, const std::string& wher
 }
 
 std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::string& where, const std::vector<std::string>& passed_over) {
-  if (rows.empty()) throw Error(where + ":1", "is no heading of candidates", "begin with id,name");
+  if (rows.empty()) throw Error(where + ":1", msg("is no heading of candidates"), msg("begin with id,name"));
   const auto columns = columns_of(rows[0].fields, fmt::format("{}:{}", where, rows[0].line), passed_over);
   std::vector<Person> people;
   std::set<std::string> seen, stations;
@@ -142,13 +143,13 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
     mistakes.unless([&] {
       const std::string at = fmt::format("{}:{}", where, rows[i].line);
       Person p = person_of(rows[i], columns, at);
-      if (!seen.insert(p.id).second) throw Error(at, fmt::format("'{}' stands there a second time", p.id), "leave one of them");
+      if (!seen.insert(p.id).second) throw Error(at, msg("'{}' stands there a second time", p.id), msg("leave one of them"));
       if (!p.station.empty() && !stations.insert(p.station).second)
-        throw Error(at + ": station", fmt::format("'{}' is given to two candidates", p.station), "give each a station of his own");
+        throw Error(at + ": station", msg("'{}' is given to two candidates", p.station), msg("give each a station of his own"));
       people.push_back(std::move(p));
     });
   mistakes.tell();
-  if (people.empty()) throw Error(where, "names no candidate", "write one on each line below the heading");
+  if (people.empty()) throw Error(where, msg("names no candidate"), msg("write one on each line below the heading"));
   return people;
 }
 

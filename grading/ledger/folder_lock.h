@@ -22,7 +22,7 @@ class FolderLock {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX) == 0) return;
     const std::string why = std::strerror(errno);
     if (fd_ >= 0) ::close(fd_);
-    throw Error(folder, fmt::format("{} ({})", what, why), what_to_do);
+    throw Error(folder, msg("{} ({})", what, why), what_to_do);
   }
   ~FolderLock() { ::close(fd_); }
   FolderLock(const FolderLock&) = delete;

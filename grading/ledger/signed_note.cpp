@@ -47,7 +47,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) { return {reinte
 std::string cosigned_text(const std::string& text, std::uint64_t utc_s) { return fmt::format("cosignature/v1\ntime {}\n{}", utc_s, text); }
 
 [[noreturn]] void no_note(const std::string& where, const std::string& why) {
-  throw Error(where, "is no signed note: " + why, "name a note that `cavum ledger` wrote, unchanged");
+  throw Error(where, msg("is no signed note: {}", why), msg("name a note that `cavum ledger` wrote, unchanged"));
 }
 
 }  // namespace
@@ -70,7 +70,7 @@ std::optional<Bytes> from_base64(const std::string& text) {
 
 void require_note_name(const std::string& name, const std::string& where) {
   if (name.empty() || name.size() > k_longest_name || !is_plain_text(name) || has_space_or_plus(name))
-    throw Error(where, fmt::format("'{}' is no name for a signature", one_line(name)), "give 1 to 254 bytes of text without spaces and plus signs");
+    throw Error(where, msg("'{}' is no name for a signature", one_line(name)), msg("give 1 to 254 bytes of text without spaces and plus signs"));
 }
 
 std::array<std::uint8_t, 4> key_id_of(const NoteKey& key) {
@@ -89,7 +89,9 @@ std::string key_line(const NoteKey& key) {
 }
 
 NoteKey parse_key_line(const std::string& line, const std::string& where) {
-  const auto fail = [&]() -> NoteKey { throw Error(where, "is no key of a note: NAME+key id+base64", "copy the whole line that its owner shows"); };
+  const auto fail = [&]() -> NoteKey {
+    throw Error(where, msg("is no key of a note: NAME+key id+base64"), msg("copy the whole line that its owner shows"));
+  };
   const auto first = line.find('+'), second = first == std::string::npos ? first : line.find('+', first + 1);
   if (second == std::string::npos) return fail();
   const auto bytes = from_base64(line.substr(second + 1));

@@ -77,14 +77,15 @@ PartWriter::PartWriter(const std::string& path, std::string work_id) : path_(pat
   }
   out_.open(path, std::ios::binary | std::ios::app);
   if (cut) out_ << "\n" << std::flush;
-  if (!out_) throw Error(path, "cannot be written", "name a folder that is writable and has room");
+  if (!out_) throw Error(path, msg("cannot be written"), msg("name a folder that is writable and has room"));
 }
 
 void PartWriter::add(std::size_t index, const std::string& line, const Spent& spent) {
   out_ << fmt::format("{} {} {} {} {}\n", index, static_cast<std::uint64_t>(spent.wall_s * 1e6), static_cast<std::uint64_t>(spent.core_s * 1e6),
                       seal_of(work_id_, index, line), line)
        << std::flush;
-  if (!out_) throw Error(path_, "cannot be written to its end", "make room on the disk, and run the same command again: it goes on where it stood");
+  if (!out_)
+    throw Error(path_, msg("cannot be written to its end"), msg("make room on the disk, and run the same command again: it goes on where it stood"));
 }
 
 std::vector<std::size_t> Parts::missing() const {
@@ -99,7 +100,7 @@ Parts read_parts(const Work& work, const std::vector<std::string>& files) {
   const std::string id = id_of(work);
   for (const auto& file : files) {
     std::ifstream in(file, std::ios::binary);
-    if (!in) throw Error(file, "cannot be read", "check its name and permissions");
+    if (!in) throw Error(file, msg("cannot be read"), msg("check its name and permissions"));
     std::size_t wrong = 0, rows = 0;
     for (std::string text; std::getline(in, text); ++rows) {
       const auto row = read_row(text, id, work.sessions.size());
@@ -111,8 +112,8 @@ Parts read_parts(const Work& work, const std::vector<std::string>& files) {
       if (kept && *kept != row->line) {
         if (sha256_in(*kept) == sha256_in(row->line))
           throw Error(
-              file, fmt::format("its line of {} is another one than that of a part before it", work.sessions[row->index]),
-              "two machines do not compute the same: run `cavum replay --verify` on it on both, and remove the parts of the one that is wrong");
+              file, msg("its line of {} is another one than that of a part before it", work.sessions[row->index]),
+              msg("two machines do not compute the same: run `cavum replay --verify` on it on both, and remove the parts of the one that is wrong"));
         if (sha256_in(row->line) != sha256_now(work, row->index)) continue;  // of the file as it was once
       }
       kept = std::string(row->line);

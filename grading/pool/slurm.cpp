@@ -151,7 +151,8 @@ std::string submit(const Slurm& slurm, const Work& work, const std::vector<std::
   const Said said = run_program(words);
   std::string job = said.text.substr(0, said.text.find_first_of(";\n"));
   if (said.code != 0 || job.empty() || job.find_first_not_of("0123456789") != std::string::npos)
-    throw Error("sbatch", fmt::format("refused the work: {}", one_line(said.text)), "check the cluster with `sinfo`, and the options after --sbatch");
+    throw Error(msg("sbatch"), msg("refused the work: {}", one_line(said.text)),
+                msg("check the cluster with `sinfo`, and the options after --sbatch"));
   return job;
 }
 
@@ -168,8 +169,8 @@ std::size_t wait_for(const std::string& job, const Slurm& slurm, const Run& run,
     const auto now = std::chrono::steady_clock::now();
     if (tasks) heard = now, most = std::max(most, tasks->running);
     if (std::chrono::duration<double>(now - heard).count() > k_patience_s)
-      throw Error("squeue", fmt::format("Slurm has not answered for {} s", k_patience_s),
-                  "run the same command again when it does: what was made is kept");
+      throw Error(msg("squeue"), msg("Slurm has not answered for {} s", k_patience_s),
+                  msg("run the same command again when it does: what was made is kept"));
     if (const std::size_t rows = std::min(of, found + growing.rows()); run.told && rows != told) run.told(told = rows, of);
     if (tasks && tasks->there == 0) return most;
     std::this_thread::sleep_for(std::chrono::duration<double>(slurm.poll_s));
@@ -182,12 +183,12 @@ Made by_slurm(const Work& work, const Run& run, const Slurm& wanted) {
   const auto begin = std::chrono::steady_clock::now();
   Slurm slurm = wanted;
   slurm.folder = std::filesystem::absolute(wanted.folder).lexically_normal().string();
-  if (slurm.a_task < 1) throw Error("--a-task", "is no number of sessions", "give 50 or more");
+  if (slurm.a_task < 1) throw Error("--a-task", msg("is no number of sessions"), msg("give 50 or more"));
   const std::string folder = slurm.folder + "/parts";
   for (const auto& f : {slurm.folder, folder, slurm.folder + "/logs"}) make_private_folder(f);
   const std::string list = slurm.folder + "/work.json", text = to_text(work);
   if (std::filesystem::exists(list) && read_text_file(list, k_largest_file) != text)
-    throw Error(slurm.folder, "holds other work", "name another folder by --work, or remove it");
+    throw Error(slurm.folder, msg("holds other work"), msg("name another folder by --work, or remove it"));
   write_text_file(list, text);
   Made out;
   Parts there = read_parts(work, part_files(folder));
@@ -228,8 +229,8 @@ void slurm_task(const std::string& folder, int attempt, const std::string& sessi
   const json blocks = parse_json(read_text_file(file, k_largest_file), file, {1U << 30, 20'000'000, 8});
   const std::size_t mine = block.empty() || block.find_first_not_of("0123456789") != std::string::npos ? blocks.size() : std::stoul(block);
   if (mine >= blocks.size())
-    throw Error("SLURM_ARRAY_TASK_ID", fmt::format("'{}' is none of the blocks of {}", block, file),
-                "let sbatch begin it, by `cavum verify-all --slurm`");
+    throw Error("SLURM_ARRAY_TASK_ID", msg("'{}' is none of the blocks of {}", block, file),
+                msg("let sbatch begin it, by `cavum verify-all --slurm`"));
   // one that was begun anew elsewhere writes a file of its own: the first may live on
   const std::string stem = fmt::format("{}/parts/{}-{}", folder, attempt, block);
   std::vector<std::string> earlier;
@@ -241,7 +242,7 @@ void slurm_task(const std::string& folder, int attempt, const std::string& sessi
   std::vector<std::size_t> left;
   for (const auto& i : blocks[mine]) {
     const auto index = i.get<std::size_t>();
-    if (index >= work.sessions.size()) throw Error(file, "names a session that the list does not have", "make the work anew");
+    if (index >= work.sessions.size()) throw Error(file, msg("names a session that the list does not have"), msg("make the work anew"));
     if (!there.lines[index]) left.push_back(index);
   }
   make_lines(work, left, part);

@@ -36,9 +36,9 @@ Bytes from_hex(const std::string& text, const std::string& where) {
   const auto digit = [&](char c) {
     if (c >= '0' && c <= '9') return c - '0';
     if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    throw Error(where, "holds a surface that is not hexadecimal", "make the work anew");
+    throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
   };
-  if (text.size() % 2 != 0) throw Error(where, "holds half a byte of a surface", "make the work anew");
+  if (text.size() % 2 != 0) throw Error(where, msg("holds half a byte of a surface"), msg("make the work anew"));
   Bytes bytes(text.size() / 2);
   for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(digit(text[2 * i]) << 4 | digit(text[2 * i + 1]));
   return bytes;
@@ -84,7 +84,7 @@ std::string to_text(const Work& work) {
 Work parse_work(const std::string& text, const std::string& where) {
   const json j = parse_json(text, where, k_work_limits);
   if (text_in(j, "cavum") != version() || whole_in(j, "physics") != k_physics_version || whole_in(j, "grading") != grading::k_grading_version)
-    throw Error(where, "was made by another version of the program", "run the same version on all machines");
+    throw Error(where, msg("was made by another version of the program"), msg("run the same version on all machines"));
   Work work;
   const std::string what = text_in(j, "what");
   bool known = false;
@@ -92,9 +92,9 @@ Work parse_work(const std::string& text, const std::string& where) {
     if (what == k_what[i]) work.what = static_cast<What>(i), known = true;
   const json &sessions = member_of(j, "sessions"), &surfaces = member_of(j, "surfaces"), &another = member_of(j, "another_task");
   if (!known || !sessions.is_array() || !surfaces.is_array() || !another.is_boolean())
-    throw Error(where, "is no list of work", "make it anew, by `cavum verify-all`");
+    throw Error(where, msg("is no list of work"), msg("make it anew, by `cavum verify-all`"));
   for (const auto& s : sessions) {
-    if (!s.is_string()) throw Error(where, "names a session that is no text", "make the work anew");
+    if (!s.is_string()) throw Error(where, msg("names a session that is no text"), msg("make the work anew"));
     work.sessions.push_back(s.get<std::string>());
   }
   work.rubric_toml = text_in(j, "rubric");

@@ -26,7 +26,7 @@ Why why(const GradeInput& input, const Result& result, const scenarios::RubricSp
     std::stable_sort(w.items.begin(), w.items.end(), [](const WhyItem& a, const WhyItem& b) { return a.tick < b.tick; });
     return w;
   }
-  throw Error("--why", fmt::format("the rubric has no criterion '{}'", criterion_id), "use one of: " + known);
+  throw Error("--why", msg("the rubric has no criterion '{}'", criterion_id), msg("use one of: {}", known));
 }
 
 }  // namespace cavum::grading

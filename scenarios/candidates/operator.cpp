@@ -83,7 +83,7 @@ Skill make_skill(const std::string& name, std::uint64_t seed) {
     return s;
   }
   if (const int level = level_in(name); level >= 0) return student(level * 0.01, seed);
-  throw Error(fmt::format("operator '{}'", name), "is not known", "use expert, novice, perforator, careless, or student-0 to student-100");
+  throw Error(msg("operator '{}'", name), msg("is not known"), msg("use expert, novice, perforator, careless, or student-0 to student-100"));
 }
 
 Operator::Operator(Skill skill, std::vector<Waypoint> way, Vec3 approach, std::uint64_t seed)
@@ -283,15 +283,15 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
   const std::string where = scenario.path.empty() ? "scenario" : scenario.path;
   ChosenPoint chosen = choose_point(zones, tooth, tray);
   if (chosen.index == tray.size() && !zones.target_is_open())
-    throw Error(where, "the target lies buried: no point comes to it without cutting elsewhere", "let it reach up to the tooth's surface");
-  if (chosen.index == tray.size()) throw Error(where, "no allowed diamond point fits into the target", "allow a thinner one");
+    throw Error(where, msg("the target lies buried: no point comes to it without cutting elsewhere"), msg("let it reach up to the tooth's surface"));
+  if (chosen.index == tray.size()) throw Error(where, msg("no allowed diamond point fits into the target"), msg("allow a thinner one"));
   if (skill.name == "careless") {
-    if (scenario.careless.fails_by.empty()) throw Error(where, "does not say what a careless candidate does", "add [careless] to it");
+    if (scenario.careless.fails_by.empty()) throw Error(where, msg("does not say what a careless candidate does"), msg("add [careless] to it"));
     skill.perforates = scenario.careless.perforates;
     chosen.map = careless_map(scenario, zones, tooth, tray[chosen.index]);
   }
   auto way = plan_work(chosen, tooth, tray, scenario.perforation.aims);
-  if (way.empty()) throw Error(where, "the careless candidate finds nothing to cut", "let [careless] leave more of the target");
+  if (way.empty()) throw Error(where, msg("the careless candidate finds nothing to cut"), msg("let [careless] leave more of the target"));
   bool finds_a_way = false;
   if (skill.perforates)
     for (const auto& fault : scenario.perforation.faults) {
@@ -306,8 +306,8 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       break;
     }
   if (skill.perforates && !finds_a_way && (skill.name == "perforator" || skill.name == "careless"))  // a student who would have is lucky
-    throw Error(where, fmt::format("the {} finds no way through to what must not be opened", skill.name),
-                "see that tooth and perforation.faults have such a tissue, allow a longer or thinner point, or take another candidate");
+    throw Error(where, msg("the {} finds no way through to what must not be opened", skill.name),
+                msg("see that tooth and perforation.faults have such a tissue, allow a longer or thinner point, or take another candidate"));
   return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 

@@ -22,7 +22,7 @@ PlayedMotion::PlayedMotion(Motion motion, const std::vector<std::string>& point_
   if (!motion_.point.empty()) {
     const auto found = std::find(point_names.begin(), point_names.end(), motion_.point);
     if (found == point_names.end())
-      throw Error(where, fmt::format("names the diamond point '{}', which this scenario does not allow", motion_.point), "use one of its points");
+      throw Error(where, msg("names the diamond point '{}', which this scenario does not allow", motion_.point), msg("use one of its points"));
     point_ = static_cast<std::uint8_t>(found - point_names.begin());
   }
 }

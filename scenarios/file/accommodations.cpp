@@ -27,12 +27,12 @@ double number_in(const std::string& text, double most, const std::string& where)
   double v = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
   if (error != std::errc() || end != text.data() + text.size() || !(v >= 0 && v <= most))
-    throw Error(where, fmt::format("'{}' is no extra time", text), "use 0 to " + plain_number(most));
+    throw Error(where, msg("'{}' is no extra time", text), msg("use 0 to {}", as_number(most)));
   return v;
 }
 
 bool truth_in(const std::string& text, const std::string& where) {
-  if (text != "true" && text != "false") throw Error(where, fmt::format("'{}' is neither true nor false", text), "use one of them");
+  if (text != "true" && text != "false") throw Error(where, msg("'{}' is neither true nor false", text), msg("use one of them"));
   return text == "true";
 }
 
@@ -40,14 +40,14 @@ bool truth_in(const std::string& text, const std::string& where) {
 
 void require_sound(const Grant& g, const std::string& where) {
   const auto within = [&](const std::optional<double>& v, double most, const char* name) {
-    if (v && !(*v >= 0 && *v <= most)) throw Error(where, fmt::format("{} cannot be {}", name, plain_number(*v)), "use 0 to " + plain_number(most));
+    if (v && !(*v >= 0 && *v <= most)) throw Error(where, msg("{} cannot be {}", name, as_number(*v)), msg("use 0 to {}", as_number(most)));
   };
   within(g.extra_time_percent, k_most_percent, "extra time in percent");
   within(g.extra_time_s, k_most_s, "extra time in seconds");
   if (g.extra_time_percent && *g.extra_time_percent > 0 && *g.extra_time_percent < 1)
-    throw Error(where, fmt::format("extra time of {} % is less than one percent", plain_number(*g.extra_time_percent)),
-                fmt::format("say {} for an exam that is longer by {} percent", plain_number(100 * *g.extra_time_percent),
-                            plain_number(100 * *g.extra_time_percent)));
+    throw Error(
+        where, msg("extra time of {} is less than one percent", as_percent(*g.extra_time_percent, k_as_needed)),
+        msg("say {} for an exam that is longer by {} percent", as_number(100 * *g.extra_time_percent), as_number(100 * *g.extra_time_percent)));
 }
 
 std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {

@@ -12,13 +12,13 @@
 namespace cavum::scenarios {
 namespace {
 
-const char* kind_of(const toml::node& node) {
-  if (node.is_string()) return "a text";
-  if (node.is_number()) return "a number";
-  if (node.is_boolean()) return "true or false";
-  if (node.is_array()) return "a list";
-  if (node.is_table()) return "a table";
-  return "a date or time";
+Message kind_of(const toml::node& node) {
+  if (node.is_string()) return msg("a text");
+  if (node.is_number()) return msg("a number");
+  if (node.is_boolean()) return msg("true or false");
+  if (node.is_array()) return msg("a list");
+  if (node.is_table()) return msg("a table");
+  return msg("a date or time");
 }
 
 std::size_t edit_distance(const std::string& a, const std::string& b) {
@@ -38,7 +38,7 @@ std::size_t edit_distance(const std::string& a, const std::string& b) {
 
 }  // namespace
 
-std::string suggestion(const std::string& wrong, const std::vector<std::string>& words) {
+Message suggestion(const std::string& wrong, const std::vector<std::string>& words) {
   std::size_t best = 3;
   const std::string* closest = nullptr;
   for (const auto& w : words) {
@@ -48,23 +48,22 @@ std::string suggestion(const std::string& wrong, const std::vector<std::string>&
       closest = &w;
     }
   }
-  if (closest != nullptr) return fmt::format("did you mean '{}'?", *closest);
-  std::string all;
-  for (const auto& w : words) all += (all.empty() ? "" : ", ") + w;
-  return fmt::format("use one of {}", kept(all));
+  if (closest != nullptr) return msg("did you mean '{}'?", *closest);
+  return msg("use one of {}", list_of(words));
 }
 
-void ProblemList::add(const toml::source_region& at, const std::string& what, const std::string& what_to_do) {
+void ProblemList::add(const toml::source_region& at, const Message& what, const Message& what_to_do) {
   add(Place{static_cast<int>(at.begin.line), static_cast<int>(at.begin.column)}, what, what_to_do);
 }
 
-void ProblemList::add(Place at, const std::string& what, const std::string& what_to_do) {
-  problems_.push_back({fmt::format("{}:{}:{}", path_, at.line, at.column), what, what_to_do, at.line, at.column});
+void ProblemList::add(Place at, const Message& what, const Message& what_to_do) {
+  problems_.push_back({{path_, at.line, at.column}, what, what_to_do});
 }
 
 std::vector<Problem> ProblemList::take() {
-  std::stable_sort(problems_.begin(), problems_.end(),
-                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  std::stable_sort(problems_.begin(), problems_.end(), [](const Problem& a, const Problem& b) {
+    return a.where.line != b.where.line ? a.where.line < b.where.line : a.where.column < b.where.column;
+  });
   return std::move(problems_);
 }
 
@@ -73,7 +72,7 @@ toml::source_region CheckedTable::where(std::string_view key) const {
   return table_.source();
 }
 
-void CheckedTable::problem_in(std::string_view key, std::size_t item, const std::string& what, const std::string& what_to_do) {
+void CheckedTable::problem_in(std::string_view key, std::size_t item, const Message& what, const Message& what_to_do) {
   const auto* array = table_[key].as_array();
   const bool known = array != nullptr && item < array->size() && (*array)[item].source().begin.line > 0;
   problems_.add(known ? (*array)[item].source() : where(key), what, what_to_do);
@@ -91,7 +90,7 @@ void CheckedTable::note(std::map<std::string, Place>& places, std::string_view k
 const toml::node* CheckedTable::ask(std::string_view key, bool required) {
   asked_.emplace_back(key);
   const auto* node = table_.get(key);
-  if (node == nullptr && required) problems_.add(table_.source(), fmt::format("{} has no '{}'", name_, key), "add it");
+  if (node == nullptr && required) problems_.add(table_.source(), msg("{} has no '{}'", name_, key), msg("add it"));
   return node;
 }
 
@@ -99,12 +98,12 @@ double CheckedTable::number(std::string_view key, double low, double high, doubl
   const auto* node = ask(key, required);
   if (node == nullptr) return fallback;
   if (!node->is_number()) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a number");
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a number"));
     return fallback;
   }
   const double v = node->value<double>().value_or(fallback);
   if (!(v >= low && v <= high)) {
-    problem(key, fmt::format("'{}' is {}", key, plain_number(v)), fmt::format("use {} to {}", plain_number(low), plain_number(high)));
+    problem(key, msg("'{}' is {}", key, as_number(v)), msg("use {} to {}", as_number(low), as_number(high)));
     return fallback;
   }
   return v;
@@ -113,7 +112,7 @@ double CheckedTable::number(std::string_view key, double low, double high, doubl
 int CheckedTable::whole(std::string_view key, int low, int high, int fallback, bool required) {
   const double v = number(key, low, high, fallback, required);
   if (v == std::floor(v)) return static_cast<int>(v);
-  problem(key, fmt::format("'{}' is {}", key, plain_number(v)), "write a whole number");
+  problem(key, msg("'{}' is {}", key, as_number(v)), msg("write a whole number"));
   return fallback;
 }
 
@@ -121,15 +120,15 @@ std::string CheckedTable::text(std::string_view key, const std::string& fallback
   const auto* node = ask(key, required);
   if (node == nullptr) return fallback;
   if (!node->is_string()) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a text in quotes");
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a text in quotes"));
     return fallback;
   }
   std::string s = node->value<std::string>().value_or(fallback);
   constexpr std::size_t k_longest_title = 300, k_longest_text = 20'000;  // a page is laid out with each of them
   if (const std::size_t most = key == "title" || key == "name" ? k_longest_title : k_longest_text; s.size() > most)
-    problem(key, fmt::format("'{}' has {} bytes, the limit is {}", key, s.size(), most), "shorten it");
-  if (s.find('\0') != std::string::npos) problem(key, fmt::format("'{}' holds a zero byte", key), "leave it out");
-  if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, fmt::format("'{}' is empty", key), "write a text");
+    problem(key, msg("'{}' has {} bytes, the limit is {}", key, s.size(), most), msg("shorten it"));
+  if (s.find('\0') != std::string::npos) problem(key, msg("'{}' holds a zero byte", key), msg("leave it out"));
+  if (required && s.find_first_not_of(" \t\n") == std::string::npos) problem(key, msg("'{}' is empty", key), msg("write a text"));
   return s;
 }
 
@@ -137,7 +136,7 @@ bool CheckedTable::truth(std::string_view key, bool fallback) {
   const auto* node = ask(key, false);
   if (node == nullptr) return fallback;
   if (!node->is_boolean()) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write true or false");
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write true or false"));
     return fallback;
   }
   return node->value<bool>().value_or(fallback);
@@ -146,23 +145,23 @@ bool CheckedTable::truth(std::string_view key, bool fallback) {
 std::size_t CheckedTable::word(std::string_view key, const std::vector<std::string>& words, std::size_t fallback, bool required) {
   const auto* node = ask(key, false);
   if (node == nullptr) {
-    if (required) problems_.add(table_.source(), fmt::format("{} has no '{}'", name_, key), suggestion("", words));
+    if (required) problems_.add(table_.source(), msg("{} has no '{}'", name_, key), suggestion("", words));
     return required ? k_wrong : fallback;
   }
   if (!node->is_string()) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), suggestion("", words));
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), suggestion("", words));
     return k_wrong;
   }
   const std::string s = node->value<std::string>().value_or("");
   for (std::size_t i = 0; i < words.size(); ++i)
     if (s == words[i]) return i;
-  problem(key, fmt::format("'{}' is \"{}\"", key, s), suggestion(s, words));
+  problem(key, msg("'{}' is \"{}\"", key, s), suggestion(s, words));
   return k_wrong;
 }
 
 bool CheckedTable::too_many(std::string_view key, std::size_t count, std::size_t most) {
   if (count <= most) return false;
-  problem(key, fmt::format("'{}' has {} items", key, count), fmt::format("list at most {}", most));
+  problem(key, msg("'{}' has {} items", key, count), msg("list at most {}", most));
   return true;
 }
 
@@ -172,7 +171,7 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
   if (node == nullptr) return list;
   const auto* array = node->as_array();
   if (array == nullptr) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a list of texts, [\"a\", \"b\"]");
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a list of texts, [\"a\", \"b\"]"));
     return list;
   }
   if (too_many(key, array->size(), k_most_items)) return list;
@@ -180,9 +179,9 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
     if (item.is_string())
       list.push_back(item.value<std::string>().value_or(""));
     else
-      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), "write a text in quotes");
+      problems_.add(item.source(), msg("'{}' holds {}", key, kind_of(item)), msg("write a text in quotes"));
   }
-  if (required && array->empty()) problem(key, fmt::format("'{}' is empty", key), "list at least one");
+  if (required && array->empty()) problem(key, msg("'{}' is empty", key), msg("list at least one"));
   return list;
 }
 
@@ -192,19 +191,18 @@ std::vector<double> CheckedTable::numbers(std::string_view key, double low, doub
   if (node == nullptr) return list;
   const auto* array = node->as_array();
   if (array == nullptr) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), "write a list of numbers, [0.2, 0.5]");
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a list of numbers, [0.2, 0.5]"));
     return list;
   }
   if (too_many(key, array->size(), k_most_items)) return list;
   for (const auto& item : *array) {
     const auto value = item.is_number() ? item.value<double>() : std::nullopt;
     if (!value) {
-      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), "write a number");
+      problems_.add(item.source(), msg("'{}' holds {}", key, kind_of(item)), msg("write a number"));
       return {};
     }
     if (!(*value >= low && *value <= high)) {
-      problems_.add(item.source(), fmt::format("'{}' holds {}", key, plain_number(*value)),
-                    fmt::format("write numbers from {} to {}", plain_number(low), plain_number(high)));
+      problems_.add(item.source(), msg("'{}' holds {}", key, as_number(*value)), msg("write numbers from {} to {}", as_number(low), as_number(high)));
       return {};
     }
     list.push_back(*value);
@@ -234,7 +232,7 @@ Vec3 CheckedTable::vector(std::string_view key, std::size_t count, Vec3 fallback
   if (node == nullptr) return fallback;
   Vec3 v = fallback;
   if (!read_vector(*node, count, v))
-    problem(key, fmt::format("'{}' is not a list of {} numbers within 1000 mm", key, count), count == 2 ? "write [x, y]" : "write [x, y, z]");
+    problem(key, msg("'{}' is not a list of {} numbers within 1000 mm", key, count), count == 2 ? msg("write [x, y]") : msg("write [x, y, z]"));
   return v;
 }
 
@@ -244,7 +242,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
   if (node == nullptr) return list;
   const auto* array = node->as_array();
   if (array == nullptr || array->size() < at_least) {
-    problem(key, fmt::format("'{}' needs at least {} points", key, at_least), "write [[x, y], [x, y], ...]");
+    problem(key, msg("'{}' needs at least {} points", key, at_least), msg("write [[x, y], [x, y], ...]"));
     return list;
   }
   if (too_many(key, array->size(), k_most_points)) return list;
@@ -253,7 +251,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
     if (read_vector(item, 2, v))
       list.push_back(v);
     else
-      problems_.add(item.source(), fmt::format("a point of '{}' is not two numbers within 1000 mm", key), "write [x, y]");
+      problems_.add(item.source(), msg("a point of '{}' is not two numbers within 1000 mm", key), msg("write [x, y]"));
   }
   return list;
 }
@@ -261,7 +259,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
 const toml::table* CheckedTable::table(std::string_view key, bool required) {
   const auto* node = ask(key, required);
   if (node == nullptr) return nullptr;
-  if (node->as_table() == nullptr) problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), fmt::format("write a table, [{}]", key));
+  if (node->as_table() == nullptr) problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a table, [{}]", key));
   return node->as_table();
 }
 
@@ -272,7 +270,7 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
   if (const auto* one = node->as_table()) return {one};
   const auto* array = node->as_array();
   if (array == nullptr) {
-    problem(key, fmt::format("'{}' is {}", key, kind_of(*node)), fmt::format("write tables, [[{}]]", key));
+    problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write tables, [[{}]]", key));
     return list;
   }
   if (too_many(key, array->size(), k_most_items)) return list;
@@ -280,9 +278,9 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
     if (const auto* t = item.as_table())
       list.push_back(t);
     else
-      problems_.add(item.source(), fmt::format("'{}' holds {}", key, kind_of(item)), fmt::format("write tables, [[{}]]", key));
+      problems_.add(item.source(), msg("'{}' holds {}", key, kind_of(item)), msg("write tables, [[{}]]", key));
   }
-  if (required && list.empty()) problem(key, fmt::format("'{}' is empty", key), "add at least one");
+  if (required && list.empty()) problem(key, msg("'{}' is empty", key), msg("add at least one"));
   return list;
 }
 
@@ -290,7 +288,7 @@ void CheckedTable::finish() {
   for (auto&& [key, node] : table_) {
     const std::string name(key.str());
     if (std::find(asked_.begin(), asked_.end(), name) == asked_.end())
-      problems_.add(key.source(), fmt::format("{} has an unknown key '{}'", name_, name), asked_.empty() ? "take it out" : suggestion(name, asked_));
+      problems_.add(key.source(), msg("{} has an unknown key '{}'", name_, name), asked_.empty() ? msg("take it out") : suggestion(name, asked_));
   }
 }
 

@@ -21,7 +21,7 @@ enum class Outlook { never, perhaps, always };
 
 /// What a condition means otherwise than it reads, and what to write instead.
 struct ConditionFault {
-  std::string what, what_to_do;
+  Message what, what_to_do;
 };
 /// A chain of comparisons (0 < x < 10 compares yes or no with 10), a comma outside a function (only what follows the last one would count),
 /// a division by 0 or by what is 0 when an exam begins. None for a text without. The text must be one that Expression takes.

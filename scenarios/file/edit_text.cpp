@@ -64,12 +64,13 @@ std::size_t after_value(const std::string& text, std::size_t i) {
 class ReadToml {
  public:
   ReadToml(const std::string& text, const std::string& path) : text_(text), path_(path) {
-    if (const auto beyond = beyond_toml_limits(text)) throw Error(fmt::format("{}:{}:1", path, beyond->line), beyond->what, beyond->what_to_do);
+    if (const auto beyond = beyond_toml_limits(text))
+      throw Error(FilePlace{path, static_cast<int>(beyond->line), 1}, beyond->what, beyond->what_to_do);
     try {
       table_ = toml::parse(std::string_view(text), path);
     } catch (const toml::parse_error& e) {
-      throw Error(fmt::format("{}:{}:{}", path, e.source().begin.line, e.source().begin.column),
-                  fmt::format("is no TOML ({})", one_line(e.description())), k_elsewhere);
+      throw Error(fmt::format("{}:{}:{}", path, e.source().begin.line, e.source().begin.column), msg("is no TOML ({})", one_line(e.description())),
+                  msg(k_elsewhere));
     }
     lines_.push_back(text.starts_with("\xef\xbb\xbf") ? 3 : 0);  // a byte order mark is no column
     for (std::size_t i = 0; i < text.size(); ++i)
@@ -87,7 +88,7 @@ class ReadToml {
     for (std::size_t i = 0; i <= place.size();) {
       const std::size_t end = std::min(place.find('/', i), place.size());
       const std::string key = place.substr(i, end - i);
-      if (f.node == nullptr) throw Error(path_, fmt::format("has no '{}'", place.substr(0, i - 1)), "write it in a text editor");
+      if (f.node == nullptr) throw Error(path_, msg("has no '{}'", place.substr(0, i - 1)), msg("write it in a text editor"));
       f = {next(*f.node, key), f.node, key};
       i = end + 1;
     }
@@ -96,18 +97,18 @@ class ReadToml {
   /// The same where it must be there.
   [[nodiscard]] const toml::node& at(const std::string& place) const {
     const Found f = find(place);
-    if (f.node == nullptr) throw Error(path_, fmt::format("has no '{}'", place), "write it in a text editor");
+    if (f.node == nullptr) throw Error(path_, msg("has no '{}'", place), msg("write it in a text editor"));
     return *f.node;
   }
   [[nodiscard]] const toml::array& list(const std::string& place) const {
     const auto* array = at(place).as_array();
-    if (array == nullptr) fail(at(place), fmt::format("'{}' is no list", place));
+    if (array == nullptr) fail(at(place), msg("'{}' is no list", place));
     return *array;
   }
 
   [[nodiscard]] std::size_t begin_of(const toml::node& node) const {
     const auto place = node.source().begin;
-    if (place.line == 0 || place.line > lines_.size()) throw Error(path_, "has a value without a place of its own", k_elsewhere);
+    if (place.line == 0 || place.line > lines_.size()) throw Error(path_, msg("has a value without a place of its own"), msg(k_elsewhere));
     std::size_t i = lines_[place.line - 1];
     // columns count letters, not bytes
     for (auto left = place.column; left > 1 && i < text_.size(); --left)
@@ -135,8 +136,8 @@ class ReadToml {
     return last;
   }
 
-  [[noreturn]] void fail(const toml::node& node, const std::string& what) const {
-    throw Error(fmt::format("{}:{}:{}", path_, node.source().begin.line, node.source().begin.column), what, k_elsewhere);
+  [[noreturn]] void fail(const toml::node& node, const Message& what) const {
+    throw Error(fmt::format("{}:{}:{}", path_, node.source().begin.line, node.source().begin.column), what, msg(k_elsewhere));
   }
   [[nodiscard]] const std::string& text() const noexcept { return text_; }
   [[nodiscard]] const toml::table& root() const noexcept { return table_; }
@@ -146,7 +147,7 @@ class ReadToml {
     if (const auto* array = node.as_array()) {
       std::size_t index = 0;
       const auto read = std::from_chars(key.data(), key.data() + key.size(), index);
-      if (read.ec != std::errc{} || read.ptr != key.data() + key.size()) fail(node, fmt::format("a list was met where '{}' was looked for", key));
+      if (read.ec != std::errc{} || read.ptr != key.data() + key.size()) fail(node, msg("a list was met where '{}' was looked for", key));
       return index < array->size() ? &(*array)[index] : nullptr;
     }
     if (const auto* table = node.as_table()) {
@@ -154,7 +155,7 @@ class ReadToml {
       if (key == "0" && !table->contains(key)) return table;
       return table->get(key);
     }
-    fail(node, fmt::format("a single value was met where '{}' was looked for", key));
+    fail(node, msg("a single value was met where '{}' was looked for", key));
   }
 
   const std::string& text_;
@@ -164,7 +165,7 @@ class ReadToml {
 };
 
 double number_at(const ReadToml& reading, const toml::node& node, const std::string& place) {
-  if (!node.is_number()) reading.fail(node, fmt::format("'{}' is no number", place));
+  if (!node.is_number()) reading.fail(node, msg("'{}' is no number", place));
   return node.value<double>().value_or(0.0);
 }
 
@@ -181,7 +182,7 @@ TextChange replaced(const ReadToml& r, const toml::node& node, const std::string
 /// A key that its table does not have yet: after the last value of it.
 TextChange added(const ReadToml& r, const ReadToml::Found& f, const std::string& place, const std::string& value) {
   const auto* table = f.holder->as_table();
-  if (table == nullptr) r.fail(*f.holder, fmt::format("there is no '{}'", place));
+  if (table == nullptr) r.fail(*f.holder, msg("there is no '{}'", place));
   const std::string line = fmt::format("{} = {}", f.key, value);
   const std::size_t begin = r.begin_of(*f.holder), last = r.end_of_last(*table);
   if (r.text()[begin] == '{') {
@@ -189,7 +190,7 @@ TextChange added(const ReadToml& r, const ReadToml::Found& f, const std::string&
     const std::size_t end = r.end_of(*f.holder);
     return {begin, r.text().substr(begin, end - begin), fmt::format("{{ {} }}", line)};
   }
-  if (r.text()[begin] != '[') r.fail(*f.holder, fmt::format("'{}' cannot be added to a table that is written in dotted keys", f.key));
+  if (r.text()[begin] != '[') r.fail(*f.holder, msg("'{}' cannot be added to a table that is written in dotted keys", f.key));
   const std::size_t newline = r.text().find('\n', last == std::string::npos ? begin : last);
   const std::size_t first = r.text().find('\n');
   const std::string line_end = first != std::string::npos && first > 0 && r.text()[first - 1] == '\r' ? "\r\n" : "\n";
@@ -206,20 +207,20 @@ TextChange proved(const ReadToml& before, const std::string& path, const TextCha
   for (std::size_t i = 0; i < wanted.size(); ++i) {
     const auto* array = node.as_array();
     const double is = number_at(after, array != nullptr ? *array->get(i) : node, at);
-    if (written_number(is) != written_number(wanted[i])) after.fail(node, fmt::format("'{}' did not become {}", at, written_number(wanted[i])));
+    if (written_number(is) != written_number(wanted[i])) after.fail(node, msg("'{}' did not become {}", at, written_number(wanted[i])));
   }
   return change;
 }
 
 void require_number(const std::string& path, double v) {
-  if (!(std::fabs(v) <= 1e6)) throw Error(path, "a number beyond a million was to be written", "use mm and degrees");
+  if (!(std::fabs(v) <= 1e6)) throw Error(path, msg("a number beyond a million was to be written"), msg("use mm and degrees"));
 }
 
 }  // namespace
 
 std::string with_change(const std::string& text, const TextChange& change) {
   if (change.at > text.size() || text.compare(change.at, change.removed.size(), change.removed) != 0)
-    throw Error("text", "is not what the change was made for", "make the change anew");
+    throw Error(msg("text"), msg("is not what the change was made for"), msg("make the change anew"));
   std::string changed = text;
   return changed.replace(change.at, change.removed.size(), change.inserted);
 }
@@ -244,19 +245,19 @@ TextChange set_text(const std::string& text, const std::string& path, const std:
   std::string quoted = "\"";
   for (const char letter : value) {
     if (static_cast<unsigned char>(letter) < 0x20 || letter == 0x7f)
-      throw Error(path, fmt::format("'{}' was to be written with a control character", place), "use letters, digits and punctuation");
+      throw Error(path, msg("'{}' was to be written with a control character", place), msg("use letters, digits and punctuation"));
     if (letter == '"' || letter == '\\') quoted += '\\';
     quoted += letter;
   }
   quoted += '"';
   const ReadToml r(text, path);
   const toml::node& node = r.at(place);
-  if (!node.is_string()) r.fail(node, fmt::format("'{}' is no text", place));
+  if (!node.is_string()) r.fail(node, msg("'{}' is no text", place));
   if (node.value<std::string>() == value) return {};
   const std::size_t begin = r.begin_of(node);
   TextChange change{begin, text.substr(begin, r.end_of(node) - begin), quoted};
   const std::string changed = with_change(text, change);
-  if (ReadToml(changed, path).at(place).value<std::string>() != value) r.fail(node, fmt::format("'{}' did not become {}", place, quoted));
+  if (ReadToml(changed, path).at(place).value<std::string>() != value) r.fail(node, msg("'{}' did not become {}", place, quoted));
   return change;
 }
 
@@ -267,7 +268,7 @@ TextChange set_point(const std::string& text, const std::string& path, const std
   const ReadToml::Found f = r.find(place);
   if (f.node == nullptr) return proved(r, path, added(r, f, place, written_point(x_mm, y_mm)), place, {x_mm, y_mm});
   const auto* array = f.node->as_array();
-  if (array == nullptr || array->size() < 2) r.fail(*f.node, fmt::format("'{}' is no list of numbers", place));
+  if (array == nullptr || array->size() < 2) r.fail(*f.node, msg("'{}' is no list of numbers", place));
   const TextChange x = replaced(r, (*array)[0], place, x_mm), y = replaced(r, (*array)[1], place, y_mm);
   const std::size_t after_x = x.at + x.removed.size();
   const std::string between = text.substr(after_x, y.at - after_x);
@@ -279,7 +280,7 @@ TextChange insert_point(const std::string& text, const std::string& path, const 
   require_number(path, y_mm);
   const ReadToml r(text, path);
   const toml::array& list = r.list(place);
-  if (list.empty() || index > list.size()) r.fail(list, fmt::format("'{}' has no place {} for a point", place, index));
+  if (list.empty() || index > list.size()) r.fail(list, msg("'{}' has no place {} for a point", place, index));
   // parted as its neighbours are, unless a comment stands between them
   std::string parting = ", ";
   if (list.size() > 1) {
@@ -295,7 +296,7 @@ TextChange insert_point(const std::string& text, const std::string& path, const 
 TextChange remove_point(const std::string& text, const std::string& path, const std::string& place, std::size_t index) {
   const ReadToml r(text, path);
   const toml::array& list = r.list(place);
-  if (index >= list.size() || list.size() < 2) r.fail(list, fmt::format("'{}' has no point {} to spare", place, index));
+  if (index >= list.size() || list.size() < 2) r.fail(list, msg("'{}' has no point {} to spare", place, index));
   std::size_t begin = r.begin_of(list[index]), end = r.end_of(list[index]);
   const auto bare = [&](std::size_t a, std::size_t b) { return text.substr(a, b - a).find('#') == std::string::npos; };
   if (index + 1 < list.size()) {
@@ -305,7 +306,7 @@ TextChange remove_point(const std::string& text, const std::string& path, const 
     } else if (const std::size_t comma = text.find(',', end); bare(end, comma)) {
       end = comma + 1;
     } else {
-      r.fail(list[index], "a comment stands between this point and its comma");
+      r.fail(list[index], msg("a comment stands between this point and its comma"));
     }
   } else if (const std::size_t before = r.end_of(list[index - 1]); bare(before, begin)) {
     begin = before;
@@ -314,7 +315,7 @@ TextChange remove_point(const std::string& text, const std::string& path, const 
   }
   TextChange change{begin, text.substr(begin, end - begin), ""};
   const std::string changed = with_change(text, change);
-  if (ReadToml(changed, path).list(place).size() + 1 != list.size()) r.fail(list[index], "the point could not be taken out");
+  if (ReadToml(changed, path).list(place).size() + 1 != list.size()) r.fail(list[index], msg("the point could not be taken out"));
   return change;
 }
 

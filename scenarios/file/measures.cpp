@@ -392,7 +392,7 @@ std::optional<Measure> find_measure(const std::string& name) {
 
 Measure known_measure(const std::string& name) {
   if (auto m = find_measure(name)) return *m;
-  throw Error("rubric", fmt::format("there is no measure '{}'", name), "use one that `cavum scenario check` knows");
+  throw Error(msg("rubric"), msg("there is no measure '{}'", name), msg("use one that `cavum scenario check` knows"));
 }
 
 std::optional<double> most_of(const Measure& measure, const ExamExtent& exam) {

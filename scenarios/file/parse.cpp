@@ -25,7 +25,7 @@ void check_measure(CheckedTable& t, const std::string& metric, const ProblemList
   if (metric.empty() || find_measure(metric)) return;
   const std::string what = fmt::format("there is no measure '{}'", metric), of_tissue = metric + "_mm3";
   if (find_measure(of_tissue) && metric != "touched_") {  // an exam that ran with it says so when it is marked
-    if (problems.strict()) t.problem("metric", what, fmt::format("did you mean '{}'?", of_tissue));
+    if (problems.strict()) t.problem("metric", what, msg("did you mean '{}'?", of_tissue));
     return;
   }
   std::vector<std::string> names;
@@ -51,7 +51,7 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
   if (problems.size() == problems_before && c.full == c.zero)
-    t.problem("zero", "'full' and 'zero' are the same value", "points run linearly from one to the other: make them differ");
+    t.problem("zero", msg("'full' and 'zero' are the same value"), msg("points run linearly from one to the other: make them differ"));
   c.points = t.number("points", 0, 1000, 1, true);
   if (t.has("critical_above"))
     c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
@@ -66,10 +66,8 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   const double worse = c.zero > c.full ? 1 : -1;
   for (std::size_t i = 0; i < c.band_limits.size(); ++i)
     if (worse * (c.band_limits[i] - (i == 0 ? c.full : c.band_limits[i - 1])) <= (i == 0 ? -1e-12 : 0)) {
-      t.problem(
-          "bands",
-          fmt::format("the limit {} does not lie beyond {}", plain_number(c.band_limits[i]), plain_number(i == 0 ? c.full : c.band_limits[i - 1])),
-          "list where the bands end, best first: from 'full' towards 'zero'");
+      t.problem("bands", msg("the limit {} does not lie beyond {}", as_number(c.band_limits[i]), as_number(i == 0 ? c.full : c.band_limits[i - 1])),
+                msg("list where the bands end, best first: from 'full' towards 'zero'"));
       break;
     }
   c.shares_with = t.texts("shares_with");
@@ -89,17 +87,17 @@ std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
       band.most = b.whole("most", 0, 100, 0);
     else
       b.whole("most", 0, 0, 0);
-    if (bands.empty() && band.most) b.problem("most", "the best band has a 'most'", "take it out: nobody fails for what is good");
+    if (bands.empty() && band.most) b.problem("most", msg("the best band has a 'most'"), msg("take it out: nobody fails for what is good"));
     for (const auto& other : bands)
-      if (other.name == band.name) b.problem("name", fmt::format("two bands are called '{}'", band.name), "give each its own name");
+      if (other.name == band.name) b.problem("name", msg("two bands are called '{}'", band.name), msg("give each its own name"));
     b.finish();
     bands.push_back(std::move(band));
   }
   if (bands.empty()) return bands;
   if (bands.size() < 2 || bands.size() > k_most_bands)
-    t.problem("bands", fmt::format("there are {} bands", bands.size()), fmt::format("write 2 to {}, best first", k_most_bands));
+    t.problem("bands", msg("there are {} bands", bands.size()), msg("write 2 to {}, best first", k_most_bands));
   if (std::none_of(bands.begin(), bands.end(), [](const BandSpec& b) { return b.most.has_value(); }))
-    t.problem("bands", "the bands fail nobody", "say how many criteria may lie in a band: most = 0 for the worst");
+    t.problem("bands", msg("the bands fail nobody"), msg("say how many criteria may lie in a band: most = 0 for the worst"));
   return bands;
 }
 
@@ -108,12 +106,12 @@ void check_band_limits(const RubricSpec& r, ProblemList& problems) {
   for (const auto& c : r.criteria) {
     any = any || !c.band_limits.empty();
     if (!c.band_limits.empty() && c.band_limits.size() + 1 != r.bands.size())
-      problems.add(c.metric_at, fmt::format("'{}' has {} limits of bands, and the rubric {} bands", c.id, c.band_limits.size(), r.bands.size()),
-                   r.bands.empty() ? "list the bands under [[rubric.bands]]" : fmt::format("write {}: the last band has no end", r.bands.size() - 1));
+      problems.add(c.metric_at, msg("'{}' has {} limits of bands, and the rubric {} bands", c.id, c.band_limits.size(), r.bands.size()),
+                   r.bands.empty() ? msg("list the bands under [[rubric.bands]]") : msg("write {}: the last band has no end", r.bands.size() - 1));
   }
   if (!any && !r.bands.empty() && !r.criteria.empty())
-    problems.add(r.criteria[0].metric_at, "the rubric has bands, and no criterion has limits of them",
-                 "give criteria bands = [...], or take [[rubric.bands]] out");
+    problems.add(r.criteria[0].metric_at, msg("the rubric has bands, and no criterion has limits of them"),
+                 msg("give criteria bands = [...], or take [[rubric.bands]] out"));
 }
 
 /// Each id under `shares_with` is that of another criterion.
@@ -124,7 +122,7 @@ void check_shares(const RubricSpec& r, ProblemList& problems) {
       for (const auto& other : r.criteria)
         if (other.id != c.id) others.push_back(other.id);
       if (std::find(others.begin(), others.end(), id) == others.end())
-        problems.add(c.metric_at, fmt::format("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others));
+        problems.add(c.metric_at, msg("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others));
     }
 }
 
@@ -143,18 +141,18 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
     sum += r.criteria.back().points;
     for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
       if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
-        problems.add(c->source(), fmt::format("two criteria are called '{}'", r.criteria[i].id), "give each its own id");
+        problems.add(c->source(), msg("two criteria are called '{}'", r.criteria[i].id), msg("give each its own id"));
   }
   check_shares(r, problems);
   check_band_limits(r, problems);
-  if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", "no criterion gives any points", "give at least one some points");
+  if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", msg("no criterion gives any points"), msg("give at least one some points"));
   t.finish();
   return r;
 }
 
 void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!good_id(list[i])) t.problem_in(key, i, fmt::format("'{}' is no name of a tissue", list[i]), "use names such as pulp or periodontium");
+    if (!good_id(list[i])) t.problem_in(key, i, msg("'{}' is no name of a tissue", list[i]), msg("use names such as pulp or periodontium"));
 }
 
 PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
@@ -178,12 +176,12 @@ CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, P
   std::vector<std::string> ids;
   for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
-    t.problem("fails_by", fmt::format("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids));
+    t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids));
   if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
-    t.problem("perforates", "'perforates' is true, and no tissue is a fault",
-              "list what is broken into under faults of [perforation], or leave 'perforates' out");
+    t.problem("perforates", msg("'perforates' is true, and no tissue is a fault"),
+              msg("list what is broken into under faults of [perforation], or leave 'perforates' out"));
   if (c == CarelessSpec{.fails_by = c.fails_by})
-    t.problem("fails_by", "nothing is done carelessly", "set sides_mm, bottom_mm, opening_percent or perforates");
+    t.problem("fails_by", msg("nothing is done carelessly"), msg("set sides_mm, bottom_mm, opening_percent or perforates"));
   t.finish();
   return c;
 }
@@ -194,7 +192,7 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
   const auto names = scenario.texts("gauges");
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
-      scenario.problem_in("gauges", i, fmt::format("there is no gauge '{}'", names[i]), suggestion(names[i], known));
+      scenario.problem_in("gauges", i, msg("there is no gauge '{}'", names[i]), suggestion(names[i], known));
     gauges.speed |= names[i] == "speed";
     gauges.force |= names[i] == "force";
     gauges.depth |= names[i] == "depth";
@@ -213,12 +211,12 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.points = t.texts("points", true);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
-      t.problem_in("points", i, fmt::format("'{}' is no name of a diamond point", s.points[i]), "use names of data/points, such as round-1.0");
+      t.problem_in("points", i, msg("'{}' is no name of a diamond point", s.points[i]), msg("use names of data/points, such as round-1.0"));
     else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
              s.points.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem_in("points", i, fmt::format("'{}' is listed twice", s.points[i]), "list each point once");
+      t.problem_in("points", i, msg("'{}' is listed twice", s.points[i]), msg("list each point once"));
   if (s.points.size() > k_most_tray) {
-    t.problem("points", fmt::format("'points' has {} items", s.points.size()), fmt::format("list at most {}", k_most_tray));
+    t.problem("points", msg("'points' has {} items", s.points.size()), msg("list at most {}", k_most_tray));
     s.points.resize(k_most_tray);
   }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
@@ -248,7 +246,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     check_tissues(pt, "faults", s.perforation.faults);
     for (const auto& aim : s.perforation.aims)
       if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
-        pt.problem("faults", fmt::format("'{}' is both an aim and a fault", aim), "keep it in one of the two lists");
+        pt.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"));
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
@@ -263,8 +261,8 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
 bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
     const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
-    problems.add(Place{1, 1}, wide ? "this is a text in UTF-16" : "this is no text: it holds zero bytes",
-                 wide ? "save it as UTF-8" : "give a scenario or rubric, a text file (TOML)");
+    problems.add(Place{1, 1}, wide ? msg("this is a text in UTF-16") : msg("this is no text: it holds zero bytes"),
+                 wide ? msg("save it as UTF-8") : msg("give a scenario or rubric, a text file (TOML)"));
     return false;
   }
   if (const auto beyond = beyond_toml_limits(text)) {
@@ -277,23 +275,24 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
   } catch (const toml::parse_error& e) {
     const bool encoding = e.description().find("utf-8") != std::string_view::npos;
     if (encoding)
-      problems.add(e.source(), "a letter here is not in UTF-8, as in a text saved as Latin-1", "save the file as UTF-8");
+      problems.add(e.source(), msg("a letter here is not in UTF-8, as in a text saved as Latin-1"), msg("save the file as UTF-8"));
     else
-      problems.add(e.source(), fmt::format("this is not TOML ({})", e.description()), "correct the line");
+      problems.add(e.source(), msg("this is not TOML ({})", e.description()), msg("correct the line"));
     return false;
   }
 }
 
-std::string summary(const std::vector<Problem>& list) {
+Message summary(const std::vector<Problem>& list) {
   const auto more = list.size() - 1;
-  return list[0].what_to_do + (more == 0 ? "" : fmt::format(" (and {} more)", more));
+  return more == 0 ? list[0].what_to_do : msg("{} (and {} more)", list[0].what_to_do, more);
 }
 
 void throw_first(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   const auto more = problems.size() - 1;
-  const std::string rest = more == 0 ? "" : fmt::format(" (and {} more: `cavum scenario check` names every mistake of a scenario)", more);
-  throw Error(problems[0].where, problems[0].what, problems[0].what_to_do + rest);
+  const Problem& p = problems[0];
+  throw Error(p.where, p.what,
+              more == 0 ? p.what_to_do : msg("{} (and {} more: `cavum scenario check` names every mistake of a scenario)", p.what_to_do, more));
 }
 
 }  // namespace
@@ -351,8 +350,8 @@ std::string find_tooth_file(const Scenario& scenario) {
   for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
     if (fs::exists(candidate, unreadable)) return candidate.lexically_normal().string();
-  throw Error(scenario.path, fmt::format("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
-              "put it beside the scenario or in data/teeth, or name another with --tooth");
+  throw Error(scenario.path, msg("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
+              msg("put it beside the scenario or in data/teeth, or name another with --tooth"));
 }
 
 std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
@@ -361,7 +360,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
   std::vector<Problem> problems;
   const auto need = [&](const std::string& name, const std::string& place) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      problems.push_back(problem_at(s, place, fmt::format("this tooth has no tissue '{}'", name), suggestion(name, known)));
+      problems.push_back(problem_at(s, place, msg("this tooth has no tissue '{}'", name), suggestion(name, known)));
   };
   for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
     for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));
@@ -385,13 +384,12 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
 
 void require_tissues(const Scenario& scenario, const Tooth& tooth) { require_none(missing_tissues(scenario, tooth)); }
 
-Problem problem_at(const Scenario& s, const std::string& place, const std::string& what, const std::string& what_to_do) {
+Problem problem_at(const Scenario& s, const std::string& place, const Message& what, const Message& what_to_do) {
   // the place itself, else what holds it
   for (std::string key = place;; key.erase(key.rfind('/'))) {
     const auto at = s.places.find(key);
-    if (at != s.places.end())
-      return {fmt::format("{}:{}:{}", s.path, at->second.line, at->second.column), what, what_to_do, at->second.line, at->second.column};
-    if (key.rfind('/') == std::string::npos) return {s.path, what, what_to_do};
+    if (at != s.places.end()) return {{s.path, at->second.line, at->second.column}, what, what_to_do};
+    if (key.rfind('/') == std::string::npos) return {{s.path}, what, what_to_do};
   }
 }
 

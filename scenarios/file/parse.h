@@ -12,12 +12,15 @@
 
 namespace cavum::scenarios {
 
-/// One mistake, or a warning of what is legal but unwise: `where` is file:line:column.
+/// One mistake, or a warning of what is legal but unwise.
 struct Problem {
-  std::string where, what, what_to_do;
-  int line = 0, column = 0;
+  FilePlace where;
+  Message what, what_to_do;
   bool warning = false;
-  [[nodiscard]] std::string text() const { return fmt::format("{}: {}{}; {}", where, warning ? "warning: " : "", what, what_to_do); }
+  [[nodiscard]] Message message() const {
+    return warning ? msg("{}: warning: {}; {}", where, what, what_to_do) : msg("{}: {}; {}", where, what, what_to_do);
+  }
+  friend bool operator==(const Problem&, const Problem&) = default;
 };
 
 /// Several mistakes at once. `what()` is the first one's text and how many more there are; the command line prints each on a line of its own.
@@ -47,7 +50,7 @@ struct ReadScenario {
 [[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
 /// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
-[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const std::string& what, const std::string& what_to_do);
+[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const Message& what, const Message& what_to_do);
 /// Every tissue that zones, perforation or the rubric's measures name and the tooth does not have.
 [[nodiscard]] std::vector<Problem> missing_tissues(const Scenario& scenario, const Tooth& tooth);
 /// Throws ProblemsError when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.

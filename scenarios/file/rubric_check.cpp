@@ -13,8 +13,8 @@
 namespace cavum::scenarios {
 namespace {
 
-Problem problem_of(const RubricSpec& rubric, Place at, const std::string& what, const std::string& what_to_do) {
-  return {fmt::format("{}:{}:{}", rubric.path, at.line, at.column), what, what_to_do, at.line, at.column};
+Problem problem_of(const RubricSpec& rubric, Place at, const Message& what, const Message& what_to_do) {
+  return {{rubric.path, at.line, at.column}, what, what_to_do};
 }
 
 bool any_of(const TissueSet& set) {

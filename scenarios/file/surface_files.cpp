@@ -17,16 +17,6 @@ namespace {
 constexpr std::size_t k_most_bytes = 32u << 20;
 constexpr double k_furthest_mm = 200;
 
-/// `where: what; what to do` without its where.
-struct Said {
-  std::string what, what_to_do;
-};
-Said said(const Error& e, const std::string& where) {
-  const std::string text = e.what();
-  const auto then = text.rfind("; ");
-  return {text.substr(where.size() + 2, then - where.size() - 2), text.substr(then + 2)};
-}
-
 /// Calls `visit(shape, place)` for every STL of the zones.
 template <class AnyScenario, class Visit>
 void for_each_surface(AnyScenario& s, const Visit& visit) {
@@ -43,7 +33,7 @@ void take(ShapeSpec& shape, const Bytes& bytes, const std::string& name) {
   ReadMesh read = read_closed_stl(bytes, name);
   for (const Vec3 v : read.mesh.vertices_mm)
     if (std::max({std::fabs(v.x), std::fabs(v.y), std::fabs(v.z)}) > k_furthest_mm)
-      throw Error(name, "the surface reaches further than 200 mm from the tooth's origin", "export it in mm, in the tooth's frame");
+      throw Error(name, msg("the surface reaches further than 200 mm from the tooth's origin"), msg("export it in mm, in the tooth's frame"));
   shape.file_sha256 = sha256(bytes);
   shape.surface = std::make_shared<const TriangleMesh>(std::move(read.mesh));
 }
@@ -60,20 +50,21 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
   std::vector<Problem> problems;
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string& place) {
     if (!shape.file.ends_with(".stl") && !shape.file.ends_with(".STL")) return;  // a mistake of the text, named already
-    const auto wrong = [&](const std::string& what, const std::string& what_to_do) {
-      problems.push_back(problem_at(scenario, place, fmt::format("'{}': {}", shape.file, what), what_to_do));
+    const auto wrong = [&](const Message& what, const Message& what_to_do) {
+      problems.push_back(problem_at(scenario, place, msg("'{}': {}", shape.file, what), what_to_do));
     };
     const fs::path path = fs::path(scenario.path).parent_path() / shape.file;
     std::error_code none;
-    if (fs::is_directory(path, none)) return wrong("it is a folder, not a file", "name the STL file in it");
-    if (!fs::is_regular_file(path, none)) return wrong("there is no such file", "put it beside the scenario, or give the way to it from there");
-    if (fs::file_size(path, none) > k_most_bytes) return wrong("the file is larger than 32 MB", "thin the surface out: a leaf is 0.05 mm wide");
+    if (fs::is_directory(path, none)) return wrong(msg("it is a folder, not a file"), msg("name the STL file in it"));
+    if (!fs::is_regular_file(path, none))
+      return wrong(msg("there is no such file"), msg("put it beside the scenario, or give the way to it from there"));
+    if (fs::file_size(path, none) > k_most_bytes)
+      return wrong(msg("the file is larger than 32 MB"), msg("thin the surface out: a leaf is 0.05 mm wide"));
     try {
       if (find(files, shape.file) == nullptr) files.emplace_back(shape.file, read_file(path.string()));
       take(shape, *find(files, shape.file), shape.file);
     } catch (const Error& e) {
-      const Said s = said(e, shape.file);
-      wrong(s.what, s.what_to_do);
+      wrong(e.problem(), e.advice());
     }
   });
   return problems;
@@ -82,7 +73,7 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
 void use_surfaces(Scenario& scenario, const SurfaceFiles& files) {
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string&) {
     const Bytes* bytes = find(files, shape.file);
-    if (bytes == nullptr) throw Error(scenario.path, fmt::format("the session does not hold the surface '{}'", shape.file), "use an intact copy");
+    if (bytes == nullptr) throw Error(scenario.path, msg("the session does not hold the surface '{}'", shape.file), msg("use an intact copy"));
     take(shape, *bytes, fmt::format("{}: {}", scenario.path, shape.file));
   });
 }
@@ -93,9 +84,9 @@ void require_same_surfaces(const Scenario& scenario, const Scenario& recorded) {
       if (now.file != then.file || now.file_sha256 == then.file_sha256) return;
       const auto begin = [](const Sha256& hash) { return to_hex(hash).substr(0, 12); };
       const Problem p = problem_at(scenario, place,
-                                   fmt::format("'{}' is not the surface that the session ran with (SHA-256 {}... instead of {}...)", now.file,
-                                               begin(now.file_sha256), begin(then.file_sha256)),
-                                   "put the old one back, or give the corrected surface a name of its own");
+                                   msg("'{}' is not the surface that the session ran with (SHA-256 {}... instead of {}...)", now.file,
+                                       begin(now.file_sha256), begin(then.file_sha256)),
+                                   msg("put the old one back, or give the corrected surface a name of its own"));
       throw Error(p.where, p.what, p.what_to_do);
     });
   });

@@ -247,8 +247,7 @@ std::vector<std::string> block_task_words() {
 std::string block_task(const std::string& word) {
   const auto* const task = std::find_if(k_block_tasks.begin(), k_block_tasks.end(), [&](const BlockTask& t) { return t.word == word; });
   if (task == k_block_tasks.end())
-    throw Error("--task " + word, "there is no such task for the block",
-                fmt::format("choose {}", kept(fmt::format("{}", fmt::join(block_task_words(), ", ")))));
+    throw Error("--task " + word, msg("there is no such task for the block"), msg("choose {}", list_of(block_task_words())));
   return scenario_text({.id = fmt::format("block_{}", word),
                         .title = std::string(task->title),
                         .what = std::string(task->what),

@@ -62,7 +62,7 @@ class Adviser {
 
  private:
   static bool among(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
-  void warn(const std::string& place, const std::string& what, const std::string& what_to_do) {
+  void warn(const std::string& place, const Message& what, const Message& what_to_do) {
     problems_.push_back(problem_at(s_, place, what, what_to_do));
     problems_.back().warning = true;
   }
@@ -102,14 +102,13 @@ void Adviser::target() {
     const std::string remedy = role_[t.id] == 2 ? fmt::format("make the target smaller, or list '{}' under aims", t.name)
                                                 : fmt::format("list '{}' under aims or faults of [perforation]", t.name);
     if (inside[t.id] > 0)
-      warn("zones/target/0", fmt::format("the target holds {} of {}{}", mm3(inside[t.id]), t.name, stays), remedy);
+      warn("zones/target/0", msg("the target holds {} of {}{}", mm3(inside[t.id]), t.name, stays), remedy);
     else if (beside[t.id] > 0)
-      warn("zones/target/0", fmt::format("the target touches the {}{}", t.name, stays), remedy);
+      warn("zones/target/0", msg("the target touches the {}{}", t.name, stays), remedy);
   }
   if (zones_.guarded_in_target() > 0)
-    warn("zones/target/0",
-         fmt::format("the target reaches {} of what is protected, and the protection counts there", mm3(zones_.guarded_in_target())),
-         "make the target smaller, or protect less");
+    warn("zones/target/0", msg("the target reaches {} of what is protected, and the protection counts there", mm3(zones_.guarded_in_target())),
+         msg("make the target smaller, or protect less"));
 }
 
 void Adviser::leeway() {
@@ -127,12 +126,11 @@ void Adviser::leeway() {
   });
   for (const auto& t : tooth_.tissues)
     if (role_[t.id] == 2 && reached[t.id] > 0)
-      warn("zones/leeway",
-           fmt::format("the leeway reaches {} of {}, which must not be opened: it is wider than the wall", mm3(reached[t.id]), t.name),
-           "make the leeway narrower, or the target smaller");
+      warn("zones/leeway", msg("the leeway reaches {} of {}, which must not be opened: it is wider than the wall", mm3(reached[t.id]), t.name),
+           msg("make the leeway narrower, or the target smaller"));
   if (guarded > 0)
-    warn("zones/leeway", fmt::format("the leeway reaches {} of what is protected, and the protection counts there", mm3(guarded)),
-         "make the leeway narrower, or protect less");
+    warn("zones/leeway", msg("the leeway reaches {} of what is protected, and the protection counts there", mm3(guarded)),
+         msg("make the leeway narrower, or protect less"));
 }
 
 /// Walls that end in the air before the leeway does.
@@ -183,20 +181,20 @@ void Adviser::walls() {
     if (mm2 < k_thin_wall_mm2) continue;
     const bool floor = static_cast<Wall>(w) == Wall::floor;
     warn("zones/leeway",
-         fmt::format("the leeway is wider than the {}{} of the tooth over {} mm2: it leads out into the air",
-                     floor ? "floor" : wall_name(static_cast<Wall>(w), facing), floor ? "" : " wall", fixed(mm2, 1)),
-         "make the leeway narrower, or move the target inwards");
+         msg("the leeway is wider than the {}{} of the tooth over {}: it leads out into the air",
+             floor ? "floor" : wall_name(static_cast<Wall>(w), facing), floor ? Message() : msg(" wall"), as_mm2(mm2, 1)),
+         msg("make the leeway narrower, or move the target inwards"));
   }
 }
 
 void Adviser::time(ExpertsPart& expert) {
   if (zones_.leaf_mm() > k_coarse_leaf_mm)
     warn("tooth",
-         fmt::format("the tooth's leaves are {} mm wide: zones, reach and figures are known to half of that only", plain_number(zones_.leaf_mm())),
-         "make the tooth with leaves of 0.05 mm");
+         msg("the tooth's leaves are {} wide: zones, reach and figures are known to half of that only", as_mm(zones_.leaf_mm(), k_as_needed)),
+         msg("make the tooth with leaves of 0.05 mm"));
   if (!zones_.target_is_open()) {
-    warn("zones/target/0", "the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere",
-         "let the target reach up to the surface, for example by a shape \"column\" over it");
+    warn("zones/target/0", msg("the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere"),
+         msg("let the target reach up to the surface, for example by a shape \"column\" over it"));
     return;
   }
   std::vector<ContactTool> tray;
@@ -217,17 +215,16 @@ void Adviser::time(ExpertsPart& expert) {
   const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
-      warn(fmt::format("points/{}", i), fmt::format("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
-           "take it out, or make the target wider");
+      warn(fmt::format("points/{}", i), msg("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
+           msg("take it out, or make the target wider"));
   if (best < k_poor_share)
-    warn("points", fmt::format("no allowed point removes more than {} of the target", percent(best)),
-         "allow one that fits, or make the target wider");
+    warn("points", msg("no allowed point removes more than {} of the target", percent(best)), msg("allow one that fits, or make the target wider"));
   if (chosen.index == tray.size()) return;
   const auto way = plan_work(chosen, tooth_, tray, s_.perforation.aims);
   expert.time_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
   if (*expert.time_s > limit_s_)
-    warn("time_limit_s", fmt::format("the built-in expert needs about {} s, and the limit is {} s", fixed(*expert.time_s, 0), plain_number(limit_s_)),
-         "allow more time, or see what `cavum scenario solve` reaches");
+    warn("time_limit_s", msg("the built-in expert needs about {}, and the limit is {}", as_s(*expert.time_s, 0), as_s(limit_s_, k_as_needed)),
+         msg("allow more time, or see what `cavum scenario solve` reaches"));
 }
 
 /// What can happen in this tooth.
@@ -274,17 +271,17 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
   Ranges with_missing = ranges;
   for (const auto& name : names_in_expression(text)) {
     if (name.rfind("touched_", 0) != 0 || ranges.count(name) > 0) continue;
-    warn(place, fmt::format("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known));
+    warn(place, msg("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known));
     with_missing[name] = {0, 0};
   }
   const Outlook outlook = judge_condition(text, with_missing);
   const bool completes = std::string(key) == "complete_when";
   if (outlook == Outlook::never)
-    warn(place, fmt::format("'{}' can never come true", key),
-         completes ? "ask for something that can be reached, or the step ends by its time limit only"
-                   : "ask for something that can happen, or take it out");
+    warn(place, msg("'{}' can never come true", key),
+         completes ? msg("ask for something that can be reached, or the step ends by its time limit only")
+                   : msg("ask for something that can happen, or take it out"));
   if (outlook == Outlook::always)
-    warn(place, fmt::format("'{}' is true from the first tick", key), completes ? "ask for something that is still to be done" : "take it out");
+    warn(place, msg("'{}' is true from the first tick", key), completes ? msg("ask for something that is still to be done") : msg("take it out"));
 }
 
 void Adviser::steps() {
@@ -296,7 +293,7 @@ void Adviser::steps() {
     step_condition(i, "complete_when", step.complete_when, ranges);
     step_condition(i, "fail_when", step.fail_when, ranges);
     if (step.time_limit_s && *step.time_limit_s > s_.time_limit_s)
-      warn(fmt::format("steps/{}/time_limit_s", i), "the step's time limit is longer than the exam's", "make it shorter, or take it out");
+      warn(fmt::format("steps/{}/time_limit_s", i), msg("the step's time limit is longer than the exam's"), msg("make it shorter, or take it out"));
   }
 }
 
@@ -310,29 +307,29 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
                   : range.low == range.high ? fmt::format("is always {} here", plain_number(range.low))
                                             : fmt::format("runs from {} to {} here", plain_number(range.low), plain_number(range.high)));
   if (c.points > 0 && best <= 0)
-    warn(place + "/zero", "nobody can win these points: " + runs, "set 'full' and 'zero' within that");
+    warn(place + "/zero", msg("nobody can win these points: {}", runs), msg("set 'full' and 'zero' within that"));
   else if (c.points > 0 && worst >= 1)
-    warn(place + "/full", "nobody can lose these points: " + runs, "set 'full' and 'zero' within that, or take the criterion out");
+    warn(place + "/full", msg("nobody can lose these points: {}", runs), msg("set 'full' and 'zero' within that, or take the criterion out"));
   else if (c.points > 0 && best < 1)
-    warn(place + "/full", "nobody can win all of these points: " + runs, "set 'full' within that");
+    warn(place + "/full", msg("nobody can win all of these points: {}", runs), msg("set 'full' within that"));
   if (c.critical_below && c.critical_above && *c.critical_below > *c.critical_above)
     warn(place + "/critical_below",
-         fmt::format("everybody fails: every value is below {} or above {}", plain_number(*c.critical_below), plain_number(*c.critical_above)),
-         "make critical_below the smaller of the two");
+         msg("everybody fails: every value is below {} or above {}", as_number(*c.critical_below), as_number(*c.critical_above)),
+         msg("make critical_below the smaller of the two"));
   else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
     warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
-         fmt::format("who has full marks at {} fails by it all the same", plain_number(c.full)), "let the critical limit lie beyond 'full'");
+         msg("who has full marks at {} fails by it all the same", as_number(c.full)), msg("let the critical limit lie beyond 'full'"));
   if (measure.needs == Needs::aim && s_.perforation.aims.empty())
     warn(place + "/metric",
-         fmt::format("'{}' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points", c.metric),
-         "name the aim in [perforation], or take the criterion out");
+         msg("'{}' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points", c.metric),
+         msg("name the aim in [perforation], or take the criterion out"));
   if ((c.critical_above && *c.critical_above < range.low) || (c.critical_below && *c.critical_below > range.high))
-    warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"), "everybody fails by this: " + runs,
-         "set it within that");
+    warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"),
+         msg("everybody fails by this: {}", runs), msg("set it within that"));
   else if (c.critical_above && *c.critical_above >= range.high)
-    warn(place + "/critical_above", "nobody can fail by this: " + runs, "set it within that, or take it out");
+    warn(place + "/critical_above", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"));
   else if (c.critical_below && *c.critical_below <= range.low)
-    warn(place + "/critical_below", "nobody can fail by this: " + runs, "set it within that, or take it out");
+    warn(place + "/critical_below", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"));
 }
 
 /// Hard tissue that stands beside the target, by wall.
@@ -352,9 +349,9 @@ void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::a
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
   const auto wall = static_cast<Wall>(measure.first_wall);
   warn(fmt::format("rubric/criteria/{}/metric", i),
-       fmt::format("the cavity has no {}{} in this tooth: {}", wall_name(wall, zones_.facing()), wall == Wall::floor ? "" : " wall",
-                   measure.figure == WallFigure::max_over ? "nobody can lose these points" : "nobody can win these points"),
-       "take the criterion out, or measure a wall that stays");
+       msg("the cavity has no {}{} in this tooth: {}", wall_name(wall, zones_.facing()), wall == Wall::floor ? Message() : msg(" wall"),
+           measure.figure == WallFigure::max_over ? msg("nobody can lose these points") : msg("nobody can win these points")),
+       msg("take the criterion out, or measure a wall that stays"));
 }
 
 void Adviser::criteria() {
@@ -364,7 +361,7 @@ void Adviser::criteria() {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = fmt::format("rubric/criteria/{}", i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below && c.band_limits.empty())
-      warn(place + "/points", "the criterion gives no points and decides nothing", "give it points or a critical limit, or take it out");
+      warn(place + "/points", msg("the criterion gives no points and decides nothing"), msg("give it points or a critical limit, or take it out"));
     const Measure measure = known_measure(c.metric);
     if (const auto high = most_of(measure, exam)) criterion(i, c, measure, {0, *high});
     wall_criterion(i, measure, walls_mm2);
@@ -374,15 +371,15 @@ void Adviser::criteria() {
     return known_measure(c.metric).counts_protected && (c.points > 0 || c.critical_above);
   });
   if (!guard_judged && !s_.zones.protected_shapes.empty())
-    warn("zones/protected/0", "what is protected can be removed for nothing: no criterion measures it",
-         fmt::format("add one on {}, or take [[zones.protected]] out", measures_of_protection()));
+    warn("zones/protected/0", msg("what is protected can be removed for nothing: no criterion measures it"),
+         msg("add one on {}, or take [[zones.protected]] out", measures_of_protection()));
   const bool fault_judged =
       std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) { return known_measure(c.metric).counts_faults; });
   if (!fault_judged && !s_.perforation.faults.empty())
-    warn("rubric/criteria/0/metric", "who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it",
-         "add one on perforated, with critical_above = 0.5");
+    warn("rubric/criteria/0/metric", msg("who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it"),
+         msg("add one on perforated, with critical_above = 0.5"));
   if (!(s_.rubric.pass_percent > 0) && s_.rubric.bands.empty())
-    warn("rubric", "everybody passes: the pass mark is 0 %", "set 'pass_percent' above 0");
+    warn("rubric", msg("everybody passes: the pass mark is 0 %"), msg("set 'pass_percent' above 0"));
 }
 
 }  // namespace

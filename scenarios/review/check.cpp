@@ -16,24 +16,10 @@
 namespace cavum::scenarios {
 namespace {
 
-/// `where: what; what to do` of an Error as a problem at `place`; where the Error itself names a line of `path`, that stands.
+/// An Error as a problem at `place`; where it names a line of the scenario itself, at that.
 Problem problem_of(const Error& e, const Scenario& s, const std::string& place) {
-  const std::string text = e.what();
-  const auto then = text.rfind("; ");
-  const auto at = text.find(": ");
-  Problem p = problem_at(s, place, text.substr(at + 2, then - at - 2), text.substr(then + 2));
-  const std::string where = text.substr(0, at);
-  int line = 0, column = 0;
-  if (where.rfind(s.path + ":", 0) == 0) {
-    const char* end = where.data() + where.size();
-    const auto after_line = std::from_chars(where.data() + s.path.size() + 1, end, line);
-    if (after_line.ptr < end) std::from_chars(after_line.ptr + 1, end, column);
-  }
-  if (line > 0 && column > 0) {
-    p.where = where;
-    p.line = line;
-    p.column = column;
-  }
+  Problem p = problem_at(s, place, e.problem(), e.advice());
+  if (const FilePlace* at = e.file_place(); at != nullptr && at->file == s.path && at->line > 0) p.where = *at;
   return p;
 }
 
@@ -47,12 +33,12 @@ std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& p
       try {
         points.push_back(parse_diamond_point(read_text_file(file), file));
       } catch (const Error& e) {
-        problems.push_back(problem_at(s, place, fmt::format("its file is wrong ({})", e.what()), "mend that file, or use another point"));
+        problems.push_back(problem_at(s, place, msg("its file is wrong ({})", e.message()), msg("mend that file, or use another point")));
       }
     } catch (const Error&) {
       const auto known = data_names("points", s.path);
-      problems.push_back(problem_at(s, place, fmt::format("there is no diamond point '{}'", s.points[i]),
-                                    known.empty() ? "set CAVUM_DATA to the data folder" : suggestion(s.points[i], known)));
+      problems.push_back(problem_at(s, place, msg("there is no diamond point '{}'", s.points[i]),
+                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.points[i], known)));
     }
   }
   return points;
@@ -64,8 +50,8 @@ Tooth other_tooth(const Scenario& s, const std::string& tooth_file, std::vector<
   const auto name_of = [](const std::string& file) { return std::filesystem::path(file).filename().string(); };
   if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
     problems.push_back(problem_at(s, "tooth",
-                                  fmt::format("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
-                                  "see where its zones lie: `cavum scenario show --tooth`"));
+                                  msg("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
+                                  msg("see where its zones lie: `cavum scenario show --tooth`")));
     problems.back().warning = true;
   }
   return tooth;
@@ -79,7 +65,7 @@ std::optional<Tooth> own_tooth_of(const Scenario& s, std::vector<Problem>& probl
     try {
       return load_tooth_file(found);
     } catch (const Error& e) {
-      problems.push_back(problem_at(s, "tooth", fmt::format("the tooth cannot be read ({})", e.what()), "name another, or make it again"));
+      problems.push_back(problem_at(s, "tooth", msg("the tooth cannot be read ({})", e.message()), msg("name another, or make it again")));
     }
   } catch (const Error& e) {
     problems.push_back(problem_of(e, s, "tooth"));
@@ -114,8 +100,7 @@ CheckedScenario check_with(const std::string& text, const std::string& path, con
     }
   }
   sort_problems(problems);
-  problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a.text() == b.text(); }),
-                 problems.end());
+  problems.erase(std::unique(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) { return a == b; }), problems.end());
   return checked;
 }
 
@@ -126,8 +111,9 @@ bool CheckedScenario::sound() const {
 }
 
 void sort_problems(std::vector<Problem>& problems) {
-  std::stable_sort(problems.begin(), problems.end(),
-                   [](const Problem& a, const Problem& b) { return a.line != b.line ? a.line < b.line : a.column < b.column; });
+  std::stable_sort(problems.begin(), problems.end(), [](const Problem& a, const Problem& b) {
+    return a.where.line != b.where.line ? a.where.line < b.where.line : a.where.column < b.where.column;
+  });
 }
 
 CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file) {

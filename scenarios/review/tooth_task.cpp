@@ -332,10 +332,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     else
       words += (words.empty() ? "" : ", ") + std::string(t.word);
   }
-  if (asked == nullptr) throw Error("--task " + task, "there is no such task", "choose one of " + kept(words));
+  if (asked == nullptr) throw Error("--task " + task, msg("there is no such task"), msg("choose one of {}", words));
   if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())
-    throw Error("--task " + task, fmt::format("'{}' is not fit for it: {}", tooth.name, why),
-                "see `cavum tooth landmarks`, or choose another of " + words);
+    throw Error("--task " + task, msg("'{}' is not fit for it: {}", tooth.name, why),
+                msg("see `cavum tooth landmarks`, or choose another of {}", words));
 
   const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
                                beside_criteria(tooth, asked->opens) + (spares_the_pulp(*asked, tooth) ? over_pulp_criterion() : std::string());
@@ -386,26 +386,26 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
         if (++tried == k_most_tried) break;
       }
     }
-    if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
+    if (refused.empty() && !checked.problems.empty()) refused = english_text(checked.problems[0].what);
   }
   std::stable_sort(unwise.begin(), unwise.end(), [](const auto& a, const auto& b) { return a.problems.size() < b.problems.size(); });
   for (WrittenTask& found : unwise)
     if (holds(found.text)) return found;
 
   if (!against.empty())
-    throw Error("--task " + task, fmt::format("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
-                "choose another task or tooth; --untried writes it all the same, as a draft");
+    throw Error("--task " + task, msg("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
+                msg("choose another task or tooth; --untried writes it all the same, as a draft"));
   if (spares_mm > 0)
-    throw Error("--task " + task,
-                fmt::format("in '{}' its floor would lie {} mm from the pulp; {} mm are asked for", tooth.name, fixed(spares_mm, 1),
-                            fixed(k_planned_over_pulp_mm, 1)),
-                "choose another task or tooth");
+    throw Error(
+        "--task " + task,
+        msg("in '{}' its floor would lie {} from the pulp; {} are asked for", tooth.name, as_mm(spares_mm, 1), as_mm(k_planned_over_pulp_mm, 1)),
+        msg("choose another task or tooth"));
   if (reaches > 0)
     throw Error("--task " + task,
-                fmt::format("in '{}' no point of its tray reaches more than {} % of the cavity, which is too narrow for them", tooth.name,
-                            fixed(100 * reaches, 0)),
-                "choose another task or tooth");
-  throw Error("--task " + task, fmt::format("'{}' has no room for it: {}", tooth.name, refused), "choose another task or tooth");
+                msg("in '{}' no point of its tray reaches more than {} of the cavity, which is too narrow for them", tooth.name,
+                    as_percent(100 * reaches, 0)),
+                msg("choose another task or tooth"));
+  throw Error("--task " + task, msg("'{}' has no room for it: {}", tooth.name, refused), msg("choose another task or tooth"));
 }
 
 }  // namespace cavum::scenarios

@@ -47,8 +47,8 @@ TargetBox find_target(const Shape& target, const Tooth& tooth, const std::string
         for (int x = 0; x < edge; x += step) see(at + IVec3{x, y, z});
   });
   if (box.high.x < 0)
-    throw Error(where, fmt::format("no part of the target lies in the tooth '{}'", tooth.name),
-                "move or enlarge [[zones.target]], or choose another tooth");
+    throw Error(where, msg("no part of the target lies in the tooth '{}'", tooth.name),
+                msg("move or enlarge [[zones.target]], or choose another tooth"));
   return box;
 }
 
@@ -230,8 +230,8 @@ void ZoneBuilder::lay_zones(const ShapeField& shape) {
 void ZoneBuilder::require_target() const {
   if (map_.count(Zone::target) > 0) return;
   if (map_.guarded_in_target_ > 0)
-    throw Error(where_, "all of the target is protected", "move the target, or protect less under [[zones.protected]]");
-  throw Error(where_, fmt::format("the target holds no leaf of the tooth '{}'", tooth_.name), "make it larger");
+    throw Error(where_, msg("all of the target is protected"), msg("move the target, or protect less under [[zones.protected]]"));
+  throw Error(where_, msg("the target holds no leaf of the tooth '{}'", tooth_.name), msg("make it larger"));
 }
 
 /// Of the target's leaves: their box, how many lie at its border, whether there is a way to them, and how high the tooth's surface lies over them.

@@ -152,7 +152,7 @@ FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmark
   std::array<double, k_ways> neck{};
   for (int i = 0; i < k_ways; ++i)
     if (!line_height(landmarks.neck_mm, middle, way_of(4.0 * i / k_ways), neck[static_cast<std::size_t>(i)]))
-      throw Error(where, fmt::format("the neck of '{}' does not go round its long axis", tooth.name), "look at `cavum tooth landmarks`");
+      throw Error(where, msg("the neck of '{}' does not go round its long axis", tooth.name), msg("look at `cavum tooth landmarks`"));
   FinishLine line;
   const Octree& tree = tooth.octree;
   const double step = 0.5 * tree.leaf_mm(), far = (tree.size().x + tree.size().y) * tree.leaf_mm();
@@ -164,7 +164,7 @@ FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmark
     const auto depth_at = [&](double r) { return depth.depth_mm({middle.x + way.x * r, middle.y + way.y * r, z}); };
     double r = far;
     while (r > 0 && depth_at(r) < 0) r -= step;
-    if (!(r > 0)) throw Error(where, fmt::format("the tooth '{}' ends below the finish line", tooth.name), "make 'above_neck_mm' smaller");
+    if (!(r > 0)) throw Error(where, msg("the tooth '{}' ends below the finish line", tooth.name), msg("make 'above_neck_mm' smaller"));
     const double inside = depth_at(r), outside = depth_at(r + step);
     line.z_mm[static_cast<std::size_t>(i)] = z;
     line.radius_mm[static_cast<std::size_t>(i)] = r + step * (inside > outside ? std::clamp(inside / (inside - outside), 0.0, 1.0) : 0.5);
@@ -177,7 +177,7 @@ FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmark
 std::unique_ptr<Shape> crown_shell(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const ColumnMap& surface,
                                    const std::string& where, ZoneWork& work) {
   if (landmarks.neck_mm.empty())
-    throw Error(where, fmt::format("no neck is found on '{}'", tooth.name), "look at `cavum tooth landmarks`, or draw the crown's surface as STL");
+    throw Error(where, msg("no neck is found on '{}'", tooth.name), msg("look at `cavum tooth landmarks`, or draw the crown's surface as STL"));
   const Octree& tree = tooth.octree;
   Vec3 middle;
   for (const Vec3& p : landmarks.neck_mm) middle += p / static_cast<double>(landmarks.neck_mm.size());

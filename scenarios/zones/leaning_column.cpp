@@ -49,8 +49,8 @@ struct LocalBox {
 
 ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const std::string& where) {
   if (landmarks.incisal_edge_mm.empty() || landmarks.neck_mm.empty() || landmarks.canal_mouths.empty())
-    throw Error(where, fmt::format("no incisal edge, neck or canal is found on '{}', so no way in from lingual", tooth.name),
-                "look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)");
+    throw Error(where, msg("no incisal edge, neck or canal is found on '{}', so no way in from lingual", tooth.name),
+                msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
   const Octree& tree = tooth.octree;
   const Vec3 axis = landmarks.long_axis.occlusal, mouth = landmarks.canal_mouths[0].at_mm;
   const Vec3 lingual = normalized(Vec3{0, -1, 0} + axis * axis.y);
@@ -66,8 +66,8 @@ ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const std
   way.at = mouth;
   way.z = normalized(entry - mouth);
   if (!(dot(way.z, axis) >= k_least_cosine) || !(way.z.z >= k_least_cosine))
-    throw Error(where, "the way from the canal through the lingual surface leans by more than 45 degrees",
-                "look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)");
+    throw Error(where, msg("the way from the canal through the lingual surface leans by more than 45 degrees"),
+                msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
   way.x = normalized(Vec3{1, 0, 0} - way.z * way.z.x);
   way.y = cross(way.z, way.x);
   return way;
@@ -90,7 +90,7 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
       }
     });
   if (box.low.x > box.high.x)
-    throw Error(where, fmt::format("the tooth '{}' has no {} along the way in", tooth.name, tissue), "choose a tooth with it, or another zone");
+    throw Error(where, msg("the tooth '{}' has no {} along the way in", tooth.name, tissue), msg("choose a tooth with it, or another zone"));
   TissueRelief relief;
   ColumnMap base;
   base.leaf_mm = leaf;

@@ -87,15 +87,15 @@ bool follows_landmarks(const ZoneSpec& zones) noexcept {
 
 OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where) {
   if (landmarks.central_fissure_mm.size() < k_fewest)
-    throw Error(where, "no central fissure is found on this tooth",
-                "look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself");
+    throw Error(where, msg("no central fissure is found on this tooth"),
+                msg("look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself"));
   OutlineSpec placed = spec;
   const double away_mm = spec.ridge_mm + 0.5 * spec.width_mm;
   Polyline line = begun_at_ridge(landmarks.central_fissure_mm, landmarks.mesial_ridge, away_mm, spec.through > 0);
   if (line.size() >= k_fewest) line = reversed(begun_at_ridge(reversed(line), landmarks.distal_ridge, away_mm, spec.through < 0));
   if (line.size() < k_fewest)
-    throw Error(where, fmt::format("nothing of the fissure is {} mm away from both marginal ridges", fixed(away_mm, 2)),
-                "make 'ridge_mm' or 'width_mm' smaller");
+    throw Error(where, msg("nothing of the fissure is {} away from both marginal ridges", as_mm(away_mm, 2)),
+                msg("make 'ridge_mm' or 'width_mm' smaller"));
   placed.paths_mm.push_back(simplified(line));
   placed.bottom_line_mm = landmarks.central_fissure_mm;
   if (spec.branches)
@@ -109,19 +109,19 @@ ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const La
   const Vec3 *contact = furthest_along(landmarks.height_of_contour_mm, Vec3{1.0 * spec.side, 0, 0}),
              *neck = furthest_along(landmarks.neck_mm, Vec3{1.0 * spec.side, 0, 0});
   if (contact == nullptr || neck == nullptr)
-    throw Error(where, fmt::format("no {} contact area or no neck is found on this tooth", side),
-                "look at `cavum tooth landmarks`, or place the box yourself");
+    throw Error(where, msg("no {} contact area or no neck is found on this tooth", side),
+                msg("look at `cavum tooth landmarks`, or place the box yourself"));
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm(), floor_mm = neck->z + spec.above_neck_mm;
   if (floor_mm > contact->z + 1.0)
-    throw Error(where, fmt::format("the box's floor lies {} mm above the {} contact", fixed(floor_mm - contact->z, 2), side),
-                "make 'above_neck_mm' smaller");
+    throw Error(where, msg("the box's floor lies {} above the {} contact", as_mm(floor_mm - contact->z, 2), side),
+                msg("make 'above_neck_mm' smaller"));
   // the outer surface just above the floor, coming from outside
   const double beyond_mm = tree.origin_mm().x + (spec.side > 0 ? static_cast<double>(tree.size().x) * leaf : 0.0);
   double surface_mm = beyond_mm;
   const auto air = [&](double x) { return !tree.is_solid(tree.tissue_at({x, contact->y, floor_mm + leaf})); };
   while (surface_mm * spec.side > 0 && air(surface_mm)) surface_mm -= 0.5 * leaf * spec.side;
-  if (air(surface_mm)) throw Error(where, fmt::format("the tooth ends below the box's floor at the {} side", side), "make 'above_neck_mm' smaller");
+  if (air(surface_mm)) throw Error(where, msg("the tooth ends below the box's floor at the {} side", side), msg("make 'above_neck_mm' smaller"));
   ShapeSpec box = spec;
   box.kind = ShapeSpec::Kind::box;
   const double axial_mm = surface_mm - spec.depth_mm * spec.side, outer_mm = beyond_mm + k_beyond_mm * spec.side;

@@ -113,7 +113,7 @@ Slices required_slices(const Tooth& tooth, const std::string& tissue, const std:
     if (t.name == tissue) id = t.id;
   Slices s = slices_of(tooth, id);
   if (id == k_air || s.leaf.empty())
-    throw Error(where, fmt::format("the tooth '{}' has no {}", tooth.name, tissue), "choose a tooth with it, or a zone that does not need it");
+    throw Error(where, msg("the tooth '{}' has no {}", tooth.name, tissue), msg("choose a tooth with it, or a zone that does not need it"));
   return s;
 }
 

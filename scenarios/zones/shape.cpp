@@ -220,7 +220,7 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
   bool any = false;
   const auto mouths = canal_mouths(tooth, spec.tissue, where);
   if (mouths.empty())
-    throw Error(where, fmt::format("no canal leaves the {} of '{}'", spec.tissue, tooth.name), "choose a tooth with canals, or another shape");
+    throw Error(where, msg("no canal leaves the {} of '{}'", spec.tissue, tooth.name), msg("choose a tooth with canals, or another shape"));
   for (const CanalMouth& mouth : mouths) {
     found += fmt::format("{}{}, {}, {}]", found.empty() ? "[" : ", [", fixed(mouth.at_mm.x, 2), fixed(mouth.at_mm.y, 2), fixed(mouth.at_mm.z, 2));
     const Vec3 off = mouth.at_mm - middle;
@@ -233,8 +233,8 @@ std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Ve
     all->add(ShapeSpec::Combine::add, std::make_unique<Frustum>(cone, cone.radius_mm + cone.height_mm * taper.sin / taper.cos));
   }
   if (!any)
-    throw Error(where, fmt::format("no canal lies on that side of the chamber's middle; the mouths are at {} mm", found),
-                "choose another side in 'canals', or \"all\"");
+    throw Error(where, msg("no canal lies on that side of the chamber's middle; the mouths are at {} mm", found),
+                msg("choose another side in 'canals', or \"all\""));
   return all;
 }
 
@@ -361,7 +361,7 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
                                           spec.offset_mm, work_);
     }
     case ShapeSpec::Kind::stl:
-      if (spec.surface == nullptr) throw Error(where, fmt::format("the surface '{}' was not read", spec.file), "read it first");
+      if (spec.surface == nullptr) throw Error(where, msg("the surface '{}' was not read", spec.file), msg("read it first"));
       count_mesh_body(tooth_, *spec.surface, work_);
       return std::make_unique<MeshBody>(tooth_, *spec.surface);
     case ShapeSpec::Kind::canal_cone:
@@ -410,7 +410,8 @@ double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& p
       const Vec3 at = floor.origin_mm + Vec3{x + 0.5, y + 0.5, 0} * floor.leaf_mm;
       if (enamel.shadow[floor.index(x, y)] != 0 && outline.distance_mm(at.x, at.y) < 0) lowest = std::min(lowest, floor.value[floor.index(x, y)]);
     }
-  if (lowest > 1e8) throw Error(where, "there is no enamel under the outline", "move it over the crown, or let the bottom follow something else");
+  if (lowest > 1e8)
+    throw Error(where, msg("there is no enamel under the outline"), msg("move it over the crown, or let the bottom follow something else"));
   return lowest;
 }
 
@@ -440,7 +441,7 @@ ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outlin
       break;
   }
   const SurfaceHeights inside = placed.bottom_line_mm.empty() ? surface_heights(surface(), outline) : heights_along(placed.bottom_line_mm);
-  if (inside.columns == 0) throw Error(where, fmt::format("the outline lies beside the tooth '{}'", tooth_.name), "move it over the crown");
+  if (inside.columns == 0) throw Error(where, msg("the outline lies beside the tooth '{}'", tooth_.name), msg("move it over the crown"));
   ColumnBottom below{surface(), (b.kind == Kind::below_lowest ? inside.lowest_mm : inside.mean_mm) - b.depth_mm};
   for (double& z : below.height_mm.value) z = b.kind == Kind::below_surface && z != k_no_tooth_mm ? z - b.depth_mm : below.outline_z_mm;
   return below;

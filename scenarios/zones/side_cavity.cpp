@@ -129,8 +129,8 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
   Ground ground{spec.side, spec.level, landmarks.long_axis.through_mm,
                 0,         0,          NeckSide(landmarks.neck_mm, landmarks.long_axis.through_mm.y, spec.side)};
   if (!ground.neck.found())
-    throw Error(where, fmt::format("no neck is found on the {} side of '{}'", spec.side > 0 ? "buccal" : "lingual", tooth.name),
-                "look at `cavum tooth landmarks`, or place the cavity yourself");
+    throw Error(where, msg("no neck is found on the {} side of '{}'", spec.side > 0 ? msg("buccal") : msg("lingual"), tooth.name),
+                msg("look at `cavum tooth landmarks`, or place the cavity yourself"));
   ground.middle.z = ground.neck.height_mm(ground.middle.x);
   const Reach reach = reach_of(spec.outline);
   double lowest = ground.middle.z, highest = ground.middle.z;
@@ -146,7 +146,7 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
   auto outline = make_outline(spec.outline, spec.outline.centre_mm, nullptr);
   const Surface surface = surface_in(ground, *outline, reach, depth, out);
   if (!surface.middle_y)
-    throw Error(where, fmt::format("the outline lies beside the tooth '{}'", tooth.name), "move it onto the crown, or make it larger");
+    throw Error(where, msg("the outline lies beside the tooth '{}'", tooth.name), msg("move it onto the crown, or make it larger"));
   const Vec3 normal = normalized(surface.normal, {0, double(spec.side), 0});
   ground.surface_y = *surface.middle_y;
   ground.lean = std::clamp(normal.z / std::max(1e-6, spec.side * normal.y), -k_most_lean, k_most_lean);

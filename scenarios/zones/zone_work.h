@@ -39,8 +39,8 @@ class ZoneWork {
   }
 
  private:
-  void require(std::uint64_t count, std::uint64_t most, const std::string& what, const std::string& what_to_do) const {
-    if (count > most) throw Error(where_, fmt::format("{}, more than the limit of {}", what, most), what_to_do);
+  void require(std::uint64_t count, std::uint64_t most, const Message& what, const Message& what_to_do) const {
+    if (count > most) throw Error(where_, msg("{}, more than the limit of {}", what, most), what_to_do);
   }
   std::string where_;
   std::uint64_t body_leaves_ = 0, steps_ = 0;

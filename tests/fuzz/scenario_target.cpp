@@ -13,7 +13,7 @@ void fuzz_scenario(Data data) {
   const Tooth tooth;
   for (const scenarios::Reading reading : {scenarios::Reading::to_be_run, scenarios::Reading::recorded}) {
     const scenarios::ReadScenario read = scenarios::read_scenario(text, "scenario.toml", reading);
-    for (const auto& problem : read.problems) static_cast<void>(problem.text());
+    for (const auto& problem : read.problems) static_cast<void>(english_text(problem.message()));
     static_cast<void>(scenarios::missing_tissues(read.scenario, tooth));
     if (!read.problems.empty() && read.scenario.places.empty()) break;  // no TOML
   }

@@ -178,14 +178,15 @@ std::vector<Bytes> volume_seeds() {
   add(k_slice, slice);
   add(k_alone, slice);
   add(k_slice, Bytes(slice.begin(), slice.begin() + std::ssize(slice) / 2));
-  for (const std::string& text : {std::string(), std::string("v.mha: is cut off; copy it again")}) {
+  for (const bool refused : {false, true}) {
     std::array<int, 2> ends{};
     if (::pipe2(ends.data(), O_CLOEXEC) != 0) std::abort();
     Volume sound;
     sound.size = {v.nx, v.ny, v.nz};
     sound.spacing_mm = {0.25, 0.25, 0.25};
     const std::vector<float> gray(v.gray.begin(), v.gray.end());
-    static_cast<void>(text.empty() ? send_volume(ends[1], sound, gray) : send_volume_error(ends[1], text));
+    static_cast<void>(refused ? send_volume_error(ends[1], Error("v.mha", msg("is cut off"), msg("copy it again")))
+                              : send_volume(ends[1], sound, gray));
     ::close(ends[1]);
     Bytes sent(4096);
     sent.resize(static_cast<std::size_t>(std::max<ssize_t>(0, ::read(ends[0], sent.data(), sent.size()))));

@@ -67,7 +67,7 @@ class Library : public ::testing::TestWithParam<std::string> {
 TEST_P(Library, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   const std::string text = read_text_file(file());
   const scenarios::CheckedScenario checked = scenarios::check_whole(text, file());
-  for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
+  for (const auto& p : checked.problems) ADD_FAILURE() << english_text(p.message());
   ASSERT_TRUE(checked.expert.time_s);
   const scenarios::Scenario s = scenarios::parse_scenario(text, file());
   EXPECT_LT(2 * *checked.expert.time_s, s.time_limit_s);

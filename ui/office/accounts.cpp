@@ -28,7 +28,7 @@ std::string hash_of(const std::string& password) {
   std::array<char, crypto_pwhash_STRBYTES> hash{};
   if (sodium_init() < 0 ||
       crypto_pwhash_str(hash.data(), password.data(), password.size(), crypto_pwhash_OPSLIMIT_INTERACTIVE, crypto_pwhash_MEMLIMIT_INTERACTIVE) != 0)
-    throw Error("the password", "cannot be hashed: there is no memory for it", "close other programs");
+    throw Error(msg("the password"), msg("cannot be hashed: there is no memory for it"), msg("close other programs"));
   return hash.data();
 }
 
@@ -53,7 +53,7 @@ std::string in_address(const std::string& text) {
 std::vector<Account> Accounts::all() const {
   if (!std::filesystem::exists(path_)) return {};
   const json file = parse_json(read_text_file(path_), path_);
-  const auto refuse = [&] { throw Error(path_, "is no file of accounts", "restore it, or remove it and add the accounts anew"); };
+  const auto refuse = [&] { throw Error(path_, msg("is no file of accounts"), msg("restore it, or remove it and add the accounts anew")); };
   if (text_in(file, "format") != k_accounts_format || !member_of(file, "accounts").is_array()) refuse();
   std::vector<Account> out;
   for (const json& a : file["accounts"]) {
@@ -88,14 +88,15 @@ std::optional<Account> Accounts::called(const std::string& known_as) const {
 
 Account Accounts::set(const std::string& name, Role role, const std::string& password, bool second_factor, const std::string& known_as) {
   if (name.empty() || name.size() > ledger::k_longest_person || !is_plain_text(name))
-    throw Error("the account's name", "is no line of text of at most 200 bytes", "give the person's name: entries of the ledger will bear it");
+    throw Error(msg("the account's name"), msg("is no line of text of at most 200 bytes"),
+                msg("give the person's name: entries of the ledger will bear it"));
   if (password.size() < k_shortest_password || password.size() > k_longest_password)
-    throw Error("the password", fmt::format("has {} bytes", password.size()),
-                fmt::format("give {} to {}: four words that do not belong together", k_shortest_password, k_longest_password));
+    throw Error(msg("the password"), msg("has {} bytes", password.size()),
+                msg("give {} to {}: four words that do not belong together", k_shortest_password, k_longest_password));
   if (known_as.size() > ledger::k_longest_person || (!known_as.empty() && !is_plain_text(known_as)))
-    throw Error("--known-as", "is no line of text of at most 200 bytes", "write it as the school's sign-on says it");
+    throw Error("--known-as", msg("is no line of text of at most 200 bytes"), msg("write it as the school's sign-on says it"));
   if (const auto other = called(known_as); other && other->name != name)
-    throw Error("--known-as " + one_line(known_as), "is another account's", "give each person one of his own");
+    throw Error("--known-as " + one_line(known_as), msg("is another account's"), msg("give each person one of his own"));
   Account made{name, role, hash_of(password), second_factor ? base32(new_code_secret()) : "", known_as};
   std::vector<Account> accounts = all();
   std::erase_if(accounts, [&](const Account& a) { return a.name == name; });
@@ -107,7 +108,7 @@ Account Accounts::set(const std::string& name, Role role, const std::string& pas
 void Accounts::remove(const std::string& name) {
   std::vector<Account> accounts = all();
   if (std::erase_if(accounts, [&](const Account& a) { return a.name == name; }) == 0)
-    throw Error("account " + one_line(name), "is not there", "see `cavum serve --accounts`");
+    throw Error(msg("account {}", one_line(name)), msg("is not there"), msg("see `cavum serve --accounts`"));
   write(accounts);
 }
 

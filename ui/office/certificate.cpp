@@ -35,7 +35,7 @@ using Extension = std::unique_ptr<X509_EXTENSION, Release<X509_EXTENSION_free>>;
 using Number = std::unique_ptr<BIGNUM, Release<BN_free>>;
 
 void require(bool done) {
-  if (!done) throw Error("OpenSSL", "makes no certificate", "give the school's own: --certificate FILE --key FILE");
+  if (!done) throw Error(msg("OpenSSL"), msg("makes no certificate"), msg("give the school's own: --certificate FILE --key FILE"));
 }
 
 std::string text_in_stream(BIO* stream) {
@@ -68,7 +68,7 @@ void make_certificate(const CertificateFiles& files, const std::vector<std::stri
   const bool has_certificate = std::filesystem::exists(files.certificate), has_key = std::filesystem::exists(files.key);
   if (has_certificate && has_key) return;
   if (has_certificate)
-    throw Error(files.key, "is missing, and its certificate is there", "restore it, or remove the certificate: a new pair is made then");
+    throw Error(files.key, msg("is missing, and its certificate is there"), msg("restore it, or remove the certificate: a new pair is made then"));
   const Key key(EVP_EC_gen("P-256"));
   const Certificate made(X509_new());
   require(key && made);
@@ -101,7 +101,7 @@ std::string fingerprint_of(const std::string& file) {
   const Certificate read(PEM_read_bio_X509(stream.get(), nullptr, nullptr, nullptr));
   unsigned char* der = nullptr;
   const int size = read ? i2d_X509(read.get(), &der) : -1;
-  if (size <= 0) throw Error(file, "holds no certificate in PEM", "name the file that `cavum serve` made, or the school's own");
+  if (size <= 0) throw Error(file, msg("holds no certificate in PEM"), msg("name the file that `cavum serve` made, or the school's own"));
   std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
   OPENSSL_free(der);
   return out;

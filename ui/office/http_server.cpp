@@ -35,11 +35,14 @@ asio::ssl::context make_context(const CertificateFiles& files) {
   SSL_CTX_set_cipher_list(context.native_handle(), "ECDHE+AESGCM:ECDHE+CHACHA20");
   error_code wrong;
   context.use_certificate_chain_file(files.certificate, wrong);
-  if (wrong) throw Error(files.certificate, "is no certificate that can be used: " + wrong.message(), "give a chain in PEM, the server's own first");
+  if (wrong)
+    throw Error(files.certificate, msg("is no certificate that can be used: {}", wrong.message()),
+                msg("give a chain in PEM, the server's own first"));
   context.use_private_key_file(files.key, asio::ssl::context::pem, wrong);
-  if (wrong) throw Error(files.key, "is no key that can be used: " + wrong.message(), "give the certificate's key in PEM, without a password");
+  if (wrong)
+    throw Error(files.key, msg("is no key that can be used: {}", wrong.message()), msg("give the certificate's key in PEM, without a password"));
   if (SSL_CTX_check_private_key(context.native_handle()) != 1)
-    throw Error(files.key, "is not the key of " + files.certificate, "name files that belong together");
+    throw Error(files.key, msg("is not the key of {}", files.certificate), msg("name files that belong together"));
   return context;
 }
 
@@ -59,13 +62,14 @@ struct HttpServer::Parts {
       : welcome(std::move(handler)), limits(allowed), tls(make_context(files)), acceptor(context) {
     error_code wrong;
     const auto place = asio::ip::make_address(address, wrong);
-    if (wrong) throw Error("--listen " + address, "is no address", "give one such as 127.0.0.1:8443, or [::1]:8443");
+    if (wrong) throw Error("--listen " + address, msg("is no address"), msg("give one such as 127.0.0.1:8443, or [::1]:8443"));
     const Tcp::endpoint end(place, port);
     acceptor.open(end.protocol(), wrong);
     if (!wrong) acceptor.set_option(Tcp::acceptor::reuse_address(true), wrong);
     if (!wrong) acceptor.bind(end, wrong);
     if (!wrong) acceptor.listen(asio::socket_base::max_listen_connections, wrong);
-    if (wrong) throw Error(fmt::format("--listen {}:{}", address, port), "cannot be listened at: " + wrong.message(), "name another place");
+    if (wrong)
+      throw Error(fmt::format("--listen {}:{}", address, port), msg("cannot be listened at: {}", wrong.message()), msg("name another place"));
     watcher = std::thread([this] { watch(); });
     accepter = std::thread([this] { accept(); });
   }

@@ -63,7 +63,7 @@ std::string with_place_as(std::string text, const std::string& place, const std:
 Arriving::Arriving(const std::string& folder, std::string sha256)
     : folder_(folder), sha256_(std::move(sha256)), path_(temporary_name_beside(folder + "/" + sha256_ + ".cavum")) {
   file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file_ < 0) throw Error(folder_, "takes no file", "make room on the disk");
+  if (file_ < 0) throw Error(folder_, msg("takes no file"), msg("make room on the disk"));
   crypto_hash_sha256_init(&hash_);
 }
 
@@ -86,7 +86,7 @@ void Arriving::take(std::string_view part) {
 void Arriving::keep() {
   Sha256 hash{};
   crypto_hash_sha256_final(&hash_, hash.data());
-  if (to_hex(hash) != sha256_) throw Error("the session", "is not the one whose hash was named", "send it again");
+  if (to_hex(hash) != sha256_) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
   if (refused_ || ::fsync(file_) != 0) throw DatabaseError(folder_, "cannot be written", "make room on the disk, and send it again", 0);
   ::close(file_);
   file_ = -1;

@@ -30,7 +30,7 @@ std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits
   std::array<std::uint8_t, EVP_MAX_MD_SIZE> mac{};
   unsigned size = 0;
   if (HMAC(EVP_sha1(), secret.data(), static_cast<int>(secret.size()), message.data(), message.size(), mac.data(), &size) == nullptr)
-    throw Error("OpenSSL", "makes no HMAC-SHA-1", "allow SHA-1 for HMAC in this computer's settings of OpenSSL");
+    throw Error(msg("OpenSSL"), msg("makes no HMAC-SHA-1"), msg("allow SHA-1 for HMAC in this computer's settings of OpenSSL"));
   const std::size_t at = mac[size - 1] & 0x0fU;
   const std::uint32_t cut = ((mac[at] & 0x7fU) << 24U) | (std::uint32_t{mac[at + 1]} << 16U) | (std::uint32_t{mac[at + 2]} << 8U) | mac[at + 3];
   std::uint32_t modulus = 1;

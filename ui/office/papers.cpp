@@ -39,7 +39,7 @@ std::string span_text(std::int64_t from_utc_ns, std::int64_t until_utc_ns) {
 std::string exam_name(const Invited& i) { return i.title.empty() ? i.exam : fmt::format("{} ({})", i.title, i.exam); }
 
 report::Document paper(const std::string& title, const std::string& school, const std::vector<Invited>& people) {
-  if (people.empty()) throw Error("the paper", "would be empty: no ticket is good", "issue tickets first");
+  if (people.empty()) throw Error(msg("the paper"), msg("would be empty: no ticket is good"), msg("issue tickets first"));
   report::Document d;
   d.title = title;
   d.language = language();

@@ -95,7 +95,7 @@ void Pieces::begin(const Key& key, std::uint64_t of) {
     if (!u.checked && (oldest == nullptr || u.last_s < uploads_.at(*oldest).last_s)) oldest = &other;
   }
   if (own >= limits_.of_a_station) {
-    if (oldest == nullptr) throw Error("the session", "is one too many at once", "wait until the others are checked");
+    if (oldest == nullptr) throw Error(msg("the session"), msg("is one too many at once"), msg("wait until the others are checked"));
     announced -= uploads_.at(*oldest).of;
     remove(Key(*oldest));
   }
@@ -115,11 +115,11 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
   const Key key{station, sha256};
   std::unique_lock guard(lock_);
   remove_old();
-  if (of == 0 || of > k_largest_session) throw Error("the session", "is empty, or too large", "hand in an exam of at most 256 MB");
-  if (bytes.empty() || bytes.size() > k_largest_piece) throw Error("the piece", "is empty, or too large", "send at most 1 MB at once");
-  if (at > of || bytes.size() > of - at) throw Error("the piece", "goes beyond the end of the session", "send it again");
+  if (of == 0 || of > k_largest_session) throw Error(msg("the session"), msg("is empty, or too large"), msg("hand in an exam of at most 256 MB"));
+  if (bytes.empty() || bytes.size() > k_largest_piece) throw Error(msg("the piece"), msg("is empty, or too large"), msg("send at most 1 MB at once"));
+  if (at > of || bytes.size() > of - at) throw Error(msg("the piece"), msg("goes beyond the end of the session"), msg("send it again"));
   if (bytes.size() < k_smallest_piece && at + bytes.size() != of)
-    throw Error("the piece", "is too small", "send 64 kB at least, but for the last one");
+    throw Error(msg("the piece"), msg("is too small"), msg("send 64 kB at least, but for the last one"));
   if (!uploads_.contains(key)) {
     if (at != 0) return {0, 0, false, false};
     begin(key, of);
@@ -150,7 +150,7 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
   }
   guard.lock();
   remove(key);
-  if (!whole) throw Error("the session", "is not the one whose hash was named", "send it again");
+  if (!whole) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
   return {of, of, true, true};
 }
 

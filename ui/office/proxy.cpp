@@ -31,13 +31,14 @@ ProxySignOn proxy_sign_on(const std::string& address, const std::string& secret,
   for (const int family : {AF_INET, AF_INET6})
     if (::inet_pton(family, address.c_str(), bytes.data()) == 1 && ::inet_ntop(family, bytes.data(), text.data(), text.size()) != nullptr)
       out.address = plain_address(text.data());
-  if (out.address.empty()) throw Error("--proxy-address " + one_line(address), "is no address", "give the proxy's own, such as 127.0.0.1");
+  if (out.address.empty()) throw Error("--proxy-address " + one_line(address), msg("is no address"), msg("give the proxy's own, such as 127.0.0.1"));
   for (char& c : out.field)
     if (c >= 'A' && c <= 'Z') c = static_cast<char>(c - 'A' + 'a');
   if (out.field.empty() || !std::all_of(out.field.begin(), out.field.end(), is_token) || out.field == k_proxy_secret_field)
-    throw Error("--proxy-header " + one_line(field), "is no name of a field", "give the one that the proxy sets, such as X-Auth-Request-Email");
+    throw Error("--proxy-header " + one_line(field), msg("is no name of a field"),
+                msg("give the one that the proxy sets, such as X-Auth-Request-Email"));
   if (secret.size() < k_shortest_proxy_secret || !is_plain_text(secret))
-    throw Error("--proxy-secret", "is no line of 32 characters at least", "write one that nobody can guess: openssl rand -hex 32");
+    throw Error("--proxy-secret", msg("is no line of 32 characters at least"), msg("write one that nobody can guess: openssl rand -hex 32"));
   return out;
 }
 

@@ -44,11 +44,11 @@ struct Counted {
 
 Reply Reports::of(const Recording& recording) {
   const Counted counted(waiting_);
-  if (counted.place > k_most_waiting) throw Error("the report", "waits behind too many others", "ask again in a minute");
+  if (counted.place > k_most_waiting) throw Error(msg("the report"), msg("waits behind too many others"), msg("ask again in a minute"));
   const std::lock_guard guard(lock_);
   auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& k) { return k.path == recording.path && k.entries == recording.entries; });
   if (found == kept_.end()) {
-    if (!make_) throw Error("the report", "cannot be made by this server", "use `cavum report` with --ledger");
+    if (!make_) throw Error(msg("the report"), msg("cannot be made by this server"), msg("use `cavum report` with --ledger"));
     kept_.push_back({recording.path, recording.entries, make_(recording.path)});
     if (kept_.size() > k_most_kept) kept_.pop_front();
     found = std::prev(kept_.end());

@@ -147,7 +147,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     CsvReader in(text, k_list, {.bars = true, .uneven = true});
     std::vector<CsvRow> rows;
     while (in.next_row()) rows.push_back({in.line(), {in.fields().begin(), in.fields().end()}});
-    if (rows.empty()) throw Error("the list", "is empty", "paste a line of column names, and a line for each candidate below");
+    if (rows.empty()) throw Error(msg("the list"), msg("is empty"), msg("paste a line of column names, and a line for each candidate below"));
     roster.rows = rows.size() - 1;
     roster.separator = in.separator();
     std::vector<std::string> passed_over;

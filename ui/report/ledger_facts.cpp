@@ -55,25 +55,26 @@ std::vector<std::string> doubts_of(const ledger::FiledSession& s) {
 
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(ledger::read_ledger(places)) {
   if (!content.findings.empty())
-    throw Error(folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", folder));
+    throw Error(folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", folder));
   registry = ledger::read_registry(content);
 }
 
 const ledger::FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
   for (const auto& s : registry.sessions)
     if (s.file_sha256 == file_sha256) return s;
-  throw Error(path, "was never filed in the ledger " + places.folder,
-              fmt::format("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
+  throw Error(path, msg("was never filed in the ledger {}", places.folder),
+              msg("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
 }
 
 ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name) {
   const std::string entry = fmt::format("entry {}", session.seq);
   const bool shown = !session.shown->is_null();
   if (reader == ReportReader::student && !shown)
-    throw Error(entry, "is not released, and a student's report is of released results only",
-                fmt::format("release it with `cavum ledger release {} --session {}{}`, or use --for instructor", ledger.places.folder, session.seq,
-                            session.doubtful() ? " --with-findings" : ""));
-  if (with_name && !shown) throw Error("--with-name", entry + " is not released, and names stand with released results only", "release it first");
+    throw Error(entry, msg("is not released, and a student's report is of released results only"),
+                msg("release it with `cavum ledger release {} --session {}{}`, or use --for instructor", ledger.places.folder, session.seq,
+                    session.doubtful() ? msg(" --with-findings") : Message()));
+  if (with_name && !shown)
+    throw Error("--with-name", msg("{} is not released, and names stand with released results only", entry), msg("release it first"));
   ReportFiling f;
   f.entry = session.seq;
   f.ledger = ledger.content.id;
@@ -99,7 +100,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
     ledger::Identities identities(ledger.places.identities());
     ledger::remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
-    if (!who) throw Error("--with-name", "nobody is known behind " + session.candidate, "the identity was forgotten; leave --with-name out");
+    if (!who)
+      throw Error("--with-name", msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
     f.name = who->name.empty() ? who->id : who->name;
   }
   for (const auto& s : ledger.registry.sessions) {

@@ -24,7 +24,7 @@ void require_report_place(const std::string& path, bool overwrite) {
   const bool report = path.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
                       : path.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
                                                : head.starts_with("<!doctype html>") && text.find(".md of Cavum") != std::string::npos;
-  if (!report) throw Error(path, "exists already and is no report of Cavum", "choose another name, or overwrite it with --overwrite");
+  if (!report) throw Error(path, msg("exists already and is no report of Cavum"), msg("choose another name, or overwrite it with --overwrite"));
 }
 
 void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,

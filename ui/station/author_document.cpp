@@ -66,7 +66,8 @@ void AuthorDocument::make(const scenarios::TextChange& change, const std::string
 }
 
 void AuthorDocument::put(const std::vector<NamedPoint>& landmarks, const std::string& name) {
-  if (tooth_path_.empty()) throw Error(path_, "names a tooth that could not be read", "mend the text or put the tooth there, then press F5");
+  if (tooth_path_.empty())
+    throw Error(path_, msg("names a tooth that could not be read"), msg("mend the text or put the tooth there, then press F5"));
   if (landmarks != now_.landmarks) change_to({now_.text, landmarks}, name);
 }
 
@@ -90,7 +91,7 @@ bool AuthorDocument::redo() {
 
 AuthorDocument::ToothFile AuthorDocument::tooth_of(const std::string& text) const {
   const scenarios::Scenario s = scenarios::read_scenario(text, path_).scenario;
-  if (s.tooth_file.empty()) throw Error(path_, "names no tooth", "write tooth = \"...\" in a text editor");
+  if (s.tooth_file.empty()) throw Error(path_, msg("names no tooth"), msg("write tooth = \"...\" in a text editor"));
   ToothFile file{scenarios::find_tooth_file(s), {}, {}};
   const Bytes bytes = read_file(file.path);
   file.sum = sha256(bytes);
@@ -130,20 +131,21 @@ std::optional<std::string> AuthorDocument::new_tooth_name() const {
 void AuthorDocument::save(const std::string& tooth_name) {
   rest();
   if (read_text_file(path_) != on_disk_.text)
-    throw Error(path_, "was changed by somebody else meanwhile and is not overwritten",
-                "press F5 to read it again; Ctrl+Z then brings your text back, and Ctrl+S saves it over theirs");
+    throw Error(path_, msg("was changed by somebody else meanwhile and is not overwritten"),
+                msg("press F5 to read it again; Ctrl+Z then brings your text back, and Ctrl+S saves it over theirs"));
   Draft saved = now_;
   if (auto file = tooth_to_write()) {
     const bool anew = may_be_written_anew(*file);
     std::string to = file->path;
     if (!anew) {
       if (tooth_name.empty() || fs::path(tooth_name).filename() != tooth_name || !tooth_name.ends_with(".cvt"))
-        throw Error(file->path, "stays as it is, and the landmarks need a tooth of their own", "give it a name without folders that ends in .cvt");
+        throw Error(file->path, msg("stays as it is, and the landmarks need a tooth of their own"),
+                    msg("give it a name without folders that ends in .cvt"));
       to = (folder_of(path_) / tooth_name).string();
       saved.text = scenarios::with_change(now_.text, scenarios::set_text(now_.text, path_, "tooth", tooth_name));
     } else if (file->sum != tooth_sum_) {
-      throw Error(to, "was changed by somebody else meanwhile and is not overwritten",
-                  "press F5 to read it again; Ctrl+Z then brings your points back");
+      throw Error(to, msg("was changed by somebody else meanwhile and is not overwritten"),
+                  msg("press F5 to read it again; Ctrl+Z then brings your points back"));
     }
     file->tooth.placed_landmarks = now_.landmarks;
     const Bytes bytes = save_tooth(file->tooth);

@@ -106,8 +106,8 @@ std::vector<NamedPoint> with_landmark(std::vector<NamedPoint> placed, const std:
     return placed;
   }
   if (placed.size() >= k_most_placed)
-    throw Error(name, fmt::format("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_most_placed),
-                "take one back that was found just as well");
+    throw Error(name, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_most_placed),
+                msg("take one back that was found just as well"));
   placed.push_back(point);
   return placed;
 }
@@ -118,7 +118,7 @@ std::vector<NamedPoint> without_landmark(std::vector<NamedPoint> placed, const s
   place_landmarks(placed, all);
   for (const NamedPoint& p : placed)
     if (std::find(all.moved.begin(), all.moved.end(), p.name) == all.moved.end())
-      throw Error(name, fmt::format("stands before {} in its list", p.name), fmt::format("take {} back first", p.name));
+      throw Error(name, msg("stands before {} in its list", p.name), msg("take {} back first", p.name));
   return placed;
 }
 

@@ -169,9 +169,9 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   wrapped_text("Check: " + verdict(c));
   const std::string file = std::filesystem::path(c.document.path()).filename().string();
   for (const scenarios::Problem& p : c.problems) {
-    const std::string where = p.line > 0 ? fmt::format("{}:{}:{}", file, p.line, p.column) : p.where;
+    const Message where = FilePlace{p.where.line > 0 ? file : p.where.file, p.where.line, p.where.column};
     ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
-    wrapped_text(fmt::format("{}{}{}; {}", where, p.warning ? "  warning: " : "  MISTAKE: ", p.what, p.what_to_do));
+    wrapped_text(english_text(p.warning ? msg("{}  warning: {}; {}", where, p.what, p.what_to_do) : msg("{}  MISTAKE: {}; {}", where, p.what, p.what_to_do)));
     ImGui::PopStyleColor();
   }
   end_area();

@@ -24,7 +24,7 @@ unsigned compile(unsigned kind, const char* source) {
     std::array<char, 1000> words{};
     glGetShaderInfoLog(shader, static_cast<int>(words.size()), nullptr, words.data());
     glDeleteShader(shader);
-    throw Error("window", fmt::format("the graphics driver refuses a shader ({})", words.data()), "update the driver");
+    throw Error(msg("window"), msg("the graphics driver refuses a shader ({})", words.data()), msg("update the driver"));
   }
   return shader;
 }
@@ -64,7 +64,7 @@ ShaderProgram::ShaderProgram(const std::string& vertex, const std::string& fragm
   glDeleteShader(f);
   int ok = 0;
   glGetProgramiv(program_, GL_LINK_STATUS, &ok);
-  if (ok == 0) throw Error("window", "the graphics driver cannot link a shader", "update the driver");
+  if (ok == 0) throw Error(msg("window"), msg("the graphics driver cannot link a shader"), msg("update the driver"));
 }
 
 ShaderProgram::~ShaderProgram() { glDeleteProgram(program_); }
@@ -267,7 +267,7 @@ bool DepthMap::resize(int edge) {
   glReadBuffer(GL_NONE);
   const bool whole = glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!whole) throw Error("window", "the graphics driver has no room for a shadow", "update the driver");
+  if (!whole) throw Error(msg("window"), msg("the graphics driver has no room for a shadow"), msg("update the driver"));
   return true;
 }
 
@@ -351,7 +351,7 @@ void RenderTarget::resize(int width, int height, int samples) {
   glBindFramebuffer(GL_FRAMEBUFFER, frame_);
   whole = whole && glCheckFramebufferStatus(GL_FRAMEBUFFER) == GL_FRAMEBUFFER_COMPLETE;
   glBindFramebuffer(GL_FRAMEBUFFER, 0);
-  if (!whole) throw Error("window", "the graphics driver has no room for a picture of this size", "make the window smaller");
+  if (!whole) throw Error(msg("window"), msg("the graphics driver has no room for a picture of this size"), msg("make the window smaller"));
 }
 
 void RenderTarget::begin(const glm::vec3& background) const {

@@ -89,30 +89,31 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     if (!(words >> c.word) || c.word[0] == '#') continue;
     const std::string where = fmt::format("{}:{}", path, number);
     if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
-      throw Error(where, fmt::format("'{}' is no command of a script", c.word), "use one of: " + listed(k_words));
+      throw Error(where, msg("'{}' is no command of a script", c.word), msg("use one of: {}", listed(k_words)));
     words >> c.text;
     if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
       std::istringstream value(c.text);
-      if (!(value >> c.number) || c.number < 0) throw Error(where, fmt::format("'{}' needs seconds", c.word), "write a number of 0 or more");
+      if (!(value >> c.number) || c.number < 0) throw Error(where, msg("'{}' needs seconds", c.word), msg("write a number of 0 or more"));
     }
     if (const auto screens = screen_names();
         (c.word == "wait" || c.word == "go") && std::find(screens.begin(), screens.end(), c.text) == screens.end())
-      throw Error(where, fmt::format("'{}' is no screen", c.text), "use one of: " + listed(screens));
+      throw Error(where, msg("'{}' is no screen", c.text), msg("use one of: {}", listed(screens)));
     if (c.word == "pace") {
       std::istringstream value(c.text);
-      if (!(value >> c.number) || c.number < 1) throw Error(where, "'pace' needs pictures a second", "write a number of 1 or more");
+      if (!(value >> c.number) || c.number < 1) throw Error(where, msg("'pace' needs pictures a second"), msg("write a number of 1 or more"));
     }
     if (c.word == "mouse") {
       std::istringstream x(c.text);
       std::string button;
-      if (!(x >> c.x) || !(words >> c.number)) throw Error(where, "'mouse' needs a place", "write two numbers of pixels, and 'pressed' after them");
+      if (!(x >> c.x) || !(words >> c.number))
+        throw Error(where, msg("'mouse' needs a place"), msg("write two numbers of pixels, and 'pressed' after them"));
       c.pressed = (words >> button) && button == "pressed";
     }
     if (c.word == "key" || c.word == "hold" || c.word == "release") {
       c.key = key_of(c.text);
       if (c.key == 0)
-        throw Error(where, fmt::format("'{}' is no key", c.text),
-                    "use enter, escape, space, tab, an arrow's name, pageup, pagedown, home, end, ctrl, shift, f1 to f12, a letter or a digit");
+        throw Error(where, msg("'{}' is no key", c.text),
+                    msg("use enter, escape, space, tab, an arrow's name, pageup, pagedown, home, end, ctrl, shift, f1 to f12, a letter or a digit"));
       words >> c.number;
     }
     commands_.push_back(c);
@@ -130,20 +131,20 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
       pressed_s_ = now_s;
     }
     if (!there && waited_s > k_patience_s)
-      throw Error(where, fmt::format("the screen '{}' did not come, '{}' shows", c.text, screen_name(screen)), "correct the script");
+      throw Error(where, msg("the screen '{}' did not come, '{}' shows", c.text, screen_name(screen)), msg("correct the script"));
     return there;
   }
   if (c.word == "until") {
     if (exam_s < c.number && (screen == Screen::result || screen == Screen::trouble))
-      throw Error(where, fmt::format("the exam was over before its clock came to {} s", c.text), "correct the script");
+      throw Error(where, msg("the exam was over before its clock came to {} s", c.text), msg("correct the script"));
     if (exam_s <= 0 && screen != Screen::exam && waited_s > k_patience_s)
-      throw Error(where, fmt::format("no exam began, '{}' shows", screen_name(screen)), "correct the script");
+      throw Error(where, msg("no exam began, '{}' shows", screen_name(screen)), msg("correct the script"));
     return exam_s >= c.number;
   }
   if (c.word == "type") {
     if (!window.wants_text()) {
       if (waited_s > k_patience_s)
-        throw Error(where, fmt::format("the screen '{}' has no field for letters", screen_name(screen)), "correct the script");
+        throw Error(where, msg("the screen '{}' has no field for letters", screen_name(screen)), msg("correct the script"));
       return false;
     }
     window.type(c.text);
@@ -174,7 +175,7 @@ bool Script::run(const Command& c, Window& window, Screen screen, double exam_s,
     std::filesystem::remove(told_to_);
   }
   if (c.word == "memory") std::printf("%s: %.1f MB\n", c.text.c_str(), memory_mb());
-  if (c.word == "fail") throw Error(where, "the script let the window fail", "leave 'fail' out");
+  if (c.word == "fail") throw Error(where, msg("the script let the window fail"), msg("leave 'fail' out"));
   if (c.word == "close") window.ask_to_close();
   return true;
 }

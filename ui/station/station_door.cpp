@@ -48,7 +48,7 @@ StationDoor::StationDoor() : socket_(door_socket()) {
   const bool taken = errno == EADDRINUSE;
   if (socket_ >= 0) ::close(socket_);
   if (taken) throw door_is_shut();
-  throw Error("--kiosk", std::string("this computer gives no socket (") + std::strerror(errno) + ")", "start it anew");
+  throw Error("--kiosk", msg("this computer gives no socket ({})", std::strerror(errno)), msg("start it anew"));
 }
 
 StationDoor::~StationDoor() { ::close(socket_); }

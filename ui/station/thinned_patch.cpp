@@ -87,7 +87,7 @@ PatchVertex vertex_of(const Joined& j, const PatchPlace& place) {
 SurfacePatch thinned(const SurfacePatch& patch, const PatchPlace& place) {
   for (std::size_t i = 0; i < place.cells.size(); ++i)
     if (const int c = place.cells[i]; c < 0 || (c == 0 && i == PatchPlace::beside(0, 0, 0)) || (c > 0 && SurfacePatches::k_edge % c != 0))
-      throw Error("thinned patch", fmt::format("cells of {} leaves do not fit a patch", c), "take 1, 2, 4, 8 or 16");
+      throw Error(msg("thinned patch"), msg("cells of {} leaves do not fit a patch", c), msg("take 1, 2, 4, 8 or 16"));
   std::vector<std::uint16_t> of_cell(static_cast<std::size_t>(6 * k_along * k_along * k_along), k_new_cell), of_vertex;
   std::vector<Joined> joined;
   of_vertex.reserve(patch.vertices.size());

@@ -78,7 +78,7 @@ GLFWmonitor* monitor_of(const std::string& wanted) {
     const GLFWvidmode* mode = glfwGetVideoMode(m);
     known += fmt::format("{}{} ({}, {} x {})", known.empty() ? "" : "; ", ++number, glfwGetMonitorName(m), mode->width, mode->height);
   }
-  throw Error("--monitor " + wanted, "is not there", known.empty() ? "plug one in" : "name one of " + known);
+  throw Error("--monitor " + wanted, msg("is not there"), known.empty() ? msg("plug one in") : msg("name one of {}", known));
 }
 
 }  // namespace
@@ -91,7 +91,7 @@ void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
 Window::Window(const WindowOptions& options) : monitor_(options.monitor), full_screen_(options.full_screen) {
   spare_the_processor();
   if (glfwInit() != GLFW_TRUE)
-    throw Error("window", fmt::format("cannot be opened ({})", glfw_reason()), "start the station from a desktop, or under xvfb-run");
+    throw Error(msg("window"), msg("cannot be opened ({})", glfw_reason()), msg("start the station from a desktop, or under xvfb-run"));
   try {
     open(options);
   } catch (...) {
@@ -123,15 +123,15 @@ void Window::open(const WindowOptions& options) {
   int width = options.width, height = options.height;
   if (full_screen_) {
     if (monitor == nullptr) monitor = glfwGetPrimaryMonitor();
-    if (monitor == nullptr) throw Error("--kiosk", "there is no monitor to fill", "plug one in");
+    if (monitor == nullptr) throw Error("--kiosk", msg("there is no monitor to fill"), msg("plug one in"));
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
     width = mode->width;
     height = mode->height;
   }
   window_ = glfwCreateWindow(width, height, options.title.c_str(), full_screen_ ? monitor : nullptr, nullptr);
   if (window_ == nullptr)
-    throw Error("window", fmt::format("has no OpenGL 3.3 ({})", glfw_reason()),
-                "install the driver of the graphics card, or libgl1-mesa-dri for drawing without one");
+    throw Error(msg("window"), msg("has no OpenGL 3.3 ({})", glfw_reason()),
+                msg("install the driver of the graphics card, or libgl1-mesa-dri for drawing without one"));
   if (monitor == nullptr || full_screen_) return;
   int x = 0, y = 0;
   glfwGetMonitorPos(monitor, &x, &y);

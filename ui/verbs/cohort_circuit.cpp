@@ -29,9 +29,9 @@ std::pair<std::string, std::string> marks_file(const CircuitArguments& o, const 
   const auto at = given.find('=');
   const std::string exam = given.substr(0, at);
   if (at == std::string::npos || at + 1 == given.size())
-    throw Error("--marks " + given, "does not say which exam's marks these are", "write --marks EXAM=FILE");
+    throw Error("--marks " + given, msg("does not say which exam's marks these are"), msg("write --marks EXAM=FILE"));
   if (std::find(o.exams.begin(), o.exams.end(), exam) == o.exams.end())
-    throw Error("--marks " + given, "is of no exam of the circuit", "name it with --exams, too");
+    throw Error("--marks " + given, msg("is of no exam of the circuit"), msg("name it with --exams, too"));
   return {exam, given.substr(at + 1)};
 }
 
@@ -39,7 +39,7 @@ void measure_circuit(const CircuitArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   const ledger::Registry registry = ledger::read_registry(content);
   ledger::Identities identities(places.identities());
   ledger::remove_forgotten(content, identities);
@@ -47,12 +47,12 @@ void measure_circuit(const CircuitArguments& o) {
   std::vector<NamedFile> kept{{"", places.database()}, {"", places.identities()}};
   for (const auto& given : o.marks) {
     const auto [exam, file] = marks_file(o, given);
-    if (!marks.try_emplace(exam).second) throw Error("--marks " + given, "gives marks of an exam twice", "put them into one file");
+    if (!marks.try_emplace(exam).second) throw Error("--marks " + given, msg("gives marks of an exam twice"), msg("put them into one file"));
     marks[exam] = cohort::parse_marks(read_text_file(file), identities, exam, file, cohort::points_of_exam(registry, exam));
     kept.push_back({"", file});
   }
   if (!o.out.empty()) {
-    if (!o.out.ends_with(".csv")) throw Error("--out " + o.out, "is no table", "use a name ending in .csv");
+    if (!o.out.ends_with(".csv")) throw Error("--out " + o.out, msg("is no table"), msg("use a name ending in .csv"));
     require_own_places({{"--out " + o.out, o.out}}, kept);
   }
   const cohort::CircuitFigures figures = cohort::circuit_figures(registry, identities, o.exams, marks);

@@ -100,7 +100,7 @@ std::string to_text(const cohort::FormsSat& sat, const cohort::FormsJudged& judg
 
 /// 1 where a form is too easy or too hard.
 int measure(const DifficultyArguments& o) {
-  if (o.wanted.scenarios.size() < 2) throw Error("cohort difficulty", "needs two forms at least", "name more scenario files");
+  if (o.wanted.scenarios.size() < 2) throw Error(msg("cohort difficulty"), msg("needs two forms at least"), msg("name more scenario files"));
   if (!o.out.empty()) require_writable(o.out);
   const bool shown = !o.as_json && ::isatty(STDERR_FILENO) == 1;
   const std::size_t exams = o.wanted.scenarios.size() * static_cast<std::size_t>(o.wanted.candidates);

@@ -59,7 +59,7 @@ void report(const CohortArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   const ledger::Registry registry = ledger::read_registry(content);
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
@@ -72,13 +72,13 @@ void report(const CohortArguments& o) {
       return std::any_of(marks.begin(), marks.end(), [&](const cohort::HumanMark& m) { return m.rating && holds(*m.rating); });
     };
     if (!rating_is([&](double r) { return r <= o.borderline; }) || !rating_is([&](double r) { return r >= o.borderline; }))
-      throw Error("--borderline " + plain_number(o.borderline), "does not lie within the ratings that the marks give",
-                  "name a rating that judges used");
+      throw Error("--borderline " + plain_number(o.borderline), msg("does not lie within the ratings that the marks give"),
+                  msg("name a rating that judges used"));
   }
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {
     if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
-      throw Error("--out " + o.out, "is no kind of report", "use a name ending in .html or .pdf");
+      throw Error("--out " + o.out, msg("is no kind of report"), msg("use a name ending in .html or .pdf"));
     report::require_report_place(o.out);
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
     const auto tooth = cohort::class_tooth(registry, places, o.exam);

@@ -42,9 +42,9 @@ HidPedalInfo chosen(const std::vector<HidPedalInfo>& pedals, const std::string& 
     if (p.id() == id) return p;
     names += (names.empty() ? "" : ", ") + p.id();
   }
-  if (pedals.empty()) throw Error("devices", "no foot pedal is plugged in", "plug one in; a USB pedal is seen within a second");
-  if (!id.empty()) throw Error("--pedal " + id, "is not plugged in", "name one of " + names);
-  if (pedals.size() > 1) throw Error("devices", "there are several pedals", "choose with --pedal one of " + names);
+  if (pedals.empty()) throw Error(msg("devices"), msg("no foot pedal is plugged in"), msg("plug one in; a USB pedal is seen within a second"));
+  if (!id.empty()) throw Error("--pedal " + id, msg("is not plugged in"), msg("name one of {}", names));
+  if (pedals.size() > 1) throw Error(msg("devices"), msg("there are several pedals"), msg("choose with --pedal one of {}", names));
   return pedals[0];
 }
 
@@ -106,7 +106,7 @@ void list(const DeviceArguments& o) {
 
 int test(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
-  if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be tested", pedal.problem);
+  if (!pedal.problem.empty()) throw Error(msg("pedal {}", pedal.id()), msg("cannot be tested"), pedal.problem);
   if (!o.json) std::cout << "move the pedal " << pedal.id() << " for " << plain_number(o.seconds) << " s ...\n" << std::flush;
   const PedalHearing heard = hear_pedal(pedal.vendor, pedal.product, o.seconds);
   // Continuous enough: no silence as long as the one after which the servo no longer believes the pedal.
@@ -142,7 +142,7 @@ int test(const DeviceArguments& o) {
 
 void calibrate(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
-  if (!pedal.problem.empty()) throw Error("pedal " + pedal.id(), "cannot be calibrated", pedal.problem);
+  if (!pedal.problem.empty()) throw Error(msg("pedal {}", pedal.id()), msg("cannot be calibrated"), pedal.problem);
   const std::string path = station_pedal_path();
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
@@ -153,7 +153,8 @@ void calibrate(const DeviceArguments& o) {
     return hear_pedal(pedal.vendor, pedal.product, o.seconds);
   };
   const PedalHearing off = listen("take the foot off the pedal; hold"), down = listen("press the pedal down; hold it");
-  if (off.reports + down.reports == 0) throw Error("pedal " + pedal.id(), "said nothing", "press it a few times to wake it, and begin again");
+  if (off.reports + down.reports == 0)
+    throw Error(msg("pedal {}", pedal.id()), msg("said nothing"), msg("press it a few times to wake it, and begin again"));
   std::vector<AxisHeard> axes(down.numbers.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto& silent = off.numbers[i].empty() ? down.numbers[i] : off.numbers[i];  // one that speaks on change may say nothing at rest
@@ -220,7 +221,8 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   devices->callback([o, anew, go_on, &exit_code] {
     exit_code = 0;
     for (const CLI::Option* option : {anew, go_on})
-      if (option->count() > 0 && option->as<std::string>().empty()) throw Error(option->get_name(), "gives no reason", "say what was done, or why");
+      if (option->count() > 0 && option->as<std::string>().empty())
+        throw Error(option->get_name(), msg("gives no reason"), msg("say what was done, or why"));
     if (!o->station_name.empty()) set_station_name(o->station_name);
     if (o->self_check)
       exit_code = self_check({o->stylus, o->new_history, o->go_on, o->history, o->json});
@@ -229,7 +231,7 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
     else if (o->test && !o->stylus.empty())
       exit_code = test_stylus(o->stylus, o->seconds, !o->no_push, o->json);
     else if (!o->stylus.empty())
-      throw Error("--stylus " + o->stylus, "says of which, but not what", "add --test, --self-check or --place");
+      throw Error("--stylus " + o->stylus, msg("says of which, but not what"), msg("add --test, --self-check or --place"));
     else if (o->live)
       watch(*o);
     else if (o->calibrate)

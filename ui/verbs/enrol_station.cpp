@@ -20,12 +20,12 @@ MotionSource stylus(const std::string& id) {
 }  // namespace
 
 void enrol_station(const EnrolOptions& o) {
-  if (o.replace_key && !o.code.empty()) throw Error("--replace-key", "was asked for together with --enrol", "give one of them");
+  if (o.replace_key && !o.code.empty()) throw Error("--replace-key", msg("was asked for together with --enrol"), msg("give one of them"));
   const std::string school = ledger::station_school_key();
   if (school.empty())
-    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
-                "copy the school's public key there: `cavum ledger init` writes it");
-  if (std::filesystem::is_directory(o.out)) throw Error("--out " + o.out, "is a folder", "name the file to write the request to");
+    throw Error(ledger::school_public_key_path(), msg("this station knows no school yet"),
+                msg("copy the school's public key there: `cavum ledger init` writes it"));
+  if (std::filesystem::is_directory(o.out)) throw Error("--out " + o.out, msg("is a folder"), msg("name the file to write the request to"));
   require_writable(o.out);
   std::vector<MotionSource> devices;
   for (const auto& id : o.styluses) devices.push_back(stylus(id));

@@ -24,8 +24,8 @@ constexpr Eigen::Index k_most_points = 4000;  // of a chart: more cannot be told
 std::pair<std::string, std::string> name_and_value(const std::string& option, const std::string& given, const std::string& example) {
   const std::size_t at = given.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == given.size())
-    throw Error(fmt::format("{} {}", option, one_line(given)), "is not of the form NAME=" + example,
-                fmt::format("write for example {}", option == "--unit" ? "--unit f=gf" : "--column f=Fz"));
+    throw Error(fmt::format("{} {}", option, one_line(given)), msg("is not of the form NAME={}", example),
+                msg("write for example {}", option == "--unit" ? msg("--unit f=gf") : msg("--column f=Fz")));
   return {given.substr(0, at), given.substr(at + 1)};
 }
 

@@ -59,9 +59,9 @@ ForceModel load_model(const std::string& wanted) {
 }
 
 void write_protocol(const std::string& path) {
-  if (path.starts_with("-")) throw Error("--protocol " + path, "is no name of a file", "write --protocol protocol.html, or --help alone");
+  if (path.starts_with("-")) throw Error("--protocol " + path, msg("is no name of a file"), msg("write --protocol protocol.html, or --help alone"));
   const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
-  if (csv == path) throw Error("--protocol " + path, "is the name of the motion beside the page", "use a name ending in .html");
+  if (csv == path) throw Error("--protocol " + path, msg("is the name of the motion beside the page"), msg("use a name ending in .html"));
   require_own_places({{path, path}, {csv, csv}}, {});
   write_text_file(csv, explain::protocol_motion_csv());
   write_text_file(path, explain::protocol_page());
@@ -70,9 +70,9 @@ void write_protocol(const std::string& path) {
 
 explain::Recording read_data(const ExplainArgs& a) {
   const bool session = a.data.ends_with(".cavum");
-  if (!session && !a.force.empty()) throw Error("--force", "goes with a session only", "put the force into column f_n of the recording");
+  if (!session && !a.force.empty()) throw Error("--force", msg("goes with a session only"), msg("put the force into column f_n of the recording"));
   if (session && (!a.rig.empty() || !a.reading.empty()))
-    throw Error(a.data, "is a session, which needs no --rig, and no option that says how a table is read", "leave them out");
+    throw Error(a.data, msg("is a session, which needs no --rig, and no option that says how a table is read"), msg("leave them out"));
   return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, reading_options(a.reading));
 }
 
@@ -118,10 +118,9 @@ bool ran_table(const ExplainArgs& a) {
   if (a.data.ends_with(".cavum")) return false;
   const std::string text = read_text_file(a.data, k_largest_table);
   if (!is_table(text, a.data)) return false;
-  if (a.dry_run)
-    throw Error("--dry-run", fmt::format("{} is a table of means, without motion", a.data), "leave it out: a table is taken at its word");
+  if (a.dry_run) throw Error("--dry-run", msg("{} is a table of means, without motion", a.data), msg("leave it out: a table is taken at its word"));
   if (!a.model.empty() || !a.model_out.empty())
-    throw Error(a.data, "is a table of means, without motion", "leave out --model and --model-out; no force model follows from it");
+    throw Error(a.data, msg("is a table of means, without motion"), msg("leave out --model and --model-out; no force model follows from it"));
   const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));
   if (!a.out.empty()) write_text_file(a.out, table_html(result, a.data));
   if (a.json)
@@ -137,15 +136,16 @@ void run_explain(const ExplainArgs& a) {
     return;
   }
   if (!a.protocol.empty()) {
-    if (!a.data.empty()) throw Error("--protocol " + a.protocol, "goes without a recording", fmt::format("leave out {}, or --protocol", a.data));
+    if (!a.data.empty()) throw Error("--protocol " + a.protocol, msg("goes without a recording"), msg("leave out {}, or --protocol", a.data));
     return write_protocol(a.protocol);
   }
-  if (a.data.empty()) throw Error("explain", "no recording is given", "name a CSV file, or ask for --protocol PAGE.html");
-  if (a.out.ends_with(".pdf")) throw Error("--out " + a.out, "reports are HTML", "use a name ending in .html, and print it from a browser");
+  if (a.data.empty()) throw Error(msg("explain"), msg("no recording is given"), msg("name a CSV file, or ask for --protocol PAGE.html"));
+  if (a.out.ends_with(".pdf")) throw Error("--out " + a.out, msg("reports are HTML"), msg("use a name ending in .html, and print it from a browser"));
   const std::string rig = a.rig.empty() ? (std::filesystem::path(a.data).parent_path() / "rig.toml").string() : a.rig;
   require_own_places({{"--out " + a.out, a.out}, {"--model-out " + a.model_out, a.model_out}},
                      {{"", a.data}, {"", rig}, {"", a.force}, {"", a.model.ends_with(".toml") ? a.model : ""}});
-  if (!a.material.empty() && a.model.empty()) throw Error("--material " + a.material, "goes with --model only", "name the force model, too");
+  if (!a.material.empty() && a.model.empty())
+    throw Error("--material " + a.material, msg("goes with --model only"), msg("name the force model, too"));
   if (ran_table(a)) return;
   explain::Recording recording = read_data(a);
   if (a.dry_run) return show_overview(a, recording);
@@ -160,8 +160,8 @@ void run_explain(const ExplainArgs& a) {
     const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
     const auto owner = start.materials.find(material);
     if (owner == start.materials.end() || !(owner->second.voigt.stiffness_n_per_mm > 0.0))
-      throw Error("--material " + material, fmt::format("is no material of {} that resists", a.model),
-                  "name one of its materials with k_n_per_mm above 0");
+      throw Error("--material " + material, msg("is no material of {} that resists", a.model),
+                  msg("name one of its materials with k_n_per_mm above 0"));
     added = explain::added_force_n(start, material, recording, a.model);
     const auto& tissue = start.materials.find(material)->second.voigt;
     recording.rig.k_n_per_mm = tissue.stiffness_n_per_mm;
@@ -179,7 +179,8 @@ void run_explain(const ExplainArgs& a) {
     for (const auto& path : {a.out, models ? a.model_out : ""})
       if (!path.empty()) std::cout << "written: " << path << "\n";
   }
-  if (faulty && !a.model_out.empty()) throw Error("--model-out " + a.model_out, "was not written", "no model can be made of a recording with faults");
+  if (faulty && !a.model_out.empty())
+    throw Error("--model-out " + a.model_out, msg("was not written"), msg("no model can be made of a recording with faults"));
 }
 
 }  // namespace

@@ -62,7 +62,8 @@ void write_somewhere(scenarios::Exam& exam, const std::string& second_place, con
       if (exam.recorder().path() == second_place || moved(exam, second_place, why)) continue;
     }
     if (nobody)
-      throw Error(exam.recorder().path(), "cannot be written, nor can any other place", "what was on disk before can be resumed from there");
+      throw Error(exam.recorder().path(), msg("cannot be written, nor can any other place"),
+                  msg("what was on disk before can be resumed from there"));
     std::fprintf(
         stderr,
         "cavum: %.1f s of the exam and its end are in memory only. Make room and press Enter, or type another file (.cavum) to save the whole "

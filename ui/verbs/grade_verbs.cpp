@@ -52,7 +52,7 @@ void run_grade_one(const std::string& path, const GradeArguments& o) {
   const MarkedSession g = marked_session(path, o.marking, grounds);
   if (!o.marking.rubric.empty())
     for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones))
-      std::cerr << "cavum: " << one_line(p.text()) << "\n";
+      std::cerr << "cavum: " << one_line(english_text(p.message())) << "\n";
   if (!o.why.empty()) {
     const grading::Why w = grading::why(g.session->input(), g.result, g.rubric, o.why);
     if (o.json) {
@@ -137,13 +137,13 @@ int run_grade(const GradeArguments& o) {
     return 0;
   }
   if (!o.out.empty()) {
-    if (std::filesystem::exists(o.out)) throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
+    if (std::filesystem::exists(o.out)) throw Error(o.out, msg("exists already, and a result is never overwritten"), msg("choose another name"));
     require_writable(o.out);
   }
   const auto files = session_files(o.sessions);
   const bool many = files.size() > 1 || std::filesystem::is_directory(o.sessions.front());
   if (many || o.marking.rubric.empty()) require_sound_marking(o.marking);  // of one session more can be said, when it is there
-  if (many && !o.why.empty()) throw Error("--why", "explains one session", "name one session file");
+  if (many && !o.why.empty()) throw Error("--why", msg("explains one session"), msg("name one session file"));
   if (many) return run_grade_many(files, o) > 0 ? 1 : 0;
   run_grade_one(files.front(), o);
   return 0;

@@ -102,8 +102,8 @@ NamedPoint parse_placed(const std::string& text) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (equals == std::string::npos || !is_landmark_name(name))
-    throw Error("--set", fmt::format("cannot read '{}'", text),
-                "write NAME=x,y,z with a name that `cavum tooth landmarks` prints, such as central_pit=0.1,0.2,1.0");
+    throw Error("--set", msg("cannot read '{}'", text),
+                msg("write NAME=x,y,z with a name that `cavum tooth landmarks` prints, such as central_pit=0.1,0.2,1.0"));
   return {name, parse_vec(text.substr(equals + 1), "--set " + name)};
 }
 
@@ -118,8 +118,7 @@ void require_near(const Tooth& tooth, const NamedPoint& point) {
     for (int y = std::max(0, low.y); y <= std::min(high.y, n.y - 1); ++y)
       for (int x = std::max(0, low.x); x <= std::min(high.x, n.x - 1); ++x)
         if (tree.tissue({x, y, z}) != k_air && length(tree.centre_mm({x, y, z}) - point.at_mm) <= k_near_mm) return;
-  throw Error("--set " + point.name, fmt::format("lies more than {} mm from the tooth", fixed(k_near_mm, 0)),
-              "give a place on it, mm of the tooth frame");
+  throw Error("--set " + point.name, msg("lies more than {} from the tooth", as_mm(k_near_mm, 0)), msg("give a place on it, mm of the tooth frame"));
 }
 
 struct LandmarkArgs {
@@ -132,13 +131,13 @@ void run_landmarks(const LandmarkArgs& a) {
   require_own_places({{"--out " + a.picture, a.picture}, {"--out-tooth " + a.out_tooth, a.out_tooth}}, {{"", a.file}});
   const bool changes = !a.set.empty() || !a.unset.empty();
   if (changes == a.out_tooth.empty())
-    throw Error("tooth landmarks", changes ? "--set and --unset need --out-tooth" : "--out-tooth needs --set or --unset",
-                "a tooth is never changed where it lies: name the new file");
+    throw Error(msg("tooth landmarks"), changes ? msg("--set and --unset need --out-tooth") : msg("--out-tooth needs --set or --unset"),
+                msg("a tooth is never changed where it lies: name the new file"));
   Tooth tooth = load_tooth_file(a.file);
   auto& placed = tooth.placed_landmarks;
   for (const auto& name : a.unset)
     if (std::erase_if(placed, [&](const NamedPoint& p) { return p.name == name; }) == 0)
-      throw Error("--unset", fmt::format("nobody put a point '{}'", name), "name one that is marked as put by a person");
+      throw Error("--unset", msg("nobody put a point '{}'", name), msg("name one that is marked as put by a person"));
   for (const auto& text : a.set) {
     const NamedPoint point = parse_placed(text);
     require_near(tooth, point);
@@ -148,7 +147,7 @@ void run_landmarks(const LandmarkArgs& a) {
   const Landmarks l = find_landmarks(tooth);
   for (const auto& p : placed)
     if (std::find(l.moved.begin(), l.moved.end(), p.name) == l.moved.end())
-      throw Error("--set " + p.name, "is beyond the end of its list", "number it as the next one");
+      throw Error("--set " + p.name, msg("is beyond the end of its list"), msg("number it as the next one"));
   if (!a.out_tooth.empty()) save_tooth_file(tooth, a.out_tooth);
   if (!a.picture.empty()) write_text_file(a.picture, landmark_picture(tooth, l));
   if (a.json) {

@@ -34,7 +34,7 @@ class LedgerCommand {
     auto* v = app_->add_subcommand(name, what);
     v->add_option("folder", options->folder, folder)->required();
     v->callback([o = options, run, name, &exit_code = exit_code_] {
-      if (o->folder.empty()) throw Error(fmt::format("cavum ledger {}", name), "no folder named", "name the ledger's folder");
+      if (o->folder.empty()) throw Error(msg("cavum ledger {}", name), msg("no folder named"), msg("name the ledger's folder"));
       exit_code = run(*o);
     });
     return v;

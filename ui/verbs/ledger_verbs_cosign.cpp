@@ -19,13 +19,14 @@ using nlohmann::json;
 
 std::vector<ledger::NoteKey> cosigners_of(const LedgerOptions& o) {
   if (!o.cosigners.empty() && !std::filesystem::exists(o.cosigners))
-    throw Error("--cosigners " + o.cosigners, "is not there", "name a file with a cosigner's key on each line");
+    throw Error("--cosigners " + o.cosigners, msg("is not there"), msg("name a file with a cosigner's key on each line"));
   return ledger::read_cosigners(o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners);
 }
 
 void ledger_checkpoint(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
-  if (o.since < -1) throw Error(fmt::format("--since {}", o.since), "is no number of entries", "give 0 for a cosigner who has signed nothing yet");
+  if (o.since < -1)
+    throw Error(fmt::format("--since {}", o.since), msg("is no number of entries"), msg("give 0 for a cosigner who has signed nothing yet"));
   const std::uint64_t since = o.since < 0 ? ledger::last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
   const std::string request = ledger::cosign_request(ledger.content(), since);
   require_new(o, o.out);
@@ -41,11 +42,13 @@ int ledger_cosign(const LedgerOptions& o) {
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
     cosigner.key_entries.push_back(text_in(receipt, "entry"));
-    if (cosigner.key_entries.back().empty()) throw Error(path, "is no receipt", "name the receipt of the entry by which the school replaced its key");
+    if (cosigner.key_entries.back().empty())
+      throw Error(path, msg("is no receipt"), msg("name the receipt of the entry by which the school replaced its key"));
   }
   const std::string request = read_text_file(o.folder);
   require_own_places({{"--out " + o.out, o.out}}, {{"", o.folder}, {"", o.key}});
-  if (!o.overwrite && std::filesystem::exists(o.out)) throw Error("--out " + o.out, "is there already", "name another file, or add --overwrite");
+  if (!o.overwrite && std::filesystem::exists(o.out))
+    throw Error("--out " + o.out, msg("is there already"), msg("name another file, or add --overwrite"));
   cosigner.key = load_signing_key(o.key.empty() ? station_path("cosigner.key") : o.key, "cosigner");
   cosigner.name = o.name_of_cosigner.empty() ? "cavum.cosigner/" + to_hex(cosigner.key.public_key).substr(0, 16) : o.name_of_cosigner;
   constexpr std::int64_t k_ns = 1'000'000'000;
@@ -75,8 +78,9 @@ int ledger_add_cosignature(const LedgerOptions& o) {
   for (const auto& path : o.cosigned) {
     auto note = ledger::check_cosigned(read_text_file(path), cosigners, ledger.content());
     if (note.findings.empty() && note.cosignatures.empty())
-      throw Error(path, "bears no cosignature of a cosigner that is known here",
-                  "put the key line that `cavum ledger cosign` shows into " + (o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners));
+      throw Error(
+          path, msg("bears no cosignature of a cosigner that is known here"),
+          msg("put the key line that `cavum ledger cosign` shows into {}", (o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners)));
     std::cout << path << ": " << (note.findings.empty() ? "kept: " : "NOT KEPT\n");
     for (const auto& f : note.findings) std::cout << "  - " << f << "\n";
     all = all && note.findings.empty();

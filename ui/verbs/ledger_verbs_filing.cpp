@@ -25,8 +25,9 @@ void require_new(const LedgerOptions& o, const std::string& path) {
   for (const std::string& kept : {places.database(), places.identities(), ledger::school_key_path(), ledger::school_public_key_path(), o.key,
                                   station_path("station.key"), station_path("used_tickets")})
     if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
-      throw Error("--out " + path, "holds a key, identities or entries", "name another file: it is never written over");
-  if (!o.overwrite && std::filesystem::exists(path)) throw Error("--out " + path, "is there already", "name another file, or add --overwrite");
+      throw Error("--out " + path, msg("holds a key, identities or entries"), msg("name another file: it is never written over"));
+  if (!o.overwrite && std::filesystem::exists(path))
+    throw Error("--out " + path, msg("is there already"), msg("name another file, or add --overwrite"));
 }
 
 void write_school_file(const LedgerOptions& o, const std::string& path, const std::string& text) {
@@ -51,10 +52,10 @@ void ledger_init(const LedgerOptions& o) {
   constexpr std::size_t k_longest_school = 254;
   if (o.school.empty() || o.school.size() > k_longest_school || !is_plain_text(o.school))
     throw Error("--school",
-                o.school.empty()                     ? "names no school"
-                : o.school.size() > k_longest_school ? fmt::format("is longer than {} bytes", k_longest_school)
-                                                     : "holds a control character or bytes that are no UTF-8",
-                "give the school's name in one line of UTF-8");
+                o.school.empty()                     ? msg("names no school")
+                : o.school.size() > k_longest_school ? msg("is longer than {} bytes", k_longest_school)
+                                                     : msg("holds a control character or bytes that are no UTF-8"),
+                msg("give the school's name in one line of UTF-8"));
   const SigningKey key = ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key, true);
   if (!was_cut_off({o.folder}, o.school, key)) ledger::Ledger::create(o.folder, o.school, key);
   static_cast<void>(ledger::Identities(ledger::LedgerPlaces{o.folder}.identities(), true));
@@ -115,10 +116,10 @@ int ledger_add(const LedgerOptions& o) {
 void ledger_receipt(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error(fmt::format("--entry {}", o.session_seq), "is no entry of this ledger", fmt::format("see `cavum ledger show {}`", o.folder));
+    throw Error(fmt::format("--entry {}", o.session_seq), msg("is no entry of this ledger"), msg("see `cavum ledger show {}`", o.folder));
   if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error(fmt::format("--from-size {}", o.from_size), "is no number of entries that this ledger has had",
-                fmt::format("give 1 to {}", ledger.content().entries.size()));
+    throw Error(fmt::format("--from-size {}", o.from_size), msg("is no number of entries that this ledger has had"),
+                msg("give 1 to {}", ledger.content().entries.size()));
   require_new(o, o.out);
   const json receipt = ledger::make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
   write_school_file(o, o.out, receipt.dump(2) + "\n");

@@ -92,7 +92,7 @@ int main(int argc, char** argv) {
                  fmt::format("command line: {}; see `cavum --help` or `cavum VERB --help`", cavum::one_line(e.what())).c_str());
     return 2;
   } catch (const cavum::scenarios::ProblemsError& e) {
-    for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(p.text()).c_str());
+    for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(cavum::english_text(p.message())).c_str());
     return 2;
   } catch (const cavum::ledger::ListMistakes& e) {
     for (const auto& text : e.texts()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(text).c_str());

@@ -123,7 +123,7 @@ void add_manual_verbs(CLI::App& app, int& exit_code) {
       ->excludes(man)
       ->excludes(completion);
   verb->callback([o, &app, &exit_code] {
-    if (!o->man && !o->completion && !o->udev) throw Error("manual", "is to write nothing", "add --man, --completion or --udev-rules");
+    if (!o->man && !o->completion && !o->udev) throw Error(msg("manual"), msg("is to write nothing"), msg("add --man, --completion or --udev-rules"));
     if (o->udev)
       write_udev_rules(std::cout);
     else

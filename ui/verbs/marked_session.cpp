@@ -51,7 +51,7 @@ MarkedSession marked_session(const std::string& path, Marking by, grading::ExamG
 
 void require_sound_marking(const MarkingOptions& o) {
   const auto warn = [](const scenarios::RubricSpec& rubric) {
-    for (const auto& p : scenarios::turned_round(rubric)) std::cerr << "cavum: " << one_line(p.text()) << "\n";
+    for (const auto& p : scenarios::turned_round(rubric)) std::cerr << "cavum: " << one_line(english_text(p.message())) << "\n";
   };
   if (!o.rubric.empty()) warn(scenarios::parse_rubric(read_text_file(o.rubric), o.rubric));
   if (o.scenario.empty()) return;

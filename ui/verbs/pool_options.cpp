@@ -57,7 +57,7 @@ pool::Made make_lines(const pool::Work& work, const PoolOptions& o) {
   run.stop = [] { return Interrupt::asked(); };
   pool::Made made;
   if (o.slurm) {
-    if (o.work.empty()) throw Error("--slurm", "needs a folder that all machines see", "name it by --work");
+    if (o.work.empty()) throw Error("--slurm", msg("needs a folder that all machines see"), msg("name it by --work"));
     pool::Slurm slurm;
     slurm.folder = o.work;
     slurm.program = std::filesystem::read_symlink("/proc/self/exe").string();
@@ -73,8 +73,9 @@ pool::Made make_lines(const pool::Work& work, const PoolOptions& o) {
     std::cerr << fmt::format("cavum: notice: {} of {} were there already in {}\n", made.found, work.sessions.size(), one_line(o.work));
   for (const auto& r : made.remarks) std::cerr << "cavum: notice: " << one_line(r) << "\n";
   if (Interrupt::asked())
-    throw Error("cavum", fmt::format("was interrupted with {} of {} still to do", made.missing.size(), work.sessions.size()),
-                o.work.empty() ? "run it again; with --work it would go on where it stood" : "run the same command again: it goes on where it stood");
+    throw Error(msg("cavum"), msg("was interrupted with {} of {} still to do", made.missing.size(), work.sessions.size()),
+                o.work.empty() ? msg("run it again; with --work it would go on where it stood")
+                               : msg("run the same command again: it goes on where it stood"));
   for (const auto i : made.missing) std::cerr << "cavum: " << one_line(work.sessions[i]) << ": could not be done, after three attempts\n";
   return made;
 }

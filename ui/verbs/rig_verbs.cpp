@@ -93,7 +93,7 @@ ForceModel load_model(const std::string& wanted) {
 /// What would spoil the end is said before the work begins.
 void require_picture(const std::string& path) {
   if (path.empty()) return;
-  if (!path.ends_with(".svg")) throw Error("--out " + path, "the rigs draw SVG only", "use a name ending in .svg");
+  if (!path.ends_with(".svg")) throw Error("--out " + path, msg("the rigs draw SVG only"), msg("use a name ending in .svg"));
   require_writable(path);
 }
 
@@ -125,10 +125,10 @@ void run_cube(CubeArgs a) {
     require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.point}});
     require_rigs_own(rig_toml);
     if (fs::path(a.csv).filename() == "rig.toml")
-      throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
+      throw Error("--csv " + a.csv, msg("is the name of the description beside it"), msg("use a name ending in .csv"));
     bool there = false;
     for (const double k : a.options.k_n_per_mm) there = there || std::fabs(k - a.csv_k_n_per_mm) < 1e-9;
-    if (!there) throw Error("--csv-k", "this stiffness is not among --k", "name one of the k that are tested");
+    if (!there) throw Error("--csv-k", msg("this stiffness is not among --k"), msg("name one of the k that are tested"));
     a.options.recorded_k_n_per_mm = a.csv_k_n_per_mm;
   }
   std::vector<CubeModel> models;
@@ -156,7 +156,7 @@ void run_tooth(ToothArgs a) {
 DampingRule parse_damping(const std::string& name) {
   for (const DampingRule rule : {DampingRule::paper, DampingRule::consistent, DampingRule::none})
     if (name == damping_name(rule)) return rule;
-  throw Error("--c", fmt::format("there is no damping '{}'", name), "use paper, consistent or none");
+  throw Error("--c", msg("there is no damping '{}'", name), msg("use paper, consistent or none"));
 }
 
 bool run_press(PressArgs a) {
@@ -199,7 +199,7 @@ bool run_servo(const ServoArgs& a) {
 void run_record(const RecordArgs& a) {
   const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
   if (fs::path(a.csv).filename() == "rig.toml")
-    throw Error("--csv " + a.csv, "is the name of the description beside it", "use a name ending in .csv");
+    throw Error("--csv " + a.csv, msg("is the name of the description beside it"), msg("use a name ending in .csv"));
   require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.motion}, {"", a.model}, {"", a.point}});
   require_rigs_own(rig_toml);
   const Motion motion = parse_motion(read_text_file(a.motion, k_largest_table), a.motion);

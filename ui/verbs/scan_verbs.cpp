@@ -73,7 +73,7 @@ std::string facts_text(const grading::ScanFacts& f, double seconds) {
 
 void run_scan_grade(const ScanArguments& o) {
   if (!o.out.empty() && std::filesystem::exists(o.out))
-    throw Error(o.out, "exists already, and a result is never overwritten", "choose another name");
+    throw Error(o.out, msg("exists already, and a result is never overwritten"), msg("choose another name"));
   require_own_places({{"--out " + o.out, o.out}, {"--out-tooth " + o.out_tooth, o.out_tooth}, {"--report " + o.report, o.report}},
                      {{"", o.scan}, {"", o.scenario}, {"", o.tooth}, {"", o.rubric}});
   if (!o.report.empty()) report::require_report_place(o.report);

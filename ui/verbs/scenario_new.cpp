@@ -45,8 +45,7 @@ std::string tooth_file(const NewArguments& o) {
   if (o.tooth.ends_with(".cvt")) return o.tooth;
   for (const auto& t : scenarios::shipped_teeth())
     if (t.word == o.tooth) return scenarios::find_data_file("teeth", std::string(t.file), o.out);
-  throw Error("--tooth " + o.tooth, "there is no such tooth to write a scenario for",
-              fmt::format("choose {}, or a tooth file (.cvt)", kept(tooth_names())));
+  throw Error("--tooth " + o.tooth, msg("there is no such tooth to write a scenario for"), msg("choose {}, or a tooth file (.cvt)", tooth_names()));
 }
 
 /// Words of before: a mesial box was the only one that there was.
@@ -63,8 +62,7 @@ std::string named_from(const std::string& out, const std::string& tooth_file) {
 }
 
 int list_tasks(const NewArguments& o) {
-  if (o.on_the_block())
-    throw Error("--list", "is for a tooth", fmt::format("tasks on the block: {}", fmt::join(scenarios::block_task_words(), ", ")));
+  if (o.on_the_block()) throw Error("--list", msg("is for a tooth"), msg("tasks on the block: {}", fmt::join(scenarios::block_task_words(), ", ")));
   const Tooth tooth = load_tooth_file(tooth_file(o));
   const auto offered = scenarios::offered_tasks(tooth, find_landmarks(tooth));
   if (o.json) {
@@ -106,7 +104,7 @@ std::string against(const std::string& text, const std::string& file, Trial& tri
   const grading::Battery battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   trial.wrong_work = battery.rows.size();
   for (const auto& p : battery.problems)
-    if (!p.warning) return p.what;
+    if (!p.warning) return english_text(p.what);
   return "";
 }
 
@@ -118,7 +116,7 @@ int make_for_tooth(const NewArguments& o) {
   std::string task = task_word(o.task);
   for (const auto& t : scenarios::offered_tasks(tooth, landmarks))
     if (task.empty() && t.why_not.empty()) task = t.task;
-  if (task.empty()) throw Error(o.tooth, "no task makes sense on this tooth", "see why: cavum scenario new --list --tooth " + o.tooth);
+  if (task.empty()) throw Error(o.tooth, msg("no task makes sense on this tooth"), msg("see why: cavum scenario new --list --tooth {}", o.tooth));
   Trial trial;
   scenarios::TaskTrial tried;
   if (!o.untried) tried = [&](const std::string& text) { return against(text, file, trial); };
@@ -127,7 +125,7 @@ int make_for_tooth(const NewArguments& o) {
   const ToothNotes notes = notes_of(tooth);
   if (o.json) {
     Json warnings = Json::array();
-    for (const auto& p : written.problems) warnings.push_back(p.text());
+    for (const auto& p : written.problems) warnings.push_back(english_text(p.message()));
     Json shown = nullptr;
     if (!o.untried) shown = {{"expert_percent", std::round(10 * trial.expert_percent) / 10}, {"wrong_work", trial.wrong_work}};
     print_json(Json{{"written", o.out},
@@ -141,7 +139,7 @@ int make_for_tooth(const NewArguments& o) {
     return 0;
   }
   std::cout << "written: " << o.out << "; " << task << " on " << one_line(tooth.name) << ": " << written.chosen << "\n";
-  for (const auto& p : written.problems) std::cout << one_line(p.text()) << "\n";
+  for (const auto& p : written.problems) std::cout << one_line(english_text(p.message())) << "\n";
   for (const auto& warning : notes.warnings) std::cout << "notice: " << one_line(warning) << "\n";
   if (o.untried)
     std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << " --battery\n";
@@ -155,9 +153,10 @@ int make_for_tooth(const NewArguments& o) {
 
 int make_new(const NewArguments& o) {
   if (o.list) return list_tasks(o);
-  if (o.out.empty()) throw Error("--out", "is missing", "name the file to write");
+  if (o.out.empty()) throw Error("--out", msg("is missing"), msg("name the file to write"));
   require_writable(o.out);
-  if (std::filesystem::exists(o.out) && !o.force) throw Error(o.out, "the file exists already", "choose another name, or overwrite it with --force");
+  if (std::filesystem::exists(o.out) && !o.force)
+    throw Error(o.out, msg("the file exists already"), msg("choose another name, or overwrite it with --force"));
   if (!o.on_the_block()) return make_for_tooth(o);
   write_text_file(o.out, scenarios::block_task(o.task.empty() ? "class_1" : o.task), {.may_replace = o.force});
   if (o.json)

@@ -51,16 +51,16 @@ int check(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
       j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
-                               {"where", p.where},
-                               {"line", p.line},
-                               {"column", p.column},
-                               {"what", p.what},
-                               {"what_to_do", p.what_to_do}});
+                               {"where", english_text(p.where)},
+                               {"line", p.where.line},
+                               {"column", p.where.column},
+                               {"what", english_text(p.what)},
+                               {"what_to_do", english_text(p.what_to_do)}});
     j["expert_s"] = checked.expert.time_s ? nlohmann::ordered_json(std::round(*checked.expert.time_s)) : nlohmann::ordered_json(nullptr);
     if (checked.expert.time_s) j["expert_reach_percent"] = std::round(100 * checked.expert.reach);
     print_json(j);
   } else {
-    for (const auto& p : checked.problems) std::cout << one_line(p.text()) << "\n";
+    for (const auto& p : checked.problems) std::cout << one_line(english_text(p.message())) << "\n";
     if (checked.sound()) {
       const auto n = checked.problems.size();
       std::cout << o.scenario << ": " << (n == 0 ? "sound" : fmt::format("no mistakes, {}{}", n, n == 1 ? " warning" : " warnings"));
@@ -185,7 +185,7 @@ std::string to_text(const Caught& c) {
 std::string to_text(const grading::Battery& battery) {
   std::string s = fmt::format("wrong work, marked by this rubric ({} pieces in {} s):\n{}", battery.rows.size(), fixed(battery.wall_s, 1),
                               grading::battery_text(battery));
-  for (const auto& p : battery.problems) s += one_line(p.text()) + "\n";
+  for (const auto& p : battery.problems) s += one_line(english_text(p.message())) + "\n";
   return s;
 }
 

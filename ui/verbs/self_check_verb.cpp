@@ -64,13 +64,14 @@ int show_history(const SelfCheckArguments& o) {
 
 int self_check(const SelfCheckArguments& o) {
   if (o.history) return show_history(o);
-  if (o.stylus.empty()) throw Error("--self-check", "names no stylus", "add --stylus");
+  if (o.stylus.empty()) throw Error("--self-check", msg("names no stylus"), msg("add --stylus"));
   if (!o.go_on.empty()) {
     const auto stylus = open_stylus(o.stylus);
     const CheckedStylus checked{stylus->facts().id, stylus->facts().serial};
     const auto last = CheckHistory(check_history_path()).last_check(checked);
     if (!last)
-      throw Error("--go-on", "there is no check of this stylus to decide on", "run `cavum devices --self-check --stylus " + o.stylus + "` first");
+      throw Error("--go-on", msg("there is no check of this stylus to decide on"),
+                  msg("run `cavum devices --self-check --stylus {}` first", o.stylus));
     decide_on_check(checked, true, "person", o.go_on);
     std::cout << "kept: exams go on with it\n";
     return 0;

@@ -16,7 +16,7 @@ std::vector<std::string> sessions_in(const std::string& folder) {
   } catch (const std::filesystem::filesystem_error& e) {
     throw Error(folder, e.code().message(), "check the folder and its permissions");
   }
-  if (found.empty()) throw Error(folder, "holds no .cavum file", "name a session or a folder of sessions");
+  if (found.empty()) throw Error(folder, msg("holds no .cavum file"), msg("name a session or a folder of sessions"));
   std::sort(found.begin(), found.end());
   return found;
 }

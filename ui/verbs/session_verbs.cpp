@@ -27,7 +27,7 @@ void export_motion(const ExportArguments& o) {
   require_writable(o.motion);
   const SessionReader session(o.session);
   const std::vector<TickInput> inputs = session.inputs();
-  if (inputs.empty()) throw Error(o.session, "holds no tick", "give a session with motion");
+  if (inputs.empty()) throw Error(o.session, msg("holds no tick"), msg("give a session with motion"));
   const double quantum_mm = parse_servo_config(session.setup().servo_toml, o.session).position_quantum_mm;
   write_private_text_file(o.motion, motion_text(inputs, session.setup().first_tip_mm(), quantum_mm, o.session));
   std::cout << inputs.size() << " ticks of motion in " << o.motion << "\n";
@@ -39,7 +39,8 @@ void export_surface(const ExportArguments& o) {
   const SessionReader session(o.session);
   session.require_readable();
   if (!session.closed())
-    throw Error(o.session, "this exam was not closed, and has no final tooth", "close it with `cavum exam --resume --end --out " + o.session + "`");
+    throw Error(o.session, msg("this exam was not closed, and has no final tooth"),
+                msg("close it with `cavum exam --resume --end --out {}`", o.session));
   Tooth before = load_tooth(session.setup().tooth, o.session + ": tooth"), after = load_tooth(session.final_tooth(), o.session + ": final tooth");
   if (const auto apart = grading::take_apart(before)) {
     after.octree = grading::take_apart(*apart, after.octree, {}).after;
@@ -67,7 +68,8 @@ void add_session_verbs(CLI::App& app, int& exit_code) {
   v->add_option("--motion", o->motion, "CSV to write: a row for each tick, with point and step of the encoder");
   v->add_option("--stl", o->stl, "surface of the tooth as it was left to write (.stl or .ply): closed, one part, mm, pulp filled");
   v->callback([o, &exit_code] {
-    if (o->motion.empty() && o->stl.empty()) throw Error("session export", "is not told what to write", "give --motion F.csv, --stl F.stl, or both");
+    if (o->motion.empty() && o->stl.empty())
+      throw Error(msg("session export"), msg("is not told what to write"), msg("give --motion F.csv, --stl F.stl, or both"));
     if (!o->motion.empty()) export_motion(*o);
     if (!o->stl.empty()) export_surface(*o);
     exit_code = 0;

@@ -47,32 +47,34 @@ void require_second_place(const station::SittingOptions& o) {
   const std::string named = "--out-if-full " + o.out_if_full;
   std::error_code none;
   if (o.resume.empty() && std::filesystem::weakly_canonical(o.out, none) == std::filesystem::weakly_canonical(o.out_if_full, none))
-    throw Error(named, "is the same place as --out", "name another, on another disk");
-  if (o.out_if_full.ends_with(".cavum") && std::filesystem::exists(o.out_if_full)) throw Error(named, "is there already", "name another file");
+    throw Error(named, msg("is the same place as --out"), msg("name another, on another disk"));
+  if (o.out_if_full.ends_with(".cavum") && std::filesystem::exists(o.out_if_full))
+    throw Error(named, msg("is there already"), msg("name another file"));
   if (!o.out_if_full.ends_with(".cavum") && !std::filesystem::is_directory(o.out_if_full))
-    throw Error(named, "is no folder", "make it, or name a file ending in .cavum");
+    throw Error(named, msg("is no folder"), msg("make it, or name a file ending in .cavum"));
   require_writable(o.out_if_full.ends_with(".cavum") ? o.out_if_full : o.out_if_full + "/session.cavum");
 }
 
 void require_sound(const station::StationOptions& o, const std::string& author) {
   if (!author.empty()) {
     if (!o.replay.empty() || !o.sitting.scenario.empty())
-      throw Error("--author " + author, "was asked for together with an exam or a replay", "name the scenario after --author alone");
+      throw Error("--author " + author, msg("was asked for together with an exam or a replay"), msg("name the scenario after --author alone"));
     return;
   }
   if (!o.replay.empty() && !o.sitting.scenario.empty())
-    throw Error("--replay " + o.replay, "was asked for together with a scenario", "leave the scenario out: the session holds its own");
-  if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, "has no script that takes any", "add --script");
+    throw Error("--replay " + o.replay, msg("was asked for together with a scenario"), msg("leave the scenario out: the session holds its own"));
+  if (!o.pictures.empty() && o.script.empty()) throw Error("--pictures " + o.pictures, msg("has no script that takes any"), msg("add --script"));
   if (!o.replay.empty()) return;
   if (o.sitting.scenario.empty() && o.sitting.resume.empty())
-    throw Error("station", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
+    throw Error(msg("station"), msg("no scenario given"), msg("name a file such as data/scenarios/molar_access.toml"));
   if (o.sitting.device.name.empty())
     throw Error(
-        "station", "no device given",
-        "say what is in the candidate's hand: --device " + kept(stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate})));
+        msg("station"), msg("no device given"),
+        msg("say what is in the candidate's hand: --device {}", stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate})));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
-      throw Error("--resume " + o.sitting.resume, "was asked for together with a scenario or tickets", "leave them out: the session holds its own");
+      throw Error("--resume " + o.sitting.resume, msg("was asked for together with a scenario or tickets"),
+                  msg("leave them out: the session holds its own"));
     SessionReader(o.sitting.resume).require_readable();
     require_second_place(o.sitting);
     return;
@@ -82,15 +84,14 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
     static_cast<void>(station::make_station_device(o.sitting.device));
   if (o.sitting.out.ends_with(".cavum")) {
     require_own_places({{"--out " + o.sitting.out, o.sitting.out}}, {{"", o.sitting.scenario}, {"", o.sitting.tooth}});
-    if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, "is there already", "name another file, or a folder");
+    if (std::filesystem::exists(o.sitting.out)) throw Error("--out " + o.sitting.out, msg("is there already"), msg("name another file, or a folder"));
   } else if (!std::filesystem::is_directory(o.sitting.out)) {
-    throw Error("--out " + o.sitting.out, "is no folder", "make it, or name a file ending in .cavum");
+    throw Error("--out " + o.sitting.out, msg("is no folder"), msg("make it, or name a file ending in .cavum"));
   } else {
     require_writable(o.sitting.out + "/session.cavum");
   }
   require_second_place(o.sitting);
-  if (o.candidate.size() > k_longest_code)
-    throw Error("--candidate", "is longer than a code", fmt::format("use {} characters at most", k_longest_code));
+  if (o.candidate.size() > k_longest_code) throw Error("--candidate", msg("is longer than a code"), msg("use {} characters at most", k_longest_code));
   // what would spoil the exam is said before a candidate sits down
   scenarios::ExamOptions trial;
   trial.candidate = "trial";
@@ -122,7 +123,8 @@ int set_code(const std::string& path) {
     return line;
   };
   const std::string code = typed("the supervisor's new code: ");
-  if (asks && typed("once more: ") != code) throw Error("the supervisor's code", "was typed differently the second time", "begin again");
+  if (asks && typed("once more: ") != code)
+    throw Error(msg("the supervisor's code"), msg("was typed differently the second time"), msg("begin again"));
   station::set_supervisor_code(code, path);
   std::cout << "written: " << path << "\n";
   return 0;
@@ -131,14 +133,14 @@ int set_code(const std::string& path) {
 /// What a station that speaks with an office needs, and the folder of its tickets.
 office::LinkOptions office_of(const StationArguments& o, station::SittingOptions& sitting) {
   if (sitting.practice || !o.station.replay.empty() || !o.author.empty())
-    throw Error("--server", "was asked for with something that is no exam", "leave one of them out");
+    throw Error("--server", msg("was asked for with something that is no exam"), msg("leave one of them out"));
   office::LinkOptions link;
   link.server = o.server;
   link.certificate = o.certificate;
   link.school = ledger::station_school_key();
   if (link.school.empty())
-    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
-                "copy the school's public key there: `cavum ledger init` writes it");
+    throw Error(ledger::school_public_key_path(), msg("this station knows no school yet"),
+                msg("copy the school's public key there: `cavum ledger init` writes it"));
   if (sitting.resume.empty()) {
     if (sitting.tickets.empty()) sitting.tickets = station_path("tickets");
     make_private_folder(sitting.tickets);
@@ -167,7 +169,7 @@ int run(const StationArguments& o) {
   if ((s.sitting.practice || o.frame_times > 0) && s.sitting.device.name.empty()) s.sitting.device.name = "mouse";
   if (o.kiosk) {
     if (!s.replay.empty() || !o.author.empty() || s.sitting.practice)
-      throw Error("--kiosk", "was asked for with something that is no exam", "leave one of them out");
+      throw Error("--kiosk", msg("was asked for with something that is no exam"), msg("leave one of them out"));
     s.supervisor_hash = station::read_supervisor_code(o.code_file.empty() ? station::supervisor_code_path() : o.code_file);
   }
   if (!o.server.empty()) s.office = office_of(o, s.sitting);

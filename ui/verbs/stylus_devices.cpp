@@ -132,15 +132,15 @@ void place_stylus(const std::string& id) {
   for (const auto& [where, at] : marks) {
     std::cerr << "hold the tip " << where << ", then press Enter\n";
     std::string line;
-    if (!std::getline(std::cin, line)) throw Error("--place", "was interrupted", "begin it again");
+    if (!std::getline(std::cin, line)) throw Error("--place", msg("was interrupted"), msg("begin it again"));
     device.push_back(held_at(*stylus));
     tooth.push_back(at);
   }
   const PlacementFit fit = fit_placement(device, tooth);
   constexpr double k_most_mm = 3.0;
   if (fit.worst_mm > k_most_mm)
-    throw Error("--place", fmt::format("the marks do not fit together: one is off by {} mm", fixed(fit.worst_mm, 1)),
-                "measure them with a ruler, and begin again");
+    throw Error("--place", msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
+                msg("measure them with a ruler, and begin again"));
   options.station.placement = fit.placement;
   options.station.placement.tool = tool;
   write_private_text_file(path, to_toml(options.station));

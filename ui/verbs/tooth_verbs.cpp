@@ -51,7 +51,7 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
     double v = 0.0;
     const auto read = std::from_chars(part.data(), part.data() + part.size(), v);
     if (read.ec != std::errc{} || read.ptr != part.data() + part.size() || !std::isfinite(v))
-      throw Error(option, fmt::format("cannot read '{}' as a number", part), "write numbers with commas between, such as 10,10,6");
+      throw Error(option, msg("cannot read '{}' as a number", part), msg("write numbers with commas between, such as 10,10,6"));
     numbers.push_back(v);
   }
   return numbers;
@@ -59,7 +59,7 @@ std::vector<double> parse_numbers(const std::string& text, const std::string& op
 
 Vec3 parse_vec(const std::string& text, const std::string& option) {
   const auto n = parse_numbers(text, option);
-  if (n.size() != 3) throw Error(option, fmt::format("needs three numbers, '{}' has {}", text, n.size()), "write them as x,y,z");
+  if (n.size() != 3) throw Error(option, msg("needs three numbers, '{}' has {}", text, n.size()), msg("write them as x,y,z"));
   return {n[0], n[1], n[2]};
 }
 
@@ -124,7 +124,7 @@ void notice_part_leaves(const std::vector<double>& sizes_mm, double leaf_mm, con
 Tooth with_lesion(Tooth tooth, const std::string& text) {
   if (text.empty()) return tooth;
   const auto n = parse_numbers(text, "--lesion");
-  if (n.size() != 6) throw Error("--lesion", fmt::format("needs six numbers, '{}' has {}", text, n.size()), "write them as x,y,z,rx,ry,rz");
+  if (n.size() != 6) throw Error("--lesion", msg("needs six numbers, '{}' has {}", text, n.size()), msg("write them as x,y,z,rx,ry,rz"));
   return plant_lesion(std::move(tooth), {{n[0], n[1], n[2]}, {n[3], n[4], n[5]}});
 }
 
@@ -281,8 +281,8 @@ void require_meshes(const ImportArgs& a) {
       missing += (missing.empty() ? "" : " and ") + std::string(option);
   }
   if (!missing.empty())
-    throw Error("tooth import", fmt::format("{}{} missing", missing, missing.find(' ') == missing.npos ? " is" : " are"),
-                "give one closed surface for each of the three layers");
+    throw Error(msg("tooth import"), msg("{}{} missing", missing, missing.find(' ') == missing.npos ? msg(" is") : msg(" are")),
+                msg("give one closed surface for each of the three layers"));
 }
 
 /// Which tooth the user says it is, in which unit and frame.
@@ -294,7 +294,7 @@ SenseOptions sense_options(const ImportArgs& a) {
   sense.patient_frame = a.patient_frame;
   sense.confirmed = a.confirmed;
   if (!a.patient_frame.empty() && !sense.number)
-    throw Error("--patient-frame", "tells where mesial is only for a tooth that is named", "give --tooth-number or --universal, too");
+    throw Error("--patient-frame", msg("tells where mesial is only for a tooth that is named"), msg("give --tooth-number or --universal, too"));
   return sense;
 }
 
@@ -322,11 +322,12 @@ void run_import(const ImportArgs& a) {
   const SenseOptions sense = sense_options(a);
   if (!a.patient_frame.empty() && !frame.mesial_axis) frame.mesial_axis = mesial_in_patient(*sense.number, a.patient_frame);
   const bool meshes = !a.enamel.empty() || !a.dentin.empty() || !a.pulp.empty();
-  if (meshes == !a.volume.empty()) throw Error("tooth import", "needs either a VOLUME or the meshes --enamel --dentin --pulp", "give one of the two");
+  if (meshes == !a.volume.empty())
+    throw Error(msg("tooth import"), msg("needs either a VOLUME or the meshes --enamel --dentin --pulp"), msg("give one of the two"));
   if (meshes) {
     require_meshes(a);
     if (!a.spacing.empty() || !a.map.empty() || a.enamel_threshold || a.dentin_threshold)
-      throw Error("tooth import", "spacing, map and thresholds belong to volumes", "leave them out for meshes (unit mm)");
+      throw Error(msg("tooth import"), msg("spacing, map and thresholds belong to volumes"), msg("leave them out for meshes (unit mm)"));
     const MeshImport done = import_meshes({a.enamel, a.dentin, a.pulp}, {a.leaf_mm, a.periodontium_mm, frame, sense});
     finish(done.tooth, a.out, a.json,
            {{"mesh_volume_mm3", {{"enamel", done.mesh_enamel_mm3}, {"dentin", done.mesh_dentin_mm3}, {"pulp", done.mesh_pulp_mm3}}},
@@ -336,13 +337,13 @@ void run_import(const ImportArgs& a) {
     show_sense(done.sense);
     return;
   }
-  if (!a.units.empty()) throw Error("--units", "belongs to meshes", "give --spacing-mm for a volume");
+  if (!a.units.empty()) throw Error("--units", msg("belongs to meshes"), msg("give --spacing-mm for a volume"));
   VolumeImportOptions options;
   options.sense = sense;
   if (!a.spacing.empty()) {
     auto n = parse_numbers(a.spacing, "--spacing-mm");
     if (n.size() == 1) n = {n[0], n[0], n[0]};
-    if (n.size() != 3) throw Error("--spacing-mm", "needs one number or three", "write 0.125 or 0.1,0.1,0.2");
+    if (n.size() != 3) throw Error("--spacing-mm", msg("needs one number or three"), msg("write 0.125 or 0.1,0.1,0.2"));
     options.spacing_mm = Vec3{n[0], n[1], n[2]};
   }
   options.thresholds = {a.enamel_threshold, a.dentin_threshold};
@@ -368,7 +369,7 @@ void run_import(const ImportArgs& a) {
 }
 #else
 void run_import(const ImportArgs&) {
-  throw Error("tooth import", "this build has no import", "configure with -DCAVUM_IMPORT=ON (needs OpenVDB, OpenMesh and ITK)");
+  throw Error(msg("tooth import"), msg("this build has no import"), msg("configure with -DCAVUM_IMPORT=ON (needs OpenVDB, OpenMesh and ITK)"));
 }
 #endif
 

@@ -41,7 +41,7 @@ bool is_ledger(const std::string& folder) { return std::filesystem::exists(ledge
 pool::Work work_of(const VerifyAll& o) {
   pool::Work work;
   const bool anew = !o.rubric.empty() || !o.scenario.empty();
-  if (anew && o.mark) throw Error("--mark", "is given with a rubric or scenario", "give either: --mark marks by the session's own");
+  if (anew && o.mark) throw Error("--mark", msg("is given with a rubric or scenario"), msg("give either: --mark marks by the session's own"));
   const pool::What what = anew ? pool::What::regrade : o.mark ? pool::What::mark : pool::What::verify;
   if (is_ledger(o.target)) {
     work = ledger::filed_work({o.target}, what);
@@ -67,7 +67,7 @@ std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
     return !word.empty() && wrong == std::errc() && end == word.data() + word.size();
   };
   if (slash == std::string::npos || !whole(text.substr(0, slash), shard) || !whole(text.substr(slash + 1), of) || shard < 1 || shard > of)
-    throw Error("--shard " + text, "is no shard", "give its number and how many there are: 1/8 to 8/8");
+    throw Error("--shard " + text, msg("is no shard"), msg("give its number and how many there are: 1/8 to 8/8"));
   return {shard, of};
 }
 
@@ -79,7 +79,7 @@ void write_lines(const std::string& path, const std::vector<std::string>& lines)
 }
 
 int write_shard(const VerifyAll& o, const pool::Work& work) {
-  if (o.out.empty()) throw Error("--shard", "has no file for its part", "name it by --out");
+  if (o.out.empty()) throw Error("--shard", msg("has no file for its part"), msg("name it by --out"));
   const auto [shard, of] = parse_shard(o.shard);
   pool::Run run;
   run.threads = o.pool.threads;
@@ -204,8 +204,8 @@ void require_apart(const VerifyAll& o, const pool::Work& work) {
   for (const auto& [option, path] : {std::pair{"--out", o.out}, std::pair{"--work", o.pool.work}}) {
     if (path.empty()) continue;
     const std::string named = fmt::format("{} {}", option, path);
-    if (is_ledger(o.target) && within(path)) throw Error(named, "lies in the ledger that is read", "write outside of it");
-    if (path.ends_with(".cavum")) throw Error(named, "is a name of a recording", "write to a file with another ending");
+    if (is_ledger(o.target) && within(path)) throw Error(named, msg("lies in the ledger that is read"), msg("write outside of it"));
+    if (path.ends_with(".cavum")) throw Error(named, msg("is a name of a recording"), msg("write to a file with another ending"));
     bool taken = is(path, o.target);
     for (const auto& r : read) taken = taken || is(path, r);
     if (fs::exists(path, none))
@@ -213,7 +213,7 @@ void require_apart(const VerifyAll& o, const pool::Work& work) {
         const fs::path file = fs::path(work.folder) / session;
         taken = taken || is(path, file.string()) || (fs::is_directory(path, none) && is(path, file.parent_path().string()));
       }
-    if (taken) throw Error(named, "is also what is read", "write to another file or folder");
+    if (taken) throw Error(named, msg("is also what is read"), msg("write to another file or folder"));
   }
   require_own_places({{"--out " + o.out, o.out}}, {});
 }
@@ -223,7 +223,7 @@ int verify_all(const VerifyAll& o) {
     pool::slurm_task(o.task, o.attempt, o.target);
     return 0;
   }
-  if (!std::filesystem::is_directory(o.target)) throw Error(o.target, "is no folder", "name a folder of sessions, or a ledger");
+  if (!std::filesystem::is_directory(o.target)) throw Error(o.target, msg("is no folder"), msg("name a folder of sessions, or a ledger"));
   pool::Work work = work_of(o);
   require_apart(o, work);
   if (!o.shard.empty()) return write_shard(o, work);

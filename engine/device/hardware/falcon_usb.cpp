@@ -29,7 +29,7 @@ constexpr int k_9600_baud = 0x4138, k_140000_baud = 0x15, k_1500000_baud = 0x2, 
 struct Context {
   libusb_context* context = nullptr;
   Context() {
-    if (libusb_init(&context) != 0) throw Error(k_where, "libusb does not start", "look whether /dev/bus/usb is there");
+    if (libusb_init(&context) != 0) throw Error(k_where, msg("libusb does not start"), msg("look whether /dev/bus/usb is there"));
   }
   ~Context() {
     if (context != nullptr) libusb_exit(context);
@@ -56,8 +56,8 @@ libusb_device_handle* open_first(libusb_context* context, bool& there) {
   }
   if (count >= 0) libusb_free_device_list(list, 1);
   if (!there) throw not_there();
-  if (error == LIBUSB_ERROR_ACCESS) throw Error(k_where, "may not be opened", udev_advice(k_falcon_vendor, k_falcon_product, false));
-  if (error != 0) throw Error(k_where, fmt::format("does not open ({})", libusb_strerror(error)), "plug it in again");
+  if (error == LIBUSB_ERROR_ACCESS) throw Error(k_where, msg("may not be opened"), udev_advice(k_falcon_vendor, k_falcon_product, false));
+  if (error != 0) throw Error(k_where, msg("does not open ({})", libusb_strerror(error)), msg("plug it in again"));
   return handle;
 }
 
@@ -89,7 +89,7 @@ FalconUsb::FalconUsb() {
   static_cast<void>(libusb_set_auto_detach_kernel_driver(device_, 1));  // a serial port driver may hold it; not every system can
   if (const int error = libusb_claim_interface(device_, 0); error != 0) {
     libusb_close(device_);
-    throw Error(k_where, fmt::format("is in use ({})", libusb_strerror(error)), "close the other program that drives it");
+    throw Error(k_where, msg("is in use ({})", libusb_strerror(error)), msg("close the other program that drives it"));
   }
   context_ = context.release();
 }
@@ -105,7 +105,7 @@ void FalconUsb::control(int request, int value) {
   if (const int error = libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request), static_cast<std::uint16_t>(value), 0,
                                                 nullptr, 0, k_patience_ms);
       error < 0)
-    throw Error(k_where, fmt::format("its USB chip refuses a setting ({})", libusb_strerror(error)), "plug it in again");
+    throw Error(k_where, msg("its USB chip refuses a setting ({})", libusb_strerror(error)), msg("plug it in again"));
 }
 
 void FalconUsb::send(std::span<const std::uint8_t> bytes) {
@@ -113,14 +113,14 @@ void FalconUsb::send(std::span<const std::uint8_t> bytes) {
   const int error =
       libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), &sent, k_patience_ms);
   if (error != 0 || sent != static_cast<int>(bytes.size()))
-    throw Error(k_where, fmt::format("does not take what is sent ({})", libusb_strerror(error)), "plug it in again");
+    throw Error(k_where, msg("does not take what is sent ({})", libusb_strerror(error)), msg("plug it in again"));
 }
 
 std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   std::array<std::uint8_t, k_packet_bytes> packet{};
   int got = 0;
   const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got, static_cast<unsigned>(patience_ms));
-  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT) throw Error(k_where, fmt::format("was lost ({})", libusb_strerror(error)), "plug it in again");
+  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT) throw Error(k_where, msg("was lost ({})", libusb_strerror(error)), msg("plug it in again"));
   if (got <= k_status_bytes) return {};
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }
@@ -134,8 +134,8 @@ void FalconUsb::expect(std::span<const std::uint8_t> wanted, const char* stage) 
     heard.insert(heard.end(), more.begin(), more.end());
   }
   if (heard.size() < wanted.size() || !std::equal(wanted.begin(), wanted.end(), heard.begin()))
-    throw Error(k_where, fmt::format("{} {}", heard.empty() ? "is silent" : "answers something else", stage),
-                "take it off its power supply for a moment, and begin again");
+    throw Error(k_where, msg("{} {}", heard.empty() ? msg("is silent") : msg("answers something else"), stage),
+                msg("take it off its power supply for a moment, and begin again"));
 }
 
 void FalconUsb::speak_normally() {
@@ -150,7 +150,7 @@ bool FalconUsb::answers() {
   FalconAnswer answer;
   for (int i = 0; i < k_tries; ++i) {
     const Heard heard = exchange({}, answer, k_try_ms);
-    if (heard == Heard::gone) throw Error(k_where, "was lost", "plug it in again");
+    if (heard == Heard::gone) throw Error(k_where, msg("was lost"), msg("plug it in again"));
     if (heard == Heard::answer) return true;
   }
   return false;
@@ -160,12 +160,12 @@ void FalconUsb::start(const std::string& firmware) {
   speak_normally();
   if (answers()) return;
   if (firmware.empty())
-    throw Error(k_where, "has no firmware, and its maker's may not be passed on",
-                "take nvent_firmware.bin from its maker's driver, and name it as `firmware` in stylus-falcon.toml or in $CAVUM_FALCON_FIRMWARE");
+    throw Error(k_where, msg("has no firmware, and its maker's may not be passed on"),
+                msg("take nvent_firmware.bin from its maker's driver, and name it as `firmware` in stylus-falcon.toml or in $CAVUM_FALCON_FIRMWARE"));
   const Bytes bytes = read_file(firmware);
   load({bytes.begin(), bytes.end()});
   speak_normally();
-  if (!answers()) throw Error(k_where, "does not run with " + firmware, "name the firmware of its maker's driver");
+  if (!answers()) throw Error(k_where, msg("does not run with {}", firmware), msg("name the firmware of its maker's driver"));
   loaded_ = true;
 }
 

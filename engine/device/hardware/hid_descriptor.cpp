@@ -14,8 +14,8 @@ constexpr std::size_t k_most_fields = 4096;
 constexpr std::uint32_t k_most_report_bits = 8 * 4096;
 constexpr std::size_t k_most_stacked = 16, k_deepest = 64;
 
-[[noreturn]] void refuse(std::size_t at, const std::string& what) {
-  throw Error(fmt::format("HID report descriptor, byte {}", at), what, "unplug the device and plug it in again; if it stays so, use another pedal");
+[[noreturn]] void refuse(std::size_t at, const Message& what) {
+  throw Error(msg("HID report descriptor, byte {}", at), what, msg("unplug the device and plug it in again; if it stays so, use another pedal"));
 }
 
 /// Bits 2 and 3 of an item's first byte (HID 1.11, 6.2.2.2).
@@ -55,10 +55,11 @@ class Parser {
   explicit Parser(std::span<const std::uint8_t> bytes) : bytes_(bytes) {}
 
   HidLayout parse() {
-    if (bytes_.size() > k_hid_descriptor_most_bytes) refuse(k_hid_descriptor_most_bytes, "the descriptor is longer than any that Linux hands out");
+    if (bytes_.size() > k_hid_descriptor_most_bytes)
+      refuse(k_hid_descriptor_most_bytes, msg("the descriptor is longer than any that Linux hands out"));
     while (at_ < bytes_.size()) read_item();
-    if (depth_ != 0) refuse(bytes_.size(), "a collection is not closed");
-    if (layout_.fields.empty()) refuse(bytes_.size(), "no input field is described");
+    if (depth_ != 0) refuse(bytes_.size(), msg("a collection is not closed"));
+    if (layout_.fields.empty()) refuse(bytes_.size(), msg("no input field is described"));
     return std::move(layout_);
   }
 
@@ -71,7 +72,7 @@ class Parser {
       return;
     }
     item.size = (prefix & 3) == 3 ? 4 : prefix & 3;
-    if (bytes_.size() - at_ < item.size) refuse(item.start, "an item is cut off");
+    if (bytes_.size() - at_ < item.size) refuse(item.start, msg("an item is cut off"));
     for (std::size_t i = 0; i < item.size; ++i) item.value |= static_cast<std::uint32_t>(bytes_[at_ + i]) << 8 * i;
     at_ += item.size;
     switch (static_cast<ItemType>(prefix & 0x0c)) {
@@ -91,7 +92,7 @@ class Parser {
 
   /// Nothing that 1.11 defines is long.
   void skip_long_item(std::size_t start) {
-    if (bytes_.size() - at_ < 2 || bytes_.size() - at_ - 2 < bytes_[at_]) refuse(start, "a long item is cut off");
+    if (bytes_.size() - at_ < 2 || bytes_.size() - at_ - 2 < bytes_[at_]) refuse(start, msg("a long item is cut off"));
     at_ += 2u + bytes_[at_];
   }
 
@@ -104,10 +105,10 @@ class Parser {
       case 0xb0:
         break;  // output and feature reports
       case 0xa0:
-        if (++depth_ > k_deepest) refuse(item.start, "collections are more than 64 deep");
+        if (++depth_ > k_deepest) refuse(item.start, msg("collections are more than 64 deep"));
         break;
       case 0xc0:
-        if (depth_ == 0) refuse(item.start, "a collection is closed that was never opened");
+        if (depth_ == 0) refuse(item.start, msg("a collection is closed that was never opened"));
         --depth_;
         break;
       default:
@@ -129,24 +130,24 @@ class Parser {
         now_.most_unsigned = item.value;
         break;
       case 0x74:
-        if (item.value > k_most_report_bits) refuse(item.start, fmt::format("a field of {} bits cannot be", item.value));
+        if (item.value > k_most_report_bits) refuse(item.start, msg("a field of {} bits cannot be", item.value));
         now_.size_bits = item.value;
         break;
       case 0x84:
-        if (item.value == 0 || item.value > 255) refuse(item.start, fmt::format("report number {} is none of 1 to 255", item.value));
+        if (item.value == 0 || item.value > 255) refuse(item.start, msg("report number {} is none of 1 to 255", item.value));
         now_.report_id = static_cast<std::uint8_t>(item.value);
         layout_.numbered = true;
         break;
       case 0x94:
-        if (item.value > k_most_report_bits) refuse(item.start, fmt::format("{} fields in one report cannot be", item.value));
+        if (item.value > k_most_report_bits) refuse(item.start, msg("{} fields in one report cannot be", item.value));
         now_.count = item.value;
         break;
       case 0xa4:
-        if (stack_.size() >= k_most_stacked) refuse(item.start, "items are pushed more than 16 deep");
+        if (stack_.size() >= k_most_stacked) refuse(item.start, msg("items are pushed more than 16 deep"));
         stack_.push_back(now_);
         break;
       case 0xb4:
-        if (stack_.empty()) refuse(item.start, "items are popped that were never pushed");
+        if (stack_.empty()) refuse(item.start, msg("items are popped that were never pushed"));
         now_ = stack_.back();
         stack_.pop_back();
         break;
@@ -193,9 +194,9 @@ class Parser {
     constexpr std::uint32_t k_constant = 1, k_variable = 2, k_relative = 4;
     std::uint32_t& bits = bits_of_report();
     const std::uint64_t all = static_cast<std::uint64_t>(now_.size_bits) * now_.count;
-    if (bits + all > k_most_report_bits) refuse(start, "a report of more than 4096 bytes cannot be");
+    if (bits + all > k_most_report_bits) refuse(start, msg("a report of more than 4096 bytes cannot be"));
     if ((flags & k_constant) == 0 && (flags & k_variable) != 0 && now_.size_bits >= 1 && now_.size_bits <= 32) {
-      if (layout_.fields.size() + now_.count > k_most_fields) refuse(start, "more than 4096 fields are described");
+      if (layout_.fields.size() + now_.count > k_most_fields) refuse(start, msg("more than 4096 fields are described"));
       // A range 0..255 in one byte reads as 0..-1: a positive least means that the largest is positive, too.
       const std::int32_t most =
           now_.least >= 0 && now_.most < now_.least ? static_cast<std::int32_t>(std::min<std::uint32_t>(now_.most_unsigned, 0x7fffffffu)) : now_.most;

@@ -45,7 +45,7 @@ Bytes descriptor_of(const std::string& path) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator("/sys/bus/usb/devices/" + path, none))
     if (fs::exists(entry.path() / "report_descriptor", none)) return read_file((entry.path() / "report_descriptor").string());
-  throw Error(path, "has no report descriptor in /sys", "plug the device in again, so that the kernel reads it");
+  throw Error(path, msg("has no report descriptor in /sys"), msg("plug the device in again, so that the kernel reads it"));
 }
 
 /// The file that must be opened: the node itself, or, through libusb, the USB device that the interface "1-2:1.0" belongs to. Empty when unknown.
@@ -113,18 +113,17 @@ struct HidPedal::Open {
     const hid_device_info* d = devices.get();
     while (d != nullptr && !wanted.empty() && wanted != d->path) d = d->next;
     const std::string where = "pedal " + usb_id(vendor, product);
-    if (d == nullptr) throw Error(where, "is not plugged in", "plug it in; `cavum devices` lists what is there");
+    if (d == nullptr) throw Error(where, msg("is not plugged in"), msg("plug it in; `cavum devices` lists what is there"));
     path = d->path;
     const HidLayout layout = parse_hid_descriptor(descriptor_of(path));
     axes = layout.axes();
     if (axis < 0 || static_cast<std::size_t>(axis) >= axes.size())
-      throw Error(where, fmt::format("has {} axes, and axis {} is wanted", axes.size(), axis),
-                  "calibrate it anew: `cavum devices --calibrate-pedal`");
+      throw Error(where, msg("has {} axes, and axis {} is wanted", axes.size(), axis), msg("calibrate it anew: `cavum devices --calibrate-pedal`"));
     numbered = layout.numbered;
     // A pseudo terminal keeps no borders between reports: where there is one kind of report, exactly its length is read.
     bytes = layout.longest_bytes();
     device.reset(hid_open_path(path.c_str()));
-    if (device == nullptr) throw Error(where, "may not be opened", udev_advice(vendor, product, path.starts_with("/dev/")));
+    if (device == nullptr) throw Error(where, msg("may not be opened"), udev_advice(vendor, product, path.starts_with("/dev/")));
   }
 
   /// Bytes of the next report, 0 when none came in time, -1 when the device is gone. Unplugging may read as silence.
@@ -147,7 +146,7 @@ PedalHearing hear_pedal(std::uint16_t vendor, std::uint16_t product, double seco
   std::uint64_t last_us = 0;
   for (const std::uint64_t end_us = now_us() + static_cast<std::uint64_t>(seconds * 1e6); now_us() < end_us;) {
     const int n = open.hear(report, 10);
-    if (n < 0) throw Error("pedal " + usb_id(vendor, product), "was unplugged", "plug it in and begin again");
+    if (n < 0) throw Error(msg("pedal {}", usb_id(vendor, product)), msg("was unplugged"), msg("plug it in and begin again"));
     if (n == 0) continue;
     ++heard.reports;
     const std::uint64_t now = now_us();

@@ -59,15 +59,15 @@ Inverse3Link::Inverse3Link(std::uint16_t port, double patience_s) : socket_(std:
   const asio::ip::tcp::endpoint service(asio::ip::address_v4::loopback(), port);
   auto error = s.wait(patience_s, [&](auto done) { s.stream.next_layer().async_connect(service, std::move(done)); });
   if (error)
-    throw Error(k_where, fmt::format("no service listens at {} ({})", at, one_line(error.message())),
-                "start the Haply Inverse Service (`systemctl start haply-inverse-service`), or name its port in stylus-inverse3.toml");
+    throw Error(k_where, msg("no service listens at {} ({})", at, one_line(error.message())),
+                msg("start the Haply Inverse Service (`systemctl start haply-inverse-service`), or name its port in stylus-inverse3.toml"));
   beast::error_code ignored;
   s.stream.next_layer().socket().set_option(asio::ip::tcp::no_delay(true), ignored);
   s.stream.read_message_max(k_inverse3_largest);
   error = s.wait(patience_s, [&](auto done) { s.stream.async_handshake(at, "/", std::move(done)); });
   if (error)
-    throw Error(k_where, fmt::format("what listens at {} is no Haply Inverse Service ({})", at, one_line(error.message())),
-                "name the service's port in stylus-inverse3.toml; 10001 is usual");
+    throw Error(k_where, msg("what listens at {} is no Haply Inverse Service ({})", at, one_line(error.message())),
+                msg("name the service's port in stylus-inverse3.toml; 10001 is usual"));
 }
 
 Inverse3Link::~Inverse3Link() {
@@ -89,8 +89,8 @@ void Inverse3Link::send(const std::string& text, double patience_s) {
     socket_->stream.async_write(asio::buffer(*kept), [kept, done](beast::error_code e, std::size_t) mutable { done(e); });
   });
   if (error)
-    throw Error(k_where, fmt::format("the line to the service is cut ({})", one_line(error.message())),
-                "see whether the Haply Inverse Service still runs");
+    throw Error(k_where, msg("the line to the service is cut ({})", one_line(error.message())),
+                msg("see whether the Haply Inverse Service still runs"));
 }
 
 bool Inverse3Link::hear(std::string& text, double patience_s) {
@@ -103,11 +103,11 @@ bool Inverse3Link::hear(std::string& text, double patience_s) {
   if (!s.wait_for(s.read, in(patience_s))) return false;
   const beast::error_code error = *s.read;
   if (error == beast::websocket::error::message_too_big || error == beast::websocket::error::buffer_overflow)
-    throw Error(k_where, fmt::format("the service sent more than {} bytes at once", k_inverse3_largest), "update the Haply Inverse Service");
+    throw Error(k_where, msg("the service sent more than {} bytes at once", k_inverse3_largest), msg("update the Haply Inverse Service"));
   if (error)
-    throw Error(k_where, fmt::format("the line to the service is cut ({})", one_line(error.message())),
-                "see whether the Haply Inverse Service still runs");
-  if (!s.stream.got_text()) throw Error(k_where, "the service sent bytes that are no text", "update the Haply Inverse Service");
+    throw Error(k_where, msg("the line to the service is cut ({})", one_line(error.message())),
+                msg("see whether the Haply Inverse Service still runs"));
+  if (!s.stream.got_text()) throw Error(k_where, msg("the service sent bytes that are no text"), msg("update the Haply Inverse Service"));
   text.assign(static_cast<const char*>(s.heard.data().data()), s.heard.size());
   s.read.reset();
   s.listens = false;

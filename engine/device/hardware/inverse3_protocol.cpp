@@ -15,13 +15,13 @@ namespace {
 using nlohmann::json;
 
 const char* const k_where = "stylus inverse3";
-const char* const k_todo = "start the Haply Inverse Service again; docs/inverse3.md says what is expected of it";
+constexpr const char* k_todo = "start the Haply Inverse Service again; docs/inverse3.md says what is expected of it";
 
-[[noreturn]] void refuse(const std::string& what) { throw Error(k_where, "the service sent " + what, k_todo); }
+[[noreturn]] void refuse(const Message& what) { throw Error(k_where, msg("the service sent {}", what), msg(k_todo)); }
 
 double number_in(const json& j, const char* key) {
   const json& m = member_of(j, key);
-  if (!m.is_number()) refuse(fmt::format("no number '{}'", key));
+  if (!m.is_number()) refuse(msg("no number '{}'", key));
   return m.get<double>();
 }
 
@@ -39,7 +39,7 @@ std::string id_in(const json& j) {
     return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || c == '-' || c == '_' || c == ':';
   };
   constexpr std::size_t k_longest = 64;
-  if (id.empty() || id.size() > k_longest || !std::all_of(id.begin(), id.end(), is_plain)) refuse("a device without an id that can be used");
+  if (id.empty() || id.size() > k_longest || !std::all_of(id.begin(), id.end(), is_plain)) refuse(msg("a device without an id that can be used"));
   return id;
 }
 
@@ -48,7 +48,7 @@ Inverse3Device device_of(const json& j) {
   if (const json& place = member_of(member_of(j, "state"), "cursor_position"); !place.is_null()) {
     constexpr double k_mm_per_m = 1000.0, k_farthest_mm = 2000.0;
     d.position_mm = vector_in(place) * k_mm_per_m;
-    if (!(length(*d.position_mm) <= k_farthest_mm)) refuse("a place beyond all reach");
+    if (!(length(*d.position_mm) <= k_farthest_mm)) refuse(msg("a place beyond all reach"));
   }
   d.calibrated = truth_in(member_of(j, "status"), "calibrated");
   d.powered = truth_in(member_of(j, "status"), "power_supply");
@@ -75,7 +75,7 @@ const json& list_in(const json& message, const char* key) {
   static const json k_none = json::array();
   const json& list = member_of(message, key);
   if (list.is_null()) return k_none;
-  if (!list.is_array()) refuse(fmt::format("no list '{}'", key));
+  if (!list.is_array()) refuse(msg("no list '{}'", key));
   return list;
 }
 
@@ -87,9 +87,9 @@ Inverse3Message parse_inverse3(std::string_view text) {
   try {
     message = parse_json(text, k_where, k_limits);
   } catch (const Error& e) {
-    refuse(fmt::format("what is no message of it ({})", without_advice(e.what())));
+    refuse(msg("what is no message of it ({})", e.without_advice()));
   }
-  if (!message.is_object()) refuse("what is no message of it");
+  if (!message.is_object()) refuse(msg("what is no message of it"));
   Inverse3Message m;
   m.names_session = message.contains("session_id");
   for (const json& device : list_in(message, "inverse3")) m.devices.push_back(device_of(device));

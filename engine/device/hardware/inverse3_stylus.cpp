@@ -26,27 +26,27 @@ std::string ids_of(const std::vector<T>& all) {
 
 /// The one whose id is `wanted`, or the only one there is. Throws Error.
 template <class T>
-const T& chosen(const std::vector<T>& all, const std::string& wanted, const std::string& what, const std::string& key) {
-  if (all.empty()) throw Error(k_where, "the service knows of no " + what, "plug it in, switch it on, and look whether Haply Hub shows it");
+const T& chosen(const std::vector<T>& all, const std::string& wanted, const Message& what, const std::string& key) {
+  if (all.empty())
+    throw Error(k_where, msg("the service knows of no {}", what), msg("plug it in, switch it on, and look whether Haply Hub shows it"));
   for (const T& one : all)
     if (one.id == wanted) return one;
   if (!wanted.empty())
-    throw Error(k_where, fmt::format("the {} {} is not there", what, wanted),
-                fmt::format("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
+    throw Error(k_where, msg("the {} {} is not there", what, wanted), msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
   if (all.size() > 1)
-    throw Error(k_where, "there are several of " + what, fmt::format("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
+    throw Error(k_where, msg("there are several of {}", what), msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
   return all.front();
 }
 
 const Inverse3Device& chosen_device(const Inverse3Message& message, const StationStylus& station) {
-  return chosen(message.devices, station.text("device"), "Inverse3", "device");
+  return chosen(message.devices, station.text("device"), msg("Inverse3"), "device");
 }
 
 /// The first words of the service.
 Inverse3Message greeting(Inverse3Link& link) {
   std::string text;
   if (!link.hear(text, k_patience_s))
-    throw Error(k_where, "the service says nothing of its devices", "start the Haply Inverse Service again; 3.1 or later is needed");
+    throw Error(k_where, msg("the service says nothing of its devices"), msg("start the Haply Inverse Service again; 3.1 or later is needed"));
   return parse_inverse3(text);
 }
 
@@ -181,11 +181,11 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
       take(parse_inverse3(heard_), id);
       continue;
     }
-    const std::string said = "the service is silent", todo = "see whether the Haply Inverse Service still runs, and the device's cables";
-    if (is_to_stop() || ++silent >= k_most_silent) throw Error(k_where, said, todo);
+    const Error silence(k_where, msg("the service is silent"), msg("see whether the Haply Inverse Service still runs, and the device's cables"));
+    if (is_to_stop() || ++silent >= k_most_silent) throw silence;
     if (silent > 1) continue;
     lose();
-    set_problem(Error(k_where, said, todo).what());
+    set_problem(silence.what());
     link.send(inverse3_command(id, {}, vector), k_silent_after_s);  // it may still hear
     ++owed;
   }
@@ -193,7 +193,7 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
 
 void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id) {
   const auto device = std::find_if(message.devices.begin(), message.devices.end(), [&id](const auto& d) { return d.id == id; });
-  if (device == message.devices.end()) throw Error(k_where, fmt::format("the Inverse3 {} was unplugged", id), "plug it in again");
+  if (device == message.devices.end()) throw Error(k_where, msg("the Inverse3 {} was unplugged", id), msg("plug it in again"));
   Place place;
   std::string problem = place_of(*device, place);
   if (problem.empty() && facts_.measures_direction) problem = direction_of(message, place);
@@ -217,7 +217,7 @@ std::string Inverse3Stylus::place_of(const Inverse3Device& device, Place& place)
 
 std::string Inverse3Stylus::direction_of(const Inverse3Message& message, Place& place) const {
   try {
-    const Inverse3Grip& grip = chosen(message.grips, station_.text("grip"), "VerseGrip", "grip");
+    const Inverse3Grip& grip = chosen(message.grips, station_.text("grip"), msg("VerseGrip"), "grip");
     if (!grip.to_device) return "stylus inverse3: its grip tells no direction; switch it on and move it";
     place.tool_to_device = turned(tool_to_grip(), *grip.to_device);
     place.flags = static_cast<std::uint16_t>((grip.button_1 ? k_button_1 : 0) | (grip.button_2 ? k_button_2 : 0));

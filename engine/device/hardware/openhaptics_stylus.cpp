@@ -31,7 +31,7 @@ enum : unsigned {
 constexpr unsigned short k_highest_priority = 0xffff;
 constexpr unsigned k_done = 0, k_again = 1;
 const char* const k_where = "stylus touch";
-const char* const k_todo = "look at its cables, run the diagnostic of its maker's driver, and begin again";
+constexpr const char* k_todo = "look at its cables, run the diagnostic of its maker's driver, and begin again";
 
 struct ErrorInfo {
   unsigned code;
@@ -94,8 +94,8 @@ struct OpenHapticsStylus::Library {
 
   explicit Library(const std::string& path) : file(::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (file == nullptr)
-      throw Error(k_where, fmt::format("OpenHaptics is not there ({})", path),
-                  "install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml");
+      throw Error(k_where, msg("OpenHaptics is not there ({})", path),
+                  msg("install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml"));
     find(init_device, "hdInitDevice");
     find(disable_device, "hdDisableDevice");
     find(make_current, "hdMakeCurrentDevice");
@@ -121,7 +121,7 @@ struct OpenHapticsStylus::Library {
   template <class Function>
   void find(Function& function, const char* name) {
     function = reinterpret_cast<Function>(::dlsym(file, name));
-    if (function == nullptr) throw Error(k_where, fmt::format("its library has no {}", name), "install OpenHaptics 3.4 or later");
+    if (function == nullptr) throw Error(k_where, msg("its library has no {}", name), msg("install OpenHaptics 3.4 or later"));
   }
 
   /// Errors that wait are taken; the first one is returned, 0 = none.
@@ -142,9 +142,9 @@ struct OpenHapticsStylus::Library {
     const unsigned error = take_errors();
     if (error != 0 || handle == k_no_handle)
       throw Error(k_where,
-                  fmt::format("{} does not begin (error {})", name.empty() ? std::string("the default device") : fmt::format("the device '{}'", name),
-                              code_text(error)),
-                  "look at its cables and power supply, and at its name in the setup of its maker's driver");
+                  msg("{} does not begin (error {})", name.empty() ? std::string("the default device") : fmt::format("the device '{}'", name),
+                      code_text(error)),
+                  msg("look at its cables and power supply, and at its name in the setup of its maker's driver"));
     return handle;
   }
 
@@ -196,7 +196,7 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   library_->enable(k_force_output);
   if (const unsigned error = library_->take_errors(); error != 0) {
     library_->disable_device(handle_);
-    throw Error(k_where, fmt::format("cannot be made ready (error {})", code_text(error)), k_todo);
+    throw Error(k_where, msg("cannot be made ready (error {})", code_text(error)), msg(k_todo));
   }
   task_ = library_->schedule(&OpenHapticsStylus::call, this, k_highest_priority);
   if (library_->running++ == 0) library_->start_scheduler();

@@ -21,7 +21,7 @@ void parse_usb_id(const std::string& text, const std::string& where, std::uint16
     return error == std::errc{} && rest == from + 4;
   };
   if (!shaped || !four(text.data(), vendor) || !four(end - 4, product))
-    throw Error(where, fmt::format("'{}' is no USB device", text), "write vendor and product as `cavum devices` shows them, for example 068e:00f2");
+    throw Error(where, msg("'{}' is no USB device", text), msg("write vendor and product as `cavum devices` shows them, for example 068e:00f2"));
 }
 
 std::string usb_id(std::uint16_t vendor, std::uint16_t product) { return fmt::format("{:04x}:{:04x}", vendor, product); }
@@ -40,7 +40,7 @@ StationPedal parse_station_pedal(const std::string& text, const std::string& whe
   pedal.calibration.speaks_on_change = reader.truth_or("speaks_on_change", false);
   reader.finish();
   if (pedal.calibration.released == pedal.calibration.pressed)
-    throw Error(where, "released and pressed are the same", "calibrate the pedal anew: `cavum devices --calibrate-pedal`");
+    throw Error(where, msg("released and pressed are the same"), msg("calibrate the pedal anew: `cavum devices --calibrate-pedal`"));
   return pedal;
 }
 
@@ -70,7 +70,7 @@ PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::
     }
   }
   if (best_share < k_least_share)
-    throw Error("calibration", "no axis moved by a tenth of its range", "press the pedal fully when asked to, and check its cable");
+    throw Error(msg("calibration"), msg("no axis moved by a tenth of its range"), msg("press the pedal fully when asked to, and check its cable"));
   const AxisHeard& heard = axes[best];
   const double way = static_cast<double>(heard.pressed) - heard.released, sign = way > 0 ? 1.0 : -1.0;
   const double in = sign * std::min(static_cast<double>(heard.jitter) + k_draw_in * std::abs(way), 0.25 * std::abs(way));

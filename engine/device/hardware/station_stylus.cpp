@@ -15,21 +15,21 @@ namespace {
 /// The numbers of a list of `count`, each within ±`most`.
 std::vector<double> numbers(TomlReader& in, std::string_view key, std::size_t count, double most) {
   const toml::array* list = in.array(key);
-  if (list == nullptr) in.fail(key, "is missing", "place the stylus anew: `cavum devices --place`");
+  if (list == nullptr) in.fail(key, msg("is missing"), msg("place the stylus anew: `cavum devices --place`"));
   std::vector<double> values;
   for (const auto& item : *list) {
     const auto number = item.value<double>();
     if (!number || !(std::fabs(*number) <= most))
-      in.fail(key, "holds what is no number in its range", "place the stylus anew: `cavum devices --place`");
+      in.fail(key, msg("holds what is no number in its range"), msg("place the stylus anew: `cavum devices --place`"));
     values.push_back(*number);
   }
-  if (values.size() != count) in.fail(key, fmt::format("needs {} numbers", count), "place the stylus anew: `cavum devices --place`");
+  if (values.size() != count) in.fail(key, msg("needs {} numbers", count), msg("place the stylus anew: `cavum devices --place`"));
   return values;
 }
 
 Quat quaternion(TomlReader& in, std::string_view key) {
   const auto q = numbers(in, key, 4, 1.0 + 1e-9);
-  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 0.5) in.fail(key, "is no rotation", "write w, x, y, z of a unit quaternion");
+  if (q[0] * q[0] + q[1] * q[1] + q[2] * q[2] + q[3] * q[3] < 0.5) in.fail(key, msg("is no rotation"), msg("write w, x, y, z of a unit quaternion"));
   return normalized(Quat{q[0], q[1], q[2], q[3]});
 }
 
@@ -63,7 +63,7 @@ template <class T>
 const T& setting(const StationStylus& s, const std::string& key) {
   const auto found = s.settings.find(key);
   if (found == s.settings.end() || !std::holds_alternative<T>(found->second))
-    throw Error(fmt::format("setting '{}'", key), "is none of this stylus", "add it to the settings of its record");
+    throw Error(msg("setting '{}'", key), msg("is none of this stylus"), msg("add it to the settings of its record"));
   return std::get<T>(found->second);
 }
 

@@ -61,15 +61,15 @@ StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds
   std::set<std::string> taken;
   for (const auto& k : kinds_) {
     const std::string where = fmt::format("table of styluses, '{}'", k.facts.id), todo = "complete its record; see docs/howto/add_a_stylus.md";
-    if (const std::string lack = lacks(k); !lack.empty()) throw Error(where, "lacks " + lack, todo);
-    if (!taken.insert(k.facts.id).second) throw Error(where, "stands there twice", "give each stylus an id of its own");
+    if (const std::string lack = lacks(k); !lack.empty()) throw Error(where, msg("lacks {}", lack), todo);
+    if (!taken.insert(k.facts.id).second) throw Error(where, msg("stands there twice"), msg("give each stylus an id of its own"));
   }
 }
 
 const StylusKind& StylusKinds::at(const std::string& id, const std::string& where, std::initializer_list<StylusHand> hands) const {
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
-  throw Error(where, "is no stylus that can be used here", fmt::format("name one of {}; `cavum devices` lists what is there", kept(ids(hands))));
+  throw Error(where, msg("is no stylus that can be used here"), msg("name one of {}; `cavum devices` lists what is there", ids(hands)));
 }
 
 std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {

@@ -28,7 +28,7 @@ class Hold {
     stylus_.send_force(force_n);
     if ((r.flags & k_stylus_fresh) == 0) {
       if (++silent_ > k_most_silent)
-        throw Error("stylus " + stylus_.facts().id, "fell silent while it was tried", "see `cavum devices`, and begin again");
+        throw Error(msg("stylus {}", stylus_.facts().id), msg("fell silent while it was tried"), msg("see `cavum devices`, and begin again"));
       return at_;
     }
     silent_ = 0;
@@ -72,7 +72,7 @@ double breakaway_n(Hold& hold, Vec3 way, double moved_mm, const StylusProbeOptio
 
 StylusProbe probe_stylus(Stylus& stylus, const StylusProbeOptions& o) {
   const StylusHealth before = stylus.health();
-  if (!before.ready) throw Error("stylus " + stylus.facts().id, "is not ready", before.problem);
+  if (!before.ready) throw Error(msg("stylus {}", stylus.facts().id), msg("is not ready"), before.problem);
   StylusProbe probe;
   Hold hold(stylus, o.real_time);
   const std::int64_t begin_ns = monotonic_ns();

@@ -43,7 +43,7 @@ double value_in(const CsvReader& row, std::size_t place, const TableColumn& colu
   const std::string_view cell = row.fields()[place];
   const std::optional<double> v = number_in_field(cell);
   if (!v || *v < column.least || (column.above && *v == column.least))
-    row.fail(fmt::format("'{}' in column {} is no number in range", one_line(cell), column.name), "correct the row");
+    row.fail(msg("'{}' in column {} is no number in range", one_line(cell), column.name), msg("correct the row"));
   return *v;
 }
 
@@ -137,12 +137,12 @@ StiffnessTable parse_stiffness_table(const std::string& csv, const std::string& 
 
   std::array<std::size_t, k_columns.size()> places{};
   for (std::size_t i = 0; line == CsvReader::Line::row && i < places.size(); ++i) {
-    if (!holds(in, k_columns[i].name)) in.fail(fmt::format("there is no column '{}'", k_columns[i].name), "a table has k_n_per_mm, f_n and v_mm_s");
+    if (!holds(in, k_columns[i].name)) in.fail(msg("there is no column '{}'", k_columns[i].name), msg("a table has k_n_per_mm, f_n and v_mm_s"));
     places[i] = place_of(in, k_columns[i].name);
   }
   while (in.next_row())
     for (std::size_t i = 0; i < places.size(); ++i) (out.*k_columns[i].values).push_back(value_in(in, places[i], k_columns[i]));
-  if (out.f_n.empty()) throw Error(where, "has no rows", "give a table of k_n_per_mm, f_n and v_mm_s");
+  if (out.f_n.empty()) throw Error(where, msg("has no rows"), msg("give a table of k_n_per_mm, f_n and v_mm_s"));
   return out;
 }
 

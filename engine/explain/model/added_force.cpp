@@ -103,7 +103,7 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
   Series out = Series::Zero(r.rows());
   if (model.terms.empty() && model.measurement.empty()) return out;
   const auto owner = model.materials.find(material);
-  if (owner == model.materials.end()) throw Error(where, fmt::format("has no material '{}'", material), "name one of its materials with --material");
+  if (owner == model.materials.end()) throw Error(where, msg("has no material '{}'", material), msg("name one of its materials with --material"));
   const Viscoelastic tissue = owner->second.voigt;
   const Motion motion = estimate_motion(r);
   const Scene scene = make_scene(r, motion, {tissue.stiffness_n_per_mm, tissue.damping_n_s_per_mm}, 0.0, 0.0);
@@ -120,16 +120,15 @@ Series added_force_n(const ForceModel& model, const std::string& material, const
   if (!others.empty()) out += terms_force_n(others, tissue, scene);
   for (const auto& effect : model.measurement) {
     const int at = find_mechanism(effect.kind);
-    if (at < 0) throw Error(where, fmt::format("measurement effect '{}' is unknown", effect.kind), "remove it, or correct its kind");
+    if (at < 0) throw Error(where, msg("measurement effect '{}' is unknown", effect.kind), msg("remove it, or correct its kind"));
     const bool a_term = std::any_of(model.term_values.begin(), model.term_values.end(), [&](const TermValues& t) { return t.kind == effect.kind; });
     if (a_term && !fits_here(model, effect.kind, scene)) continue;  // another recording: the term itself counts
     const Mechanism& m = mechanism_at(at);
     const bool lacks = starts(m, scene).empty() && !m.from_residual;
     if (lacks || m.shape.size() != effect.shape.size())
-      throw Error(where, fmt::format("measurement effect '{}' does not fit this recording", effect.kind),
-                  "remove it, or add the column that it needs");
+      throw Error(where, msg("measurement effect '{}' does not fit this recording", effect.kind), msg("remove it, or add the column that it needs"));
     if (m.columns(scene, effect.shape).own.size() != effect.values.size())
-      throw Error(where, fmt::format("measurement effect '{}' has the wrong number of values", effect.kind), "explain again with --model-out");
+      throw Error(where, msg("measurement effect '{}' has the wrong number of values", effect.kind), msg("explain again with --model-out"));
     out += force_n(scene, {at, {effect.shape, effect.values}});
   }
   return out;

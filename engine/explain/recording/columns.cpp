@@ -83,8 +83,8 @@ std::optional<std::size_t> column_named(const Header& header, const std::string&
 
 std::size_t require_column(const Header& header, const std::string& wanted, const std::string& at, const std::string& option) {
   if (const auto found = column_named(header, wanted)) return *found;
-  throw Error(at, fmt::format("there is no column '{}'{}", one_line(wanted), did_you_mean(header, wanted)),
-              fmt::format("{} names a column of the header: {}", option, list_of_names(all_names(header))));
+  throw Error(at, msg("there is no column '{}'{}", one_line(wanted), did_you_mean(header, wanted)),
+              msg("{} names a column of the header: {}", option, list_of_names(all_names(header))));
 }
 
 /// Its unit does not say that it is something else.
@@ -132,8 +132,8 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
     if (found.size() > 1) {
       std::vector<std::string> names;
       for (const std::size_t i : found) names.push_back(header[i].whole);
-      throw Error(at, fmt::format("several columns could be the {}: {}", word_of(role), list_of_names(names)),
-                  fmt::format("say which with --column {}=NAME", std::string_view(contract_name(role)).substr(0, 1)));
+      throw Error(at, msg("several columns could be the {}: {}", word_of(role), list_of_names(names)),
+                  msg("say which with --column {}=NAME", std::string_view(contract_name(role)).substr(0, 1)));
     }
     if (!found.empty()) return found.front();
   }
@@ -145,8 +145,8 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
   std::string near = did_you_mean(header, contract);
   for (const std::string_view name : {"force", "load", "time", "position", "displacement"})
     if (near.empty() && names_of(role).find(fmt::format(" {} ", name)) != std::string_view::npos) near = did_you_mean(header, name);
-  throw Error(at, fmt::format("there is no column '{}', and none that is known to be the {}{}", contract, word_of(role), near),
-              fmt::format("name it with --column {}=NAME; the header has {}", contract.substr(0, 1), list_of_names(all_names(header))));
+  throw Error(at, msg("there is no column '{}', and none that is known to be the {}{}", contract, word_of(role), near),
+              msg("name it with --column {}=NAME; the header has {}", contract.substr(0, 1), list_of_names(all_names(header))));
 }
 
 /// Role or contract name that an option gives: "f" is "f_n".
@@ -163,8 +163,8 @@ void set_unit(ColumnReading& column, const ReadingOptions& options, const std::s
     if (contract_of(of) == contract || of == column.header.whole || of == column.header.name) name = unit;
   const auto unit = name.empty() ? std::nullopt : find_unit(name, column.role);
   if (!name.empty() && !unit)
-    throw Error(at, fmt::format("unit '{}' of column '{}' is none that is known for a {}", one_line(name), column.header.whole, word_of(column.role)),
-                fmt::format("give --unit {}=UNIT with one of {}", contract.substr(0, 1), known_units(column.role)));
+    throw Error(at, msg("unit '{}' of column '{}' is none that is known for a {}", one_line(name), column.header.whole, word_of(column.role)),
+                msg("give --unit {}=UNIT with one of {}", contract.substr(0, 1), known_units(column.role)));
   column.declared = unit.has_value();
   column.unit = unit.value_or(Unit{column.role == Role::time       ? "s"
                                    : column.role == Role::position ? "mm"
@@ -173,8 +173,8 @@ void set_unit(ColumnReading& column, const ReadingOptions& options, const std::s
                                    1.0, false, false});
   if (!column.unit.on_lever) return;
   if (!options.lever_mm)
-    throw Error(at, fmt::format("column '{}' is in {}", column.header.whole, column.unit.shown),
-                "give the lever with --lever-mm L: angle × L is the way in mm, torque / L the force in N");
+    throw Error(at, msg("column '{}' is in {}", column.header.whole, column.unit.shown),
+                msg("give the lever with --lever-mm L: angle × L is the way in mm, torque / L the force in N"));
   column.unit = at_lever(column.unit, column.role, *options.lever_mm);
 }
 
@@ -188,14 +188,13 @@ void check_options(const Header& header, const ReadingOptions& options, const Co
     const bool is_header =
         std::any_of(plan.motion.begin(), plan.motion.end(), [&](const auto& c) { return c.header.whole == of || c.header.name == of; });
     if (!there(of) && !is_header)
-      throw Error(at,
-                  fmt::format("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(given.second)),
-                  fmt::format("name t, x, v or f; the header has {}", list_of_names(all_names(header))));
+      throw Error(at, msg("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(given.second)),
+                  msg("name t, x, v or f; the header has {}", list_of_names(all_names(header))));
   }
   for (const std::string& name : options.negate) {
     if (const auto role = role_of(name); !role || *role == Role::time)
-      throw Error(fmt::format("--negate {}", one_line(name)), "is no column that can be counted the other way", "write --negate x, v or f");
-    if (!there(name)) throw Error(at, fmt::format("--negate {}: the recording has no such column", name), "leave it out");
+      throw Error(fmt::format("--negate {}", one_line(name)), msg("is no column that can be counted the other way"), msg("write --negate x, v or f"));
+    if (!there(name)) throw Error(at, msg("--negate {}: the recording has no such column", name), msg("leave it out"));
   }
 }
 
@@ -214,7 +213,7 @@ ColumnPlan plan_columns(const Header& header, const ReadingOptions& options, con
   for (const auto& [given, theirs] : options.names) {
     const std::string contract = contract_of(given);
     const std::size_t column = require_column(header, theirs, at, "--column");
-    if (taken[column]) throw Error(at, fmt::format("--column names '{}' twice", header[column].whole), "name each column once");
+    if (taken[column]) throw Error(at, msg("--column names '{}' twice", header[column].whole), msg("name each column once"));
     taken[column] = true;
     plan.names[column] = contract;
     if (const auto role = role_of(contract)) by_option[*role] = column;
@@ -241,7 +240,7 @@ ColumnPlan plan_columns(const Header& header, const ReadingOptions& options, con
   for (std::size_t i = 0; i < plan.names.size(); ++i)
     if (std::find(plan.names.begin(), plan.names.begin() + static_cast<std::ptrdiff_t>(i), plan.names[i]) !=
         plan.names.begin() + static_cast<std::ptrdiff_t>(i))
-      throw Error(at, fmt::format("there are two columns '{}'", plan.names[i]), "rename one");
+      throw Error(at, msg("there are two columns '{}'", plan.names[i]), msg("rename one"));
   return plan;
 }
 

@@ -218,7 +218,7 @@ std::vector<std::string> require_conventions(const Recording& r, const std::stri
       options += fmt::format("{}{}", options.empty() ? "" : " ", d.options);
     }
   throw Error(where, what,
-              fmt::format("give {}, or --as-it-is where nothing is to be turned (a joint in air may look so); look first with --dry-run", options));
+              msg("give {}, or --as-it-is where nothing is to be turned (a joint in air may look so); look first with --dry-run", options));
 }
 
 }  // namespace cavum::explain

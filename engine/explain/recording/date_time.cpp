@@ -205,12 +205,11 @@ std::optional<double> StampReader::of_stamp(const Stamp& stamp) {
 }
 
 std::optional<double> StampReader::seconds(std::string_view cell) {
-  reason_.clear();
+  ambiguous_ = false;
   if (!begun_) begin(cell);
   if (kind_ == Kind::seconds || kind_ == Kind::epoch) {
     if (const auto number = number_in(cell, decimal_)) return (*number - zero_) * factor_;
-    if (slash_order(cell) == SlashOrder::unknown)
-      reason_ = "may mean two days: the day first, or the month first; write the date as 2026-11-24, which is the same everywhere";
+    ambiguous_ = slash_order(cell) == SlashOrder::unknown;
     return std::nullopt;
   }
   const auto stamp = parse_stamp(cell, order_);

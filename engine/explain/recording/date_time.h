@@ -38,8 +38,8 @@ class StampReader {
   /// Seconds; dates, times of day and seconds since 1970 from the first row, past midnight where only times of day are there. None when the cell is
   /// no stamp of the first row's kind.
   [[nodiscard]] std::optional<double> seconds(std::string_view cell);
-  /// Why the last cell was none, where more is known than that: a date that may be the 4th of November or the 11th of April.
-  [[nodiscard]] const std::string& reason() const noexcept { return reason_; }
+  /// The last cell was none because it may be the 4th of November or the 11th of April.
+  [[nodiscard]] bool ambiguous() const noexcept { return ambiguous_; }
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
   /// In words: "s", "date stamps, from the first row", "Unix time in ms, from the first row".
   [[nodiscard]] std::string words() const;
@@ -58,7 +58,7 @@ class StampReader {
   Stamp first_;
   std::int64_t midnights_ = 0;
   double last_second_ = 0.0;
-  std::string reason_;
+  bool ambiguous_ = false;
 };
 
 }  // namespace cavum::explain

@@ -45,9 +45,9 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Ro
   const Eigen::Index row = sessions.empty() ? 0 : sessions.back().end;
   if (sessions.empty() || sessions.back().name != name) {
     if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
-      in.fail(fmt::format("session '{}' is in two places", one_line(name)), "sort the rows by session, then by time");
+      in.fail(msg("session '{}' is in two places", one_line(name)), msg("sort the rows by session, then by time"));
     if (sessions.size() == k_most_sessions)
-      in.fail(fmt::format("has more than {} sessions", k_most_sessions), "give column 'session' a name for each run, not for each row");
+      in.fail(msg("has more than {} sessions", k_most_sessions), msg("give column 'session' a name for each run, not for each row"));
     sessions.push_back({std::string(name), row, row});
   }
   sessions.back().end = row + 1;
@@ -75,7 +75,7 @@ double motion_value(std::string_view cell, const ColumnReading& column, const Re
   const double sign = column.negated ? -1.0 : 1.0;
   const double value = number ? *number * column.unit.factor : 0.0;
   if (!number || !std::isfinite(value))
-    in.fail(fmt::format("'{}' in column {} is no finite number", one_line(cell), contract_name(column.role)), "correct or remove the row");
+    in.fail(msg("'{}' in column {} is no finite number", one_line(cell), contract_name(column.role)), msg("correct or remove the row"));
   return sign * (column.role == Role::position ? value - reading.surface_mm.value_or(0.0) : value);
 }
 
@@ -85,10 +85,10 @@ double stamp_s(const RowReader& in, const ColumnReading& column, const ColumnPla
   const bool joined = plan.date && !cell.empty() && cell.find(':') != std::string_view::npos && cell.find_first_of("-/T") == std::string_view::npos;
   const auto seconds = joined ? stamps.seconds(fmt::format("{} {}", in.cells()[*plan.date], cell)) : stamps.seconds(cell);
   if (seconds && std::isfinite(*seconds)) return *seconds;
-  if (!stamps.reason().empty())
-    throw Error(in.at(), fmt::format("'{}' in column {} {}", one_line(cell), column.header.whole, without_advice(stamps.reason())),
-                stamps.reason().substr(stamps.reason().rfind("; ") + 2));
-  in.fail(fmt::format("'{}' in column t_s is no finite number and no time stamp", one_line(cell)), "correct or remove the row");
+  if (stamps.ambiguous())
+    in.fail(msg("'{}' in column {} may mean two days: the day first, or the month first", one_line(cell), column.header.whole),
+            msg("write the date as 2026-11-24, which is the same everywhere"));
+  in.fail(msg("'{}' in column t_s is no finite number and no time stamp", one_line(cell)), msg("correct or remove the row"));
 }
 
 /// What was taken for granted, in words.
@@ -149,7 +149,7 @@ Recording parse_recording_as(const std::string& csv, const std::string& where, c
       if (is_beside[i]) beside[i].add(in.cells()[i], reading->form.decimal);
     add_row(out.sessions, plan.session ? in.cells()[*plan.session] : "1", in);
   }
-  if (out.sessions.empty()) throw Error(where, "has a header and no rows", "give a recording");
+  if (out.sessions.empty()) throw Error(where, msg("has a header and no rows"), msg("give a recording"));
   if (!plan.session) out.notes.push_back("no column 'session': everything is taken for one session");
   note_reading(*reading, stamps, out);
   for (std::size_t i = 0; i < motion.size(); ++i) *place_of(plan.motion[i].role, out) = as_series(motion[i]);
@@ -180,7 +180,7 @@ Rig parse_rig(const std::string& toml_text, const std::string& where) {
     for (const auto& node : *depths) {
       const auto depth = node.value<double>();
       if (!depth || !(*depth >= 0.0 && *depth < 1e3))
-        in.fail("layer_depths_mm", "holds something that is no depth", "give millimetres below the surface");
+        in.fail("layer_depths_mm", msg("holds something that is no depth"), msg("give millimetres below the surface"));
       rig.layer_depths_mm.push_back(*depth);
     }
   in.finish();

@@ -37,7 +37,7 @@ struct Force {
 Force force_of_csv(const std::string& path) {
   const Recording r = parse_recording(read_text_file(path, k_largest_table), path, {}, false);
   Force out{{r.t_s.data(), r.t_s.data() + r.rows()}, {r.f_n.data(), r.f_n.data() + r.rows()}, "measured, " + path};
-  if (!std::is_sorted(out.t_s.begin(), out.t_s.end())) throw Error(path, "its times do not grow", "sort the rows by t_s");
+  if (!std::is_sorted(out.t_s.begin(), out.t_s.end())) throw Error(path, msg("its times do not grow"), msg("sort the rows by t_s"));
   return out;
 }
 
@@ -49,13 +49,13 @@ Force force_of_events(const SessionReader& session, double tick_s) {
     const auto detail = parse_json_or_null(event.detail_json);
     const std::string where = fmt::format("{}: event {} at tick {}", session.path(), k_measured_force_event, event.tick);
     if (!detail.is_object() || !detail.contains("f_n") || !detail["f_n"].is_array())
-      throw Error(where, "holds no list f_n", "record {\"f_n\": [...], \"every_ticks\": N}");
+      throw Error(where, msg("holds no list f_n"), msg("record {{\"f_n\": [...], \"every_ticks\": N}}"));
     const auto& told = member_of(detail, "every_ticks");
     const double every = told.is_number() ? std::clamp(told.get<double>(), 1.0, 1e9) : 1.0;
     double at = static_cast<double>(event.tick);
     for (const auto& value : detail["f_n"]) {
-      if (!value.is_number()) throw Error(where, "f_n holds something that is no number", "record forces in N");
-      if (!out.t_s.empty() && !(at * tick_s > out.t_s.back())) throw Error(where, "overlaps the one before", "record each tick once");
+      if (!value.is_number()) throw Error(where, msg("f_n holds something that is no number"), msg("record forces in N"));
+      if (!out.t_s.empty() && !(at * tick_s > out.t_s.back())) throw Error(where, msg("overlaps the one before"), msg("record each tick once"));
       out.t_s.push_back(at * tick_s);
       out.f_n.push_back(value.get<double>());
       at += every;
@@ -103,7 +103,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       const TickInput& input = motion.inputs[i];
       const TickOutput out = step(simulation.model, simulation.state, input);
       if (!(make_tick_record(out) == motion.records[i]))
-        throw Error(path, fmt::format("its replay differs from the record at tick {}", tick), "see what `cavum replay --verify` says of it");
+        throw Error(path, msg("its replay differs from the record at tick {}", tick), msg("see what `cavum replay --verify` says of it"));
       double& worn = removed[input.point];
       worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
       const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
@@ -169,22 +169,23 @@ Recording read_session_recording(const std::string& path, const std::string& for
   const SessionReader session(path);
   session.require_readable();
   if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(path, fmt::format("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
-                "explain it with the program that recorded it");
+    throw Error(path, msg("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
+                msg("explain it with the program that recorded it"));
   Simulation simulation = make_simulation(session.setup(), path);
   const double tick_s = simulation.model.config.tick_s;
   const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);
   const bool own_law = measured.t_s.empty();
   const Viscoelastic reference = stiffest(simulation.model.force);
-  if (!(reference.stiffness_n_per_mm > 0.0)) throw Error(path, "no material of its force model resists", "explain a session in which something does");
+  if (!(reference.stiffness_n_per_mm > 0.0))
+    throw Error(path, msg("no material of its force model resists"), msg("explain a session in which something does"));
 
   const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
   const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
   Apart rendering;
   Recording r = joined(contacts_of(session, simulation, measured, every, path, rendering), least, reference);
   if (r.sessions.empty())
-    throw Error(path, own_law ? "no contact lasts for half a second" : "no contact lasts for half a second with a measured force beside it",
-                "explain a session in which the tooth was touched for longer");
+    throw Error(path, own_law ? msg("no contact lasts for half a second") : msg("no contact lasts for half a second with a measured force beside it"),
+                msg("explain a session in which the tooth was touched for longer"));
   r.friction_by_path = own_law;
   r.rig.force_quantum_n = own_law ? k_felt_n : 0.0;
   r.notes.push_back(own_law ? fmt::format("force: the session's own law, for it holds no measured one. What is found is what its force terms add to "

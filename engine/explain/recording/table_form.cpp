@@ -104,7 +104,7 @@ char most_frequent(std::string_view line) {
   return most > 0 ? best : without_blanks(line).find_first_of(" \t") != std::string_view::npos ? ' ' : ',';
 }
 
-[[noreturn]] void refuse(const std::string& where, const Line& line, const std::string& what, const std::string& what_to_do) {
+[[noreturn]] void refuse(const std::string& where, const Line& line, const Message& what, const Message& what_to_do) {
   throw Error(fmt::format("{}:{}", where, line.number), what, what_to_do);
 }
 
@@ -187,7 +187,7 @@ void split_line(std::string_view line, char separator, std::size_t most, Cells& 
 TableForm find_table_form(std::string_view text, const std::string& where) {
   refuse_utf16(text, where);
   const std::vector<Line> lines = first_lines(text);
-  if (lines.empty()) throw Error(where, "is empty", "give a CSV with a header such as session,t_s,x_mm,f_n");
+  if (lines.empty()) throw Error(where, msg("is empty"), msg("give a CSV with a header such as session,t_s,x_mm,f_n"));
   TableForm out;
   Place place;
   bool found = false;

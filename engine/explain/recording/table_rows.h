@@ -29,7 +29,7 @@ class RowReader {
   [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }
   /// "where:line".
   [[nodiscard]] std::string at() const;
-  [[noreturn]] void fail(const std::string& what, const std::string& what_to_do) const;
+  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const;
 
  private:
   bool next_line();

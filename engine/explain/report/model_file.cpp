@@ -75,8 +75,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
   std::size_t terms = start.term_values.size();
   for (const auto& cause : e.causes) terms += !live_term(cause).first.empty();
   if (terms > k_max_terms)
-    throw Error(fmt::format("force model '{}'", start.name), fmt::format("would have {} terms, {} are the most", terms, k_max_terms),
-                "leave out the smallest");
+    throw Error(msg("force model '{}'", start.name), msg("would have {} terms, {} are the most", terms, k_max_terms), msg("leave out the smallest"));
   std::ostringstream out;
   out.precision(17);
   out << "# Written by `cavum explain`: verdict " << e.verdict

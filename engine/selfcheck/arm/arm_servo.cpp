@@ -49,7 +49,7 @@ void ArmServo::look() {
     ++stale_;
     if (++silent_ > k_most_silent) {
       stylus_.cut_force();
-      throw Error("stylus " + stylus_.facts().id, "fell silent while it was checked", "see `cavum devices`, and begin again");
+      throw Error(msg("stylus {}", stylus_.facts().id), msg("fell silent while it was checked"), msg("see `cavum devices`, and begin again"));
     }
     return;
   }

@@ -41,12 +41,12 @@ std::string ToothNumber::text() const {
 ToothNumber from_fdi(int number, const std::string& option) {
   const ToothNumber n{number};
   if (number < 11 || n.quadrant() > 4 || n.place() < 1 || n.place() > 8)
-    throw Error(option, fmt::format("{} is no permanent tooth of the FDI", number), "give 11 to 18, 21 to 28, 31 to 38 or 41 to 48");
+    throw Error(option, msg("{} is no permanent tooth of the FDI", number), msg("give 11 to 18, 21 to 28, 31 to 38 or 41 to 48"));
   return n;
 }
 
 ToothNumber from_universal(int number, const std::string& option) {
-  if (number < 1 || number > 32) throw Error(option, fmt::format("{} is no permanent tooth of the universal system", number), "give 1 to 32");
+  if (number < 1 || number > 32) throw Error(option, msg("{} is no permanent tooth of the universal system", number), msg("give 1 to 32"));
   const int fdi = number <= 8 ? 10 + 9 - number : number <= 16 ? 20 + number - 8 : number <= 24 ? 30 + 25 - number : 40 + number - 24;
   return from_fdi(fdi, option);
 }

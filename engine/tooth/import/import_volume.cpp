@@ -110,7 +110,7 @@ void for_voxels(const Segmentation& s, const Visit& visit) {
 
 TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm,
                     const std::string& where) {
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", "the leaf must be larger than 0 mm", "give 0.05, for example");
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
   const double reach = std::max({volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]});
   const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4; };
   const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil((v + reach) / leaf_mm), -1e8, 1e8)) + 4; };
@@ -157,9 +157,8 @@ void require_few_gray(const Volume& volume, const std::string& path) {
   else
     bytes = bytes_of_volume(path);
   if (volume.voxels() > most_gray_voxels(bytes))
-    throw Error(path,
-                fmt::format("has {} voxels of gray, more than {}, the most for {} bytes of files", volume.voxels(), most_gray_voxels(bytes), bytes),
-                "crop the volume to the tooth, or save it uncompressed");
+    throw Error(path, msg("has {} voxels of gray, more than {}, the most for {} bytes of files", volume.voxels(), most_gray_voxels(bytes), bytes),
+                msg("crop the volume to the tooth, or save it uncompressed"));
 }
 
 /// A volume's tissues, and in words how they were found.
@@ -196,8 +195,8 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
     if (t == k_dentin) dentin.add(volume.place_mm(v));
   });
   if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
-    throw Error(path, fmt::format("holds no {}, so there is no occlusal direction", enamel.n == 0 ? "enamel" : "dentin"),
-                "give --occlusal-axis x,y,z");
+    throw Error(path, msg("holds no {}, so there is no occlusal direction", enamel.n == 0 ? msg("enamel") : msg("dentin")),
+                msg("give --occlusal-axis x,y,z"));
   Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options),
                 .origin = {},
                 .box = {},
@@ -221,7 +220,8 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
 void require_size_of_a_tooth(const Volume& volume, const Extent& box, const std::string& path) {
   const Vec3 extent = box.high - box.low;
   if (const double longest = std::max({extent.x, extent.y, extent.z}); volume.spacing_assumed && !(longest > 4 && longest < 45))
-    throw Error(path, fmt::format("the file gives no spacing, and the assumed 0.125 mm would make a tooth of {:f} mm", longest), "give --spacing-mm");
+    throw Error(path, msg("the file gives no spacing, and the assumed 0.125 mm would make a tooth of {}", as_mm(longest, k_as_needed)),
+                msg("give --spacing-mm"));
 }
 
 }  // namespace

@@ -16,7 +16,7 @@ namespace cavum {
 [[nodiscard]] std::array<std::uint64_t, 256> pulp_faces(IVec3 size, const std::vector<std::uint8_t>& tissue);
 
 /// Throws Error when the pulp lies in the enamel: more of its faces are on enamel than on dentin, and no fewer than on air.
-void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where, const std::string& what_to_do);
+void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where, const Message& what_to_do);
 
 /// How enamel and dentin lie upon each other.
 struct LayersApart {

@@ -73,7 +73,7 @@ class Reader {
 
  private:
   [[noreturn]] static void fail(const std::string& program, int reason) {
-    throw Error(program, fmt::format("cannot be started ({})", std::strerror(reason)), "install Cavum again");
+    throw Error(program, msg("cannot be started ({})", std::strerror(reason)), msg("install Cavum again"));
   }
   int wait() const {
     int status = 0;
@@ -91,8 +91,8 @@ Volume read_elsewhere(const std::string& path) {
   try {
     return receive_volume(reader.from(), path, most_voxels(~std::uint64_t{0} / 4), k_longest_read_s);
   } catch (const VolumeCutOff&) {
-    throw Error(path, "cannot be read as a volume: the program that reads it " + reader.end(),
-                "give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series");
+    throw Error(path, msg("cannot be read as a volume: the program that reads it {}", reader.end()),
+                msg("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series"));
   }
 }
 
@@ -105,23 +105,23 @@ std::string read_volume_program() {
   } else {
     program = (program_folder() / "cavum-read-volume").string();
   }
-  if (::access(program.c_str(), X_OK) != 0) throw Error(program, "is not there, and volumes are read by it", "install it beside cavum");
+  if (::access(program.c_str(), X_OK) != 0) throw Error(program, msg("is not there, and volumes are read by it"), msg("install it beside cavum"));
   return program;
 }
 
 Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_mm) {
   Volume v = read_elsewhere(path);
   if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4)
-    throw Error(path, "not a volume: fewer than 4 voxels along an axis", "give all slices of the volume");
+    throw Error(path, msg("not a volume: fewer than 4 voxels along an axis"), msg("give all slices of the volume"));
   for (std::size_t i = 0; i < v.gray.size(); ++i)
-    if (!std::isfinite(v.gray[i])) throw Error(path, fmt::format("voxel {} is not a number", i), "export the volume again");
+    if (!std::isfinite(v.gray[i])) throw Error(path, msg("voxel {} is not a number", i), msg("export the volume again"));
 
   std::ostringstream note;
   const auto& s = v.spacing_mm;
   const bool told = s[0] > 0 && s[1] > 0 && s[2] > 0 && std::isfinite(s[0] + s[1] + s[2]) && !(s[0] == 1 && s[1] == 1 && s[2] == 1);
   if (spacing_mm) {
     for (const double d : {spacing_mm->x, spacing_mm->y, spacing_mm->z})
-      if (!(d > 0 && d < 100)) throw Error("--spacing-mm", "must lie between 0 and 100 mm", "give the edge of a voxel, such as 0.125");
+      if (!(d > 0 && d < 100)) throw Error("--spacing-mm", msg("must lie between 0 and 100 mm"), msg("give the edge of a voxel, such as 0.125"));
     v.spacing_mm = {spacing_mm->x, spacing_mm->y, spacing_mm->z};
     note << "spacing given " << v.spacing_mm[0] << ',' << v.spacing_mm[1] << ',' << v.spacing_mm[2] << " mm";
   } else if (told) {

@@ -160,8 +160,8 @@ HardBodies find_tooth(const Volume& volume, double hard_gray, const std::string&
   for (std::size_t i = 0; i < hard.size(); ++i) hard[i] = volume.gray[i] > hard_gray;
   found.bodies = bodies_of(volume.size, hard);
   if (found.bodies.voxels.size() < 2 || found.bodies.voxels[found.bodies.largest()] < 100)
-    throw Error(where, fmt::format("no tooth found: nothing larger than 100 voxels is brighter than {:f}", hard_gray),
-                "check the volume or --dentin-threshold");
+    throw Error(where, msg("no tooth found: nothing larger than 100 voxels is brighter than {}", as_number(hard_gray)),
+                msg("check the volume or --dentin-threshold"));
   found.tooth = found.bodies.largest();
   found.in_tooth.resize(hard.size());
   for (std::size_t i = 0; i < hard.size(); ++i) found.in_tooth[i] = found.bodies.number[i] == found.tooth;
@@ -185,7 +185,7 @@ Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const st
   for (std::size_t i = 0; i < hard.size(); ++i) enclosed[i] = !hard[i] && !outside[i];
   found.bodies = bodies_of(size, enclosed);
   const std::size_t count = found.bodies.voxels.size();
-  if (count < 2) throw Error(where, "no pulp found: no hollow is enclosed by hard tissue", "check --dentin-threshold");
+  if (count < 2) throw Error(where, msg("no pulp found: no hollow is enclosed by hard tissue"), msg("check --dentin-threshold"));
   found.outer_faces.assign(count, 0);
   found.hard_faces.assign(count, 0);
   for (std::size_t i = 0; i < hard.size(); ++i)
@@ -198,9 +198,10 @@ Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const st
     if (found.outer_faces[b] * 5 < found.hard_faces[b] && (found.pulp == 0 || found.bodies.voxels[b] > found.bodies.voxels[found.pulp]))
       found.pulp = b;
   if (found.pulp == 0)
-    throw Error(where, "no pulp found: every hollow is open to the outside",
-                "check --dentin-threshold; of a scan that ends above the roots' tips the canals are open below: bring more of the root, or mark the "
-                "pulp in a label map (--map)");
+    throw Error(
+        where, msg("no pulp found: every hollow is open to the outside"),
+        msg("check --dentin-threshold; of a scan that ends above the roots' tips the canals are open below: bring more of the root, or mark the "
+            "pulp in a label map (--map)"));
   return found;
 }
 
@@ -229,7 +230,7 @@ Mask voxels_of(const Segmentation& s, std::uint8_t tissue) {
 /// Bright specks, smaller than a fiftieth of the crown, are dentin.
 void drop_specks_of_enamel(Segmentation& s, double enamel_gray, const std::string& where) {
   const Bodies caps = bodies_of(s.size, voxels_of(s, k_enamel));
-  if (caps.voxels.size() < 2) throw Error(where, fmt::format("no enamel found above gray {:f}", enamel_gray), "check --enamel-threshold");
+  if (caps.voxels.size() < 2) throw Error(where, msg("no enamel found above gray {}", as_number(enamel_gray)), msg("check --enamel-threshold"));
   const auto crown = caps.voxels[caps.largest()];
   for (std::size_t i = 0; i < s.tissue.size(); ++i)
     if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;
@@ -307,7 +308,7 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
   for (std::size_t i = 0; i < s.tissue.size(); ++i) {
     const double value = labels.gray[i];
     if (value != std::floor(value) || std::fabs(value) > 1e6)
-      throw Error(where, fmt::format("not a label map: voxel {} is no whole number", i), "leave out --map to import a CT volume");
+      throw Error(where, msg("not a label map: voxel {} is no whole number", i), msg("leave out --map to import a CT volume"));
     const int label = static_cast<int>(value);
     const auto it = meaning.find(label);
     if (it != meaning.end())
@@ -320,11 +321,11 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
     int shown = 0;
     for (const int u : unknown)
       if (++shown <= 20) list += (list.empty() ? "" : ", ") + std::to_string(u);
-    throw Error(where, fmt::format("labels without a meaning: {}{}", list, unknown.size() > 20 ? ", ..." : ""),
-                "name them in --map, as N=enamel, N=dentin, N=pulp or N=air");
+    throw Error(where, msg("labels without a meaning: {}{}", list, unknown.size() > 20 ? msg(", ...") : Message()),
+                msg("name them in --map, as N=enamel, N=dentin, N=pulp or N=air"));
   }
   count(s);
-  if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, "no voxel is enamel or dentin", "check --map");
+  if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, msg("no voxel is enamel or dentin"), msg("check --map"));
   const auto e = smoothed_indicator(s, k_enamel), d = smoothed_indicator(s, k_dentin);
   s.solid.resize(s.tissue.size());
   for (std::size_t i = 0; i < s.solid.size(); ++i) {
@@ -348,10 +349,10 @@ std::map<int, std::uint8_t> parse_label_map(const std::string& text) {
     for (const auto& t : standard_tissues())
       if (t.name == name) id = t.id;
     if (read.ec != std::errc{} || equal == std::string::npos || read.ptr != part.data() + equal || id == 255)
-      throw Error("--map", fmt::format("cannot read '{}'", part), "write 1=enamel,2=dentin,3=pulp (also air and periodontium)");
-    if (!map.emplace(label, id).second) throw Error("--map", fmt::format("label {} is given twice", label), "give each label once");
+      throw Error("--map", msg("cannot read '{}'", part), msg("write 1=enamel,2=dentin,3=pulp (also air and periodontium)"));
+    if (!map.emplace(label, id).second) throw Error("--map", msg("label {} is given twice", label), msg("give each label once"));
   }
-  if (map.empty()) throw Error("--map", "is empty", "write 1=enamel,2=dentin,3=pulp");
+  if (map.empty()) throw Error("--map", msg("is empty"), msg("write 1=enamel,2=dentin,3=pulp"));
   return map;
 }
 

@@ -25,11 +25,11 @@ constexpr double k_bay_mm = 0.6;
 constexpr int k_directions = 72;
 
 /// Refuses, or warns where the user has confirmed `name`.
-void object(const SenseOptions& options, std::string_view name, const std::string& where, const std::string& what, const std::string& what_to_do,
+void object(const SenseOptions& options, std::string_view name, const std::string& where, const Message& what, const Message& what_to_do,
             ToothSense& sense) {
   if (std::find(options.confirmed.begin(), options.confirmed.end(), name) == options.confirmed.end())
-    throw Error(where, what, fmt::format("{}; where you know better, --confirm {} takes it as it is", what_to_do, name));
-  sense.warnings.push_back(fmt::format("confirmed against what was measured ({}): {}", name, what));
+    throw Error(where, what, msg("{}; where you know better, --confirm {} takes it as it is", what_to_do, name));
+  sense.warnings.push_back(fmt::format("confirmed against what was measured ({}): {}", name, english_text(what)));
 }
 
 bool is_crown_width(double mm) { return mm >= k_least_crown_width_mm && mm <= k_most_crown_width_mm; }
@@ -92,9 +92,9 @@ bool said_nothing_of_sides(const FrameOptions& frame, const SenseOptions& option
 void sense_orientation(const Landmarks& l, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense) {
   const Orientation seen = seen_orientation(l, options.number);
   const int mesial = seen.mesial();
-  const auto contradict = [&](std::string_view name, const std::string& what, const std::string& what_to_do) {
+  const auto contradict = [&](std::string_view name, const Message& what, const Message& what_to_do) {
     if (said_nothing_of_sides(frame, options))
-      sense.warnings.push_back(fmt::format("nothing was said of mesial, and by rule {}; {}", what, what_to_do));
+      sense.warnings.push_back(fmt::format("nothing was said of mesial, and by rule {}; {}", english_text(what), english_text(what_to_do)));
     else
       object(options, name, where, what, what_to_do, sense);
   };
@@ -108,9 +108,9 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
                                   : fmt::format("+y should be buccal, but the shape puts that side {:.0f} degrees off ({})", deg, reason);
     if (off > 180 - k_wrong_deg && (mesial > 0 || (mesial == 0 && frame.mesial_axis)))
       contradict("side", what + (mesial > 0 ? ", and mesial where it should be: the tooth of the other side of the jaw" : ""),
-                 fmt::format("{}, or say {} if mesial is on the other end", other_number(options), turn));
+                 msg("{}, or say {} if mesial is on the other end", other_number(options), turn));
     else if (off > k_wrong_deg)
-      contradict("mesial", what, fmt::format("say {}{}", turn, frame.mesial_axis ? ", or another --mesial-axis" : ""));
+      contradict("mesial", what, msg("say {}{}", turn, frame.mesial_axis ? msg(", or another --mesial-axis") : Message()));
     else if (off > k_askew_deg)
       sense.warnings.push_back(fmt::format("{}: {} would bring it there", what, turn));
     if (off > k_wrong_deg) return;  // confirmed: mesial's own signs were looked for along the wrong line
@@ -120,9 +120,9 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
     const std::string what = fmt::format("+x should be mesial, but the shape puts that side towards -x ({})", seen.mesial_signs);
     const std::string turn = fmt::format("--rotate-deg {:.0f}", rotate_deg(frame, 180));
     if (seen.buccal_told)
-      contradict("side", what + ", and buccal where it should be: the tooth of the other side of the jaw", other_number(options));
+      contradict("side", msg("{}, and buccal where it should be: the tooth of the other side of the jaw", what), other_number(options));
     else
-      contradict("mesial", what, fmt::format("say {}", turn));
+      contradict("mesial", what, msg("say {}", turn));
   }
   if (!seen.turn && mesial == 0 && l.tooth_class.kind != ToothClass::unknown)
     sense.warnings.emplace_back("neither buccal nor mesial could be told from the shape: where they are was not checked");
@@ -134,7 +134,7 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
 
 Vec3 mesial_in_patient(const ToothNumber& number, const std::string& patient_frame) {
   if (patient_frame != "lps" && patient_frame != "ras")
-    throw Error("--patient-frame", fmt::format("'{}' is no frame known here", patient_frame), "give lps or ras");
+    throw Error("--patient-frame", msg("'{}' is no frame known here", patient_frame), msg("give lps or ras"));
   // degrees between the arch and the midplane at each tooth, of a parabola that fits a mean dental arch: by eye, good to some 15 degrees
   static constexpr std::array<double, 8> k_arch_deg{85, 70, 52, 38, 28, 18, 10, 5};
   const SinCos turn = det_sincos(k_arch_deg[static_cast<std::size_t>(number.place() - 1)] * k_pi / 180);
@@ -146,8 +146,8 @@ FrameOptions settled_frame(const FrameOptions& frame, const SenseOptions& option
   FrameOptions settled = frame;
   if (!options.number) return settled;
   if (frame.mirror && options.number->y_is_buccal())
-    throw Error("--mirror", fmt::format("would make +y lingual on tooth {}", options.number->text()),
-                "leave it out, or give the number of the other side");
+    throw Error("--mirror", msg("would make +y lingual on tooth {}", options.number->text()),
+                msg("leave it out, or give the number of the other side"));
   settled.mirror = !options.number->y_is_buccal();
   return settled;
 }
@@ -165,10 +165,10 @@ void check_crown_size(Vec3 extent, const SenseOptions& options, const std::strin
   const std::string wide =
       fmt::format("the enamel is {:.4g} mm wide, and human crowns {:.1f} to {:.0f} mm", width, k_least_crown_width_mm, k_most_crown_width_mm);
   if (likely.empty())
-    object(options, "size", where, wide + "; no unit known here makes it one",
-           "check file and unit, and that it is one tooth alone, without its neighbours", sense);
+    object(options, "size", where, msg("{}; no unit known here makes it one", wide),
+           msg("check file and unit, and that it is one tooth alone, without its neighbours"), sense);
   else
-    object(options, "size", where, fmt::format("{}; the file is probably in {}", wide, likely), of_volume ? "give --spacing-mm" : "say " + option,
+    object(options, "size", where, msg("{}; the file is probably in {}", wide, likely), of_volume ? msg("give --spacing-mm") : msg("say {}", option),
            sense);
 }
 
@@ -176,9 +176,9 @@ void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const 
   constexpr double k_open_mm2 = 0.05;  // some leaves may touch where a surface is ragged
   if (open.mm2 <= k_open_mm2) return;
   object(options, "pulp", where,
-         fmt::format("the pulp lies open in the crown: {:.2f} mm2 of it, at ({:.1f} {:.1f} {:.1f}) mm", open.mm2, open.at_mm.x, open.at_mm.y,
-                     open.at_mm.z),
-         "check that the surfaces belong together; a tooth whose pulp is open is no exam's tooth", sense);
+         msg("the pulp lies open in the crown: {} of it, at ({} {} {}) mm", as_mm2(open.mm2, 2), as_number(open.at_mm.x, 1),
+             as_number(open.at_mm.y, 1), as_number(open.at_mm.z, 1)),
+         msg("check that the surfaces belong together; a tooth whose pulp is open is no exam's tooth"), sense);
 }
 
 void tell_bare_dentin(const BareDentin& bare, ToothSense& sense) {
@@ -213,16 +213,17 @@ void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, co
   const Vec3 along = enamel_centroid - dentin_centroid;
   if (options.number && !options.patient_frame.empty() && (occlusal.z < 0) != options.number->upper())
     object(options, "upright", where,
-           fmt::format("the crown points {} in the patient, and tooth {} is {}", occlusal.z < 0 ? "down" : "up", options.number->text(),
-                       options.number->upper() ? "an upper one" : "a lower one"),
-           "give another number or --patient-frame", sense);
+           msg("the crown points {} in the patient, and tooth {} is {}", occlusal.z < 0 ? msg("down") : msg("up"), options.number->text(),
+               options.number->upper() ? msg("an upper one") : msg("a lower one")),
+           msg("give another number or --patient-frame"), sense);
   if (!(length(along) > k_centroids_apart_mm)) return;
   const Vec3 way = normalized(along);
   const double cosine = dot(way, occlusal);
   if (cosine > k_across_cosine) return;
   const char* how = cosine < -k_across_cosine ? "points to the root: the tooth would stand upside down" : "runs across the tooth";
-  object(options, "upright", where, fmt::format("the occlusal axis {}; the enamel lies towards ({:.2f} {:.2f} {:.2f})", how, way.x, way.y, way.z),
-         fmt::format("give --occlusal-axis {:.2f},{:.2f},{:.2f}, or leave it out", way.x, way.y, way.z), sense);
+  object(options, "upright", where,
+         msg("the occlusal axis {}; the enamel lies towards ({} {} {})", how, as_number(way.x, 2), as_number(way.y, 2), as_number(way.z, 2)),
+         msg("give --occlusal-axis {},{},{}, or leave it out", as_number(way.x, 2), as_number(way.y, 2), as_number(way.z, 2)), sense);
 }
 
 void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense) {
@@ -240,24 +241,22 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
       sense.warnings.push_back("whether it is tooth " + options.number->text() + " could not be checked");
     else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
       object(options, "class", where,
-             fmt::format("it is said to be tooth {}, but has the shape of {} {} ({})", options.number->text(), article, kind, l.tooth_class.reason),
-             "give another number", sense);
+             msg("it is said to be tooth {}, but has the shape of {} {} ({})", options.number->text(), article, kind, l.tooth_class.reason),
+             msg("give another number"), sense);
     else if (l.tooth_class.kind != said)
       sense.warnings.push_back(fmt::format("tooth {} has rather the shape of {} {}", options.number->text(), article, kind));
   }
   if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
     object(options, "pulp", where,
-           fmt::format("only {:.0f} % of the pulp lie in the half of its length that is nearer to the crown: crown and root may be exchanged",
-                       100 * *share),
-           "check that the three layers belong together and which way is occlusal", sense);
+           msg("only {} of the pulp lie in the half of its length that is nearer to the crown: crown and root may be exchanged",
+               as_percent(100 * *share, 0)),
+           msg("check that the three layers belong together and which way is occlusal"), sense);
   if (const double bay = deepest_bay_mm(l.height_of_contour_mm); bay > k_bay_mm && !is_front(l.tooth_class.kind))
-    object(
-        options, "outline", where,
-        fmt::format(
-            "the crown's outline, seen from above, has a bay of {:.1f} mm, as no crown has: a piece of another tooth may hang on it, or a piece of "
-            "it is missing (a cavity, a break)",
-            bay),
-        "look at the surfaces and cut off what is not of this tooth", sense);
+    object(options, "outline", where,
+           msg("the crown's outline, seen from above, has a bay of {}, as no crown has: a piece of another tooth may hang on it, or a piece of it is "
+               "missing (a cavity, a break)",
+               as_mm(bay, 1)),
+           msg("look at the surfaces and cut off what is not of this tooth"), sense);
   if (options.number && frame.mirror)
     sense.warnings.push_back(fmt::format("tooth {} is taken as its mirror image, so that +x is mesial and +y buccal in every task, picture and word",
                                          options.number->fdi));

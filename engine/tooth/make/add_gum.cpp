@@ -108,7 +108,8 @@ void lower_around(TissueGrid& grid, const TissueGrid& slab, const std::vector<fl
 
 void add_gum(TissueGrid& grid, const std::vector<Tissue>& tissues, const BesideIds& ids, const Landmarks& landmarks,
              const std::vector<Vec3>& contacts, const std::string& where) {
-  if (landmarks.neck_mm.empty()) throw Error(where + " --gum", "no neck is found on this tooth", "leave --gum out, or see `cavum tooth landmarks`");
+  if (landmarks.neck_mm.empty())
+    throw Error(where + " --gum", msg("no neck is found on this tooth"), msg("leave --gum out, or see `cavum tooth landmarks`"));
   const NeckHeight neck(landmarks.neck_mm);
   const double leaf = grid.leaf_mm, bottom_mm = neck.lowest_mm() - k_gum_below_neck_mm;
   double top_mm = -1e9;

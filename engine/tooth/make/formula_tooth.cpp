@@ -14,7 +14,7 @@ namespace cavum {
 
 void check_choice(const char* name, double value, double low, double high) {
   if (!(value >= low && value <= high))
-    throw Error(name, "the value is " + plain_number(value), fmt::format("choose from {} to {}", plain_number(low), plain_number(high)));
+    throw Error(name, msg("the value is {}", as_number(value)), msg("choose from {} to {}", as_number(low), as_number(high)));
 }
 
 TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodontium_mm, const std::string& name) {

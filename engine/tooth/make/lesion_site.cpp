@@ -20,13 +20,14 @@ struct Border {
 /// Under the fissure.
 Border occlusal_border(const Tooth& tooth, const Landmarks& l) {
   if (!l.central_pit_mm && l.central_fissure_mm.empty())
-    throw Error("--site occlusal", "no pit and no fissure is found on this tooth", "look at `cavum tooth landmarks`, or choose another surface");
+    throw Error("--site occlusal", msg("no pit and no fissure is found on this tooth"),
+                msg("look at `cavum tooth landmarks`, or choose another surface"));
   Vec3 at = l.central_pit_mm ? *l.central_pit_mm : l.central_fissure_mm[l.central_fissure_mm.size() / 2];
   const std::uint8_t dentin = tooth.tissue_id("dentin");
   const Vec3 step = Vec3{0, 0, -0.5} * tooth.octree.leaf_mm();
   for (double way_mm = 0; way_mm < k_furthest_mm; way_mm += length(step), at += step)
     if (tooth.octree.tissue_at(at) == dentin) return {at, {0, 0, -1}};
-  throw Error("--site occlusal", fmt::format("no dentin lies within {} mm under the fissure", k_furthest_mm), "choose another surface");
+  throw Error("--site occlusal", msg("no dentin lies within {} mm under the fissure", k_furthest_mm), msg("choose another surface"));
 }
 
 /// Where a way inwards from the outside first meets dentin, through enamel alone; none where it does not.
@@ -50,9 +51,10 @@ Border side_border(const Tooth& tooth, const Landmarks& l, const std::string& su
                    : surface == "buccal"  ? Vec3{0, 1, 0}
                    : surface == "lingual" ? Vec3{0, -1, 0}
                                           : Vec3{};
-  if (length(out) == 0) throw Error("--site " + surface, "there is no such surface", "choose occlusal, mesial, distal, buccal or lingual");
+  if (length(out) == 0) throw Error("--site " + surface, msg("there is no such surface"), msg("choose occlusal, mesial, distal, buccal or lingual"));
   const Vec3* contour = furthest_along(l.height_of_contour_mm, out);
-  if (contour == nullptr) throw Error("--site " + surface, "no height of contour is found on this tooth", "look at `cavum tooth landmarks`");
+  if (contour == nullptr)
+    throw Error("--site " + surface, msg("no height of contour is found on this tooth"), msg("look at `cavum tooth landmarks`"));
   constexpr double k_outside_mm = 1.0, k_deepest_mm = 4.0, k_upright_mm = 0.3;
   const std::uint8_t enamel = tooth.tissue_id("enamel"), dentin = tooth.tissue_id("dentin");
   const Vec3 from = *contour + out * k_outside_mm, above{0, 0, k_upright_mm};
@@ -62,13 +64,12 @@ Border side_border(const Tooth& tooth, const Landmarks& l, const std::string& su
     const auto higher = through_enamel(tooth, from - Vec3{0, 0, down_mm} + above, -out, enamel, dentin);
     if (higher && dot(*border - *higher, out) <= k_upright_mm) return {*border, -out};
   }
-  throw Error("--site " + surface,
-              fmt::format("no dentin is met through enamel alone from the height of contour down to {} mm below it", k_deepest_mm),
-              "look at `cavum tooth landmarks`, or choose another surface");
+  throw Error("--site " + surface, msg("no dentin is met through enamel alone from the height of contour down to {} mm below it", k_deepest_mm),
+              msg("look at `cavum tooth landmarks`, or choose another surface"));
 }
 
 void require_range(const char* option, double value, double low, double high) {
-  if (!(value >= low && value <= high)) throw Error(option, fmt::format("must lie between {} and {} mm", low, high), "choose another length");
+  if (!(value >= low && value <= high)) throw Error(option, msg("must lie between {} and {} mm", low, high), msg("choose another length"));
 }
 
 }  // namespace

@@ -37,20 +37,21 @@ constexpr double k_rounding_mm = 1e-9;  // 3 * 0.1 is a little more than 0.3
 
 /// Throws unless `mm` can be built of leaves at all; `named` and `option` are the words of the error.
 void check_extent(double mm, double leaf_mm, const std::string& where, const std::string& named, const std::string& option) {
-  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, named + " must be larger than 0 mm", "give " + option);
+  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, msg("{} must be larger than 0 mm", named), msg("give {}", option));
   if (mm < leaf_mm - k_rounding_mm)
-    throw Error(where, fmt::format("{} is {} mm, less than a leaf of {} mm", named, plain_number(mm), plain_number(leaf_mm)),
-                "use a smaller --leaf-mm");
+    throw Error(where, msg("{} is {}, less than a leaf of {}", named, as_mm(mm, k_as_needed), as_mm(leaf_mm, k_as_needed)),
+                msg("use a smaller --leaf-mm"));
 }
 
 void check_leaf(double leaf_mm, const std::string& where) {
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, "the leaf must be larger than 0 mm", "give --leaf-mm 0.05, for example");
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
 }
 
 void check_tissue_name(const std::string& name, const std::string& where) {
-  if (!is_plain_text(name)) throw Error(where, "the name of a tissue holds a control character or bytes that are no UTF-8", "use letters and digits");
+  if (!is_plain_text(name))
+    throw Error(where, msg("the name of a tissue holds a control character or bytes that are no UTF-8"), msg("use letters and digits"));
   if (name == "air" || name == "solid" || name.empty())
-    throw Error(where, fmt::format("a tissue cannot be named '{}'", name), "name a tissue: enamel, dentin, pulp, or one of your own");
+    throw Error(where, msg("a tissue cannot be named '{}'", name), msg("name a tissue: enamel, dentin, pulp, or one of your own"));
 }
 
 void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm, const std::string& where) {
@@ -61,8 +62,8 @@ void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm
     sum += layer.thickness_mm;
   }
   if (std::fabs(sum - size_mm.z) > 1e-6)
-    throw Error(where, fmt::format("the layers are {} mm together, the height is {} mm", plain_number(sum), plain_number(size_mm.z)),
-                "make them equal");
+    throw Error(where, msg("the layers are {} together, the height is {}", as_mm(sum, k_as_needed), as_mm(size_mm.z, k_as_needed)),
+                msg("make them equal"));
 }
 
 /// The tissue of each layer; a name that is new gets the next free number.
@@ -74,7 +75,7 @@ std::vector<std::uint8_t> number_tissues(const std::vector<Layer>& layers, std::
       ids.push_back(found->id);
       continue;
     }
-    if (tissues.size() >= 255) throw Error(where, "more than 255 tissues", "use fewer names");
+    if (tissues.size() >= 255) throw Error(where, msg("more than 255 tissues"), msg("use fewer names"));
     ids.push_back(static_cast<std::uint8_t>(tissues.size() + 1));
     tissues.push_back({ids.back(), layer.tissue, true});
   }
@@ -155,11 +156,11 @@ std::vector<Layer> parse_layers(const std::string& text) {
     const char* from = colon == std::string::npos ? end : part.data() + colon + 1;
     const auto read = std::from_chars(from, end, layer.thickness_mm);
     if (read.ec != std::errc{} || read.ptr != end)
-      throw Error("--layers", fmt::format("cannot read '{}'", one_line(part)), "write name:thickness, such as enamel:1.2,dentin:2.0");
+      throw Error("--layers", msg("cannot read '{}'", one_line(part)), msg("write name:thickness, such as enamel:1.2,dentin:2.0"));
     check_tissue_name(layer.tissue, "--layers");
     layers.push_back(layer);
   }
-  if (layers.empty()) throw Error("--layers", "no layer given", "write name:thickness, such as enamel:1.2,dentin:2.0");
+  if (layers.empty()) throw Error("--layers", msg("no layer given"), msg("write name:thickness, such as enamel:1.2,dentin:2.0"));
   return layers;
 }
 

@@ -30,7 +30,7 @@ TissueGrid with_margin(const TissueGrid& grid, int margin) {
 }  // namespace
 
 std::uint64_t add_periodontium(TissueGrid& grid, double thickness_mm) {
-  if (!(thickness_mm >= 0 && thickness_mm <= 5)) throw Error("--periodontium-mm", "must lie between 0 and 5 mm", "give 1, or 0 for none");
+  if (!(thickness_mm >= 0 && thickness_mm <= 5)) throw Error("--periodontium-mm", msg("must lie between 0 and 5 mm"), msg("give 1, or 0 for none"));
   // Air around dentin and enamel: how many leaves of it does the grid already hold?
   IVec3 low = grid.size, high{-1, -1, -1};
   std::uint64_t enamel = 0, dentin = 0;

@@ -211,10 +211,10 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   const std::string word = side > 0 ? "mesial" : "distal", place = where + " --" + word;
   const double leaf = tooth.octree.leaf_mm();
   if (std::fabs(beside.tooth->octree.leaf_mm() - leaf) > 1e-9)
-    throw Error(place,
-                fmt::format("the leaves of '{}' have {} mm, the tooth's {}", beside.tooth->name, plain_number(beside.tooth->octree.leaf_mm()),
-                            plain_number(leaf)),
-                fmt::format("make it with --leaf-mm {}", plain_number(leaf)));
+    throw Error(
+        place,
+        msg("the leaves of '{}' have {}, the tooth's {}", beside.tooth->name, as_mm(beside.tooth->octree.leaf_mm(), k_as_needed), as_number(leaf)),
+        msg("make it with --leaf-mm {}", as_number(leaf)));
   s.filled = without_hollows(*beside.tooth);
   s.enamel = id_of(s.filled, "enamel");
   s.placed.tree = &s.filled.octree;
@@ -222,7 +222,7 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   const Landmarks other = find_landmarks(s.filled);
   const RowVerdict row = stand_in_a_row({tooth.name, marks.tooth_class}, {beside.tooth->name, other.tooth_class}, side);
   if (!row.why_not.empty() && !spec.confirmed)
-    throw Error(place, row.why_not, "give its neighbour; where they shall stand so all the same, --confirm neighbours takes them");
+    throw Error(place, Name{row.why_not}, msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
   s.doubt = row.why_not.empty() ? row.unchecked : "confirmed (neighbours): " + row.why_not;
   const Vec3 *own_contact = furthest_along(marks.height_of_contour_mm, Vec3{1.0 * side, 0, 0}),
              *its_contact = furthest_along(other.height_of_contour_mm, Vec3{-1.0 * side, 0, 0});
@@ -239,7 +239,8 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   }
   s.placed = s.placed.moved(side * (far + its_reach + 2 * leaf));
   const auto met = moved_to_contact(s.placed, side, facing, spec.contact_mm);
-  if (!met) throw Error(place, "its surface and the tooth's do not face each other", "check its frame: +x is mesial, +y buccal, +z occlusal");
+  if (!met)
+    throw Error(place, msg("its surface and the tooth's do not face each other"), msg("check its frame: +x is mesial, +y buccal, +z occlusal"));
   s.placed = *met;
   s.facts = contact_facts(s.placed, facing);
   s.limit_x_mm = s.facts.at_mm.x + side * spec.reach_mm;
@@ -257,7 +258,7 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
     return wanted;
   };
   constexpr std::size_t k_most_tissues = 200;
-  if (tooth.tissues.size() > k_most_tissues) throw Error("tooth", "has too many tissues to set something beside it", "use fewer");
+  if (tooth.tissues.size() > k_most_tissues) throw Error(msg("tooth"), msg("has too many tissues to set something beside it"), msg("use fewer"));
   BesideIds ids;
   if (neighbours) {
     ids.enamel = add(k_neighbour_enamel, "neighbour_enamel");
@@ -329,9 +330,9 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
   const double leaf = tooth.octree.leaf_mm();
   check_choice("--contact-mm", spec.contact_mm, 0.0, k_widest_contact_leaves * leaf);
   check_choice("--reach-mm", spec.reach_mm, 1.0, 6.0);
-  if (has_beside(tooth)) throw Error(where, "something stands beside the tooth already", "give the tooth alone");
+  if (has_beside(tooth)) throw Error(where, msg("something stands beside the tooth already"), msg("give the tooth alone"));
   if (spec.mesial.tooth == nullptr && spec.distal.tooth == nullptr && !spec.gum)
-    throw Error(where, "nothing is to be set beside the tooth", "give --mesial, --distal or --gum");
+    throw Error(where, msg("nothing is to be set beside the tooth"), msg("give --mesial, --distal or --gum"));
   const Landmarks marks = find_landmarks(tooth);
   std::vector<Side> sides;
   for (const auto& [beside, side] : {std::pair(&spec.mesial, 1), std::pair(&spec.distal, -1)}) {

@@ -62,26 +62,26 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
       whole = whole || word == "endsolid";
     }
     if (begun != ended)
-      throw Error(name, fmt::format("is cut off: it begins {} facets and ends {}", begun, ended), "copy or export the whole file again");
-    if (begun > 0 && solid && !whole) throw Error(name, "is cut off: its 'endsolid' is missing", "copy or export the whole file again");
+      throw Error(name, msg("is cut off: it begins {} facets and ends {}", begun, ended), msg("copy or export the whole file again"));
+    if (begun > 0 && solid && !whole) throw Error(name, msg("is cut off: its 'endsolid' is missing"), msg("copy or export the whole file again"));
     return;
   }
   if (file.size() < k_stl_head)
-    throw Error(name, fmt::format("is cut off: it has {} bytes, and the head of a binary STL alone has 84", file.size()),
-                "copy or export the whole file again");
+    throw Error(name, msg("is cut off: it has {} bytes, and the head of a binary STL alone has 84", file.size()),
+                msg("copy or export the whole file again"));
   const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
-  throw Error(
-      name,
-      fmt::format("says that it holds {}{}, and its length is that of {}{}{}", said, said == 1 ? " triangle" : " triangles", held,
-                  (file.size() - k_stl_head) % k_stl_facet != 0 ? " and a part" : "", held < said ? ": it is cut off" : ": the count is wrong"),
-      "copy or export the whole file again, as STL");
+  throw Error(name,
+              msg("says that it holds {}{}, and its length is that of {}{}{}", said, said == 1 ? msg(" triangle") : msg(" triangles"), held,
+                  (file.size() - k_stl_head) % k_stl_facet != 0 ? msg(" and a part") : Message(),
+                  held < said ? msg(": it is cut off") : msg(": the count is wrong")),
+              msg("copy or export the whole file again, as STL"));
 }
 
 /// OpenMesh walks around a corner for each triangle that it joins there: at one that 190,000 share it would walk for minutes.
 constexpr std::size_t k_most_at_corner = 2000;
 
 [[noreturn]] void fail_crowded(const std::string& name) {
-  throw Error(name, fmt::format("more than {} triangles meet at one corner", k_most_at_corner), "remesh the surface in a mesh editor");
+  throw Error(name, msg("more than {} triangles meet at one corner", k_most_at_corner), msg("remesh the surface in a mesh editor"));
 }
 
 using Corner = std::array<float, 3>;
@@ -104,7 +104,9 @@ void require_few_at_each(const Polygons& polygons, const std::string& name) {
 /// OpenMesh joins the equal corners of an STL while it reads; one that is no number is equal to any other, vanishes in that, and leaves a hole.
 std::vector<Corner> stl_corners(const Bytes& file, const std::string& name) {
   require_whole_stl(file, name);
-  const auto fail = [&](const std::string& where) { throw Error(name, where + " has a corner that is no number", "export the mesh again, in mm"); };
+  const auto fail = [&](const Message& where) {
+    throw Error(name, msg("{} has a corner that is no number", where), msg("export the mesh again, in mm"));
+  };
   constexpr std::size_t k_normal = 12;
   std::vector<Corner> corners;
   if (is_binary_stl(file)) {
@@ -113,7 +115,7 @@ std::vector<Corner> stl_corners(const Bytes& file, const std::string& name) {
         Corner c{};
         std::memcpy(c.data(), file.data() + k_stl_head + f * k_stl_facet + k_normal + i * sizeof c, sizeof c);
         for (float& value : c) {
-          if (!std::isfinite(value)) fail(fmt::format("facet {}", f + 1));
+          if (!std::isfinite(value)) fail(msg("facet {}", f + 1));
           value += 0.0F;  // no zero below zero
         }
         corners.push_back(c);
@@ -135,7 +137,7 @@ std::vector<Corner> stl_corners(const Bytes& file, const std::string& name) {
         words >> word;
         char* end = nullptr;
         value = static_cast<float>(std::clamp(std::strtod(word.c_str(), &end), -1e30, 1e30)) + 0.0F;
-        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail(fmt::format("line {}", number));
+        if (!words || !std::isfinite(std::strtod(word.c_str(), nullptr)) || *end != '\0') fail(msg("line {}", number));
       }
       corners.push_back(c);
     }
@@ -165,7 +167,7 @@ Surface surface_of_stl(const Bytes& file, const std::string& name) {
   OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
   Surface surface;
   if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
-    throw Error(name, "holds no triangle of an STL surface", "export the surface again as STL, text or binary");
+    throw Error(name, msg("holds no triangle of an STL surface"), msg("export the surface again as STL, text or binary"));
   return surface;
 }
 
@@ -201,13 +203,13 @@ Surface load(const std::string& path) {
     surface = surface_of(read_obj(file, path), path);
   else if (extension == ".off")
     surface = surface_of(read_off(file, path), path);
-  if (surface.n_faces() == 0) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  if (surface.n_faces() == 0) throw Error(path, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
   return surface;
 }
 
 constexpr double k_farthest_place = 1e6;
 [[noreturn]] void fail_place(const std::string& path, std::size_t number, Vec3 p) {
-  throw Error(path, fmt::format("vertex {} is not a place: {}", number, place(p)), "export the mesh again, in mm");
+  throw Error(path, msg("vertex {} is not a place: {}", number, place(p)), msg("export the mesh again, in mm"));
 }
 
 /// Facets whose equal corners are one; those that have a corner twice are left out.
@@ -279,8 +281,8 @@ ReadMesh closed(const Surface& surface, const std::string& path);
 
 void require_mesh_file(const std::string& path) {
   std::error_code none;
-  if (std::filesystem::is_directory(path, none)) throw Error(path, "is a folder, not a mesh", "name an STL, PLY, OBJ or OFF file");
-  if (!std::filesystem::is_regular_file(path, none)) throw Error(path, "no such mesh file", "check the path");
+  if (std::filesystem::is_directory(path, none)) throw Error(path, msg("is a folder, not a mesh"), msg("name an STL, PLY, OBJ or OFF file"));
+  if (!std::filesystem::is_regular_file(path, none)) throw Error(path, msg("no such mesh file"), msg("check the path"));
 }
 
 std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
@@ -329,10 +331,10 @@ TriangleMesh read_open_mesh(const std::string& path) {
     mesh = fans_of(read_obj(file, path));
   else if (extension == ".off")
     mesh = fans_of(read_off(file, path));
-  if (mesh.triangles.empty()) throw Error(path, "cannot be read as a triangle mesh", "give an intact STL, PLY, OBJ or OFF file");
+  if (mesh.triangles.empty()) throw Error(path, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
   if (mesh.triangles.size() > k_most_scan_triangles)
-    throw Error(path, fmt::format("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
-                "reduce the mesh, or cut out the one tooth");
+    throw Error(path, msg("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
+                msg("reduce the mesh, or cut out the one tooth"));
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
     if (const Vec3 p = mesh.vertices_mm[i]; !is_finite(p) || length(p) > k_farthest_place) fail_place(path, i, p);
   return without_unused(mesh);
@@ -354,8 +356,8 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
     if (open_edges++ == 0) open_at = (point(surface, surface.from_vertex_handle(h)) + point(surface, surface.to_vertex_handle(h))) * 0.5;
   }
   if (open_edges > 0)
-    throw Error(path, fmt::format("the surface is not closed: {} open or non-manifold edges, one at {}", open_edges, place(open_at)),
-                "close the holes in a mesh editor and export again");
+    throw Error(path, msg("the surface is not closed: {} open or non-manifold edges, one at {}", open_edges, place(open_at)),
+                msg("close the holes in a mesh editor and export again"));
 
   ReadMesh out;
   out.mesh = triangles_of(surface);
@@ -363,9 +365,9 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
                                      [&](const auto v) { return !surface.is_isolated(v) && !surface.is_manifold(v); });
   const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
   if (isolated > 0) out.notes.push_back(fmt::format("{}: {} unused vertices deleted", path, isolated));
-  if (pinched > 0) throw Error(path, fmt::format("{} non-manifold vertices", pinched), "repair the mesh in a mesh editor and export again");
+  if (pinched > 0) throw Error(path, msg("{} non-manifold vertices", pinched), msg("repair the mesh in a mesh editor and export again"));
   out.volume_mm3 = signed_volume_mm3(out.mesh);
-  if (!(std::fabs(out.volume_mm3) > 1e-12)) throw Error(path, "the surface encloses no volume", "check the file");
+  if (!(std::fabs(out.volume_mm3) > 1e-12)) throw Error(path, msg("the surface encloses no volume"), msg("check the file"));
   if (out.volume_mm3 < 0) {
     for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
     out.volume_mm3 = -out.volume_mm3;

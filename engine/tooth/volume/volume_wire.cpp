@@ -52,9 +52,9 @@ class Incoming {
   }
   void require_end() {
     std::array<std::uint8_t, 1> more{};
-    if (some(more) != 0) fail("gave more than a volume");
+    if (some(more) != 0) fail(msg("gave more than a volume"));
   }
-  [[noreturn]] void fail(const std::string& what) const { throw Error(path_, "cannot be read as a volume: the reading " + what, k_intact); }
+  [[noreturn]] void fail(const Message& what) const { throw Error(path_, msg("cannot be read as a volume: the reading {}", what), msg(k_intact)); }
 
  private:
   /// 0 at the end.
@@ -64,10 +64,10 @@ class Incoming {
       pollfd ready{fd_, POLLIN, 0};
       const int events = left > 0 ? ::poll(&ready, 1, static_cast<int>(left)) : 0;
       if (events < 0 && errno == EINTR) continue;
-      if (events == 0) fail(fmt::format("took longer than the limit of {} s", seconds_));
+      if (events == 0) fail(msg("took longer than the limit of {} s", seconds_));
       const auto n = ::read(fd_, to.data(), to.size());
       if (n >= 0) return static_cast<std::size_t>(n);
-      if (errno != EINTR && errno != EAGAIN) fail("broke off");
+      if (errno != EINTR && errno != EAGAIN) fail(msg("broke off"));
     }
   }
 
@@ -77,18 +77,11 @@ class Incoming {
   std::chrono::steady_clock::time_point until_;
 };
 
-/// Made again of its text, `where: what; what to do`.
-[[noreturn]] void throw_sent(const std::string& text, const std::string& path) {
-  const auto where = text.find(": "), todo = text.rfind("; ");
-  if (where == std::string::npos || todo == std::string::npos || todo < where + 2) throw Error(path, text, "give an intact volume");
-  throw Error(text.substr(0, where), text.substr(where + 2, todo - where - 2), text.substr(todo + 2));
-}
-
 }  // namespace
 
-bool send_volume_error(int fd, const std::string& text) {
+bool send_volume_error(int fd, const Error& error) {
   ByteWriter out = begun(k_error);
-  out.put_string(text.substr(0, k_longest_text));
+  for (const Message* part : {&error.where(), &error.problem(), &error.advice()}) out.put_string(english_text(*part).substr(0, k_longest_text));
   return send(fd, out.bytes());
 }
 
@@ -108,27 +101,33 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
   in.fill(begin);
   ByteReader first(begin, path);
   const auto magic = first.get_bytes(k_magic.size());
-  if (!std::equal(magic.begin(), magic.end(), k_magic.begin())) in.fail("gave no volume");
+  if (!std::equal(magic.begin(), magic.end(), k_magic.begin())) in.fail(msg("gave no volume"));
   const auto kind = first.get<std::uint32_t>();
   if (kind == k_error) {
-    std::string text(std::min(first.get<std::uint32_t>(), k_longest_text), ' ');
-    in.fill({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
-    throw_sent(one_line(text), path);
+    std::array<Name, 3> parts;
+    std::uint32_t length = first.get<std::uint32_t>();
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+      if (i > 0) in.fill({reinterpret_cast<std::uint8_t*>(&length), sizeof length});
+      std::string text(std::min(length, k_longest_text), ' ');
+      in.fill({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
+      parts[i].text = one_line(text);
+    }
+    throw Error(Message(parts[0]), parts[1], parts[2]);
   }
-  if (kind != k_volume) in.fail("gave no volume");
+  if (kind != k_volume) in.fail(msg("gave no volume"));
   std::copy_n(head.begin() + k_magic.size() + 4, 4, head.begin());  // of the size, which has come already
   in.fill(std::span(head).subspan(4));
   ByteReader rest(head, path);
   Volume v;
   for (auto* n : {&v.size.x, &v.size.y, &v.size.z}) {
     *n = rest.get<std::int32_t>();
-    if (*n < 1 || *n > 1 << 16) in.fail("gave an impossible size");
+    if (*n < 1 || *n > 1 << 16) in.fail(msg("gave an impossible size"));
   }
-  if (v.voxels() > most) in.fail(fmt::format("gave {} voxels, more than the limit of {}", v.voxels(), most));
+  if (v.voxels() > most) in.fail(msg("gave {} voxels, more than the limit of {}", v.voxels(), most));
   for (double& s : v.spacing_mm) s = rest.get<double>();
   for (Vec3* p : {&v.axis[0], &v.axis[1], &v.axis[2], &v.origin_mm}) {
     for (double* x : {&p->x, &p->y, &p->z}) *x = rest.get<double>();
-    if (!is_finite(*p)) in.fail("gave a place that is none");
+    if (!is_finite(*p)) in.fail(msg("gave a place that is none"));
   }
   v.gray.resize(v.voxels());
   in.fill({reinterpret_cast<std::uint8_t*>(v.gray.data()), v.gray.size() * sizeof(float)});

@@ -22,7 +22,7 @@ class VolumeCutOff : public Error {
 };
 
 /// False when nobody takes it.
-bool send_volume_error(int fd, const std::string& text);
+bool send_volume_error(int fd, const Error& error);
 /// `head.gray` is not looked at.
 bool send_volume(int fd, const Volume& head, std::span<const float> gray);
 /// Waits for at most `seconds`. Throws the Error that was sent, VolumeCutOff, and another Error naming `path` when what comes is neither, has more

@@ -58,7 +58,7 @@ std::set<std::string> passing(const Battery& b) {
 
 bool named(const Battery& b, const std::string& name) {
   return std::any_of(b.problems.begin(), b.problems.end(),
-                     [&](const auto& p) { return !p.warning && p.what.find("wrong work passes: '" + name + "'") != std::string::npos; });
+                     [&](const auto& p) { return !p.warning && english_text(p.what).find("wrong work passes: '" + name + "'") != std::string::npos; });
 }
 
 TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
@@ -66,7 +66,7 @@ TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
   EXPECT_EQ(b.honest.verdict, Verdict::pass);
   EXPECT_DOUBLE_EQ(b.honest.points, 100);
   for (const auto& row : b.rows) EXPECT_NE(row.verdict, Verdict::pass) << row.name;
-  for (const auto& p : b.problems) ADD_FAILURE() << p.text();
+  for (const auto& p : b.problems) ADD_FAILURE() << english_text(p.message());
   EXPECT_GE(b.rows.size(), 30u);
 }
 
@@ -81,8 +81,8 @@ TEST(Battery, RubricThatLooksAtNothingIsToldOfEveryWrongPieceOfWork) {
     EXPECT_FALSE(row.should.empty()) << row.name << ": nothing is said of what should have caught it";
   }
   for (const auto& p : b.problems) {
-    EXPECT_EQ(p.where, fmt::format("s.toml:{}:1", line)) << "the line of [rubric]: " << p.text();
-    EXPECT_NE(p.what_to_do.find("critical_"), std::string::npos) << p.text();
+    EXPECT_EQ(english_text(p.where), fmt::format("s.toml:{}:1", line)) << "the line of [rubric]: " << english_text(p.message());
+    EXPECT_NE(english_text(p.what_to_do).find("critical_"), std::string::npos) << english_text(p.message());
   }
 }
 
@@ -102,9 +102,9 @@ TEST_P(BlindRubric, LetsThatPassAndIsToldSo) {
     EXPECT_TRUE(passes.contains(name)) << name;
     EXPECT_TRUE(named(b, name)) << name;
     const auto p =
-        std::find_if(b.problems.begin(), b.problems.end(), [&](const auto& one) { return one.what.find("'" + name + "'") != std::string::npos; });
+        std::find_if(b.problems.begin(), b.problems.end(), [&](const auto& one) { return english_text(one.what).find("'" + name + "'") != std::string::npos; });
     ASSERT_NE(p, b.problems.end());
-    EXPECT_NE(p->what_to_do.find(GetParam().advice), std::string::npos) << p->text();
+    EXPECT_NE(english_text(p->what_to_do).find(GetParam().advice), std::string::npos) << english_text(p->message());
   }
 }
 
@@ -146,8 +146,8 @@ TEST(Battery, SaysWhenExactlyTheTargetDoesNotPass) {
   const Battery b = battery_of(
       scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)), chambered_block(0.1));
   ASSERT_FALSE(b.problems.empty());
-  EXPECT_NE(b.problems[0].what.find("who removes exactly the target gets 10.0 of 100.0 points"), std::string::npos) << b.problems[0].text();
-  EXPECT_NE(b.problems[0].what_to_do.find("'much'"), std::string::npos) << b.problems[0].text();
+  EXPECT_NE(english_text(b.problems[0].what).find("who removes exactly the target gets 10.0 of 100.0 points"), std::string::npos) << english_text(b.problems[0].message());
+  EXPECT_NE(english_text(b.problems[0].what_to_do).find("'much'"), std::string::npos) << english_text(b.problems[0].message());
 }
 
 TEST(Battery, MoreOfAnErrorThatGainsPointsIsFoundWithTheCriterion) {
@@ -155,11 +155,11 @@ TEST(Battery, MoreOfAnErrorThatGainsPointsIsFoundWithTheCriterion) {
   const Battery b =
       battery_of(scenario_with(k_removed + k_floor + k_pulp + criterion("generous", "container_sides_mm3", 6, 0, 40)), chambered_block(0.1));
   const auto p = std::find_if(b.problems.begin(), b.problems.end(), [](const auto& one) {
-    return one.what.find("more of an error gains points (all walls too far)") != std::string::npos;
+    return english_text(one.what).find("more of an error gains points (all walls too far)") != std::string::npos;
   });
   ASSERT_NE(p, b.problems.end());
   EXPECT_TRUE(p->warning);
-  EXPECT_NE(p->what_to_do.find("'generous'"), std::string::npos) << p->text();
+  EXPECT_NE(english_text(p->what_to_do).find("'generous'"), std::string::npos) << english_text(p->message());
 }
 
 /// A result with one criterion.
@@ -189,12 +189,12 @@ TEST(GrowingErrors, RiseWithinTheBoundIsNoneAndPassingAfterFailingIsAMistake) {
       judge_growth(s, ladder, honest, {with(50, Verdict::fail, true), with(54, Verdict::fail, true, 3), with(20, Verdict::fail, true)});
   ASSERT_EQ(rises.size(), 1u);
   EXPECT_TRUE(rises[0].warning);
-  EXPECT_NE(rises[0].what.find("0.1 mm gets 50.0, 0.5 mm gets 54.0"), std::string::npos) << rises[0].text();
+  EXPECT_NE(english_text(rises[0].what).find("0.1 mm gets 50.0, 0.5 mm gets 54.0"), std::string::npos) << english_text(rises[0].message());
   const auto passes =
       judge_growth(s, ladder, honest, {with(80, Verdict::fail, true), with(70, Verdict::pass, false), with(70, Verdict::pass, false)});
   ASSERT_EQ(passes.size(), 1u);
   EXPECT_FALSE(passes[0].warning);
-  EXPECT_NE(passes[0].what.find("0.1 mm fails, 0.5 mm passes"), std::string::npos) << passes[0].text();
+  EXPECT_NE(english_text(passes[0].what).find("0.1 mm fails, 0.5 mm passes"), std::string::npos) << english_text(passes[0].message());
 }
 
 TEST(Battery, EveryMeasureThatShouldCatchSomethingExists) {
@@ -228,7 +228,7 @@ TEST(Battery, NoWrongWorkPassesATaskThatShips) {
     const Battery b = run_battery(scenario, tooth, scenarios::build_zones(scenario, tooth), Look::screened);
     EXPECT_EQ(b.honest.verdict, Verdict::pass) << file;
     EXPECT_GE(b.rows.size(), 30u) << file;
-    for (const auto& p : b.problems) EXPECT_TRUE(p.warning) << p.text();
+    for (const auto& p : b.problems) EXPECT_TRUE(p.warning) << english_text(p.message());
   }
 }
 

@@ -21,7 +21,7 @@ std::string problems_of(const std::string& text) {
     (void)parse_scenario(text, "s.toml");
   } catch (const ProblemsError& e) {
     std::string all;
-    for (const auto& p : e.problems()) all += p.text() + "\n";
+    for (const auto& p : e.problems()) all += english_text(p.message()) + "\n";
     return all;
   } catch (const Error& e) {
     return e.what();

@@ -34,7 +34,7 @@ TEST(Scenario, ReadsWhatItWrites) {
 }
 
 TEST(Scenario, TemplateAndShippedScenariosAreSound) {
-  for (const auto& p : check_scenario(block_task("class_1"), "template")) ADD_FAILURE() << p.text();
+  for (const auto& p : check_scenario(block_task("class_1"), "template")) ADD_FAILURE() << english_text(p.message());
   for (const char* name : {"molar_access.toml", "class_1.toml"})
     EXPECT_NO_THROW(static_cast<void>(load_scenario(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/" + name))) << name;
 }
@@ -42,7 +42,7 @@ TEST(Scenario, TemplateAndShippedScenariosAreSound) {
 /// The first problem of the good scenario with a piece of its text replaced.
 std::string first_problem(const std::string& from, const std::string& to) {
   const auto problems = check_scenario(with(from, to), "s.toml");
-  return problems.empty() ? "" : problems[0].text();
+  return problems.empty() ? "" : english_text(problems[0].message());
 }
 
 std::string list_of(std::size_t count, const std::string& item) {
@@ -92,7 +92,7 @@ class BrokenScenario : public ::testing::TestWithParam<Broken> {};
 TEST_P(BrokenScenario, NamesPlaceMistakeAndRemedy) {
   const auto problems = check_scenario(with(GetParam().from, GetParam().to), "s.toml");
   ASSERT_FALSE(problems.empty());
-  EXPECT_EQ(problems[0].text(), GetParam().message);
+  EXPECT_EQ(english_text(problems[0].message()), GetParam().message);
 }
 
 INSTANTIATE_TEST_SUITE_P(
@@ -137,13 +137,13 @@ TEST(Scenario, NamesAllMistakesInTheOrderOfTheFileAndThrowsWithTheFirst) {
   text.replace(text.find("pass_percent = 60"), 17, "pass_percent = 160");
   const auto problems = check_scenario(text, "s.toml");
   ASSERT_GE(problems.size(), 3u);
-  for (std::size_t i = 1; i < problems.size(); ++i) EXPECT_LE(problems[i - 1].line, problems[i].line);
+  for (std::size_t i = 1; i < problems.size(); ++i) EXPECT_LE(problems[i - 1].where.line, problems[i].where.line);
   try {
     static_cast<void>(parse_scenario(text, "s.toml"));
     FAIL() << "a broken scenario was accepted";
   } catch (const Error& e) {
     const std::string said = e.what();
-    EXPECT_TRUE(said.starts_with(problems[0].text() + " (and " + std::to_string(problems.size() - 1) + " more")) << said;
+    EXPECT_TRUE(said.starts_with(english_text(problems[0].message()) + " (and " + std::to_string(problems.size() - 1) + " more")) << said;
     EXPECT_EQ(said.find('\n'), std::string::npos) << said;
   }
 }
@@ -183,9 +183,9 @@ TEST(ParseRubric, NamesEveryMistakeAtOnceEachWithItsPlace) {
     FAIL();
   } catch (const ProblemsError& e) {
     ASSERT_EQ(e.problems().size(), 3u);
-    EXPECT_EQ(e.problems()[0].where, "r.toml:2:16");
-    EXPECT_EQ(e.problems()[1].where, "r.toml:5:10");
-    EXPECT_EQ(e.problems()[2].where, "r.toml:7:8");
+    EXPECT_EQ(english_text(e.problems()[0].where), "r.toml:2:16");
+    EXPECT_EQ(english_text(e.problems()[1].where), "r.toml:5:10");
+    EXPECT_EQ(english_text(e.problems()[2].where), "r.toml:7:8");
     EXPECT_EQ(std::string(e.what()), e.problems()[0].text() + " (and 2 more)");
   }
 }
@@ -202,8 +202,8 @@ TEST(ParseRubric, MeasuresOfWhatTheExamDoesNotHaveAreNamedWithTheirPlace) {
   const auto found = not_in_this_exam(parse_rubric(rubric, "r.toml"), s, tooth);
   ASSERT_EQ(found.size(), absent.size());
   for (std::size_t i = 0; i < absent.size(); ++i) {
-    EXPECT_NE(found[i].what.find("'" + absent[i] + "'"), std::string::npos) << found[i].text();
-    EXPECT_EQ(found[i].where, "r.toml:" + std::to_string(5 + 6 * i) + ":10");
+    EXPECT_NE(english_text(found[i].what).find("'" + absent[i] + "'"), std::string::npos) << english_text(found[i].message());
+    EXPECT_EQ(english_text(found[i].where), "r.toml:" + std::to_string(5 + 6 * i) + ":10");
   }
   EXPECT_TRUE(not_in_this_exam(s.rubric, s, tooth).empty());
 }

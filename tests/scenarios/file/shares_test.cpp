@@ -20,7 +20,7 @@ TEST(Shares, TwoThatCountTheSameAreWarnedOfUnlessOneNamesTheOther) {
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_TRUE(problems[0].warning);
   EXPECT_EQ(
-      problems[0].text(),
+      english_text(problems[0].message()),
       "r.toml:12:10: warning: 'guarded' charges what 'elsewhere' charges, too: protected_mm3 and outside_mm3 both count protected tissue; take one "
       "of them out, or say that it is meant: shares_with = [\"elsewhere\"]");
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "shares_with = [\"elsewhere\"]")).empty());

@@ -14,7 +14,7 @@ class BlockTask : public ::testing::TestWithParam<std::string> {};
 TEST_P(BlockTask, IsSoundWithoutAWarningAndTheExpertHasTwiceTheTime) {
   const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/new.toml", text = block_task(GetParam());
   const CheckedScenario checked = check_whole(text, path);
-  for (const auto& p : checked.problems) ADD_FAILURE() << p.text();
+  for (const auto& p : checked.problems) ADD_FAILURE() << english_text(p.message());
   ASSERT_TRUE(checked.expert.time_s);
   EXPECT_LT(2 * *checked.expert.time_s, parse_scenario(text, path).time_limit_s);
   for (std::size_t from = 0, end = 0; from < text.size(); from = end + 1) {

@@ -17,7 +17,7 @@ std::vector<std::string> warnings(const std::string& target, const Tooth& tooth)
   const Scenario s = parse_scenario(testing::scenario_text(target), "s.toml");
   ExpertsPart expert;
   std::vector<std::string> said;
-  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert)) said.push_back(p.what);
+  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert)) said.push_back(english_text(p.what));
   return said;
 }
 
@@ -64,7 +64,7 @@ TEST(Advice, SaysThatNoCriterionMeasuresWhatIsProtected) {
   const Scenario s = parse_scenario(text, "s.toml");
   ExpertsPart expert;
   std::vector<std::string> said;
-  for (const auto& p : advise(s, block, build_zones(s, block), {}, expert)) said.push_back(p.what);
+  for (const auto& p : advise(s, block, build_zones(s, block), {}, expert)) said.push_back(english_text(p.what));
   EXPECT_TRUE(any_begins(said, for_nothing));
 }
 
@@ -77,7 +77,7 @@ TEST(Advice, SaysThatTheCavityHasNoSuchWall) {
     const Scenario s = parse_scenario(text, "s.toml");
     ExpertsPart expert;
     for (const auto& p : advise(s, block, build_zones(s, block), {}, expert))
-      if (p.what.starts_with("the cavity has no")) return p.what;
+      if (english_text(p.what).starts_with("the cavity has no")) return english_text(p.what);
     return std::string();
   };
   for (const char* metric : {"mesial_mean_mm", "mesial_p95_mm", "mesial_max_under_mm"})
@@ -93,7 +93,7 @@ TEST(Advice, SaysThatAScenarioWasWrittenForAnotherTooth) {
     std::string other = text;
     other.replace(other.find("block.cvt"), 9, written_for);
     std::vector<std::string> list;
-    for (const auto& p : check_whole(other, file, block).problems) list.push_back(p.what);
+    for (const auto& p : check_whole(other, file, block).problems) list.push_back(english_text(p.what));
     return list;
   };
   EXPECT_TRUE(any_begins(said("molar.cvt"), "the scenario was written for molar.cvt, and is checked on block.cvt"));

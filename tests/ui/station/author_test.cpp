@@ -107,7 +107,7 @@ TEST_F(AuthorWindow, AMistakeMadeByHandIsNamedWithItsLine) {
       << said();
   const auto problems = scenarios::check_scenario(read_text_file(file()), file());
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].what.find("narrower than the leeway"), std::string::npos);
+  EXPECT_NE(english_text(problems[0].what).find("narrower than the leeway"), std::string::npos);
 }
 
 TEST_F(AuthorWindow, EndedFromOutsideKeepsWhatIsUnsavedBesideTheFile) {
@@ -246,7 +246,7 @@ TEST(AuthorWorker, LaysOutTheZonesAndSaysWhatTheCheckSays) {
   EXPECT_LT(deeper->target_low_mm.z, sound->target_low_mm.z - 0.1);
   const auto wrong = findings_of(2, replaced(text, "depth_mm = 1.8", "depth_mm = -1"));
   ASSERT_EQ(wrong->problems.size(), 1u);
-  EXPECT_EQ(wrong->problems[0].line, 38);
+  EXPECT_EQ(wrong->problems[0].where.line, 38);
   EXPECT_TRUE(wrong->body[0].indices.empty());
   const auto none = findings_of(3, "title = [");
   EXPECT_FALSE(none->problems.empty());

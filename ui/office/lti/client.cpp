@@ -50,7 +50,8 @@ PlaceOf place_of(const std::string& address) {
 PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& method, const std::string& address,
                             const std::map<std::string, std::string>& fields, const std::string& body) {
   if (!platform.may_ask(address))
-    throw Error(one_line(address), "is no address of this platform that was set up", "the office asks no other host, and nothing but https");
+    throw Error(one_line(address), msg("is no address of this platform that was set up"),
+                msg("the office asks no other host, and nothing but https"));
   const PlaceOf place = place_of(address);
   asio::io_context context;
   asio::ssl::context tls(asio::ssl::context::tls_client);
@@ -60,7 +61,7 @@ PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& meth
     tls.set_default_verify_paths(wrong);
   else
     tls.add_certificate_authority(asio::buffer(platform.certificate), wrong);
-  if (wrong) throw Error("the platform's certificate", "cannot be read: " + wrong.message(), "give it as PEM");
+  if (wrong) throw Error(msg("the platform's certificate"), msg("cannot be read: {}", wrong.message()), msg("give it as PEM"));
   beast::ssl_stream<beast::tcp_stream> stream(context, tls);
   stream.set_verify_mode(asio::ssl::verify_peer);
   stream.set_verify_callback(asio::ssl::host_name_verification(place.host));

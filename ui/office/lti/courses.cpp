@@ -21,7 +21,7 @@ std::vector<LtiCourse> LtiCourses::read() const {
   if (!std::filesystem::exists(path_)) return {};
   const json read = parse_json(read_text_file(path_), path_);
   if (text_in(read, "format") != k_courses_format || !member_of(read, "courses").is_array())
-    throw Error(path_, "is no file of courses", "remove it: each course is in it again once somebody opens its link");
+    throw Error(path_, msg("is no file of courses"), msg("remove it: each course is in it again once somebody opens its link"));
   std::vector<LtiCourse> out;
   for (const json& one : read["courses"]) {
     LtiCourse c{text_in(one, "issuer"),

@@ -70,7 +70,7 @@ Bytes png_of(cairo_surface_t* surface) {
     return CAIRO_STATUS_SUCCESS;
   };
   if (cairo_surface_write_to_png_stream(surface, write, &bytes) != CAIRO_STATUS_SUCCESS)
-    throw Error("report", "the picture of the tooth could not be packed", "free some memory");
+    throw Error(msg("report"), msg("the picture of the tooth could not be packed"), msg("free some memory"));
   return bytes;
 }
 
@@ -164,7 +164,7 @@ Bytes columns_png(const Columns& columns) {
                                                                            cairo_surface_destroy);
   cairo_surface_flush(image.get());
   unsigned char* rows = cairo_image_surface_get_data(image.get());
-  if (rows == nullptr) throw Error("report", "there is no room for a picture of the tooth", "free some memory");
+  if (rows == nullptr) throw Error(msg("report"), msg("there is no room for a picture of the tooth"), msg("free some memory"));
   const int stride = cairo_image_surface_get_stride(image.get());
   for (int y = 0; y < n.y; ++y)
     for (int x = 0; x < n.x; ++x) {

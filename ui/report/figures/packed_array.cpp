@@ -28,7 +28,7 @@ nlohmann::json pack(std::span<const T> values, const char* type, bool delta) {
   const Bytes bytes(raw.bytes().begin(), raw.bytes().end());
   Bytes packed(ZSTD_compressBound(bytes.size()));
   const std::size_t n = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), k_level);
-  if (ZSTD_isError(n) != 0) throw Error("report", fmt::format("zstd refuses to pack {} bytes", bytes.size()), "free some memory");
+  if (ZSTD_isError(n) != 0) throw Error(msg("report"), msg("zstd refuses to pack {} bytes", bytes.size()), msg("free some memory"));
   packed.resize(n);
   return {{"type", type}, {"n", values.size()}, {"delta", delta}, {"zstd", base64(packed)}};
 }

@@ -41,7 +41,7 @@ ToothContent content_of(const Tooth& tooth) {
     content.column[t] = static_cast<int>(content.ids.size());
     content.ids.push_back(t);
   });
-  if (content.ids.empty()) throw Error(tooth.name, "this tooth holds no tissue", "use another one");
+  if (content.ids.empty()) throw Error(tooth.name, msg("this tooth holds no tissue"), msg("use another one"));
   return content;
 }
 

@@ -47,12 +47,12 @@ PdfPicture::PdfPicture(const std::string& svg) {
   if (handle == nullptr) {
     const std::string why = error != nullptr ? error->message : "unknown";
     g_clear_error(&error);
-    throw Error("report", "a picture cannot be drawn: " + one_line(why), "write the report as .html");
+    throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)), msg("write the report as .html"));
   }
   handle_ = std::shared_ptr<void>(handle, Unref{});
   rsvg_handle_set_dpi(handle, 96);
   if (rsvg_handle_get_intrinsic_size_in_pixels(handle, &width_px_, &height_px_) == 0 || !(width_px_ > 0) || !(height_px_ > 0))
-    throw Error("report", "a picture has no size", "write the report as .html");
+    throw Error(msg("report"), msg("a picture has no size"), msg("write the report as .html"));
 }
 
 void PdfPicture::draw(void* cairo, double x, double y, double width, double height) const {
@@ -61,7 +61,7 @@ void PdfPicture::draw(void* cairo, double x, double y, double width, double heig
   if (rsvg_handle_render_document(static_cast<RsvgHandle*>(handle_.get()), static_cast<cairo_t*>(cairo), &place, &error) != 0) return;
   const std::string why = error != nullptr ? error->message : "unknown";
   g_clear_error(&error);
-  throw Error("report", "a picture cannot be drawn: " + one_line(why), "write the report as .html");
+  throw Error(msg("report"), msg("a picture cannot be drawn: {}", one_line(why)), msg("write the report as .html"));
 }
 
 struct PdfSheet::State {
@@ -293,7 +293,7 @@ int PdfSheet::finish() {
     s_->finished = true;
   }
   if (const cairo_status_t status = cairo_surface_status(s_->surface); status != CAIRO_STATUS_SUCCESS)
-    throw Error("report", fmt::format("the PDF cannot be made: {}", cairo_status_to_string(status)), "write the report as .html");
+    throw Error(msg("report"), msg("the PDF cannot be made: {}", cairo_status_to_string(status)), msg("write the report as .html"));
   return s_->page;
 }
 

@@ -112,7 +112,7 @@ std::string complete_tags(const std::string& pdf, const Document& document, cons
     const std::shared_ptr<Buffer> bytes = out.getBufferSharedPointer();
     return {reinterpret_cast<const char*>(bytes->getBuffer()), bytes->getSize()};
   } catch (const QPDFExc& e) {
-    throw Error("report", fmt::format("the PDF cannot be tagged: {}", one_line(e.what())), "write the report as .html");
+    throw Error(msg("report"), msg("the PDF cannot be tagged: {}", one_line(e.what())), msg("write the report as .html"));
   }
 }
 

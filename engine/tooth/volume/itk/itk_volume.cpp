@@ -22,6 +22,7 @@
 #include <fstream>
 #include <map>
 #include <new>
+#include <optional>
 #include <set>
 #include <sstream>
 
@@ -81,8 +82,8 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 void require_voxels(std::uint64_t voxels, std::uint64_t bytes, const std::string& path) {
   if (voxels > most_voxels(bytes))
-    throw Error(path, fmt::format("claims more than {} voxels, the most for {} bytes of files", most_voxels(bytes), bytes),
-                "crop the volume to the tooth, or save it uncompressed");
+    throw Error(path, msg("claims more than {} voxels, the most for {} bytes of files", most_voxels(bytes), bytes),
+                msg("crop the volume to the tooth, or save it uncompressed"));
 }
 
 /// Voxels that the header claims, of all dimensions and channels; as many as cannot be when one of them is beyond reason.
@@ -134,10 +135,10 @@ double slice_spacing_mm(const std::vector<std::string>& files, const std::string
   const double usual = median(gaps);
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (!(std::fabs(gaps[i] - usual) <= 0.02 * usual + 1e-4)) {
-      std::ostringstream what;
-      what << "the DICOM series has a hole or uneven slices: " << gaps[i] << " mm between " << slices[i].file << " and " << slices[i + 1].file << ", "
-           << usual << " mm elsewhere";
-      throw Error(folder, what.str(), "export the complete series again");
+      throw Error(folder,
+                  msg("the DICOM series has a hole or uneven slices: {} between {} and {}, {} elsewhere", as_mm(gaps[i], k_as_needed), slices[i].file,
+                      slices[i + 1].file, as_mm(usual, k_as_needed)),
+                  msg("export the complete series again"));
     }
   return usual;
 }
@@ -148,9 +149,9 @@ void require_alike(const DicomSlice& first, const std::string& first_file, const
   for (const auto& [name, value] : first.common) {
     const auto found = other.common.find(name);
     if (found == other.common.end() || found->second != value)
-      throw Error(file, fmt::format("has another {} than {} of the same series", name, first_file), "export the complete series again");
+      throw Error(file, msg("has another {} than {} of the same series", name, first_file), msg("export the complete series again"));
   }
-  throw Error(file, fmt::format("has fields that {} of the same series does not have", first_file), "export the complete series again");
+  throw Error(file, msg("has fields that {} of the same series does not have", first_file), msg("export the complete series again"));
 }
 
 bool is_dicom_file(const std::string& file) {
@@ -191,8 +192,8 @@ Read read_dicom(const std::string& folder, const std::string& series, const std:
   reader->Update();
   double deviation = 0.0;
   if (itk::ExposeMetaData<double>(reader->GetOutput()->GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", deviation) && deviation > 1e-3)
-    throw Error(folder, fmt::format("the slices of DICOM series {} are not evenly spaced (off by up to {:f} mm)", series, deviation),
-                "export the complete series again");
+    throw Error(folder, msg("the slices of DICOM series {} are not evenly spaced (off by up to {})", series, as_mm(deviation, k_as_needed)),
+                msg("export the complete series again"));
   out.image = reader->GetOutput();
   return out;
 }
@@ -203,11 +204,11 @@ std::vector<std::string> files_of(const std::string& folder, std::uint64_t& byte
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) continue;
     if (!entry.is_regular_file())
-      throw Error(entry.path().string(), "is no ordinary file", "give a folder with nothing but the slices of one volume");
+      throw Error(entry.path().string(), msg("is no ordinary file"), msg("give a folder with nothing but the slices of one volume"));
     bytes += entry.file_size();
     files.push_back(entry.path().string());
     if (files.size() > k_most_slice_files)
-      throw Error(folder, fmt::format("holds more than {} files", k_most_slice_files), "give a folder with nothing but the slices of one volume");
+      throw Error(folder, msg("holds more than {} files", k_most_slice_files), msg("give a folder with nothing but the slices of one volume"));
   }
   std::sort(files.begin(), files.end(), natural_less);
   return files;
@@ -225,23 +226,24 @@ Read read_folder(const std::string& folder, std::uint64_t bytes, const std::vect
   names->SetDirectory(folder);
   const auto series = names->GetSeriesUIDs();
   if (series.size() > 1)
-    throw Error(folder, fmt::format("{} DICOM series in one folder", series.size()), "put the one to import into a folder of its own");
+    throw Error(folder, msg("{} DICOM series in one folder", series.size()), msg("put the one to import into a folder of its own"));
   const std::vector<std::string> slices = series.empty() ? std::vector<std::string>() : names->GetFileNames(series[0]);
   const std::set<std::string> known(slices.begin(), slices.end());
   const auto named_as_slice = [&](const std::string& file) { return !slices.empty() && lower_extension(file) == lower_extension(slices[0]); };
   for (const auto& file : files)
     if (!known.contains(file) && (is_dicom_file(file) || named_as_slice(file)) && fs::path(file).filename() != "DICOMDIR") {
       if (!whole.contains(file)) static_cast<void>(whole_slice(file));
-      throw Error(file, "is DICOM and belongs to no series: its header is damaged", "export the complete series again");
+      throw Error(file, msg("is DICOM and belongs to no series: its header is damaged"), msg("export the complete series again"));
     }
   if (!slices.empty()) return read_dicom(folder, series[0], slices, std::move(whole), bytes);
   std::vector<std::string> pictures;
   for (const auto& file : files)
     if (const auto e = lower_extension(file); e == ".tif" || e == ".tiff" || e == ".png") pictures.push_back(file);
-  if (pictures.size() < 2) throw Error(folder, "neither a DICOM series nor a stack of TIFF slices", "give a folder with the slices of one volume");
+  if (pictures.size() < 2)
+    throw Error(folder, msg("neither a DICOM series nor a stack of TIFF slices"), msg("give a folder with the slices of one volume"));
   for (const auto& file : pictures)
     if ((lower_extension(file) == ".png") != (lower_extension(pictures[0]) == ".png"))
-      throw Error(folder, "holds slices as PNG and as TIFF", "put the slices of one volume into a folder of their own");
+      throw Error(folder, msg("holds slices as PNG and as TIFF"), msg("put the slices of one volume into a folder of their own"));
   Read out;
   const auto io = slice_reader(lower_extension(pictures[0]));
   for (const auto& file : pictures) {
@@ -265,7 +267,7 @@ itk::ImageIOBase::Pointer reader_of(const std::string& path, std::uint64_t bytes
   if (e == ".nii" || (e == ".gz" && lower_extension(fs::path(path).stem()) == ".nii")) return itk::NiftiImageIO::New().GetPointer();
   if (e == ".tif" || e == ".tiff") return itk::TIFFImageIO::New().GetPointer();
   if (!is_dicom_file(path))
-    throw Error(path, "is no volume by its name, nor DICOM", "name a .mhd, .mha, .nrrd, .nhdr, .nii, .nii.gz, .tif or DICOM file");
+    throw Error(path, msg("is no volume by its name, nor DICOM"), msg("name a .mhd, .mha, .nrrd, .nhdr, .nii, .nii.gz, .tif or DICOM file"));
   require_voxels(whole_slice(path), 1, bytes, path);
   return itk::GDCMImageIO::New().GetPointer();
 }
@@ -304,7 +306,7 @@ Volume head_of(const Read& read) {
 void limit(int what, std::uint64_t most) {
   const rlimit both{most, most};
   if (::setrlimit(static_cast<decltype(RLIMIT_AS)>(what), &both) != 0)
-    throw Error("the reading of volumes", "cannot be limited", "use another computer");
+    throw Error(msg("the reading of volumes"), msg("cannot be limited"), msg("use another computer"));
 }
 
 void limit_this_process(std::uint64_t bytes) {
@@ -319,10 +321,10 @@ void limit_this_process(std::uint64_t bytes) {
 template <class Limit>
 int send(const std::string& path, int fd, const Limit& set_limits) {
   std::uint64_t bytes = 0;
-  std::string error;
+  std::optional<Error> error;
   try {
     const bool folder = fs::is_directory(path);
-    if (!folder && !fs::is_regular_file(path)) throw Error(path, "no such volume", "check the path");
+    if (!folder && !fs::is_regular_file(path)) throw Error(path, msg("no such volume"), msg("check the path"));
     std::vector<std::string> files;
     if (folder)
       files = files_of(path, bytes);
@@ -335,19 +337,19 @@ int send(const std::string& path, int fd, const Limit& set_limits) {
     const Volume head = head_of(read);
     return send_volume(fd, head, {read.image->GetBufferPointer(), head.voxels()}) ? 0 : 1;
   } catch (const Error& e) {
-    error = e.what();
+    error = e;
   } catch (const itk::ExceptionObject& e) {
     std::string what = e.GetDescription();
     std::replace(what.begin(), what.end(), '\n', ' ');
-    error = Error(path, fmt::format("cannot be read as a volume ({})", what.substr(0, 200)), k_intact).what();
+    error.emplace(path, msg("cannot be read as a volume ({})", what.substr(0, 200)), msg(k_intact));
   } catch (const fs::filesystem_error& e) {
-    error = Error(path, e.code().message(), "check the path and its permissions").what();
+    error.emplace(path, Name{e.code().message()}, msg("check the path and its permissions"));
   } catch (const std::bad_alloc&) {
-    error = Error(path, fmt::format("needs more memory than the limit of {} bytes", most_read_memory(bytes)), k_intact).what();
+    error.emplace(path, msg("needs more memory than the limit of {} bytes", most_read_memory(bytes)), msg(k_intact));
   } catch (const std::exception& e) {
-    error = Error(path, fmt::format("cannot be read as a volume ({})", e.what()), k_intact).what();
+    error.emplace(path, msg("cannot be read as a volume ({})", e.what()), msg(k_intact));
   }
-  return send_volume_error(fd, error) ? 0 : 1;
+  return send_volume_error(fd, *error) ? 0 : 1;
 }
 
 }  // namespace

@@ -1,0 +1,121 @@
+#include "engine/base/message.h"
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "engine/base/figures.h"
+#include "engine/base/text.h"
+
+namespace cavum {
+namespace {
+
+constexpr std::array<std::string_view, 17> k_signs{"",  "mm", "mm²", "mm³", "µm", "N",  "N·s",  "°",   "s",
+                                                   "min", "ms", "rpm", "%",   "Hz", "mm/s", "N/mm", "bytes"};
+static_assert(k_signs.size() == static_cast<std::size_t>(Unit::byte) + 1);
+
+template <class... F>
+struct Overloaded : F... {
+  using F::operator()...;
+};
+
+class English final : public Locale {
+ public:
+  [[nodiscard]] std::string sentence(const char* english) const override { return english; }
+  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override { return count == 1 ? one : many; }
+  [[nodiscard]] std::string term(const std::string& english) const override { return english; }
+  [[nodiscard]] std::string authored(const std::string& english) const override { return english; }
+  [[nodiscard]] std::string name(const std::string& text) const override { return text; }
+  [[nodiscard]] char decimal_sign() const noexcept override { return '.'; }
+};
+
+std::string figure(double value, int digits, const Locale& locale) {
+  std::string text = digits < 0 ? plain_number(value) : fixed(value, digits);
+  std::replace(text.begin(), text.end(), '.', locale.decimal_sign());
+  return text;
+}
+
+std::string rendered(const Number& n, const Locale& locale) {
+  std::string text = (n.sign && n.value >= 0 ? "+" : "") + figure(n.value, n.digits, locale);
+  if (n.bound > 0) text += " ± " + figure(n.bound, n.digits, locale);
+  if (n.unit == Unit::none) return text;
+  return text + (n.unit == Unit::deg ? "" : " ") + std::string(unit_sign(n.unit));
+}
+
+std::string rendered(Vec3 p, const Locale& locale) {
+  constexpr int k_digits = 2;
+  const std::string between = locale.decimal_sign() == ',' ? "; " : ", ";
+  return fmt::format("[{}{}{}{}{}] mm", figure(p.x, k_digits, locale), between, figure(p.y, k_digits, locale), between, figure(p.z, k_digits, locale));
+}
+
+std::string filled(const std::string& sentence, const std::vector<std::string>& texts) {
+  fmt::dynamic_format_arg_store<fmt::format_context> store;
+  for (const std::string& t : texts) store.push_back(std::string_view(t));
+  return fmt::vformat(sentence, store);
+}
+
+}  // namespace
+
+std::string_view unit_sign(Unit unit) noexcept { return k_signs[static_cast<std::size_t>(unit)]; }
+
+Message::Message(Name name) : english_("{}"), values_{Value(std::move(name))} {}
+
+Message::Message(std::string text) : Message(text.empty() ? Message() : Message(Name{std::move(text)})) {}
+
+Message::Message(const char* text) : Message(std::string(text)) {}
+
+Message::Message(FilePlace place) : english_("{}"), values_{Value(std::move(place))} {}
+
+Message::Message(const char* english, const char* plural, std::int64_t count, std::vector<Value> values)
+    : english_(english), plural_(plural), count_(count), values_(std::move(values)) {}
+
+bool operator==(const Message& a, const Message& b) {
+  if (a.empty() || b.empty()) return a.empty() == b.empty();
+  return std::string_view(a.english_) == b.english_ && a.count_ == b.count_ && a.values_ == b.values_;
+}
+
+std::string render(const Value& value, const Locale& locale) {
+  return std::visit(Overloaded{
+                        [](std::int64_t whole) { return std::to_string(whole); },
+                        [&](const Number& n) { return rendered(n, locale); },
+                        [](const ClockTime& c) { return clock_text(c.seconds); },
+                        [&](const Vec3& p) { return rendered(p, locale); },
+                        [&](const Name& n) { return locale.name(n.text); },
+                        [&](const FilePlace& p) {
+                          const std::string line = p.line > 0 ? fmt::format(":{}", p.line) : "", column = p.column > 0 ? fmt::format(":{}", p.column) : "";
+                          return locale.name(p.file + line + column);
+                        },
+                        [&](const Term& t) { return locale.term(t.english); },
+                        [&](const Authored& a) { return locale.authored(a.english); },
+                        [&](const List& list) {
+                          std::string all;
+                          for (const Message& m : list.items) all += (all.empty() ? "" : list.sentences ? "; " : ", ") + render(m, locale);
+                          return all;
+                        },
+                        [&](const Message& m) { return render(m, locale); },
+                    },
+                    static_cast<const Value::variant&>(value));
+}
+
+std::string render(const Message& m, const Locale& locale) {
+  if (m.empty()) return {};
+  if (m.values().size() == 1 && std::string_view(m.english()) == "{}") return render(m.values().front(), locale);
+  std::vector<std::string> texts;
+  for (const Value& v : m.values()) texts.push_back(render(v, locale));
+  const std::string sentence =
+      m.plural() == nullptr ? locale.sentence(m.english()) : locale.sentence(m.english(), m.plural(), m.count());
+  try {
+    return filled(sentence, texts);
+  } catch (const fmt::format_error&) {  // a translation with other gaps
+    return filled(m.plural() == nullptr || m.count() == 1 ? m.english() : m.plural(), texts);
+  }
+}
+
+std::string english_text(const Message& message) {
+  static const English k_english;
+  return render(message, k_english);
+}
+
+}  // namespace cavum
