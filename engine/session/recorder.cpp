@@ -10,11 +10,9 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/base/version.h"
 #include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
@@ -33,7 +31,6 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"format", std::to_string(k_session_format)},
       {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
-      {"exam_rules", std::to_string(setup.exam_rules)},
       {"candidate", setup.candidate},
       {"device", setup.device},
       {"calibration", setup.calibration},
@@ -219,10 +216,9 @@ void Recorder::append(const TickInput& input, const TickRecord& record, std::spa
   write_pending();
 }
 
-void Recorder::add_event(std::int64_t tick, const std::string& kind, const std::string& detail_json) {
+void Recorder::add_event(std::int64_t tick, Event event) {
   require_open();
-  if (!is_json(detail_json)) throw Error("event " + kind, "its detail is not JSON: " + detail_json, "give one JSON value");
-  pending_.back().events.push_back({tick, kind, detail_json});
+  pending_.back().events.push_back({tick, std::move(event)});
 }
 
 void Recorder::flush() {
@@ -254,14 +250,14 @@ void Recorder::move_to(const std::string& path, const std::string& why) {
   }
   for (const char* end : {"-wal", "-shm"}) ::unlink((made + end).c_str());
   put_session_in_place(made, path);
-  const nlohmann::json detail{{"from", std::filesystem::path(path_).filename().string()}, {"ticks", ticks_on_disk_}, {"why", one_line(why)}};
+  RecordingMoved moved{std::filesystem::path(path_).filename().string(), ticks_on_disk_, why};
   insert_chunk_.reset();
   insert_event_.reset();
   database_->close();
   path_ = path;
   open_for_recording();
   if (sealed_) return;
-  pending_.back().events.push_back({ticks_, "moved", detail.dump()});
+  pending_.back().events.push_back({ticks_, std::move(moved)});
   flush();
 }
 
@@ -288,7 +284,7 @@ void Recorder::write_chunk(const Pending& pending) {
   c.records_sha256 = sha256(c.records);
   c.removed_sha256 = sha256(c.removed);
   std::vector<EventRow> events;
-  for (const auto& e : pending.events) events.push_back({next_event_ + static_cast<std::int64_t>(events.size()), c.seq, e});
+  for (const auto& e : pending.events) events.push_back({e, next_event_ + static_cast<std::int64_t>(events.size()), c.seq});
   c.events_sha256 = events_hash(events);
   c.prev_sha256 = chain_;
   c.sha256 = chunk_hash(c);
@@ -298,8 +294,10 @@ void Recorder::write_chunk(const Pending& pending) {
   insert_chunk_->bind(7, static_cast<std::int64_t>(c.state_hash)).bind(8, c.clocks.monotonic_ns).bind(9, c.clocks.boot_ns).bind(10, c.clocks.utc_ns);
   insert_chunk_->bind(11, c.inputs_sha256).bind(12, c.records_sha256).bind(13, c.removed_sha256).bind(14, c.events_sha256);
   insert_chunk_->bind(15, c.prev_sha256).bind(16, c.sha256).run();
-  for (const auto& e : events)
-    insert_event_->bind(1, e.seq).bind(2, e.event.tick).bind(3, e.chunk).bind(4, e.event.kind).bind(5, e.event.detail_json).run();
+  for (const auto& e : events) {
+    const EventText text = encode(e.event);
+    insert_event_->bind(1, e.seq).bind(2, e.tick).bind(3, e.chunk).bind(4, text.kind).bind(5, text.detail_json).run();
+  }
   transaction.commit();
 
   chain_ = c.sha256;

@@ -110,9 +110,16 @@ void SessionReader::read(Bytes image) {
   read_table(database, "meta", "key, value", findings_, [&](const Statement& row) { meta_.emplace(row.text(0), row.text(1)); });
   read_artifacts(database);
   read_chunks(database);
+  std::int64_t next_event = 0;
   read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& row) {
-    const auto seq = rising(row, static_cast<std::int64_t>(events_.size()), "event");
-    events_.push_back({seq, row.integer(2), {row.integer(1), row.text(3), row.text(4)}});
+    const auto seq = rising(row, next_event++, "event");
+    try {
+      events_.push_back({{row.integer(1), decode({row.text(3), row.text(4)}, fmt::format("table event, row {}", seq))}, seq, row.integer(2)});
+    } catch (const DatabaseError&) {
+      throw;
+    } catch (const Error& e) {
+      findings_.emplace_back(e.what());
+    }
   });
   read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {
     rising(row, 0, "result");
@@ -187,7 +194,6 @@ SessionSetup SessionReader::setup() const {
   s.candidate = fact("candidate");
   s.device = fact("device");
   s.calibration = fact("calibration");
-  s.exam_rules = static_cast<int>(std::clamp<std::int64_t>(number("exam_rules", 1), 0, 1'000'000));
   s.source = {fact(k_source_fact), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");
   s.rubric_toml = text("rubric.toml");
@@ -212,13 +218,6 @@ Bytes SessionReader::final_tooth() const {
 }
 
 Clocks SessionReader::created() const { return {number("created_monotonic_ns", 0), number("created_boot_ns", 0), number("created_utc_ns", 0)}; }
-
-std::vector<SessionEvent> SessionReader::events() const {
-  std::vector<SessionEvent> all;
-  all.reserve(events_.size());
-  for (const auto& e : events_) all.push_back(e.event);
-  return all;
-}
 
 ChunkMotion SessionReader::motion(std::size_t index) const {
   const ChunkRow& c = chunks_.at(index);
