@@ -52,7 +52,8 @@ TEST(SessionEvents, ThePageOfTheFormatHasEachKindWithItsMembers) {
   for (const Event& e : k_one_of_each) {
     const EventText text = encode(e);
     EXPECT_NE(page.find("`" + text.kind + "`"), std::string::npos) << text.kind;
-    for (const auto& [member, value] : nlohmann::json::parse(text.detail_json).items())
+    const auto detail = nlohmann::json::parse(text.detail_json);
+    for (const auto& [member, value] : detail.items())
       EXPECT_TRUE(page.find("\"" + member + "\"") != std::string::npos || page.find("`" + member + "`") != std::string::npos)
           << text.kind << " " << member;
   }
