@@ -3,7 +3,6 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
-#include "scenarios/exam/exam.h"
 #include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
@@ -37,15 +36,15 @@ ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
   by_content_[content_of(exam.session)] = {std::make_shared<const ExamGround>(exam.tooth, exam.zones), ++asked_};
 }
 
-std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where) {
-  const std::string content = content_of(session);
+std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::ExamTask& task, const std::string& where) {
+  const std::string content = content_of(task.session);
   const std::lock_guard lock(mutex_);
   Kept& kept = by_content_[content];
   if (!kept.ground) {
     try {
       KnownFits fits;
-      Tooth tooth = load_tooth_like(session.tooth, where + ": tooth", nullptr, &fits);
-      scenarios::ZoneMap zones = scenarios::build_zones_of_exam(scenario, tooth, session.landmarks_json, where);
+      Tooth tooth = load_tooth_like(task.session.tooth, where + ": tooth", nullptr, &fits);
+      scenarios::ZoneMap zones = scenarios::build_zones_of_exam(task.scenario, tooth, task.session.landmarks_json, where);
       kept.ground = std::make_shared<const ExamGround>(std::move(tooth), std::move(zones), std::move(fits));
     } catch (...) {
       by_content_.erase(content);

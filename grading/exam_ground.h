@@ -7,16 +7,10 @@
 #include <mutex>
 #include <string>
 
-#include "engine/session/session.h"
 #include "engine/tooth/known_fits.h"
 #include "grading/breakthrough/known_tooth.h"
 #include "grading/measures/apart.h"
-#include "scenarios/file/scenario.h"
-#include "scenarios/zones/zone_map.h"
-
-namespace cavum::scenarios {
-struct ExamSetup;
-}
+#include "scenarios/exam/exam.h"
 
 namespace cavum::grading {
 
@@ -38,8 +32,8 @@ class ExamGrounds {
   ExamGrounds() = default;
   /// Begins with that of an exam that was made ready here.
   explicit ExamGrounds(const scenarios::ExamSetup& exam);
-  /// `scenario` is what the session's text and attachments say. Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
-  [[nodiscard]] std::shared_ptr<const ExamGround> of(const scenarios::Scenario& scenario, const SessionSetup& session, const std::string& where);
+  /// Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
+  [[nodiscard]] std::shared_ptr<const ExamGround> of(const scenarios::ExamTask& task, const std::string& where);
 
  private:
   struct Kept {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <map>
-#include <set>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
@@ -20,38 +19,30 @@ using nlohmann::json;
 
 constexpr std::size_t k_most_named = 12;  // differences: more of them say nothing new
 
-/// Kinds of event that the runner makes; the others are the station's word.
-bool is_runners(const std::string& kind) {
-  static const std::set<std::string> k_kinds = [] {
-    std::set<std::string> kinds;
-    for (int k = 0; k < scenarios::k_event_kinds; ++k) kinds.insert(scenarios::event_name(static_cast<scenarios::ExamEventKind>(k)));
-    return kinds;
-  }();
-  return k_kinds.contains(kind);
-}
-
 /// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did. What the clock ends with all steps done is `completed` as
 /// well, in the last tick and not after it.
-std::int64_t ended_by_hand(const SessionReader& session, const std::vector<SessionEvent>& events) {
-  for (const auto& e : events) {
-    if (e.kind != scenarios::event_name(scenarios::ExamEventKind::finished)) continue;
-    const std::string how = text_in(parse_json_or_null(e.detail_json), "how");
-    if (how == scenarios::finish_name(scenarios::Finish::ended)) return e.tick;
-    if (how == scenarios::finish_name(scenarios::Finish::completed) && e.tick == session.ticks()) return e.tick;
-  }
+std::int64_t ended_by_hand(const SessionReader& session) {
+  for (const auto& e : session.event_rows())
+    if (const auto* finished = e.as<Finished>())
+      if (finished->how == Finish::ended || (finished->how == Finish::completed && e.tick == session.ticks())) return e.tick;
   return -1;
+}
+
+std::string event_text(const TimedEvent& e) {
+  const EventText text = encode(e.event);
+  return fmt::format("'{} {}' at tick {}", text.kind, text.detail_json, e.tick);
 }
 
 /// Runs the scenario over the motion while that is simulated.
 class EventsAgain {
  public:
   EventsAgain(const SessionReader& session, ExamGrounds& grounds)
-      : setup_(session.setup()),
-        scenario_(scenario_in(setup_, session.path())),
-        ground_(grounds.of(scenario_, setup_, session.path())),
-        runner_(scenario_, ground_->zones, ground_->tooth, tray(setup_, session.path()), setup_.exam_rules),
-        recorded_(session.events()),
-        ended_(ended_by_hand(session, recorded_)) {}
+      : task_(scenarios::exam_task(session.setup(), session.path() + ": scenario")),
+        ground_(grounds.of(task_, session.path())),
+        runner_(task_.scenario, ground_->zones, ground_->tooth, task_.point_names),
+        ended_(ended_by_hand(session)) {
+    for (auto& e : session.events()) (is_runners(e.event) ? recorded_ : beside_).push_back(std::move(e));
+  }
 
   void see(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
     if (tick == ended_) runner_.end(*state_);
@@ -65,50 +56,36 @@ class EventsAgain {
       findings.push_back(fmt::format("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
     if (ended_ == ticks) runner_.end(*state_);
     take();
-    std::vector<SessionEvent> was;
-    std::copy_if(recorded_.begin(), recorded_.end(), std::back_inserter(was), [](const SessionEvent& e) { return is_runners(e.kind); });
-    for (std::size_t i = 0; i < std::max(was.size(), again_.size()) && findings.size() < k_most_named; ++i) {
-      if (i < was.size() && i < again_.size() && was[i] == again_[i]) continue;
-      findings.push_back(fmt::format("event {} of the exam: recorded {}, the motion gives {}", i, i < was.size() ? text_of(was[i]) : "none",
-                                     i < again_.size() ? text_of(again_[i]) : "none"));
+    for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_most_named; ++i) {
+      if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
+      findings.push_back(fmt::format("event {} of the exam: recorded {}, the motion gives {}", i,
+                                     i < recorded_.size() ? event_text(recorded_[i]) : "none", i < again_.size() ? event_text(again_[i]) : "none"));
     }
     return findings;
   }
 
-  [[nodiscard]] std::vector<std::string> servo_findings() const { return scenarios::check_servo(setup_.servo_toml, scenario_); }
+  [[nodiscard]] std::vector<std::string> servo_findings() const { return scenarios::check_servo(task_.session.servo_toml, task_.scenario); }
   [[nodiscard]] VerifyTeeth teeth(Tooth& final_tooth) const noexcept { return {&ground_->tooth, ground_->fits.get(), &final_tooth}; }
   /// Those of the motion, and what else the station recorded.
-  [[nodiscard]] std::vector<SessionEvent> events() const {
-    std::vector<SessionEvent> all = again_;
-    std::copy_if(recorded_.begin(), recorded_.end(), std::back_inserter(all), [](const SessionEvent& e) { return !is_runners(e.kind); });
-    std::stable_sort(all.begin(), all.end(), [](const SessionEvent& a, const SessionEvent& b) { return a.tick < b.tick; });
+  [[nodiscard]] std::vector<TimedEvent> events() const {
+    std::vector<TimedEvent> all = again_;
+    all.insert(all.end(), beside_.begin(), beside_.end());
+    std::stable_sort(all.begin(), all.end(), [](const TimedEvent& a, const TimedEvent& b) { return a.tick < b.tick; });
     return all;
   }
 
  private:
-  static std::vector<std::string> tray(const SessionSetup& setup, const std::string& where) {
-    std::vector<std::string> names;
-    for (const auto& text : setup.points_toml) names.push_back(parse_diamond_point(text, where + ": diamond point").name);
-    return names;
-  }
-  static std::string text_of(const SessionEvent& e) {
-    return fmt::format("'{}' at tick {}", one_line(fmt::format("{} {}", e.kind, e.detail_json)), e.tick);
-  }
   /// As an exam records them: each once, from the runner's list.
   void take() {
-    for (; taken_ < state_->event_count; ++taken_) {
-      const scenarios::ExamEvent& e = state_->events[taken_];
-      again_.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, scenario_, ground_->tooth)});
-    }
+    for (auto& e : state_->events_from(static_cast<std::uint32_t>(again_.size()))) again_.push_back(std::move(e));
   }
 
-  SessionSetup setup_;
-  scenarios::Scenario scenario_;
+  scenarios::ExamTask task_;
   std::shared_ptr<const ExamGround> ground_;
   scenarios::Runner runner_;
   std::unique_ptr<scenarios::RunnerState> state_ = std::make_unique<scenarios::RunnerState>();
-  std::uint32_t taken_ = 0;
-  std::vector<SessionEvent> recorded_, again_;
+  std::vector<TimedEvent> recorded_, again_;  ///< the runner's
+  std::vector<TimedEvent> beside_;            ///< the station's
   std::int64_t ended_;
 };
 

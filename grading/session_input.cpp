@@ -18,12 +18,11 @@ namespace {
 template <class After>
 std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGrounds& grounds, const After& after_of) {
   const std::string& path = reader.path();
-  SessionSetup setup = reader.setup();
-  auto s = std::make_unique<GradedSession>();
-  s->scenario = scenario_in(setup, path);
+  auto s = std::make_unique<GradedSession>(scenarios::exam_task(reader.setup(), path + ": scenario"));
+  const SessionSetup& setup = s->session;
   s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
-  s->ground = grounds.of(s->scenario, setup, path);
+  s->ground = grounds.of(*s, path);
   const auto& ground = s->ground;
   s->before = {ground, &ground->tooth};
   s->after = after_of(*ground);
@@ -37,12 +36,10 @@ std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGround
     s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
   }
   s->sealed_result_json = reader.result_json();
-  s->notes = setup.notes;
-  s->landmarks_json = setup.landmarks_json;
-  s->landmarks_anew = s->landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
+  s->landmarks_anew = setup.landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, ground->hash, setup.calibration,
               setup.points_toml, setup.notes};
-  if (reader.number("physics_version", 0) == k_physics_version) s->again = std::move(setup);
+  s->our_physics = reader.number("physics_version", 0) == k_physics_version;
   return s;
 }
 
@@ -70,13 +67,6 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Exa
                    [&](const ExamGround& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }
 
-scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where) {
-  scenarios::Scenario scenario = scenarios::parse_scenario(setup.scenario_toml, where + ": scenario", scenarios::Reading::recorded);
-  scenarios::use_surfaces(scenario, setup.attachments);
-  scenario.accommodations = scenarios::granted(scenario.accommodations, setup.notes, where + ": accommodations");
-  return scenario;
-}
-
 std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after) {
   ExamGrounds grounds;
   return load_for_grading(reader, std::move(after), grounds);
@@ -93,9 +83,9 @@ void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool ano
                 "name its corrected scenario, or add --another-task to mark the work by this one all the same");
   scenarios::require_tissues(scenario, *session.before);
   scenarios::require_same_surfaces(scenario, session.scenario);
-  scenario.accommodations = scenarios::granted(scenario.accommodations, session.notes, session.facts.session_file + ": accommodations");
+  scenario.accommodations = scenarios::granted(scenario.accommodations, session.session.notes, session.facts.session_file + ": accommodations");
   session.zones = std::make_shared<const scenarios::ZoneMap>(
-      scenarios::build_zones_of_exam(scenario, *session.before, session.landmarks_json, session.facts.session_file));
+      scenarios::build_zones_of_exam(scenario, *session.before, session.session.landmarks_json, session.facts.session_file));
   session.rubric = scenario.rubric;
   session.scenario = std::move(scenario);
 }

@@ -21,8 +21,7 @@ struct ReportFacts {
   std::vector<std::pair<std::string, std::string>> notes = {};  ///< of the session: what gave the input, and how
 };
 
-struct GradedSession {
-  scenarios::Scenario scenario;
+struct GradedSession : scenarios::ExamTask {
   scenarios::RubricSpec rubric;              ///< of the session: its own, else the scenario's
   std::shared_ptr<const ExamGround> ground;  ///< may be shared by all who sat the exam
   std::shared_ptr<const Tooth> before;       ///< of `ground`
@@ -31,23 +30,21 @@ struct GradedSession {
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<RemovedAt> removed;
-  std::vector<SessionEvent> events;
+  std::vector<TimedEvent> events;
   ReportFacts facts;
-  std::string sealed_result_json;                          ///< what the exam ended with; empty when it is just ending
-  std::vector<std::pair<std::string, std::string>> notes;  ///< of the session: accommodations granted
-  std::string landmarks_json;                              ///< that the exam's zones were laid by, where they follow any
-  bool landmarks_anew = false;                             ///< they follow some, and the recording holds none
-  std::int64_t sat_under_ticks = -1;                       ///< time limit that the exam ran under
-  std::optional<SessionSetup> again;                       ///< none when it was recorded under other physics than this program's
-  std::shared_ptr<const ToothApart> apart;                 ///< null: nothing stands beside the tooth
-  WorkApart own;                                           ///< where something does
+  std::string sealed_result_json;           ///< what the exam ended with; empty when it is just ending
+  bool landmarks_anew = false;              ///< the zones follow landmarks, and the recording holds none
+  std::int64_t sat_under_ticks = -1;        ///< time limit that the exam ran under
+  bool our_physics = false;                 ///< it was recorded under this program's
+  std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
+  WorkApart own;                            ///< where something does
   std::optional<GradeBeside> beside;
   [[nodiscard]] GradeInput input() const {
     GradeInput in{scenario, apart ? apart->own : *before,  *zones, apart ? own.after : after.octree, inputs,
                   records,  apart ? own.removed : removed, events};
     in.landmarks_anew = landmarks_anew;
     in.sat_under_ticks = sat_under_ticks;
-    in.again = again ? &*again : nullptr;
+    in.again = our_physics ? &session : nullptr;
     in.beside = beside ? &*beside : nullptr;
     in.known = ground ? &ground->known : nullptr;
     return in;
@@ -63,8 +60,6 @@ struct GradedSession {
 /// The same for an exam that is just ending, with the tooth as it is now.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
-/// The session's scenario with its surfaces and with what was granted to the candidate. Throws Error.
-[[nodiscard]] scenarios::Scenario scenario_in(const SessionSetup& setup, const std::string& where);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
 /// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, when an STL that the session ran

@@ -28,9 +28,9 @@ struct Lateness {
   [[nodiscard]] double worst_us() const noexcept { return static_cast<double>(worst_ns) * 1e-3; }
   /// Upper edge, µs, of the bin that the given share of all ticks does not exceed; the worst one for the last bin.
   [[nodiscard]] double quantile_us(double share) const noexcept {
-    std::int64_t seen = 0;
+    double seen = 0;
     for (std::size_t i = 0; i < k_edges_us.size(); ++i)
-      if (static_cast<double>(seen += counts[i]) >= share * static_cast<double>(ticks))
+      if ((seen += static_cast<double>(counts[i])) >= share * static_cast<double>(ticks))
         return std::min(static_cast<double>(k_edges_us[i]), worst_us());
     return worst_us();
   }

@@ -112,7 +112,7 @@ struct RealTimeServo::Loop {
       alive_ns.store(end, std::memory_order_release);
       if (enough()) break;
     }
-    report.why = enough() ? "ticks" : "asked";
+    report.why = enough() ? ServoEnd::ticks : ServoEnd::asked;
   }
   [[nodiscard]] bool enough() const noexcept { return options.max_ticks > 0 && report.ticks >= options.max_ticks; }
 
@@ -132,14 +132,14 @@ struct RealTimeServo::Loop {
     try {
       device.send_force({});
     } catch (...) {  // it was cut already
-      if (report.why != "device_failed") fail("zero force could not be sent");
+      if (report.why != ServoEnd::device_failed) fail("zero force could not be sent");
     }
-    stream.close(report.why.c_str(), report.error.c_str());
+    stream.close(report.why, report.error.c_str());
     finished.store(true, std::memory_order_release);
   }
   void fail(const char* what) {
     device.cut_force();  // before anything else
-    report.why = "device_failed";
+    report.why = ServoEnd::device_failed;
     report.error = what;
   }
 
@@ -182,7 +182,7 @@ void RealTimeServo::start() {
     loop->finished.store(true, std::memory_order_release);
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
-    loop->stream.close("device_failed", e.what());  // who empties it must not wait
+    loop->stream.close(ServoEnd::device_failed, e.what());  // who empties it must not wait
     throw Error(msg("servo"), msg("cannot have its two threads ({})", e.what()),
                 msg("close other programs, or raise the limits of memory and processes"));
   }

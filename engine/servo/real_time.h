@@ -34,8 +34,8 @@ struct RealTimeReport {
   Lateness work;                  ///< duration of reading, step and sending, in the same bins
   bool fifo = false, memory_locked = false;
   std::string fifo_refused = "not asked for", memory_refused = "not asked for";  ///< the system's reason; empty when granted
-  std::string why;                                                               ///< `asked`, `ticks`, `device_failed`
-  std::string error;                                                             ///< what the device threw
+  ServoEnd why = ServoEnd::asked;
+  std::string error;  ///< what the device threw
 };
 
 /// Late ticks: their input repeats the last one without k_stylus_fresh (and, past the watchdog's time, without

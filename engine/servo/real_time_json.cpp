@@ -28,7 +28,7 @@ nlohmann::json to_json(const RealTimeReport& s) {
           {"sched_fifo_refused", s.fifo_refused},
           {"memory_locked", s.memory_locked},
           {"memory_refused", s.memory_refused},
-          {"ended", s.why},
+          {"ended", k_servo_end_names[static_cast<std::size_t>(s.why)]},
           {"error", s.error}};
 }
 

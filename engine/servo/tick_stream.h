@@ -24,6 +24,10 @@ struct ServoTick {
   std::int64_t skipped_periods = 0;  ///< periods that passed without a tick just before this one
 };
 
+/// Why nothing follows: it was asked for, as many ticks as wanted were taken, or the device failed.
+enum class ServoEnd : std::uint8_t { asked, ticks, device_failed };
+inline constexpr std::array k_servo_end_names{"asked", "ticks", "device_failed"};
+
 class TickStream {
  public:
   /// Defaults: half a minute at 1 kHz, 11 MB.
@@ -36,10 +40,10 @@ class TickStream {
   bool push(const ServoTick& tick, std::span<const RemovedLeaf> removed) noexcept {
     return ticks_.room() > 0 && leaves_.push(removed) && ticks_.push(tick);  // leaves first: whoever sees the tick finds them
   }
-  /// Nothing follows. `why` is one word, `detail` any text; both are cut to what fits.
-  void close(const char* why, const char* detail) noexcept {
-    copy(why, why_);
-    copy(detail, detail_);
+  /// Nothing follows. `detail` is any text, cut to what fits.
+  void close(ServoEnd why, const char* detail) noexcept {
+    why_ = why;
+    for (std::size_t i = 0; i + 1 < detail_.size() && detail[i] != '\0'; ++i) detail_[i] = detail[i];
     closed_.store(true, std::memory_order_release);
   }
 
@@ -52,20 +56,13 @@ class TickStream {
   [[nodiscard]] std::size_t waiting() const noexcept { return ticks_.ready(); }
   [[nodiscard]] bool closed() const noexcept { return closed_.load(std::memory_order_acquire); }
   /// After `closed`.
-  [[nodiscard]] std::string why() const { return why_.data(); }
+  [[nodiscard]] ServoEnd why() const noexcept { return why_; }
   [[nodiscard]] std::string detail() const { return detail_.data(); }
 
  private:
-  template <std::size_t n>
-  static void copy(const char* from, std::array<char, n>& to) noexcept {
-    std::size_t i = 0;
-    for (; i + 1 < n && from[i] != '\0'; ++i) to[i] = from[i];
-    to[i] = '\0';
-  }
-
   SpscRing<ServoTick> ticks_;
   SpscRing<RemovedLeaf> leaves_;
-  std::array<char, 32> why_{};
+  ServoEnd why_ = ServoEnd::asked;
   std::array<char, 224> detail_{};
   std::atomic<bool> closed_{false};
 };

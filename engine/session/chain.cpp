@@ -45,9 +45,10 @@ Sha256 events_hash(std::span<const EventRow> events) {
   put_tag(out, "CVEVENT1");
   for (const auto& e : events) {
     out.put(e.seq);
-    out.put(e.event.tick);
-    out.put_string(e.event.kind);
-    out.put_string(e.event.detail_json);
+    out.put(e.tick);
+    const EventText text = encode(e.event);
+    out.put_string(text.kind);
+    out.put_string(text.detail_json);
   }
   return sha256(out.bytes());
 }

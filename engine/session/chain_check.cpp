@@ -22,7 +22,7 @@ std::vector<std::vector<EventRow>> events_by_chunk(const SessionReader& session,
     if (e.chunk >= 0 && e.chunk < static_cast<std::int64_t>(by_chunk.size()))
       by_chunk[static_cast<std::size_t>(e.chunk)].push_back(e);
     else
-      findings.push_back(fmt::format("table event, row {} (tick {}): belongs to no chunk", e.seq, e.event.tick));
+      findings.push_back(fmt::format("table event, row {} (tick {}): belongs to no chunk", e.seq, e.tick));
   }
   return by_chunk;
 }
@@ -44,8 +44,8 @@ void check_facts(const SessionReader& session, Findings& findings) {
   if (session.fact("format") != std::to_string(k_session_format))
     findings.push_back(
         fmt::format("table meta: the format is said to be '{}', and this is format {}", one_line(session.fact("format")), k_session_format));
-  for (const char* key : {"physics_version", "exam_rules", "first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm", "created_utc_ns", "created_boot_ns",
-                          "created_monotonic_ns"})
+  for (const char* key :
+       {"physics_version", "first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm", "created_utc_ns", "created_boot_ns", "created_monotonic_ns"})
     if (const std::string fact = session.fact(key); !fact.empty() && fact != std::to_string(session.number(key, 0)))
       findings.push_back(fmt::format("table meta: {} is '{}', which is no whole number in its range", key, one_line(fact)));
   for (const char* key : {"first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm"})

@@ -21,7 +21,7 @@ using InputWords = std::array<std::uint32_t, 10>;
 using RecordWords = std::array<std::uint32_t, 11>;
 
 [[noreturn]] void damaged(const std::string& where, const std::string& what) {
-  throw Error(where, what, "the recording is damaged here: use an intact copy");
+  throw Error(where, what, msg("the recording is damaged here: use an intact copy"));
 }
 
 std::uint32_t word(std::int32_t v) { return static_cast<std::uint32_t>(v); }

@@ -5,10 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
-#include <nlohmann/json.hpp>
-
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
 
 namespace cavum {
 namespace {
@@ -31,17 +27,14 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
   const double tick_s = std::strtod(session.fact("tick_s").c_str(), nullptr);
   if (session.chunks().empty() || !(tick_s > 0.0)) return out;
   std::vector<std::int64_t> gaps;  // first ticks after an acknowledged gap
-  for (const auto& e : session.events()) {
-    if (e.kind != "gap") continue;
+  for (const auto& e : session.event_rows()) {
+    const auto* gap = e.as<RecordingGap>();
+    if (gap == nullptr) continue;
     gaps.push_back(e.tick);
-    const auto detail = parse_json_or_null(e.detail_json);
-    const auto& gap_s = member_of(detail, "gap_utc_s");
-    const bool told = gap_s.is_number();
-    const std::string source = told ? text_in(member_of(detail, "source"), "device") : "";
-    out.push_back({e.tick, 0,
-                   fmt::format("interrupted{} and taken up again{}", told ? " for " + seconds(gap_s.get<double>()) : std::string(),
-                               source.empty() ? "" : " with " + source),
-                   false});
+    out.push_back(
+        {e.tick, 0,
+         fmt::format("interrupted for {} and taken up again{}", seconds(gap->utc_s()), gap->by.device.empty() ? "" : " with " + gap->by.device),
+         false});
   }
   Clocks before = session.created();
   double real_s = 0.0, told_s = 0.0, ahead_s = 0.0;  // since the beginning or the last gap
@@ -91,8 +84,8 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
 double admitted_lost_s(const SessionReader& session) {
   double s = 0.0;
   const double tick_s = std::strtod(session.fact("tick_s").c_str(), nullptr);
-  for (const auto& e : session.events())
-    if (e.kind == k_servo_gap_event) s += static_cast<double>(whole_in(parse_json_or_null(e.detail_json), "periods")) * tick_s;
+  for (const auto& e : session.event_rows())
+    if (const auto* gap = e.as<ServoGap>()) s += static_cast<double>(gap->periods) * tick_s;
   return s;
 }
 

@@ -3,13 +3,14 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
 namespace cavum {
 
-/// Facts of `meta`, and members of a gap's `source`.
+/// Facts of `meta`.
 inline constexpr char k_source_fact[] = "source", k_source_name_fact[] = "source_name", k_source_serial_fact[] = "source_serial";
 
 struct MotionSource {
@@ -23,6 +24,16 @@ struct MotionSource {
   /// "operator expert", "motion_file poses.csv", "practice".
   [[nodiscard]] std::string in_words() const { return (kind.empty() ? "a source that is not named" : kind) + (name.empty() ? "" : " " + name); }
   friend bool operator==(const MotionSource&, const MotionSource&) = default;
+};
+/// Further facts by key.
+using Notes = std::vector<std::pair<std::string, std::string>>;
+
+/// What gives the input of an exam that is taken up again.
+struct ResumedBy {
+  std::optional<MotionSource> source;  ///< none: nothing does, it is closed as it stands
+  std::string device = {};             ///< as SessionSetup::device
+  bool ticket_remembered = true;       ///< false: the station has no memory of having begun the exam of its ticket
+  Notes notes = {};
 };
 /// True for one of the kinds above.
 [[nodiscard]] bool is_source_kind(const std::string& kind);

@@ -10,11 +10,9 @@
 #include <chrono>
 #include <filesystem>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <set>
 
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/base/version.h"
 #include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
@@ -33,7 +31,6 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"format", std::to_string(k_session_format)},
       {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
-      {"exam_rules", std::to_string(setup.exam_rules)},
       {"candidate", setup.candidate},
       {"device", setup.device},
       {"calibration", setup.calibration},
@@ -86,7 +83,8 @@ void put_session_in_place(const std::string& made, const std::string& path) {
   }
   if (placed) return;
   ::unlink(made.c_str());
-  throw Error(path, "exists already: another exam began to record into it", "choose another name; an existing session is never overwritten");
+  throw Error(path, msg("exists already: another exam began to record into it"),
+              msg("choose another name; an existing session is never overwritten"));
 }
 
 constexpr char k_being_made[] = ".new-";
@@ -115,7 +113,7 @@ void remove_leftovers(const std::string& path) {
 void require_free(const std::string& path) {
   for (const char* suffix : {"", "-wal", "-journal"})
     if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
-      throw Error(path + suffix, "exists already", "choose another name; an existing session is never overwritten");
+      throw Error(path + suffix, msg("exists already"), msg("choose another name; an existing session is never overwritten"));
 }
 
 }  // namespace
@@ -130,7 +128,7 @@ Recorder::Recorder(std::string path, SigningKey key, ReadClocks clocks)
 
 Recorder Recorder::create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks) {
   const auto need = [&](bool there, const std::string& what) {
-    if (!there) throw Error(path, "a session needs " + what, "give it in the setup");
+    if (!there) throw Error(path, msg("a session needs {}", what), msg("give it in the setup"));
   };
   need(!setup.tooth.empty(), "a tooth");
   need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, "between 1 and 255 diamond points");
@@ -140,7 +138,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
   need(is_source_kind(setup.source.kind), "what moves the stylus");
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
-    if (!attached.insert(name).second) throw Error(path, fmt::format("two attachments are named '{}'", name), "give each its own name");
+    if (!attached.insert(name).second) throw Error(path, msg("two attachments are named '{}'", name), msg("give each its own name"));
   require_free(path);
 
   Recorder recorder(path, load_station_key(station_key_path()), clocks);
@@ -178,7 +176,7 @@ void Recorder::open_for_recording() {
   database_->run("PRAGMA locking_mode = EXCLUSIVE; PRAGMA foreign_keys = ON; PRAGMA synchronous = FULL; PRAGMA wal_autocheckpoint = 4000");
   database_->run("PRAGMA cache_size = -512");  // KiB: what is written is not read again, and an exam's memory stays the same for its whole length
   if (database_->text("PRAGMA journal_mode = WAL") != "wal")
-    throw Error(path_, "the file system does not allow a write-ahead log", "record to a local disk");
+    throw Error(path_, msg("the file system does not allow a write-ahead log"), msg("record to a local disk"));
   insert_chunk_ = database_->prepare(k_insert_chunk);
   insert_event_ = database_->prepare(k_insert_event);
 }
@@ -197,14 +195,14 @@ void Recorder::require_database() {
 }
 
 void Recorder::require_open() const {
-  if (sealed_) throw Error(path_, "the session is closed", "record into a new one");
+  if (sealed_) throw Error(path_, msg("the session is closed"), msg("record into a new one"));
 }
 
 void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
   require_open();
   if (record.removed != removed.size())
-    throw Error(path_, fmt::format("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
-                "hand over state.removed of the same tick");
+    throw Error(path_, msg("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
+                msg("hand over state.removed of the same tick"));
   Pending& now = pending_.back();
   now.inputs.push_back(input);
   now.records.push_back(record);
@@ -219,10 +217,9 @@ void Recorder::append(const TickInput& input, const TickRecord& record, std::spa
   write_pending();
 }
 
-void Recorder::add_event(std::int64_t tick, const std::string& kind, const std::string& detail_json) {
+void Recorder::add_event(std::int64_t tick, Event event) {
   require_open();
-  if (!is_json(detail_json)) throw Error("event " + kind, "its detail is not JSON: " + detail_json, "give one JSON value");
-  pending_.back().events.push_back({tick, kind, detail_json});
+  pending_.back().events.push_back({tick, std::move(event)});
 }
 
 void Recorder::flush() {
@@ -237,7 +234,7 @@ void Recorder::flush() {
 }
 
 void Recorder::move_to(const std::string& path, const std::string& why) {
-  if (database_ && !database_->is_open() && sealed_) throw Error(path_, "the session is closed", "copy its file");
+  if (database_ && !database_->is_open() && sealed_) throw Error(path_, msg("the session is closed"), msg("copy its file"));
   require_database();
   require_free(path);
   const std::string made = path + k_being_made + std::to_string(::getpid());
@@ -254,14 +251,14 @@ void Recorder::move_to(const std::string& path, const std::string& why) {
   }
   for (const char* end : {"-wal", "-shm"}) ::unlink((made + end).c_str());
   put_session_in_place(made, path);
-  const nlohmann::json detail{{"from", std::filesystem::path(path_).filename().string()}, {"ticks", ticks_on_disk_}, {"why", one_line(why)}};
+  RecordingMoved moved{std::filesystem::path(path_).filename().string(), ticks_on_disk_, why};
   insert_chunk_.reset();
   insert_event_.reset();
   database_->close();
   path_ = path;
   open_for_recording();
   if (sealed_) return;
-  pending_.back().events.push_back({ticks_, "moved", detail.dump()});
+  pending_.back().events.push_back({ticks_, std::move(moved)});
   flush();
 }
 
@@ -288,7 +285,7 @@ void Recorder::write_chunk(const Pending& pending) {
   c.records_sha256 = sha256(c.records);
   c.removed_sha256 = sha256(c.removed);
   std::vector<EventRow> events;
-  for (const auto& e : pending.events) events.push_back({next_event_ + static_cast<std::int64_t>(events.size()), c.seq, e});
+  for (const auto& e : pending.events) events.push_back({e, next_event_ + static_cast<std::int64_t>(events.size()), c.seq});
   c.events_sha256 = events_hash(events);
   c.prev_sha256 = chain_;
   c.sha256 = chunk_hash(c);
@@ -298,8 +295,10 @@ void Recorder::write_chunk(const Pending& pending) {
   insert_chunk_->bind(7, static_cast<std::int64_t>(c.state_hash)).bind(8, c.clocks.monotonic_ns).bind(9, c.clocks.boot_ns).bind(10, c.clocks.utc_ns);
   insert_chunk_->bind(11, c.inputs_sha256).bind(12, c.records_sha256).bind(13, c.removed_sha256).bind(14, c.events_sha256);
   insert_chunk_->bind(15, c.prev_sha256).bind(16, c.sha256).run();
-  for (const auto& e : events)
-    insert_event_->bind(1, e.seq).bind(2, e.event.tick).bind(3, e.chunk).bind(4, e.event.kind).bind(5, e.event.detail_json).run();
+  for (const auto& e : events) {
+    const EventText text = encode(e.event);
+    insert_event_->bind(1, e.seq).bind(2, e.tick).bind(3, e.chunk).bind(4, text.kind).bind(5, text.detail_json).run();
+  }
   transaction.commit();
 
   chain_ = c.sha256;
@@ -334,8 +333,8 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
 }
 
 void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
-  if (final_tooth.empty()) throw Error(path_, "the final tooth is missing", "give save_tooth of the drilled tooth");
-  if (!is_json(result_json, k_json_part)) throw Error(path_, "the result is not JSON", "give one JSON value");
+  if (final_tooth.empty()) throw Error(path_, msg("the final tooth is missing"), msg("give save_tooth of the drilled tooth"));
+  if (!is_json(result_json, k_json_part)) throw Error(path_, msg("the result is not JSON"), msg("give one JSON value"));
   require_database();
   if (!sealed_) write_seal(final_tooth, result_json);
   insert_chunk_.reset();

@@ -33,8 +33,8 @@ class Recorder {
   /// Nothing is lost while the process lives; what is pending is written with the next full second.
   void append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash);
 
-  /// Notes an event; it is written with the running second. `detail_json` is any JSON value; throws Error when it is not.
-  void add_event(std::int64_t tick, const std::string& kind, const std::string& detail_json);
+  /// Notes an event; it is written with the running second.
+  void add_event(std::int64_t tick, Event event);
 
   /// Writes everything pending, the running second included. Throws Error like `append`; call again after making room.
   void flush();
@@ -43,8 +43,8 @@ class Recorder {
   /// Throws Error when it cannot; nothing is lost, call again. After success only `ticks` may be called.
   void close(std::span<const std::uint8_t> final_tooth, const std::string& result_json);
 
-  /// Goes on in a new file at another place, for a disk that stays full: all that was written so far is copied there, an event `moved` is noted
-  /// ({"from","ticks","why"}), what waits is written, and what comes goes there. The first file stays as it is: a session that was never closed.
+  /// Goes on in a new file at another place, for a disk that stays full: all that was written so far is copied there, RecordingMoved is noted,
+  /// what waits is written, and what comes goes there. The first file stays as it is: a session that was never closed.
   /// Throws Error when `path` exists, or cannot be written either; before the copy is whole nothing has changed then, afterwards what waits goes on
   /// waiting for the new place.
   void move_to(const std::string& path, const std::string& why);
@@ -65,7 +65,7 @@ class Recorder {
     std::vector<TickInput> inputs;
     std::vector<TickRecord> records;
     RemovedTicks removed;
-    std::vector<SessionEvent> events;
+    std::vector<TimedEvent> events;
     std::uint64_t state_hash = 0;
     std::optional<Clocks> complete;  ///< when its last tick came
   };

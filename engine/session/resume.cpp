@@ -2,11 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
 
@@ -27,7 +22,7 @@ class Resumption {
     // Nobody may have written between reading and opening; the lock is ours from the first read on.
     if (recorder.database_->integer("SELECT count(*) FROM chunk") != recorder.next_chunk_ ||
         recorder.database_->integer("SELECT count(*) FROM seal") != 0)
-      throw Error(session.path(), "was written to while it was being resumed", "try again");
+      throw Error(session.path(), msg("was written to while it was being resumed"), msg("try again"));
     return recorder;
   }
   static std::string station_of(const Recorder& recorder) { return to_hex(recorder.key_.public_key); }
@@ -37,12 +32,12 @@ namespace {
 
 void require_intact(const SessionReader& session) {
   session.require_readable();
-  if (session.closed()) throw Error(session.path(), "is closed", "there is nothing to resume: start a new exam");
+  if (session.closed()) throw Error(session.path(), msg("is closed"), msg("there is nothing to resume: start a new exam"));
   const auto findings = check_chain(session);
   if (!findings.empty()) throw Error(session.path(), findings.front(), "it is evidence now: keep it, and start a new exam");
   if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(session.path(), fmt::format("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
-                "resume it with the program that recorded it");
+    throw Error(session.path(), msg("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
+                msg("resume it with the program that recorded it"));
 }
 
 void simulate(const SessionReader& session, Simulation& simulation, const TickVisitor& visit) {
@@ -54,43 +49,30 @@ void simulate(const SessionReader& session, Simulation& simulation, const TickVi
       if (visit) visit(c.first_tick + static_cast<std::int64_t>(t), motion.inputs[t], output, simulation.state);
     }
     if (c.ticks > 0 && state_hash(simulation.state) != c.state_hash)
-      throw Error(session.path(), fmt::format("replays differently by tick {}", c.first_tick + c.ticks), "run `cavum replay --verify` on it");
+      throw Error(session.path(), msg("replays differently by tick {}", c.first_tick + c.ticks), msg("run `cavum replay --verify` on it"));
   }
 }
 
-std::string gap_detail(const SessionReader& session, const SourceNotes& source, const std::string& station_key, const Clocks& now) {
-  Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
+RecordingGap gap_of(const SessionReader& session, const ResumedBy& by, const std::string& station_key, const Clocks& now) {
+  const Clocks last = session.chunks().empty() ? session.created() : session.chunks().back().clocks;
   std::string last_boot = session.fact("boot_id");
   for (const auto& e : session.event_rows())
-    if (e.event.kind == "gap")
-      if (const auto boot = text_in(parse_json_or_null(e.event.detail_json), "boot_id"); !boot.empty()) last_boot = boot;
-  const std::string this_boot = boot_id();
-  nlohmann::json detail;
-  detail["last_utc_ns"] = last.utc_ns;
-  detail["resumed_utc_ns"] = now.utc_ns;
-  detail["gap_utc_s"] = static_cast<double>(now.utc_ns - last.utc_ns) * 1e-9;
-  detail["gap_boot_s"] = nullptr;
-  if (!this_boot.empty() && this_boot == last_boot) detail["gap_boot_s"] = static_cast<double>(now.boot_ns - last.boot_ns) * 1e-9;
-  detail["boot_id"] = this_boot;
-  detail["station_key"] = station_key;
-  for (const auto& [key, value] : source) detail["source"][one_line(key)] = one_line(value);
-  return detail.dump();
+    if (const auto* gap = e.as<RecordingGap>(); gap != nullptr && !gap->boot_id.empty()) last_boot = gap->boot_id;
+  RecordingGap gap{last.utc_ns, now.utc_ns, {}, boot_id(), station_key, by};
+  if (!gap.boot_id.empty() && gap.boot_id == last_boot) gap.boot_s = static_cast<double>(now.boot_ns - last.boot_ns) * 1e-9;
+  return gap;
 }
 
 }  // namespace
 
-SourceNotes to_notes(const MotionSource& source) {
-  return {{k_source_fact, source.kind}, {k_source_name_fact, source.name}, {k_source_serial_fact, source.serial}};
-}
-
-ResumedSession resume_session(const std::string& path, const TickVisitor& visit, const SourceNotes& source, const ReadClocks& clocks) {
+ResumedSession resume_session(const std::string& path, const TickVisitor& visit, const ResumedBy& by, const ReadClocks& clocks) {
   const SessionReader session(path);
   require_intact(session);
   SessionSetup setup = session.setup();
   Simulation simulation = make_simulation(setup, path);
   simulate(session, simulation, visit);
   Recorder recorder = Resumption::open(session, clocks);
-  recorder.add_event(session.ticks(), "gap", gap_detail(session, source, Resumption::station_of(recorder), clocks()));
+  recorder.add_event(session.ticks(), gap_of(session, by, Resumption::station_of(recorder), clocks()));
   try {
     recorder.flush();
   } catch (const DatabaseError&) {  // a full disk: the gap waits in memory, and is written before anything that comes

@@ -13,7 +13,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/vec.h"
 #include "engine/servo/tick.h"
-#include "engine/session/motion_source.h"
+#include "engine/session/event.h"
 
 namespace cavum {
 
@@ -31,7 +31,6 @@ struct SessionSetup {
   std::string device;       ///< name of the stylus, or of the simulated operator
   std::string calibration;  ///< the device's calibration, as text
   MotionSource source;      ///< what moves the stylus
-  int exam_rules = 1;       ///< by which the exam ends (scenarios/exam/runner.h)
   std::string scenario_toml;
   std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;
@@ -39,7 +38,7 @@ struct SessionSetup {
   std::vector<std::string> points_toml;                    ///< diamond points in the order of the tray
   Bytes tooth;                                             ///< compact tooth file before the first tick
   std::array<std::int32_t, 3> first_tip_nm{};              ///< where the servo state starts, tooth frame
-  std::vector<std::pair<std::string, std::string>> notes;  ///< further facts by key (operator's seed, room …)
+  Notes notes;                                             ///< further facts by key (operator's seed, room …)
   std::string landmarks_json;                              ///< of the tooth, where the scenario's zones follow them; empty otherwise
   std::vector<std::pair<std::string, Bytes>> attachments;  ///< files that the scenario names, by name
 
@@ -59,17 +58,6 @@ using ReadClocks = std::function<Clocks()>;
 /// "2026-11-21T02:30:00Z"
 [[nodiscard]] std::string utc_text(std::int64_t utc_ns);
 
-/// Something that happened in an exam: a step completed, a violation, a gap in the recording.
-struct SessionEvent {
-  std::int64_t tick = 0;    ///< of the exam, from 0
-  std::string kind;         ///< `gap` and `moved` are the recorder's own; the others belong to scenario and station
-  std::string detail_json;  ///< one JSON value
-  friend bool operator==(const SessionEvent&, const SessionEvent&) = default;
-};
-
-/// Kind of the event that owns up to periods of the servo which passed without a tick: {"periods","times","first_tick"}.
-inline constexpr char k_servo_gap_event[] = "servo_gap";
-
 /// A file kept inside the session.
 struct Artifact {
   std::string name;
@@ -79,10 +67,9 @@ struct Artifact {
 inline constexpr char k_final_tooth[] = "final_tooth.cvt";
 
 /// One row of `event`.
-struct EventRow {
+struct EventRow : TimedEvent {
   std::int64_t seq = 0;
   std::int64_t chunk = 0;  ///< the chunk it was committed with
-  SessionEvent event;
 };
 
 /// One row of `chunk`: up to a second of motion as packed by chunk_codec.h. No ticks = events only.

@@ -19,9 +19,9 @@ constexpr char k_magic[] = "SQLite format 3";  // 16 bytes with its zero
 
 void check_file(const std::string& path) {
   struct stat info {};
-  if (::stat(path.c_str(), &info) != 0) throw Error(path, fmt::format("cannot be opened ({})", std::strerror(errno)), "check the path");
-  if (!S_ISREG(info.st_mode)) throw Error(path, "is not a regular file", "name a session file");
-  if (info.st_size > k_largest_file) throw Error(path, "is larger than any session", "name a session file");
+  if (::stat(path.c_str(), &info) != 0) throw Error(path, msg("cannot be opened ({})", std::strerror(errno)), msg("check the path"));
+  if (!S_ISREG(info.st_mode)) throw Error(path, msg("is not a regular file"), msg("name a session file"));
+  if (info.st_size > k_largest_file) throw Error(path, msg("is larger than any session"), msg("name a session file"));
 }
 
 std::optional<Bytes> read_beside(const std::string& path) {
@@ -46,9 +46,9 @@ Bytes apply(const Bytes& file, const std::optional<Bytes>& log, const std::optio
 }  // namespace
 
 void require_session_image(const Bytes& file, const std::string& path) {
-  if (file.empty()) throw Error(path, "is empty", "name a session file");
+  if (file.empty()) throw Error(path, msg("is empty"), msg("name a session file"));
   if (file.size() < 100 || std::memcmp(file.data(), k_magic, sizeof k_magic) != 0)
-    throw Error(path, "is not a session file (no SQLite header)", "name a .cavum file that an exam wrote, or use an intact copy");
+    throw Error(path, msg("is not a session file (no SQLite header)"), msg("name a .cavum file that an exam wrote, or use an intact copy"));
 }
 
 Bytes read_session_image(const std::string& path, std::vector<std::string>& findings) {

@@ -29,7 +29,7 @@ void read_table(Database& database, const char* table, const std::string& column
   try {
     Statement s = database.prepare(fmt::format("SELECT {} FROM {} ORDER BY 1", columns, table).c_str());
     for (; s.step(); ++rows) {
-      if (rows == k_most_rows) throw Error(table, "has more rows than any session", "use an intact copy");
+      if (rows == k_most_rows) throw Error(table, msg("has more rows than any session"), msg("use an intact copy"));
       row(s);
     }
   } catch (const Error& e) {
@@ -39,7 +39,7 @@ void read_table(Database& database, const char* table, const std::string& column
 
 std::int64_t rising(const Statement& s, std::int64_t expected, const char* table) {
   const std::int64_t seq = s.integer(0);
-  if (seq != expected) throw Error(table, fmt::format("number {} is missing or moved (found {})", expected, seq), "use an intact copy");
+  if (seq != expected) throw Error(table, msg("number {} is missing or moved (found {})", expected, seq), msg("use an intact copy"));
   return seq;
 }
 
@@ -48,8 +48,8 @@ void check_schema(Database& database, std::vector<std::string>& findings) {
   Statement s = database.prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
   for (; s.step(); ++i)
     if (i >= k_session_schema.size() || s.text(0) != "table" || s.text(2) != k_session_schema[i])
-      throw Error("schema", fmt::format("'{}' is not a table of a session of format {}", s.text(1), k_session_format), "use an intact copy");
-  if (i != k_session_schema.size()) throw Error("schema", "a table is missing", "use an intact copy");
+      throw Error(msg("schema"), msg("'{}' is not a table of a session of format {}", s.text(1), k_session_format), msg("use an intact copy"));
+  if (i != k_session_schema.size()) throw Error(msg("schema"), msg("a table is missing"), msg("use an intact copy"));
   if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
     findings.push_back(fmt::format("file: user_version is {}, this program reads format {}", v, k_session_format));
   if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back("file: application_id is not Cavum's");
@@ -102,7 +102,7 @@ void SessionReader::read(Bytes image) {
   try {
     check_schema(database, findings_);
   } catch (const Error& e) {
-    if (!marked) throw Error(path_, "is an SQLite database, but not a Cavum session", "name a .cavum file that an exam wrote");
+    if (!marked) throw Error(path_, msg("is an SQLite database, but not a Cavum session"), msg("name a .cavum file that an exam wrote"));
     findings_.push_back(fmt::format("file: {}", e.what()));
     return;  // with tables of another shape, every query would be a guess
   }
@@ -110,9 +110,16 @@ void SessionReader::read(Bytes image) {
   read_table(database, "meta", "key, value", findings_, [&](const Statement& row) { meta_.emplace(row.text(0), row.text(1)); });
   read_artifacts(database);
   read_chunks(database);
+  std::int64_t next_event = 0;
   read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& row) {
-    const auto seq = rising(row, static_cast<std::int64_t>(events_.size()), "event");
-    events_.push_back({seq, row.integer(2), {row.integer(1), row.text(3), row.text(4)}});
+    const auto seq = rising(row, next_event++, "event");
+    try {
+      events_.push_back({{row.integer(1), decode({row.text(3), row.text(4)}, fmt::format("table event, row {}", seq))}, seq, row.integer(2)});
+    } catch (const DatabaseError&) {
+      throw;
+    } catch (const Error& e) {
+      findings_.emplace_back(e.what());
+    }
   });
   read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {
     rising(row, 0, "result");
@@ -126,7 +133,7 @@ void SessionReader::read_artifacts(Database& database) {
   read_table(database, "artifact", "seq, name, sha256, size_bytes, bytes", findings_, [&](const Statement& row) {
     rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
     Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
-    if (!names.insert(a.name).second) throw Error("artifact", fmt::format("'{}' is there twice", a.name), "use an intact copy");
+    if (!names.insert(a.name).second) throw Error(msg("artifact"), msg("'{}' is there twice", a.name), msg("use an intact copy"));
     if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size()))
       findings_.push_back(fmt::format("table artifact, '{}': its size was changed", a.name));
     artifacts_.push_back(std::move(a));
@@ -140,8 +147,8 @@ void SessionReader::read_chunks(Database& database) {
   read_table(database, "chunk", columns, findings_, [&](const Statement& row) {
     ChunkRow c = chunk_at(row, static_cast<std::int64_t>(chunks_.size()));
     const std::string where = fmt::format("table chunk, {}", c.seq);
-    if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, fmt::format("{} ticks", c.ticks), "use an intact copy");
-    if (c.first_tick != ticks()) throw Error(where, fmt::format("begins at tick {} instead of {}", c.first_tick, ticks()), "use an intact copy");
+    if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, msg("{} ticks", c.ticks), msg("use an intact copy"));
+    if (c.first_tick != ticks()) throw Error(where, msg("begins at tick {} instead of {}", c.first_tick, ticks()), msg("use an intact copy"));
     chunks_.push_back(std::move(c));
   });
 }
@@ -187,7 +194,6 @@ SessionSetup SessionReader::setup() const {
   s.candidate = fact("candidate");
   s.device = fact("device");
   s.calibration = fact("calibration");
-  s.exam_rules = static_cast<int>(std::clamp<std::int64_t>(number("exam_rules", 1), 0, 1'000'000));
   s.source = {fact(k_source_fact), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");
   s.rubric_toml = text("rubric.toml");
@@ -213,13 +219,6 @@ Bytes SessionReader::final_tooth() const {
 
 Clocks SessionReader::created() const { return {number("created_monotonic_ns", 0), number("created_boot_ns", 0), number("created_utc_ns", 0)}; }
 
-std::vector<SessionEvent> SessionReader::events() const {
-  std::vector<SessionEvent> all;
-  all.reserve(events_.size());
-  for (const auto& e : events_) all.push_back(e.event);
-  return all;
-}
-
 ChunkMotion SessionReader::motion(std::size_t index) const {
   const ChunkRow& c = chunks_.at(index);
   const std::string where = fmt::format("{}: chunk {}, ", path_, c.seq);
@@ -227,9 +226,9 @@ ChunkMotion SessionReader::motion(std::size_t index) const {
                 unpack_removed(c.removed, c.ticks, where + "removed")};
   for (std::size_t i = 0; i < m.records.size(); ++i)
     if (m.records[i].removed != m.removed.counts[i])
-      throw Error(fmt::format("{}tick {}", where, c.first_tick + static_cast<std::int64_t>(i)),
-                  fmt::format("{} leaves removed by the records, {} listed", m.records[i].removed, m.removed.counts[i]),
-                  "the recording is damaged here: use an intact copy");
+      throw Error(msg("{}tick {}", where, c.first_tick + static_cast<std::int64_t>(i)),
+                  msg("{} leaves removed by the records, {} listed", m.records[i].removed, m.removed.counts[i]),
+                  msg("the recording is damaged here: use an intact copy"));
   return m;
 }
 
@@ -257,8 +256,7 @@ std::vector<RemovedAt> SessionReader::removed() const {
     const auto part = unpack_removed(c.removed, c.ticks, fmt::format("{}: chunk {}, removed", path_, c.seq));
     std::size_t at = 0;
     if (all.size() + part.leaves.size() > k_most_removed_leaves)
-      throw Error(path_, fmt::format("says that more than {} leaves were removed", k_most_removed_leaves),
-                  "use an intact copy: no tooth has as many");
+      throw Error(path_, msg("says that more than {} leaves were removed", k_most_removed_leaves), msg("use an intact copy: no tooth has as many"));
     for (std::size_t i = 0; i < part.counts.size(); ++i)
       for (std::uint32_t k = 0; k < part.counts[i]; ++k) all.push_back({c.first_tick + static_cast<std::int64_t>(i), part.leaves[at++]});
   }

@@ -59,7 +59,7 @@ class SessionReader {
   [[nodiscard]] const std::vector<EventRow>& event_rows() const noexcept { return events_; }
   /// Ticks recorded, from the numbers of the last chunk.
   [[nodiscard]] std::int64_t ticks() const noexcept { return chunks_.empty() ? 0 : chunks_.back().first_tick + chunks_.back().ticks; }
-  [[nodiscard]] std::vector<SessionEvent> events() const;
+  [[nodiscard]] std::vector<TimedEvent> events() const { return {events_.begin(), events_.end()}; }
 
   /// Motion of chunks()[index]. Throws Error(path: chunk N, …) when it does not unpack.
   [[nodiscard]] ChunkMotion motion(std::size_t index) const;

@@ -2,7 +2,6 @@
 
 #include <chrono>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 namespace cavum {
 
@@ -42,11 +41,9 @@ void SessionWriter::run() noexcept {
     if (last_round) break;
     std::this_thread::sleep_for(std::chrono::milliseconds(5));
   }
-  report_.why = stream_.why();
   guarded([&] {
     note_counts(recorder_.ticks());
-    const nlohmann::json detail{{"why", stream_.why()}, {"error", stream_.detail()}};
-    recorder_.add_event(recorder_.ticks(), "servo_stopped", detail.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+    recorder_.add_event(recorder_.ticks(), ServoStopped{stream_.why(), stream_.detail()});
   });
   guarded([&] { recorder_.flush(); });
 }
@@ -71,13 +68,12 @@ void SessionWriter::note_changes(const ServoTick& tick) {
     gap_periods_ += tick.skipped_periods;
   }
   const bool silent = (tick.output.notices & k_notice_stale_stylus) != 0;
-  if (silent && !was_silent_)
-    recorder_.add_event(tick.tick, "stylus_silent", nlohmann::json{{"fault", (tick.input.flags & k_stylus_fault) != 0}}.dump());
-  if (!silent && was_silent_) recorder_.add_event(tick.tick, "stylus_back", "null");
+  if (silent && !was_silent_) recorder_.add_event(tick.tick, StylusSilent{(tick.input.flags & k_stylus_fault) != 0});
+  if (!silent && was_silent_) recorder_.add_event(tick.tick, StylusBack{});
   was_silent_ = silent;
   const int gone = last_flags_ & ~tick.input.flags, come = tick.input.flags & ~last_flags_;
-  if ((gone & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, "pedal_lost", "null");
-  if ((come & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, "pedal_back", "null");
+  if ((gone & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, PedalLost{});
+  if ((come & k_pedal_fresh) != 0) recorder_.add_event(tick.tick, PedalBack{});
   last_flags_ = tick.input.flags;
   if (tick.late_ns > period_ns_) {
     ++overruns_;
@@ -88,10 +84,8 @@ void SessionWriter::note_changes(const ServoTick& tick) {
 
 void SessionWriter::note_counts(std::int64_t tick) {
   counted_since_ = tick;
-  if (gaps_ > 0)
-    recorder_.add_event(tick, k_servo_gap_event, nlohmann::json{{"periods", gap_periods_}, {"times", gaps_}, {"first_tick", first_gap_tick_}}.dump());
-  if (overruns_ > 0)
-    recorder_.add_event(tick, "overruns", nlohmann::json{{"count", overruns_}, {"worst_late_ms", static_cast<double>(worst_late_ns_) * 1e-6}}.dump());
+  if (gaps_ > 0) recorder_.add_event(tick, ServoGap{gap_periods_, gaps_, first_gap_tick_});
+  if (overruns_ > 0) recorder_.add_event(tick, Overruns{overruns_, static_cast<double>(worst_late_ns_) * 1e-6});
   gap_periods_ = gaps_ = overruns_ = worst_late_ns_ = 0;
 }
 

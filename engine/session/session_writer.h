@@ -18,17 +18,10 @@ namespace cavum {
 struct WriterReport {
   std::int64_t ticks = 0;         ///< taken from the stream
   std::int64_t most_waiting = 0;  ///< ticks that were waiting at the worst moment
-  std::string why;                ///< of the stream's end
   std::string error;              ///< first error of recorder or watch; empty = everything is on disk
 };
 
-/// Events it writes, with `detail_json`:
-///   `overruns`      {"count", "worst_late_ms"}: ticks of the last second that started more than a period late
-///   `servo_gap`     {"periods", "times", "first_tick"}: periods of the last second that passed without a tick, and before which
-///   `stylus_silent` {"fault"}: no fresh pose for longer than the watchdog allows, the force fades (fault: it gave NaN or nonsense)
-///   `stylus_back`   null
-///   `pedal_lost`, `pedal_back` null
-///   `servo_stopped` {"why", "error"}
+/// Events it writes: Overruns and ServoGap each second, StylusSilent and StylusBack, PedalLost and PedalBack, ServoStopped.
 class SessionWriter {
  public:
   /// Sees every tick on the writer's thread before it is recorded; may add events to the recorder. Returns whether the writer shall

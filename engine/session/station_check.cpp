@@ -2,10 +2,6 @@
 
 #include <fmt/core.h>
 
-#include <nlohmann/json.hpp>
-
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
 #include "engine/session/chain.h"
 
 namespace cavum {
@@ -13,15 +9,15 @@ namespace cavum {
 std::vector<std::string> check_stations(const SessionReader& session) {
   std::vector<std::string> findings;
   const std::string begun = session.fact(k_station_fact);
-  for (const auto& e : session.events()) {
-    if (e.kind != "gap") continue;
-    const auto detail = parse_json_or_null(e.detail_json);
-    const std::string by = text_in(detail, "station_key"), when = fmt::format("the exam was taken up again at tick {}", e.tick);
+  for (const auto& e : session.event_rows()) {
+    const auto* gap = e.as<RecordingGap>();
+    if (gap == nullptr) continue;
+    const std::string &by = gap->station_key, when = fmt::format("the exam was taken up again at tick {}", e.tick);
     if (begun.empty())
       findings.push_back(when + ", and the recording does not say which station began it");
     else if (by != begun)
       findings.push_back(fmt::format("{} by another station than began it: {}, begun by {}", when, by.empty() ? "one that is not named" : by, begun));
-    else if (text_in(member_of(detail, "source"), k_memory_note) == k_not_remembered)
+    else if (!gap->by.ticket_remembered)
       findings.push_back(when + " at a station that did not remember beginning it: its memory of used tickets was removed");
   }
   if (session.seal() && !begun.empty() && to_hex(session.seal()->public_key) != begun)

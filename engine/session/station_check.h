@@ -9,9 +9,6 @@
 
 namespace cavum {
 
-/// Key and value among the notes of a gap's source when the station has no memory of having begun the exam of its ticket.
-inline constexpr char k_memory_note[] = "ticket_remembered", k_not_remembered[] = "no";
-
 /// In words, for a person to decide: taken up again or ended by another station than began it; taken up again at a station that does not remember
 /// it; taken up again in a recording that does not say who began it. Empty for an exam that one station began, interrupted or not, and ended.
 [[nodiscard]] std::vector<std::string> check_stations(const SessionReader& session);

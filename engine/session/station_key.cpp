@@ -20,13 +20,13 @@ namespace {
 std::string heading_of(const std::string& owner) { return fmt::format("cavum {} key 1 (Ed25519 seed; keep secret): ", owner); }
 
 void start_sodium() {
-  if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
+  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("does not start"), msg("check the installation of libsodium"));
 }
 
 // link() makes the complete file appear in one step and never replaces a key that another process just made.
 void make_key(const std::string& path, const std::string& owner) {
   const auto fail = [&](const std::string& what) {
-    throw Error(path, fmt::format("{} ({})", what, std::strerror(errno)), "make its folder writable, or set CAVUM_HOME to a folder that is");
+    throw Error(path, msg("{} ({})", what, std::strerror(errno)), msg("make its folder writable, or set CAVUM_HOME to a folder that is"));
   };
   make_private_folder(std::filesystem::path(path).parent_path().string());
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
@@ -60,7 +60,7 @@ SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   struct stat info {};
   if (::stat(path.c_str(), &info) != 0 && errno == ENOENT) make_key(path, owner);
   if (::stat(path.c_str(), &info) == 0 && (info.st_mode & 077) != 0)
-    throw Error(path, fmt::format("the {}'s key may be read by others", owner), "chmod 600 it, and replace it if someone may have copied it");
+    throw Error(path, msg("the {}'s key may be read by others", owner), msg("chmod 600 it, and replace it if someone may have copied it"));
   const std::string text = read_text_file(path);
   const std::string heading = heading_of(owner);
   std::array<std::uint8_t, crypto_sign_SEEDBYTES> seed{};
@@ -68,7 +68,7 @@ SigningKey load_signing_key(const std::string& path, const std::string& owner) {
   const bool whole = text.size() == heading.size() + 2 * seed.size() + 1 && text.starts_with(heading) && text.back() == '\n' &&
                      sodium_hex2bin(seed.data(), seed.size(), text.data() + heading.size(), 2 * seed.size(), nullptr, &read, nullptr) == 0 &&
                      read == seed.size();
-  if (!whole) throw Error(path, fmt::format("the {}'s key is damaged", owner), "restore it from a backup, or remove it and let a new one be made");
+  if (!whole) throw Error(path, msg("the {}'s key is damaged", owner), msg("restore it from a backup, or remove it and let a new one be made"));
   SigningKey key;
   crypto_sign_seed_keypair(key.public_key.data(), key.secret_key.data(), seed.data());
   return key;
@@ -100,8 +100,8 @@ std::string parse_public_key(const std::string& text, const std::string& where) 
   for (char& c : key)
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
   if (key.size() != 64 || key.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw Error(where, "is not a station's public key: 64 hexadecimal digits",
-                "copy it from what `cavum replay --verify` says of a session of that station");
+    throw Error(where, msg("is not a station's public key: 64 hexadecimal digits"),
+                msg("copy it from what `cavum replay --verify` says of a session of that station"));
   return key;
 }
 

@@ -6,7 +6,6 @@
 #include "engine/base/error.h"
 #include "engine/tooth/octree_edit.h"
 #include "grading/breakthrough/exposure.h"
-#include "scenarios/exam/exam.h"
 #include "scenarios/exam/runner.h"
 
 namespace cavum::grading {
@@ -46,7 +45,7 @@ struct Moment {
 
 class Sitting {
  public:
-  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.points, scenarios::k_exam_rules) {}
+  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.points) {}
 
   /// One tick; what is done once the exam is over is late work.
   void tick(const Moment& m, std::span<const RemovedLeaf> gone) {
@@ -69,16 +68,12 @@ class Sitting {
   }
   /// Over, or nothing is left to do in it.
   [[nodiscard]] bool done() const {
-    return state_->finish != scenarios::Finish::running || static_cast<std::size_t>(state_->step) >= task_.scenario.steps.size();
+    return state_->finish != Finish::running || static_cast<std::size_t>(state_->step) >= task_.scenario.steps.size();
   }
 
   [[nodiscard]] Result hand_in(const Octree& after, const std::function<void(const GradeInput&, const Result&)>& look) {
     runner_.end(*state_);
-    std::vector<SessionEvent> events;
-    for (std::uint32_t i = 0; i < state_->event_count; ++i) {
-      const scenarios::ExamEvent& e = state_->events[i];
-      events.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, task_.scenario, task_.tooth)});
-    }
+    const std::vector<TimedEvent> events = state_->events_from(0);
     const auto marked = [&](const GradeInput& in) {
       Result r = grade(in, task_.scenario.rubric);
       if (look) look(in, r);

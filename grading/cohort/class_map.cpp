@@ -111,12 +111,10 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
         places.folder,
         fmt::format("no session of '{}' can be read{}", one_line(exam), out->findings.empty() ? "" : fmt::format(" ({})", out->findings.front())),
         fmt::format("see `cavum ledger verify {}`", places.folder));
-  const SessionReader reader(most->second.path);
-  const SessionSetup setup = reader.setup();
-  out->scenario = scenarios::parse_scenario(setup.scenario_toml, most->second.path + ": scenario", scenarios::Reading::recorded);
-  scenarios::use_surfaces(out->scenario, setup.attachments);
-  out->tooth = load_tooth(setup.tooth, most->second.path + ": tooth");
-  out->zones = scenarios::build_zones_of_exam(out->scenario, out->tooth, setup.landmarks_json, most->second.path);
+  const auto sat = scenarios::prepare_exam(SessionReader(most->second.path).setup());
+  out->scenario = std::move(sat->scenario);
+  out->tooth = std::move(sat->tooth);
+  out->zones = std::move(sat->zones);
   out->map = std::make_unique<ClassMap>(out->zones);
   for (const auto& cavity : most->second.cavities) out->map->add(cavity);
   for (const auto& [key, task] : tasks)

@@ -45,13 +45,12 @@ std::vector<std::string> check_course(const SessionReader& session, const Sessio
         fmt::format("it was handed in on {}, more than a day after its ticket's time and after it ended by the station's clock ({}): nothing but "
                     "that clock shows when it was sat",
                     utc_text(received_utc_ns), utc_text(closed)));
-  for (const auto& e : session.events()) {
-    const json detail = e.kind == "gap" ? parse_json_or_null(e.detail_json) : json();
-    if (!detail.is_object()) continue;
-    const std::int64_t resumed = whole_in(detail, "resumed_utc_ns");
-    if (ticket && resumed > ticket->ticket.not_after_utc_ns)
-      findings.push_back(fmt::format("the exam was taken up again on {}, when its ticket was no longer good", utc_text(resumed)));
-    const std::string source = text_in(member_of(detail, "source"), "device");
+  for (const auto& e : session.event_rows()) {
+    const auto* gap = e.as<RecordingGap>();
+    if (gap == nullptr) continue;
+    if (ticket && gap->resumed_utc_ns > ticket->ticket.not_after_utc_ns)
+      findings.push_back(fmt::format("the exam was taken up again on {}, when its ticket was no longer good", utc_text(gap->resumed_utc_ns)));
+    const std::string& source = gap->by.device;
     if (!source.empty() && source != setup.device)
       findings.push_back(fmt::format("the exam was begun with {}, and taken up again with {}", setup.device, source));
   }
@@ -98,9 +97,9 @@ std::vector<HeldTime> held_times(const SessionReader& session) {
     return utc_ns;
   };
   std::vector<HeldTime> held;
-  for (const auto& e : session.events()) {
-    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::hold_started)) held.emplace_back(utc_at(e.tick), 0);
-    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::hold_ended) && !held.empty()) held.back().second = utc_at(e.tick);
+  for (const auto& e : session.event_rows()) {
+    if (e.as<HoldStarted>() != nullptr) held.emplace_back(utc_at(e.tick), 0);
+    if (e.as<HoldEnded>() != nullptr && !held.empty()) held.back().second = utc_at(e.tick);
   }
   if (!held.empty() && held.back().second == 0) held.back().second = session.seal()->clocks.utc_ns;
   return held;
@@ -131,8 +130,8 @@ std::vector<std::string> check_hand(const Registry& registry, const SessionReade
 
 /// Where a recording was taken up again at or after this tick: "taken up again at tick N", or nothing.
 std::string resumed_from(const SessionReader& session, std::int64_t tick) {
-  for (const auto& e : session.events())
-    if (e.kind == "gap" && e.tick >= tick) return fmt::format(", taken up again at tick {}", e.tick);
+  for (const auto& e : session.event_rows())
+    if (e.as<RecordingGap>() != nullptr && e.tick >= tick) return fmt::format(", taken up again at tick {}", e.tick);
   return {};
 }
 

@@ -15,7 +15,6 @@
 #include "engine/session/verify.h"
 #include "grading/ledger/ticket.h"
 #include "grading/school_mark.h"
-#include "grading/session_input.h"
 #include "scenarios/exam/exam.h"
 
 namespace cavum::ledger {
@@ -59,7 +58,8 @@ void say_ticket(SessionExplanation& e, const SessionReader& session, const Sessi
                 const std::string& school_key) {
   const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
   auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
-  for (auto& f : scenarios::check_servo(setup.servo_toml, grading::scenario_in(setup, "the session"))) wrong.push_back(std::move(f));
+  for (auto& f : scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario of the session").scenario))
+    wrong.push_back(std::move(f));
   e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
   if (wrong.empty())
     e.proved.push_back(
@@ -85,14 +85,14 @@ void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
 /// What was tried to leave a locked exam.
 void say_attempts(SessionExplanation& e, const SessionReader& session) {
   for (const LockSummary& s : lock_summary(session.events()))
-    e.remarks.push_back(fmt::format("during the exam, {} s after its beginning: {}{}", fixed(static_cast<double>(s.first_tick) * 1e-3, 1), s.words,
-                                    s.times > 1 ? fmt::format(" ({} times in all)", s.times) : ""));
+    e.remarks.push_back(fmt::format("during the exam, {} s after its beginning: {}{}", fixed(static_cast<double>(s.first_tick) * 1e-3, 1),
+                                    lock_words(s.first), s.times > 1 ? fmt::format(" ({} times in all)", s.times) : ""));
 }
 
 /// Where it was recorded, how the clocks ran, and what lies beside the file.
 void say_circumstances(SessionExplanation& e, const SessionReader& session, const std::string& path) {
   for (const auto& event : session.events())
-    if (event.kind == "moved")
+    if (event.as<RecordingMoved>() != nullptr)
       e.remarks.push_back(
           fmt::format("from {} s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam",
                       fixed(static_cast<double>(event.tick) * 1e-3, 1)));

@@ -147,9 +147,9 @@ void remember_closed(const std::vector<std::pair<std::string, std::string>>& not
   }
 }
 
-SourceNotes require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
+bool require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
   const std::string nonce = nonce_in(notes, session);
-  if (nonce.empty()) return {};
+  if (nonce.empty()) return true;
   std::string use;
   if (std::filesystem::exists(used_tickets_path())) {
     UsedTickets used;
@@ -158,7 +158,7 @@ SourceNotes require_not_closed(const std::vector<std::pair<std::string, std::str
       throw Error(session, "the exam of its ticket was closed at this station " + use,
                   "hand that one in: an exam that was closed is not taken up again");
   }
-  return use.empty() ? SourceNotes{{k_memory_note, k_not_remembered}} : SourceNotes{};
+  return !use.empty();
 }
 
 void forget_use(const HeldTicket& held) noexcept {

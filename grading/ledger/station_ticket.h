@@ -43,9 +43,9 @@ void forget_use(const HeldTicket& held) noexcept;
 
 /// Remembers that the exam of the ticket in these notes of a session was closed and sealed, or nothing when they hold none.
 void remember_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) noexcept;
-/// Throws Error when that exam was closed at this station: a copy that was left or cut back to before its end is not taken up again. Returns what the
-/// gap's source should say of it (station_check.h): that this station does not remember beginning it; nothing when it does, or there is no ticket.
-[[nodiscard]] SourceNotes require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session);
+/// Throws Error when that exam was closed at this station: a copy that was left or cut back to before its end is not taken up again. Returns
+/// whether this station remembers beginning it (ResumedBy), true where there is no ticket.
+[[nodiscard]] bool require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session);
 
 /// What `begin` returns, with the ticket used up unless it throws. `held` may be null: nobody asked for a ticket.
 template <class Begin>

@@ -2,13 +2,11 @@
 
 #include <algorithm>
 
-#include "scenarios/exam/runner.h"
-
 namespace cavum::grading {
 
-std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events) {
+std::int64_t counted_ticks(std::int64_t recorded, std::span<const TimedEvent> events) {
   for (const auto& e : events)
-    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::finished)) recorded = std::min(recorded, e.tick + 1);
+    if (e.as<Finished>() != nullptr) recorded = std::min(recorded, e.tick + 1);
   return recorded;
 }
 

@@ -33,9 +33,9 @@ struct GradeInput {
   std::span<const TickInput> inputs;
   std::span<const TickRecord> records;
   std::span<const RemovedAt> removed;
-  std::span<const SessionEvent> events;  ///< kinds as event_name gives them; others are ignored
-  std::int64_t sat_under_ticks = -1;     ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
-  const SessionSetup* again = nullptr;   ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
+  std::span<const TimedEvent> events;
+  std::int64_t sat_under_ticks = -1;    ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
+  const SessionSetup* again = nullptr;  ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
   const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (breakthrough/exposure.h); nullptr: to be found out
   const GradeBeside* beside = nullptr;            ///< nullptr: the tooth stands alone
   /// As the candidate saw it.
@@ -50,6 +50,6 @@ struct GradeInput {
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.
-[[nodiscard]] std::int64_t counted_ticks(std::int64_t recorded, std::span<const SessionEvent> events);
+[[nodiscard]] std::int64_t counted_ticks(std::int64_t recorded, std::span<const TimedEvent> events);
 
 }  // namespace cavum::grading

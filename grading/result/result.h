@@ -224,7 +224,7 @@ struct LateWork {
 struct ProgressMeasures {
   int steps = 0, steps_completed = 0, steps_failed = 0, violations = 0;
   Trace first_violation;
-  std::string finish = "running";
+  Finish finish = Finish::running;
   std::string open_last_step;  ///< the last step's id, where the exam ended with it open; empty: it was completed, or there was no exam
 };
 

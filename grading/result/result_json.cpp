@@ -250,7 +250,7 @@ Json to_json(const Result& r) {
   put_values(j, r, {"/", "/force/"});
   j["steps"] = {{"count", r.progress.steps}, {"completed", r.progress.steps_completed}, {"failed", r.progress.steps_failed}};
   j["violations"] = r.progress.violations;
-  j["finish"] = r.progress.finish;
+  j["finish"] = r.not_shown ? "scan" : finish_name(r.progress.finish);
   j["extra_time_percent"] = r.accommodations.extra_time_percent;
   j["late_ticks"] = r.motion.late_ticks + r.late_work.ticks;
   j["grading_version"] = k_grading_version;
@@ -361,7 +361,7 @@ std::string motion_text(const Result& r) {
   return fmt::format("\ntime {} s (handpiece {} s, idle {} s), way {} mm, force {} N mean, {} N peak\nsteps {} of {}, violations {}, ended: {}\n",
                      fixed(r.motion.time_s, 1), fixed(r.motion.handpiece_time_s, 1), fixed(r.motion.idle_s, 1), fixed(r.motion.path_mm, 0),
                      fixed(r.motion.force_mean_n, 2), fixed(r.motion.force_peak_n, 2), r.progress.steps_completed, r.progress.steps,
-                     r.progress.violations, r.progress.finish);
+                     r.progress.violations, finish_name(r.progress.finish));
 }
 
 }  // namespace

@@ -201,7 +201,6 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
     graded.removed.reserve(cut.removed.size());
     for (const auto& leaf : cut.removed) graded.removed.push_back({k_untimed_tick, leaf});
     graded.result = grade(graded.input(scenario, tooth, zones), rubric);
-    graded.result.progress.finish = "scan";
     return graded;
   };
   ScanCut cut = cut_by_scan(even.mesh, caps, outer, facts.surface_bound_mm, path);

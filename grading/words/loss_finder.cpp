@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
 #include "grading/measures/motion.h"
@@ -20,7 +19,7 @@ LossFinder::LossFinder(const GradeInput& input, const Result& result, const scen
     : in_(input), r_(result), spec_(spec), why_(why), asked_(asked(spec.metric, spec.full)) {
   end_ = static_cast<std::int64_t>(std::min(input.inputs.size(), input.records.size()));
   for (const auto& e : input.events)
-    if (e.kind == "finished") end_ = std::min(end_, e.tick + 1);
+    if (e.as<Finished>() != nullptr) end_ = std::min(end_, e.tick + 1);
   if (input.inputs.empty()) end_ = std::int64_t{1} << 31;
 }
 
@@ -215,18 +214,28 @@ void LossFinder::value_and_work() {
 }
 
 void LossFinder::steps() {
+  const auto of_step = [this](const OfStep& of) {
+    const auto at = static_cast<std::size_t>(of.step);
+    return at < in_.scenario.steps.size() ? fmt::format(" ({})", in_.scenario.steps[at].id) : "";
+  };
+  const auto of_tissue = [this](const OfTissue& of) { return fmt::format(" ({})", in_.before.tissue_name(of.tissue)); };
   std::int64_t last = 0;
   for (const auto& e : in_.events) {
-    if (e.kind == "overruns") continue;  // late ticks of the computer, in nearly every second of a slow one: nothing that a candidate did
-    const auto detail = nlohmann::ordered_json::parse(e.detail_json, nullptr, false);
-    std::string what = e.kind;
+    if (e.as<Overruns>() != nullptr) continue;  // late ticks of the computer, in nearly every second of a slow one: nothing that a candidate did
+    const std::string detail =
+        std::visit(EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return of_step(of); },
+                            [&](const AnyOf<AimReached, Perforated> auto& of) { return of_tissue(of); },
+                            [](const Finished& of) { return fmt::format(" ({})", finish_name(of.how)); },
+                            [](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded,
+                                           RecordingGap, RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack,
+                                           ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased,
+                                           Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return std::string(); }},
+                   e.event);
+    std::string what = kind_of(e.event);
     std::replace(what.begin(), what.end(), '_', ' ');
-    if (detail.is_object())
-      for (const char* key : {"step", "how", "tissue"})
-        if (detail.contains(key) && detail[key].is_string()) what += fmt::format(" ({})", detail[key].get<std::string>());
     WhyItem item;
     item.tick = item.end_tick = e.tick;
-    item.what = what + ", after";
+    item.what = what + detail + ", after";
     item.amount = static_cast<double>(e.tick - last) * k_tick_s;
     item.unit = "s since the event before";
     if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = in_.inputs[static_cast<std::size_t>(e.tick)].tip_mm();

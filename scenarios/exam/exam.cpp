@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cstdlib>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
 #include "engine/base/shipped.h"
@@ -19,23 +18,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Scenario, tooth and points out of the session's texts; so a resumed exam has what the first one had.
-void fill(ExamSetup& setup, const std::string& scenario_path, const std::string& tooth_path, const std::vector<std::string>& point_paths) {
-  setup.scenario = parse_scenario(setup.session.scenario_toml, scenario_path, Reading::recorded);
-  use_surfaces(setup.scenario, setup.session.attachments);
-  setup.scenario.accommodations = granted(setup.scenario.accommodations, setup.session.notes, scenario_path);
-  setup.tooth = load_tooth(setup.session.tooth, tooth_path);
-  for (std::size_t i = 0; i < setup.session.points_toml.size(); ++i) {
-    setup.points.push_back(
-        parse_diamond_point(setup.session.points_toml[i], i < point_paths.size() ? point_paths[i] : "diamond point of the session"));
-    setup.point_names.push_back(setup.points.back().name);
-  }
-}
-
-void lay_zones(ExamSetup& setup, const std::string& where) {
-  setup.zones = build_zones_of_exam(setup.scenario, setup.tooth, setup.session.landmarks_json, where);
-}
-
 std::vector<fs::path> data_folders(const std::string& folder, const std::string& near_file) {
   std::vector<fs::path> places;
   for (const auto& data : shipped_folders(near_file)) places.push_back(data / folder);
@@ -43,46 +25,6 @@ std::vector<fs::path> data_folders(const std::string& folder, const std::string&
 }
 
 }  // namespace
-
-std::string event_detail(const ExamEvent& event, const Scenario& scenario, const Tooth& tooth) {
-  nlohmann::json detail = nlohmann::json::object();
-  const auto index = static_cast<std::size_t>(event.index);
-  switch (event.kind) {
-    case ExamEventKind::step_started:
-    case ExamEventKind::step_completed:
-    case ExamEventKind::step_failed:
-    case ExamEventKind::step_time_limit:
-      detail["step"] = index < scenario.steps.size() ? scenario.steps[index].id : "";
-      break;
-    case ExamEventKind::pause_started:
-    case ExamEventKind::pause_ended:
-      detail["pause"] = event.index;
-      break;
-    case ExamEventKind::hold_started:
-    case ExamEventKind::hold_ended:
-      detail["hold"] = event.index;
-      break;
-    case ExamEventKind::pause_refused:
-      detail["pauses"] = event.index;
-      break;
-    case ExamEventKind::point_not_allowed:
-      detail["point"] = event.index;
-      break;
-    case ExamEventKind::aim_reached:
-    case ExamEventKind::perforation: {
-      detail["tissue"] = tooth.tissue_name(static_cast<std::uint8_t>(event.index));
-      const Vec3 at = tooth.octree.centre_mm({event.leaf[0], event.leaf[1], event.leaf[2]});
-      detail["site_mm"] = {at.x, at.y, at.z};
-      break;
-    }
-    case ExamEventKind::finished:
-      detail["how"] = finish_name(static_cast<Finish>(event.index));
-      break;
-    default:
-      break;
-  }
-  return detail.dump();
-}
 
 std::vector<std::string> data_names(const std::string& folder, const std::string& near_file) {
   for (const auto& place : data_folders(folder, near_file)) {
@@ -103,8 +45,8 @@ std::string find_data_file(const std::string& folder, const std::string& name, c
     if (fs::exists(p)) return p.lexically_normal().string();
     looked += (looked.empty() ? "" : ", ") + p.lexically_normal().string();
   }
-  throw Error(fmt::format("{}/{}", folder, name), fmt::format("is nowhere to be found (looked at {})", looked),
-              "correct the name or set CAVUM_DATA to the data folder");
+  throw Error(fmt::format("{}/{}", folder, name), msg("is nowhere to be found (looked at {})", looked),
+              msg("correct the name or set CAVUM_DATA to the data folder"));
 }
 
 std::string force_model_path(const std::string& wanted, const std::string& near_file) {
@@ -112,7 +54,7 @@ std::string force_model_path(const std::string& wanted, const std::string& near_
   if (wanted.empty() || wanted.find('/') != std::string::npos) {
     std::string known;
     for (const auto& name : data_names("materials", near_file)) known += (known.empty() ? "" : ", ") + name;
-    throw Error("--model", fmt::format("'{}' is no force model", wanted), fmt::format("name one of {}, or a file ending in .toml", known));
+    throw Error("--model", msg("'{}' is no force model", wanted), msg("name one of {}, or a file ending in .toml", known));
   }
   return find_data_file("materials", wanted + ".toml", near_file);
 }
@@ -143,16 +85,25 @@ std::vector<std::string> check_servo(const std::string& servo_toml, const Scenar
   return findings;
 }
 
+ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& point_names) {
+  ExamTask task{parse_scenario(session.scenario_toml, scenario_name, Reading::recorded), {}, {}, std::move(session)};
+  use_surfaces(task.scenario, task.session.attachments);
+  task.scenario.accommodations = granted(task.scenario.accommodations, task.session.notes, scenario_name);
+  for (std::size_t i = 0; i < task.session.points_toml.size(); ++i) {
+    task.points.push_back(parse_diamond_point(task.session.points_toml[i], i < point_names.size() ? point_names[i] : "diamond point of the session"));
+    task.point_names.push_back(task.points.back().name);
+  }
+  return task;
+}
+
 std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options) {
-  auto setup = std::make_unique<ExamSetup>();
-  SessionSetup& s = setup->session;
+  SessionSetup s;
   s.scenario_toml = read_text_file(scenario_path);
   Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
   if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
   s.candidate = options.candidate;
   s.device = options.device;
   s.source = options.source;
-  s.exam_rules = k_exam_rules;
   require_sound(options.grant, "accommodations");
   s.notes = options.notes;
   for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
@@ -176,26 +127,25 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   if (options.peak_n > 0) config.limits.peak_n = std::min(config.limits.peak_n, options.peak_n);
   if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
   s.servo_toml = to_toml(config);
-  fill(*setup, scenario_path, tooth_path, point_paths);
-  s.landmarks_json = landmarks_to_keep(setup->scenario, setup->tooth);
-  lay_zones(*setup, scenario_path);
+  auto setup = std::make_unique<ExamSetup>(exam_task(std::move(s), scenario_path, point_paths));
+  setup->tooth = load_tooth(setup->session.tooth, tooth_path);
+  setup->session.landmarks_json = landmarks_to_keep(setup->scenario, setup->tooth);
+  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, setup->session.landmarks_json, scenario_path);
   require_tissues(setup->scenario, setup->tooth);
-  if (!options.rubric_file.empty()) require_none(not_in_this_exam(parse_rubric(s.rubric_toml, options.rubric_file), setup->scenario, setup->tooth));
+  if (!options.rubric_file.empty())
+    require_none(not_in_this_exam(parse_rubric(setup->session.rubric_toml, options.rubric_file), setup->scenario, setup->tooth));
   return setup;
 }
 
 std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
-  auto setup = std::make_unique<ExamSetup>();
-  setup->session = session;
-  fill(*setup, "scenario of the session", "tooth of the session", {});
-  lay_zones(*setup, "session");
+  auto setup = std::make_unique<ExamSetup>(exam_task(session, "scenario of the session"));
+  setup->tooth = load_tooth(session.tooth, "tooth of the session");
+  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "session");
   return setup;
 }
 
 Exam::Exam(const ExamSetup& setup, Simulation simulation)
-    : setup_(setup),
-      runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names, setup.session.exam_rules),
-      simulation_(std::move(simulation)) {}
+    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
 
 std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm, const ReadClocks& clocks) {
   SessionSetup session = setup.session;
@@ -208,7 +158,7 @@ std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& pat
   return exam;
 }
 
-std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source, const ReadClocks& clocks) {
+std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& path, const ResumedBy& by, const ReadClocks& clocks) {
   std::unique_ptr<Exam> exam(new Exam(setup, {}));
   ResumedSession resumed = resume_session(
       path,
@@ -217,7 +167,7 @@ std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& pa
         exam->last_input_ = input;
         exam->last_ = output;
       },
-      source, clocks);
+      by, clocks);
   if (resumed.ticks == 0) {
     exam->last_input_.tip_nm = resumed.setup.first_tip_nm;
     exam->last_.proxy_mm = resumed.setup.first_tip_mm();
@@ -229,11 +179,8 @@ std::unique_ptr<Exam> Exam::resume(const ExamSetup& setup, const std::string& pa
 }
 
 void Exam::record_events() {
-  const RunnerState& r = *runner_state_;
-  for (; events_recorded_ < r.event_count; ++events_recorded_) {
-    const ExamEvent& e = r.events[events_recorded_];
-    recorder_->add_event(e.tick, event_name(e.kind), event_detail(e, setup_.scenario, setup_.tooth));
-  }
+  for (auto& e : runner_state_->events_from(events_recorded_)) recorder_->add_event(e.tick, std::move(e.event));
+  events_recorded_ = runner_state_->event_count;
 }
 
 const TickOutput& Exam::tick(const TickInput& wanted) {
@@ -274,8 +221,7 @@ void Exam::end() {
 }
 
 void Exam::note_late(std::int64_t ticks, std::int64_t pedal_ticks) {
-  const nlohmann::json detail{{"ticks", ticks}, {"pedal_ticks", pedal_ticks}};
-  recorder_->add_event(runner_state_->ticks - 1, k_late_work, detail.dump());
+  recorder_->add_event(runner_state_->ticks - 1, WorkAfterEnd{ticks, pedal_ticks});
 }
 
 void Exam::close(const std::string& result_json) { recorder_->close(save_tooth(tooth_now()), result_json); }

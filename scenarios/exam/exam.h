@@ -28,9 +28,6 @@ namespace cavum::scenarios {
 /// Text of a force model: the name of data/materials/NAME.toml, or a path ending in .toml. Throws Error.
 [[nodiscard]] std::string force_model_text(const std::string& wanted, const std::string& near_file);
 
-/// Detail of a runner's event as it is recorded: one JSON object.
-[[nodiscard]] std::string event_detail(const ExamEvent& event, const Scenario& scenario, const Tooth& tooth);
-
 /// What may be chosen beside the scenario itself.
 struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
@@ -45,14 +42,20 @@ struct ExamOptions {
   std::vector<std::pair<std::string, std::string>> notes;  ///< recorded as they are
 };
 
-/// Everything constant during one exam.
-struct ExamSetup {
-  Scenario scenario;
-  Tooth tooth;
+/// What is asked for in one exam.
+struct ExamTask {
+  Scenario scenario;  ///< with its surfaces and what was granted
   std::vector<DiamondPoint> points;
-  ZoneMap zones;
   std::vector<std::string> point_names;  ///< in the order of the tray
   SessionSetup session;
+};
+/// The task again from what a session holds; `scenario_name` and `point_names` name its texts in errors. Throws Error.
+[[nodiscard]] ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& point_names = {});
+
+/// Everything constant during one exam.
+struct ExamSetup : ExamTask {
+  Tooth tooth;
+  ZoneMap zones;
 };
 /// What of a session's servo settings is not what every exam of its scenario runs with, in words: another length of a tick, another speed of the
 /// handpiece, another watchdog. The device's own are its encoder and forces that are smaller than usual.
@@ -62,9 +65,6 @@ struct ExamSetup {
 /// The same from what a session holds: for resuming and regrading.
 [[nodiscard]] std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session);
 
-/// Kind of the event that Exam::note_late records; its detail is {"ticks":…,"pedal_ticks":…}.
-inline constexpr char k_late_work[] = "late_work";
-
 /// A running exam.
 class Exam {
  public:
@@ -72,8 +72,8 @@ class Exam {
   [[nodiscard]] static std::unique_ptr<Exam> start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm,
                                                    const ReadClocks& clocks = read_clocks);
   /// Takes up a session that was killed, with the setup it holds; the ticks recorded so far are simulated again.
-  /// `source` is noted in the gap: what gives the input from now on.
-  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const SourceNotes& source = {},
+  /// `by` gives the input from now on.
+  [[nodiscard]] static std::unique_ptr<Exam> resume(const ExamSetup& setup, const std::string& path, const ResumedBy& by = {},
                                                     const ReadClocks& clocks = read_clocks);
 
   /// One tick, in a pause with the pedal released, whatever the foot does. When the disk refuses it, it is kept in memory, the exam goes on, and

@@ -1,7 +1,6 @@
 #include "scenarios/exam/live_exam.h"
 
 #include <algorithm>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 
@@ -41,7 +40,7 @@ void LiveExam::take(const ServoTick& tick) {
   }
   if (report_.first_disagreement < 0 && state_hash(exam_->state()) != tick.state_hash) {
     report_.first_disagreement = tick.tick;
-    exam_->recorder().add_event(tick.tick, "servo_disagrees", nlohmann::json{{"tick", tick.tick}}.dump());
+    exam_->recorder().add_event(tick.tick, ServoDisagrees{});
   }
   record_notes(tick.tick);
   if (end_asked_.load(std::memory_order_acquire) && !exam_->over()) exam_->end();
@@ -75,18 +74,18 @@ void LiveExam::take(const ServoTick& tick) {
   if (view_.session != exam_->recorder().path()) view_.session = exam_->recorder().path();
 }
 
-void LiveExam::note(const std::string& kind, const std::string& detail_json) {
+void LiveExam::note(Event event) {
   const std::lock_guard lock(mutex_);
-  notes_.emplace_back(kind, detail_json);
+  notes_.push_back(std::move(event));
 }
 
 void LiveExam::record_notes(std::int64_t tick) {
-  std::vector<std::pair<std::string, std::string>> notes;
+  std::vector<Event> notes;
   {
     const std::lock_guard lock(mutex_);
     notes.swap(notes_);
   }
-  for (const auto& [kind, detail] : notes) exam_->recorder().add_event(tick, kind, detail);
+  for (auto& event : notes) exam_->recorder().add_event(tick, std::move(event));
 }
 
 void LiveExam::look_at_tooth(const std::function<void(const Octree&)>& look) const {

@@ -45,7 +45,7 @@ struct LiveReport {
   std::int64_t first_disagreement = -1;  ///< first tick at which servo and twin differ; -1 = never
 };
 
-/// Beside the events of SessionWriter it records `servo_disagrees` {"tick"}, which makes every result of the session doubtful.
+/// Beside the events of SessionWriter it records ServoDisagrees, which makes every result of the session doubtful.
 class LiveExam {
  public:
   /// Begins the recording at `path`. Setup and device must outlive it. Throws Error when it cannot record.
@@ -61,7 +61,7 @@ class LiveExam {
   /// The candidate stops: the exam is over with the next tick. Any thread.
   void ask_to_end() noexcept { end_asked_.store(true, std::memory_order_release); }
   /// Records an event that nothing in the motion shows, with the next tick, or with the last one once none follows. Any thread, before `finish`.
-  void note(const std::string& kind, const std::string& detail_json);
+  void note(Event event);
   /// False once the exam is over, the device failed, or the servo was stopped.
   [[nodiscard]] bool running() const noexcept { return servo_->running(); }
   [[nodiscard]] LiveView view() const;
@@ -110,7 +110,7 @@ class LiveExam {
   mutable std::mutex tooth_mutex_;  // of the twin's tooth, between its thread and whoever draws it
   mutable std::mutex mutex_;        // of the view
   LiveView view_;
-  std::vector<std::pair<std::string, std::string>> notes_;  // kind, detail; of any thread, under mutex_
+  std::vector<Event> notes_;  // of any thread, under mutex_
 };
 
 }  // namespace cavum::scenarios

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
 
@@ -16,11 +15,10 @@ std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string
     exam = begin(path);
   } catch (const DatabaseError& refusal) {
     if (second_place.empty())
-      throw Error(path, fmt::format("cannot be written, and the exam has not begun ({})", one_line(refusal.what())),
-                  "make room, or name a file on another disk too: --out-if-full");
+      throw Error(path, msg("cannot be written, and the exam has not begun ({})", one_line(refusal.what())),
+                  msg("make room, or name a file on another disk too: --out-if-full"));
     exam = begin(second_place);
-    const nlohmann::json detail{{"from", std::filesystem::path(path).filename().string()}, {"ticks", 0}, {"why", one_line(refusal.what())}};
-    exam->recorder().add_event(0, "moved", detail.dump());
+    exam->recorder().add_event(0, RecordingMoved{std::filesystem::path(path).filename().string(), 0, refusal.what()});
   }
   exam->set_second_place(second_place);
   return exam;

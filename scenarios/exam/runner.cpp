@@ -15,17 +15,11 @@ std::int64_t clock(const RunnerState& s) noexcept { return s.ticks - s.paused_ti
 
 }  // namespace
 
-const char* event_name(ExamEventKind kind) noexcept {
-  constexpr const char* k_names[] = {"step_started",      "step_completed", "step_failed",   "step_time_limit", "time_limit",
-                                     "point_not_allowed", "over_speed",     "aim_reached",   "perforation",     "finished",
-                                     "pause_started",     "pause_ended",    "pause_refused", "hold_started",    "hold_ended"};
-  static_assert(std::size(k_names) == k_event_kinds);
-  return k_names[static_cast<std::size_t>(kind)];
-}
-
-const char* finish_name(Finish finish) noexcept {
-  constexpr const char* k_names[] = {"running", "completed", "failed", "time", "ended"};
-  return k_names[static_cast<std::size_t>(finish)];
+std::vector<TimedEvent> RunnerState::events_from(std::uint32_t first) const {
+  std::vector<TimedEvent> out;
+  for (std::uint32_t i = first; i < event_count; ++i)
+    out.push_back({events[i].tick, std::visit([](const auto& e) -> Event { return e; }, events[i].event)});
+  return out;
 }
 
 std::int64_t time_in_ticks(double seconds, double extra_percent, double extra_s) noexcept {
@@ -42,29 +36,26 @@ std::int64_t step_limit_ticks(const Scenario& s, const StepSpec& step) noexcept 
   return time_in_ticks(*step.time_limit_s, s.accommodations.extra_time_percent, *step.time_limit_s * extra_s);
 }
 
-Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray, int rules)
+Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray)
     : scenario_(scenario),
       zones_(zones),
+      octree_(tooth.octree),
       beside_(tissues_beside(tooth)),
-      rules_(rules),
       limit_ticks_(exam_limit_ticks(scenario)),
       longest_pause_ticks_(time_in_ticks(scenario.pauses.longest_s, 0)) {
-  if (rules < 1 || rules > k_exam_rules)
-    throw Error(scenario.path, fmt::format("the exam ran by rules {}, and this program knows 1 to {}", rules, k_exam_rules),
-                "use the program that ran it");
   for (const auto& q : k_live_quantities) names_.emplace_back(q.name);
   for (const auto& t : tooth.tissues) {
     names_.push_back("touched_" + t.name);
     touched_ids_.push_back(t.id);
   }
-  if (scenario.steps.empty()) throw Error(scenario.path, "the scenario has no step", "add [[steps]]");
+  if (scenario.steps.empty()) throw Error(scenario.path, msg("the scenario has no step"), msg("add [[steps]]"));
   // a tissue that this tooth does not have is simply never touched
   const auto name_all = [&](const std::string& text) {
     for (const auto& used : names_in_expression(text))
       if (std::find(names_.begin(), names_.end(), used) == names_.end() && used.rfind("touched_", 0) == 0) names_.push_back(used);
   };
   const auto wrong = [&](const StepSpec& step, const std::runtime_error& e) {
-    return Error(scenario.path, fmt::format("step '{}': {}", step.id, e.what()), "correct the condition");
+    return Error(scenario.path, msg("step '{}': {}", step.id, e.what()), msg("correct the condition"));
   };
   for (const auto& step : scenario.steps) {
     try {
@@ -93,24 +84,18 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     allowed_[i] = std::find(scenario.points.begin(), scenario.points.end(), tray[i]) != scenario.points.end();
 }
 
-void Runner::emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf) const noexcept {
-  // the last place is the end's; by rules 1 it was taken, and the end of a full list never came into the recording
-  const std::size_t room = RunnerState::k_most_events - (rules_ > 1 && kind != ExamEventKind::finished ? 1 : 0);
+void Runner::emit(RunnerState& state, const RunnerEvent& event) const noexcept {
+  const std::size_t room = RunnerState::k_most_events - (std::holds_alternative<Finished>(event) ? 0 : 1);  // the last place is the end's
   if (state.event_count >= room) {
     ++state.events_dropped;
     return;
   }
-  state.events[state.event_count++] = {state.ticks, kind, index, {leaf.x, leaf.y, leaf.z}};
+  state.events[state.event_count++] = {state.ticks, event};
 }
 
 void Runner::finish(RunnerState& state, Finish how) const noexcept {
   state.finish = how;
-  // by rules 1 the list may be full
-  if (state.event_count == RunnerState::k_most_events) {
-    --state.event_count;
-    ++state.events_dropped;
-  }
-  emit(state, ExamEventKind::finished, static_cast<std::int32_t>(how));
+  emit(state, Finished{how});
 }
 
 void Runner::count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept {
@@ -120,7 +105,8 @@ void Runner::count(RunnerState& state, std::span<const RemovedLeaf> removed) con
     state.target_shares += zones_.target_share(r.leaf());
     const bool first = state.removed_of_tissue[r.tissue]++ == 0;
     if (!first || role_[r.tissue] == 0) continue;
-    emit(state, role_[r.tissue] == 1 ? ExamEventKind::aim_reached : ExamEventKind::perforation, r.tissue, r.leaf());
+    const OfTissue opened{r.tissue, octree_.centre_mm(r.leaf())};
+    emit(state, role_[r.tissue] == 1 ? RunnerEvent(AimReached{opened}) : Perforated{opened});
     state.perforated = state.perforated || role_[r.tissue] == 2;
   }
 }
@@ -163,7 +149,7 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
 void Runner::next_step(RunnerState& state) const noexcept {
   ++state.step;
   state.step_start = clock(state) + 1;
-  if (static_cast<std::size_t>(state.step) < steps_.size()) emit(state, ExamEventKind::step_started, state.step);
+  if (static_cast<std::size_t>(state.step) < steps_.size()) emit(state, StepStarted{state.step});
 }
 
 bool Runner::hold(RunnerState& state, const TickInput& input) const noexcept {
@@ -172,9 +158,9 @@ bool Runner::hold(RunnerState& state, const TickInput& input) const noexcept {
   state.held = held;
   if (held && state.pause_start >= 0) {
     state.pause_start = -1;
-    emit(state, ExamEventKind::pause_ended, state.pauses - 1);
+    emit(state, PauseEnded{state.pauses - 1});
   }
-  emit(state, held ? ExamEventKind::hold_started : ExamEventKind::hold_ended, held ? state.holds++ : state.holds - 1);
+  emit(state, held ? RunnerEvent(HoldStarted{state.holds++}) : HoldEnded{state.holds - 1});
   return held;
 }
 
@@ -186,22 +172,22 @@ bool Runner::pause(RunnerState& state, const TickInput& input, const TickOutput&
   if (state.pause_start >= 0) {
     if (!pressed && state.ticks - state.pause_start < longest_pause_ticks_) return true;
     state.pause_start = -1;
-    emit(state, ExamEventKind::pause_ended, state.pauses - 1);
+    emit(state, PauseEnded{state.pauses - 1});
     return false;
   }
   if (!pressed) return false;
   if (state.pauses >= spec.count || output.rpm > 0) {
-    emit(state, ExamEventKind::pause_refused, state.pauses);
+    emit(state, PauseRefused{state.pauses});
     return false;
   }
   state.pause_start = state.ticks;
-  emit(state, ExamEventKind::pause_started, state.pauses++);
+  emit(state, PauseStarted{state.pauses++});
   return true;
 }
 
 void Runner::advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept {
   if (state.finish != Finish::running) return;
-  if (state.ticks == 0) emit(state, ExamEventKind::step_started, 0);
+  if (state.ticks == 0) emit(state, StepStarted{});
   count(state, removed);
   if (hold(state, input) || pause(state, input, output)) {
     ++state.paused_ticks;
@@ -210,10 +196,10 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   }
   if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.below_opening_mm(output.proxy_mm));
   state.peak_force_n = std::max(state.peak_force_n, length(output.rendered_force_n));
-  if (input.point != state.last_point && !allowed_[input.point]) emit(state, ExamEventKind::point_not_allowed, input.point);
+  if (input.point != state.last_point && !allowed_[input.point]) emit(state, PointNotAllowed{input.point});
   state.last_point = input.point;
   const bool too_fast = output.rpm > scenario_.max_rpm * (1 + 1e-9);
-  if (too_fast && !state.over_speed) emit(state, ExamEventKind::over_speed, static_cast<std::int32_t>(output.rpm));
+  if (too_fast && !state.over_speed) emit(state, OverSpeed{});
   state.over_speed = too_fast;
 
   fill_values(state, input, output);
@@ -221,7 +207,7 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   if (how != Finish::running)
     finish(state, how);
   else if (clock(state) + 1 >= limit_ticks_) {
-    emit(state, ExamEventKind::time_limit, 0);
+    emit(state, TimeUp{});
     finish(state, all_steps_done(state) ? Finish::completed : Finish::time);
   }
   ++state.ticks;
@@ -231,14 +217,14 @@ Finish Runner::watch_step(RunnerState& state) noexcept {
   const auto at = static_cast<std::size_t>(state.step);
   const CompiledStep& step = steps_[at];
   if (step.complete.is_true()) {
-    emit(state, ExamEventKind::step_completed, state.step);
+    emit(state, StepCompleted{state.step});
     next_step(state);
-    return rules_ == 1 && all_steps_done(state) ? Finish::completed : Finish::running;
+    return Finish::running;
   }
   const bool failed = !step.fail.empty() && step.fail[0].is_true();
   const bool late = clock(state) + 1 - state.step_start >= step.limit_ticks;
   if (!failed && !late) return Finish::running;
-  emit(state, failed ? ExamEventKind::step_failed : ExamEventKind::step_time_limit, state.step);
+  emit(state, failed ? RunnerEvent(StepFailed{state.step}) : StepTimeUp{state.step});
   next_step(state);
   if (scenario_.steps[at].failure_ends_exam) return Finish::failed;
   if (!all_steps_done(state)) return Finish::running;

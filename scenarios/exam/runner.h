@@ -11,47 +11,13 @@
 #include <vector>
 
 #include "engine/servo/tick.h"
+#include "engine/session/event.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/file/expression.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
-
-enum class ExamEventKind : std::uint8_t {
-  step_started,       ///< index = step
-  step_completed,     ///< index = step
-  step_failed,        ///< index = step; its fail_when came true
-  step_time_limit,    ///< index = step
-  time_limit,         ///< the exam's
-  point_not_allowed,  ///< index = point of the tray
-  over_speed,         ///< faster than max_rpm
-  aim_reached,        ///< index = tissue id, first leaf of a tissue under perforation.aims
-  perforation,        ///< index = tissue id, first leaf of a tissue under perforation.faults
-  finished,           ///< index = Finish
-  pause_started,      ///< its tick is the first that does not count; index = which pause, from 0
-  pause_ended,        ///< its tick counts again; index = which pause
-  pause_refused,      ///< the button was pressed when none was left or the handpiece turned; index = pauses taken so far
-  hold_started,       ///< the exam office has paused the exam; its tick is the first that does not count; index = which time, from 0
-  hold_ended,         ///< its tick counts again; index = which time
-};
-inline constexpr int k_event_kinds = static_cast<int>(ExamEventKind::hold_ended) + 1;
-[[nodiscard]] const char* event_name(ExamEventKind kind) noexcept;
-
-struct ExamEvent {
-  std::int64_t tick = 0;  ///< 0 is the first tick of the exam
-  ExamEventKind kind{};
-  std::int32_t index = 0;
-  std::array<std::int32_t, 3> leaf{};  ///< aim_reached and perforation: the leaf; otherwise 0
-  friend bool operator==(const ExamEvent&, const ExamEvent&) = default;
-};
-
-/// Version of the rules by which an exam ends; a session holds its own (`exam_rules`, 1 where it does not say).
-/// 1: it was over when its last step was completed. 2: only the candidate or the clock ends it, so that a look with the pedal off ends nothing.
-inline constexpr int k_exam_rules = 2;
-
-enum class Finish : std::uint8_t { running, completed, failed, time, ended };
-[[nodiscard]] const char* finish_name(Finish finish) noexcept;
 
 /// Everything that changes during an exam, outside the servo.
 struct RunnerState {
@@ -74,16 +40,22 @@ struct RunnerState {
   std::int32_t last_point = -1;
   bool over_speed = false;
   bool perforated = false;
-  std::array<ExamEvent, k_most_events> events{};
+  struct Noted {
+    std::int64_t tick = 0;
+    RunnerEvent event;
+  };
+  std::array<Noted, k_most_events> events{};
   std::uint32_t event_count = 0;
   std::uint32_t events_dropped = 0;
+  /// As they are recorded, from number `first` on.
+  [[nodiscard]] std::vector<TimedEvent> events_from(std::uint32_t first) const;
 };
 
 class Runner {
  public:
-  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled, or when these rules are not known.
+  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled.
   /// Scenario, zones and tooth must outlive the runner.
-  Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray, int rules);
+  Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray);
 
   /// After a servo step. Does nothing once the exam is over. Allocates nothing.
   void advance(RunnerState& state, const TickInput& input, const TickOutput& output, std::span<const RemovedLeaf> removed) noexcept;
@@ -108,7 +80,7 @@ class Runner {
     std::vector<Expression> fail;  // none or one
     std::int64_t limit_ticks;
   };
-  void emit(RunnerState& state, ExamEventKind kind, std::int32_t index, IVec3 leaf = {}) const noexcept;
+  void emit(RunnerState& state, const RunnerEvent& event) const noexcept;
   void count(RunnerState& state, std::span<const RemovedLeaf> removed) const noexcept;
   void fill_values(const RunnerState& state, const TickInput& input, const TickOutput& output) noexcept;
   /// Begins and ends pauses by the exam office; true when this tick is one of them. It ends a pause of the candidate's. The clock stands still only
@@ -124,8 +96,8 @@ class Runner {
 
   const Scenario& scenario_;
   const ZoneMap& zones_;
+  const Octree& octree_;
   TissueSet beside_;
-  int rules_;
   std::vector<std::string> names_;
   std::vector<double> values_;
   std::vector<std::uint8_t> touched_ids_;  // tissue of names_[k_live_quantities.size() + i]

@@ -118,7 +118,7 @@ def event_added(s):
     """An event says that the step was completed."""
     def change(r):
         last = r.events[-1]
-        r.events.insert(1, dict(last, kind="step_completed", detail_json='{"step":"cavity"}', tick=last["tick"] - 5))
+        r.events.insert(1, dict(last, kind="step_completed", detail_json='{"step":0}', tick=last["tick"] - 5))
         renumber(r)
     return insider(s, change)
 
@@ -129,7 +129,7 @@ def event_moved(s):
     return insider(s, lambda r: [e.update(tick=e["tick"] - 200) for e in r.events[1:]])
 
 
-@attack("insider", UNSTATED, "an event of a kind that no simulation gives")
+@attack("insider", FOUND, "any other kind, member or way of writing is damage", "event")
 def event_of_unknown_kind(s):
     """An event `examiner_excused` with a text for people."""
     def change(r):

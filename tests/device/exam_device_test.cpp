@@ -6,6 +6,7 @@
 
 #include <chrono>
 #include <nlohmann/json.hpp>
+#include <numeric>
 #include <thread>
 
 #include "engine/base/file.h"
@@ -88,12 +89,11 @@ TEST_F(ExamDevice, InRealTimeItIsTheSameExamUntilATickWasLate) {
   // how punctual it was is in the session, every tick counted
   int events = 0;
   for (const auto& e : live.events()) {
-    if (e.kind != "servo_lateness") continue;
+    const auto* lateness = e.as<ServoLateness>();
+    if (lateness == nullptr) continue;
     ++events;
-    const auto j = nlohmann::json::parse(e.detail_json);
-    std::int64_t counted = 0;
-    for (const auto& bin : j["lateness"]["histogram"]) counted += bin["ticks"].get<std::int64_t>();
-    EXPECT_EQ(counted, j["ticks"].get<std::int64_t>());
+    const auto& counts = lateness->servo.lateness.counts;
+    EXPECT_EQ(std::accumulate(counts.begin(), counts.end(), std::int64_t{0}), lateness->servo.ticks);
   }
   EXPECT_EQ(events, 1);
   EXPECT_EQ(live.setup().notes.end() !=

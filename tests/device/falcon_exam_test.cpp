@@ -98,8 +98,8 @@ TEST(FalconExam, IsTakenUnpluggedPluggedInGradedAndReplays) {
   const SessionReader session(out);
   int gone = 0, back = 0;
   for (const auto& e : session.events()) {
-    gone += e.kind == "stylus_silent" && e.tick >= before ? 1 : 0;
-    back += e.kind == "stylus_back" && e.tick >= before ? 1 : 0;
+    gone += e.as<StylusSilent>() != nullptr && e.tick >= before ? 1 : 0;
+    back += e.as<StylusBack>() != nullptr && e.tick >= before ? 1 : 0;
   }
   EXPECT_GE(gone, 1);
   EXPECT_GE(back, 1);

@@ -88,8 +88,8 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
   EXPECT_TRUE(verify_session(path).verified);
   int gone = 0, back = 0;
   for (const auto& e : SessionReader(path).events()) {
-    gone += e.kind == "stylus_silent" && e.tick > at_work && e.tick <= silent ? 1 : 0;
-    back += e.kind == "stylus_back" && e.tick > at_work ? 1 : 0;
+    gone += e.as<StylusSilent>() != nullptr && e.tick > at_work && e.tick <= silent ? 1 : 0;
+    back += e.as<StylusBack>() != nullptr && e.tick > at_work ? 1 : 0;
   }
   EXPECT_GE(gone, 1);
   EXPECT_GE(back, 1);

@@ -180,8 +180,8 @@ TEST_F(Inverse3Exam, IsTakenWhileTheServiceIsBegunAgainGradedAndReplays) {
   int gone = 0, back = 0;
   const SessionReader session(out);
   for (const auto& e : session.events()) {
-    gone += e.kind == "stylus_silent" ? 1 : 0;
-    back += e.kind == "stylus_back" ? 1 : 0;
+    gone += e.as<StylusSilent>() != nullptr ? 1 : 0;
+    back += e.as<StylusBack>() != nullptr ? 1 : 0;
   }
   EXPECT_GE(gone, 1);
   EXPECT_GE(back, 1);

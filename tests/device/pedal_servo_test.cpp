@@ -85,8 +85,8 @@ TEST(PedalServo, UnpluggedWhileCuttingTheHandpieceStopsAndTheSessionKnows) {
   EXPECT_TRUE(verify_session(path).verified);
   int lost = 0, back = 0;
   for (const auto& e : SessionReader(path).events()) {
-    lost += e.kind == "pedal_lost" && e.tick > stopped - 60 && e.tick <= stopped + 60 ? 1 : 0;
-    back += e.kind == "pedal_back" && e.tick > stopped ? 1 : 0;
+    lost += e.as<PedalLost>() != nullptr && e.tick > stopped - 60 && e.tick <= stopped + 60 ? 1 : 0;
+    back += e.as<PedalBack>() != nullptr && e.tick > stopped ? 1 : 0;
   }
   EXPECT_EQ(lost, 1);
   EXPECT_EQ(back, 1);

@@ -60,9 +60,10 @@ Bytes content_of(const std::string& path) {
   }
   for (const auto& e : s.event_rows()) {
     out.put(e.chunk);
-    out.put(e.event.tick);
-    out.put_string(e.event.kind);
-    out.put_string(e.event.detail_json);
+    out.put(e.tick);
+    const EventText text = encode(e.event);
+    out.put_string(text.kind);
+    out.put_string(text.detail_json);
   }
   out.put_string(s.result_json());
   if (s.seal()) put_clocks(out, s.seal()->clocks);

@@ -86,7 +86,7 @@ TEST_F(EditedSession, EventDetailIsNamed) {
   expect_finding(edited("UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0"), {"chunk 0", "events"});
 }
 TEST_F(EditedSession, AddedEventIsNamed) {
-  const auto report = edited("INSERT INTO event VALUES (4, 2590, 2, 'step_done', '{}')");
+  const auto report = edited("INSERT INTO event VALUES (4, 2590, 2, 'time_limit', '{}')");
   expect_finding(report, {"table event", "5 events, closed with 4"});
 }
 TEST_F(EditedSession, EventOfNoChunkIsNamed) {

@@ -54,7 +54,7 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
   EXPECT_EQ(recorder_.ticks(), 4600);
   EXPECT_EQ(recorder_.ticks_on_disk(), 1000);
   EXPECT_EQ(SessionReader(path_).ticks(), 1000);
-  recorder_.add_event(4600, "note", "{}");
+  recorder_.add_event(4600, TimeUp{});
   for (std::int64_t tick = 4600; tick < 5200; ++tick) ASSERT_FALSE(drill_tick(tick));
   EXPECT_EQ(recorder_.ticks_on_disk(), 5000) << "the seconds that waited were written with the next one";
   recorder_.close(tooth(), "{}");
@@ -93,8 +93,9 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
   ASSERT_EQ(inputs.size(), 8600u);
   for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
   ASSERT_EQ(moved.events().size(), 1u);
-  EXPECT_EQ(moved.events()[0].kind, "moved");
   EXPECT_EQ(moved.events()[0].tick, 8300);
+  ASSERT_NE(moved.event_rows()[0].as<RecordingMoved>(), nullptr);
+  EXPECT_EQ(moved.event_rows()[0].as<RecordingMoved>()->ticks, 6000);
   EXPECT_FALSE(std::filesystem::exists(elsewhere + "-wal"));
 
   const VerifyReport first = verify_session(path_);
@@ -139,9 +140,9 @@ TEST(FullDisk, AnExamIsResumedOnItAndSavedElsewhere) {
   EXPECT_EQ(report.ticks, 3100);
   const auto events = SessionReader(elsewhere).events();
   ASSERT_EQ(events.size(), 2u);
-  EXPECT_EQ(events[0].kind, "gap");
+  EXPECT_NE(events[0].as<RecordingGap>(), nullptr);
   EXPECT_EQ(events[0].tick, 2000);
-  EXPECT_EQ(events[1].kind, "moved");
+  EXPECT_NE(events[1].as<RecordingMoved>(), nullptr);
 }
 
 TEST_F(FullDiskTest, ASealThatDoesNotFitIsSetElsewhere) {

@@ -51,18 +51,17 @@ Bytes record_session() {
   {
     Simulation simulation = make_simulation(setup, "fuzz");
     Recorder recorder = Recorder::create(path, setup);
-    recorder.add_event(0, "step_started", R"({"step":"open"})");
+    recorder.add_event(0, StepStarted{});
     for (std::int64_t tick = 0; tick < 30; ++tick) {
       const TickInput input = motion_at(tick);
       const TickRecord record = make_tick_record(step(simulation.model, simulation.state, input));
       recorder.append(input, record, simulation.state.removed, state_hash(simulation.state));
       if (tick == 15) {
-        recorder.add_event(tick, "gap",
-                           R"({"boot_id":"x","gap_boot_s":1.5,"gap_utc_s":1.5,"last_utc_ns":1,"resumed_utc_ns":2,"source":{"device":"none"}})");
+        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{"device", "none"}, "none"}});
         recorder.flush();
       }
     }
-    for (const char* kind : {"perforation", "servo_lateness", "time_is_up"}) recorder.add_event(29, kind, "{}");
+    for (const Event& e : {Event(Perforated{}), Event(ServoLateness{}), Event(TimeUp{})}) recorder.add_event(29, e);
     recorder.close(save_tooth(drilled_tooth(simulation)), small_result());
   }
   return read_file(path);

@@ -109,7 +109,7 @@ TEST_P(Games, MoreHonestWorkIsNeverMarkedLower) {
           GetParam() + " " + all[o].name + " " + std::to_string(5 * static_cast<std::size_t>(every) * (k + 1)) + " %: " + told(r);
       if (std::getenv("CAVUM_GAMES_TELL") != nullptr) std::printf("%s\n", all_of_it.c_str());
       EXPECT_LE(r.points, honest_mark().points + k_rounding) << all_of_it;
-      const int most = below_critical(ground(), saw, r) ? 0 : r.progress.finish != "completed" ? 1 : 2;
+      const int most = below_critical(ground(), saw, r) ? 0 : r.progress.finish != Finish::completed ? 1 : 2;
       EXPECT_LE(rank(r.verdict), most) << saw.target_percent << " % of the target: " << all_of_it;
       if (k == 0) continue;
       const grading::Result& last = list[k - 1].second;

@@ -22,13 +22,13 @@ std::vector<std::string> tray_of(const Task& t) {
 Sitting::Sitting(const Task& task)
     : task_(task),
       after_(task.tooth.octree),
-      runner_(task.scenario, task.zones, task.tooth, tray_of(task), scenarios::k_exam_rules),
+      runner_(task.scenario, task.zones, task.tooth, tray_of(task)),
       state_(std::make_unique<scenarios::RunnerState>()) {}
 
 Sitting::Sitting(const Sitting& o)
     : task_(o.task_),
       after_(o.after_),
-      runner_(o.task_.scenario, o.task_.zones, o.task_.tooth, tray_of(o.task_), scenarios::k_exam_rules),
+      runner_(o.task_.scenario, o.task_.zones, o.task_.tooth, tray_of(o.task_)),
       state_(std::make_unique<scenarios::RunnerState>(*o.state_)),
       inputs_(o.inputs_),
       records_(o.records_),
@@ -81,11 +81,7 @@ void Sitting::hand_in() {
 void Sitting::walk_out() { runner_.end(*state_); }
 
 grading::Result Sitting::marked_by(const scenarios::RubricSpec& rubric) const {
-  std::vector<SessionEvent> events;
-  for (std::uint32_t i = 0; i < state_->event_count; ++i) {
-    const auto& e = state_->events[i];
-    events.push_back({e.tick, scenarios::event_name(e.kind), scenarios::event_detail(e, task_.scenario, task_.tooth)});
-  }
+  const std::vector<TimedEvent> events = state_->events_from(0);
   if (!task_.apart) return grading::grade({task_.scenario, task_.tooth, task_.zones, after_, inputs_, records_, removed_, events}, rubric);
   const grading::WorkApart own = take_apart(*task_.apart, after_, removed_);
   const grading::GradeBeside beside{*task_.apart, task_.tooth, after_, removed_};
@@ -144,7 +140,7 @@ Seen seen(const Sitting& s) {
 int rank(grading::Verdict v) { return v == grading::Verdict::pass ? 2 : v == grading::Verdict::review ? 1 : 0; }
 
 std::string told(const grading::Result& r) {
-  std::string text = fmt::format("{} {:.3f}/{:.0f} ({})", grading::verdict_name(r.verdict), r.points, r.max_points, r.progress.finish);
+  std::string text = fmt::format("{} {:.3f}/{:.0f} ({})", grading::verdict_name(r.verdict), r.points, r.max_points, finish_name(r.progress.finish));
   for (const auto& c : r.criteria) {
     text += c.value ? fmt::format("; {} {:.4f} ± {:.4f}", c.id, *c.value, c.bound) : fmt::format("; {} none", c.id);
     text += fmt::format(" -> {:.3f}/{:.0f}{}", c.points, c.max, c.critical_failed ? "!" : "");

@@ -39,7 +39,7 @@ class Sitting {
   [[nodiscard]] const Task& task() const { return task_; }
   [[nodiscard]] const std::vector<RemovedAt>& removed() const { return removed_; }
   [[nodiscard]] const Octree& after() const { return after_; }
-  [[nodiscard]] bool over() const { return state_->finish != scenarios::Finish::running; }
+  [[nodiscard]] bool over() const { return state_->finish != Finish::running; }
 
  private:
   void tick(const Hand& hand, std::span<const RemovedLeaf> leaves);

@@ -20,7 +20,7 @@ struct Carved {
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<RemovedAt> removed;
-  std::vector<SessionEvent> events;
+  std::vector<TimedEvent> events;
 
   Carved(const std::string& scenario_toml, Tooth tooth)
       : scenario(scenarios::parse_scenario(scenario_toml, "s.toml")),

@@ -346,10 +346,10 @@ TEST(Grade, TheLastStepIsOpenWhereItsEventIsMissing) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 0);
   EXPECT_EQ(c.graded().progress.open_last_step, "") << "no exam, no step";
-  c.events.push_back({0, scenarios::event_name(scenarios::ExamEventKind::finished), R"({"how": "ended"})"});
+  c.events.push_back({0, Finished{Finish::ended}});
   EXPECT_EQ(c.graded().progress.open_last_step, "only");
   EXPECT_EQ(c.graded().verdict, Verdict::review);
-  c.events.insert(c.events.begin(), {0, scenarios::event_name(scenarios::ExamEventKind::step_completed), R"({"step": "only"})"});
+  c.events.insert(c.events.begin(), {0, StepCompleted{}});
   EXPECT_EQ(c.graded().progress.open_last_step, "");
   EXPECT_EQ(c.graded().verdict, Verdict::pass);
 }
@@ -464,8 +464,8 @@ TEST(Grade, AStepThatRanOutOfItsTimeIsNamedWithItsLimit) {
   Carved c(scenario_text(k_box_target), dentin_block(2, 2, 0.2));
   c.scenario.steps.at(0).time_limit_s = 5.0;
   c.scenario.accommodations.extra_time_percent = 20;
-  c.events.push_back({5999, "step_time_limit", "{}"});
-  c.events.push_back({5999, "finished", "{\"how\":\"time\"}"});
+  c.events.push_back({5999, StepTimeUp{}});
+  c.events.push_back({5999, Finished{Finish::time}});
   std::string notes;
   for (const auto& n : c.graded().notes) notes += n + "\n";
   EXPECT_NE(notes.find("ran out of its time at 6.00 s (tick 5999): its limit was 6.000 s"), std::string::npos) << notes;
@@ -486,12 +486,12 @@ TEST(Grade, WhatIsDoneAfterTheEndDoesNotCount) {
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 10);
   const double before = static_cast<double>(c.removed.size()) * c.zones.leaf_volume_mm3();  // whole leaves: see measure_volumes
   c.carve(box_hole(-1.5, 1.5, -1, 1, -3), 20);
-  c.events.push_back({15, "finished", "{\"how\":\"time\"}"});
+  c.events.push_back({15, Finished{Finish::time}});
   const Result r = c.graded();
   EXPECT_NEAR(r.volumes.removed.mm3, before, 1e-9);
   EXPECT_EQ(r.motion.late_ticks, 5);
   EXPECT_DOUBLE_EQ(r.motion.time_s, 0.016);
-  EXPECT_EQ(r.progress.finish, "time");
+  EXPECT_EQ(r.progress.finish, Finish::time);
   EXPECT_FALSE(r.notes.empty());
 }
 
@@ -499,9 +499,9 @@ TEST(Grade, PausesAreTakenOffTheTimeToTheTickAndListed) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 400);  // 401 ticks
   const Result whole = c.graded();
-  c.events.push_back({100, "pause_started", "{\"pause\":0}"});
-  c.events.push_back({250, "pause_ended", "{\"pause\":0}"});
-  c.events.push_back({300, "pause_refused", "{\"pauses\":1}"});
+  c.events.push_back({100, PauseStarted{}});
+  c.events.push_back({250, PauseEnded{}});
+  c.events.push_back({300, PauseRefused{1}});
   const Result r = c.graded();
   EXPECT_NEAR(whole.motion.time_s - r.motion.time_s, 0.150, 1e-12);
   EXPECT_DOUBLE_EQ(whole.motion.idle_s - r.motion.idle_s, 0.2);  // two tenths of a second lie in the pause, at least in part
@@ -516,9 +516,9 @@ TEST(Grade, PausesAreTakenOffTheTimeToTheTickAndListed) {
 TEST(Grade, WorkAfterTimeWasUpIsShownAndDoesNotCount) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.1));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -1), 10);
-  c.events.push_back({10, "finished", "{\"how\":\"time\"}"});
+  c.events.push_back({10, Finished{Finish::time}});
   const Result before = c.graded();
-  c.events.push_back({10, "late_work", "{\"ticks\":2500,\"pedal_ticks\":1200}"});
+  c.events.push_back({10, WorkAfterEnd{2500, 1200}});
   const Result r = c.graded();
   EXPECT_EQ(r.late_work.ticks, 2500);
   EXPECT_EQ(to_json(r)["late_ticks"], 2500);

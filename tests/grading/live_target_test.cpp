@@ -15,7 +15,7 @@ using testing::Carved;
 
 /// The exam's runner fed with what was carved.
 struct Live {
-  explicit Live(const Carved& c) : runner(c.scenario, c.zones, c.before, {"round-1.0"}, scenarios::k_exam_rules) {}
+  explicit Live(const Carved& c) : runner(c.scenario, c.zones, c.before, {"round-1.0"}) {}
   double percent(const Carved& c) {
     std::vector<RemovedLeaf> now;
     for (; fed < c.removed.size(); ++fed) now.push_back(c.removed[fed].leaf);

@@ -364,13 +364,11 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
   int gaps = 0;
   const SessionReader done(session);
   for (const auto& row : done.event_rows())
-    if (row.event.kind == "gap") {
+    if (const auto* gap = row.as<RecordingGap>()) {
       ++gaps;
-      EXPECT_EQ(json::parse(row.event.detail_json)["source"], (json{{"device", "motion file"},
-                                                                    {"motion_file", "go_on.csv"},
-                                                                    {"source", "motion_file"},
-                                                                    {"source_name", "go_on.csv"},
-                                                                    {"source_serial", ""}}));
+      EXPECT_EQ(gap->by.source, (MotionSource{"motion_file", "go_on.csv", ""}));
+      EXPECT_EQ(gap->by.device, "motion file");
+      EXPECT_EQ(gap->by.notes, (Notes{{"motion_file", "go_on.csv"}}));
     }
   EXPECT_EQ(gaps, 1) << "a refused call leaves no gap";
   EXPECT_EQ(run("replay " + session + " --verify").exit_code, 0);

@@ -64,8 +64,8 @@ TEST_F(FullDiskExam, FullBeforeItBeginsItBeginsAtTheSecondPlaceAndTellsSoAtOnce)
   expect_saved(path("saved.cavum"));
   const auto events = SessionReader(path("saved.cavum")).events();
   ASSERT_FALSE(events.empty());
-  EXPECT_EQ(events[0].kind, "moved") << "the session says itself that it was meant for another disk";
-  EXPECT_NE(events[0].detail_json.find("\"from\":\"e.cavum\""), std::string::npos) << events[0].detail_json;
+  ASSERT_NE(events[0].as<RecordingMoved>(), nullptr) << "the session says itself that it was meant for another disk";
+  EXPECT_EQ(events[0].as<RecordingMoved>()->from, "e.cavum");
   EXPECT_EQ(events[0].tick, 0);
 
   // without a second place nothing begins, and nothing is left behind that could be taken for a session

@@ -44,7 +44,7 @@ class HostileFiles : public testing_ui::Program {
     auto candidate = scenarios::make_simulated_candidate(*setup, "expert", 7, OmniModel{});
     const auto exam = scenarios::Exam::start(*setup, file, candidate.start_mm());
     scenarios::run_exam(*exam, candidate);
-    exam->recorder().add_event(1, text, "{}");
+    exam->recorder().add_event(1, Announced{{1, text}});
     exam->recorder().flush();
     grading::ExamGrounds grounds(*setup);
     const auto graded = grading::load_for_grading(SessionReader(file), exam->tooth_now(), grounds);

@@ -30,7 +30,8 @@ std::vector<std::string> tasks() {
 }
 
 std::string text_of(const grading::Result& r) {
-  std::string all = std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + r.progress.finish + "\n";
+  std::string all =
+      std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + reason + "\n";
   for (const auto& c : r.criteria) all += "  " + c.id + ": " + c.reason + "\n";
   return all;
@@ -86,13 +87,13 @@ TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) 
   EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
   EXPECT_GE(expert.points, 90) << text_of(expert);
   for (const auto& c : expert.criteria) EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << c.reason;
-  EXPECT_EQ(expert.progress.finish, "completed") << text_of(expert);
+  EXPECT_EQ(expert.progress.finish, Finish::completed) << text_of(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;
   ASSERT_FALSE(reason.empty()) << "a task that ships says what it is there to catch";
   const grading::Result careless = taken_by("careless", *setup);
   EXPECT_EQ(careless.verdict, grading::Verdict::fail) << text_of(careless);
-  EXPECT_NE(careless.progress.finish, "time") << "failed by a time-out instead";
+  EXPECT_NE(careless.progress.finish, Finish::time) << "failed by a time-out instead";
   const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(), [&](const auto& one) { return one.id == reason; });
   ASSERT_NE(c, careless.criteria.end());
   EXPECT_TRUE(c->critical_failed) << text_of(careless);

@@ -26,7 +26,7 @@ class SimulatedSource final : public LiveSource {
   [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + options_.operator_name; }
   [[nodiscard]] MotionSource source() const override { return {"operator", options_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
-  [[nodiscard]] SourceNotes notes() const override {
+  [[nodiscard]] Notes notes() const override {
     return {{"operator", options_.operator_name}, {"operator_seed", std::to_string(options_.seed)}, {"in_real_time", "yes"}};
   }
   void begin(const scenarios::ExamSetup& setup) override {
@@ -57,8 +57,8 @@ class StylusSource final : public LiveSource {
   [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
   [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
   [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }
-  [[nodiscard]] SourceNotes notes() const override {
-    SourceNotes notes{
+  [[nodiscard]] Notes notes() const override {
+    Notes notes{
         {"stylus", stylus_->facts().id}, {"stylus_calibration", to_toml(stylus_options_.station)}, {"pedal_calibration", to_toml(station_pedal_)}};
     const std::string checked = CheckHistory(check_history_path()).session_note({stylus_->facts().id, stylus_->facts().serial});
     if (!checked.empty()) notes.emplace_back(k_self_check_note, checked);

@@ -28,7 +28,7 @@ class LiveSource {
   [[nodiscard]] virtual double peak_n() const { return 0.0; }        ///< that it bears; 0 = as usual
   [[nodiscard]] virtual double continuous_n() const { return 0.0; }  ///< the same
   /// Kept as notes of the session: what was set, and how it stood.
-  [[nodiscard]] virtual SourceNotes notes() const = 0;
+  [[nodiscard]] virtual Notes notes() const = 0;
   /// Makes it ready for this exam and waits until it knows where the tip is; prints what it waits for. Throws Error when that takes over a minute, or
   /// the wait is interrupted.
   virtual void begin(const scenarios::ExamSetup& setup) = 0;

@@ -164,24 +164,18 @@ void add_work(Document& d, const ReportSource& s) {
                                      fixed(m.late_removed_mm3, 2))}}});
   for (const LockSummary& l : lock_summary(s.input.events))
     t.rows.push_back({{{tr("the exam's lock")},
-                       {tr("{}{}; first at {} s", l.words, l.times > 1 ? tr(", {} times", l.times) : "",
+                       {tr("{}{}; first at {} s", lock_words(l.first), l.times > 1 ? tr(", {} times", l.times) : "",
                            fixed(static_cast<double>(l.first_tick) * k_tick_s, 1))}}});
   d.blocks.push_back(std::move(t));
 }
 
 /// Of a live exam: how punctual the servo was, as the session's own event says it.
-void add_servo(ReportTable& t, const SessionEvent& e) {
-  const json j = parse_json_or_null(e.detail_json);
-  if (!j.is_object()) return;
-  const json lateness = j.value("lateness", json::object());
-  const auto us = [&](const char* key) {
-    return lateness.is_object() && lateness.contains(key) && lateness[key].is_number() ? fixed(lateness[key].get<double>() * 1e-3, 3) + " ms"
-                                                                                       : k_dash;
-  };
-  const auto count = [&](const char* key) { return j.contains(key) && j[key].is_number() ? j[key].dump() : k_dash; };
+void add_servo(ReportTable& t, const RealTimeReport& servo) {
+  const auto ms = [](double us) { return fixed(us * 1e-3, 3) + " ms"; };
+  const Lateness& l = servo.lateness;
   t.rows.push_back({{{tr("lateness of the servo")},
-                     {tr("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", count("ticks"), count("overruns"), us("p50_us"),
-                         us("p999_us"), us("worst_us"))}}});
+                     {tr("{} ticks, {} late; half of them within {}, 99.9 % within {}, worst {}", std::to_string(servo.ticks),
+                         std::to_string(servo.overruns), ms(l.quantile_us(0.5)), ms(l.quantile_us(0.999)), ms(l.worst_us()))}}});
 }
 
 void add_device(Document& d, const ReportSource& s) {
@@ -193,8 +187,8 @@ void add_device(Document& d, const ReportSource& s) {
     if (key != "ticket") t.rows.push_back({{{key}, {value}}});
   bool live = false;
   for (const auto& e : s.input.events)
-    if (e.kind == "servo_lateness") {
-      add_servo(t, e);
+    if (const auto* lateness = e.as<ServoLateness>()) {
+      add_servo(t, lateness->servo);
       live = true;
     }
   if (!live) t.rows.push_back({{{tr("lateness of the servo")}, {tr("not recorded: the exam did not run in real time")}}});

@@ -120,7 +120,7 @@ namespace {
 json steps_json(const ReportSource& s) {
   json list = json::array();
   for (const auto& e : s.input.events)
-    if (e.kind == scenarios::event_name(scenarios::ExamEventKind::step_completed)) list.push_back(static_cast<double>(e.tick) * k_tick_s);
+    if (e.as<StepCompleted>() != nullptr) list.push_back(static_cast<double>(e.tick) * k_tick_s);
   return list;
 }
 

@@ -378,11 +378,19 @@ std::string floor_words() {
       "the instrument went on. An opened pulp is told as a perforation, not as overcut.");
 }
 
-std::string finish_words(const std::string& finish) {
-  if (finish == scenarios::finish_name(scenarios::Finish::completed)) return tr("its last step was completed");
-  if (finish == scenarios::finish_name(scenarios::Finish::failed)) return tr("a step was failed");
-  if (finish == scenarios::finish_name(scenarios::Finish::time)) return tr("time was up");
-  if (finish == scenarios::finish_name(scenarios::Finish::ended)) return tr("it was handed in before its steps were completed");
+std::string finish_words(Finish finish) {
+  switch (finish) {
+    case Finish::completed:
+      return tr("its last step was completed");
+    case Finish::failed:
+      return tr("a step was failed");
+    case Finish::time:
+      return tr("time was up");
+    case Finish::ended:
+      return tr("it was handed in before its steps were completed");
+    case Finish::running:
+      break;
+  }
   return tr("it was not finished");
 }
 

@@ -35,8 +35,8 @@ void add_integrity(Document& document, const ReportSource& source);
 [[nodiscard]] std::string place_text(const std::optional<Vec3>& site_mm);
 /// Of every figure of a floor's overcut, in the reader's language.
 [[nodiscard]] std::string floor_words();
-/// How an exam came to its end, for finish_name(): "time was up".
-[[nodiscard]] std::string finish_words(const std::string& finish);
+/// How an exam came to its end: "time was up".
+[[nodiscard]] std::string finish_words(Finish finish);
 /// What the rooms below say of an exam, in English still, as a report's reader takes it: a step by its own text and not by its identifier; for a
 /// student without ticks.
 [[nodiscard]] std::string for_reader(std::string text, const ReportSource& source);

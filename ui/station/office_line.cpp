@@ -110,12 +110,12 @@ void OfficeLine::note_what_was_said(const StationState& state, Sitting& sitting)
   const office::LinkView& office = *state.office;
   if (office.hold != 0 && office.hold != noted_hold_) {
     noted_hold_ = office.hold;
-    sitting.note("office_hold", nlohmann::json{{"entry", office.hold}, {"reason", office.hold_reason}}.dump());
+    sitting.note(OfficeHold{{office.hold, office.hold_reason}});
   }
   for (const auto& t : office.told) {
     if (t.entry <= noted_) continue;
     noted_ = t.entry;
-    sitting.note("announcement", nlohmann::json{{"entry", t.entry}, {"text", t.text}}.dump());
+    sitting.note(Announced{{t.entry, t.text}});
   }
 }
 
@@ -123,14 +123,14 @@ void OfficeLine::read(StationState& state, Sitting* sitting) {
   if (!state.office || state.office->told.empty()) return;
   const std::uint64_t entry = state.office->told.front().entry;
   link_.read(entry);
-  if (sitting != nullptr) sitting->note("announcement_read", nlohmann::json{{"entry", entry}}.dump());
+  if (sitting != nullptr) sitting->note(AnnouncementRead{{entry}});
   state.office = link_.view();
 }
 
 void OfficeLine::release(const StationState& state, Sitting* sitting) {
   if (!may_go_on_without(state)) return;
   link_.release(state.office->hold);
-  if (sitting != nullptr) sitting->note("office_hold_released", nlohmann::json{{"entry", state.office->hold}}.dump());
+  if (sitting != nullptr) sitting->note(OfficeHoldReleased{{state.office->hold}});
 }
 
 void OfficeLine::require_free(const StationState& state) {

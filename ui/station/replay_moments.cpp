@@ -8,28 +8,40 @@
 namespace cavum::station {
 namespace {
 
-/// What of the recording's events is worth a mark.
-const char* word_of_event(const std::string& kind) {
-  if (kind == "perforation") return "perforation";
-  if (kind == "aim_reached") return "aim reached";
-  if (kind == "step_completed") return "step completed";
-  if (kind == "step_failed" || kind == "step_time_limit") return "step failed";
-  if (kind == "pause_started") return "pause";
-  if (kind == "hold_started") return "paused by the office";
-  if (kind == "gap") return "recording interrupted";
-  if (kind == "time_limit") return "time is up";
-  if (kind == "finished") return "finished";
-  return nullptr;
+struct EventMark {
+  const char* word;  ///< null: not worth one
+  bool bad = false;
+};
+
+EventMark mark(const char* word) { return {word}; }
+EventMark bad_mark(const char* word) { return {word, true}; }
+
+EventMark event_mark(const Event& event) {
+  return std::visit(
+      EachKind{
+          [](const Perforated&) { return bad_mark("perforation"); },
+          [](const AimReached&) { return mark("aim reached"); },
+          [](const StepCompleted&) { return mark("step completed"); },
+          [](const AnyOf<StepFailed, StepTimeUp> auto&) { return bad_mark("step failed"); },
+          [](const PauseStarted&) { return mark("pause"); },
+          [](const HoldStarted&) { return mark("paused by the office"); },
+          [](const RecordingGap&) { return bad_mark("recording interrupted"); },
+          [](const TimeUp&) { return mark("time is up"); },
+          [](const Finished&) { return mark("finished"); },
+          [](const AnyOf<StepStarted, PointNotAllowed, OverSpeed, PauseEnded, PauseRefused, HoldEnded, RecordingMoved, ServoGap, Overruns,
+                         StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt,
+                         OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return mark(nullptr); },
+      },
+      event);
 }
 
 }  // namespace
 
-std::vector<ReplayMoment> replay_moments(const std::vector<SessionEvent>& events, const std::string& result_json, std::int64_t ticks,
+std::vector<ReplayMoment> replay_moments(const std::vector<TimedEvent>& events, const std::string& result_json, std::int64_t ticks,
                                          bool with_points) {
   std::vector<ReplayMoment> moments;
-  for (const SessionEvent& e : events)
-    if (const char* word = word_of_event(e.kind))
-      moments.push_back({e.tick, word, e.kind == "perforation" || e.kind == "step_failed" || e.kind == "step_time_limit" || e.kind == "gap"});
+  for (const TimedEvent& e : events)
+    if (const auto [word, bad] = event_mark(e.event); word != nullptr) moments.push_back({e.tick, word, bad});
   if (with_points && !result_json.empty()) {
     try {
       const auto result = nlohmann::json::parse(result_json);

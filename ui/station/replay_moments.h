@@ -19,7 +19,7 @@ struct ReplayMoment {
 
 /// `result_json`: of a closed session, empty for another. A loss without a moment of its own stands at the end, `ticks`. `with_points` false: the
 /// school has not released the marks, and events alone are listed. Throws Error when the result cannot be read.
-[[nodiscard]] std::vector<ReplayMoment> replay_moments(const std::vector<SessionEvent>& events, const std::string& result_json, std::int64_t ticks,
+[[nodiscard]] std::vector<ReplayMoment> replay_moments(const std::vector<TimedEvent>& events, const std::string& result_json, std::int64_t ticks,
                                                        bool with_points);
 /// The one before (-1) or after (+1) where the replay is; `chosen` tells those of one tick apart. -1 where there is none.
 [[nodiscard]] int moment_beside(const std::vector<ReplayMoment>& moments, std::int64_t at, int chosen, int step);

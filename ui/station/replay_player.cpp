@@ -29,8 +29,7 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       inputs_(reader_.inputs()),
       events_(reader_.events()),
       moments_(replay_moments(events_, reader_.result_json(), static_cast<std::int64_t>(inputs_.size()), !setup_->scenario.hold_results)),
-      ended_by_hand_(std::any_of(events_.begin(), events_.end(),
-                                 [](const SessionEvent& e) { return e.kind == scenarios::event_name(scenarios::ExamEventKind::finished); })),
+      ended_by_hand_(std::any_of(events_.begin(), events_.end(), [](const TimedEvent& e) { return e.as<Finished>() != nullptr; })),
       between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {
   Moment first;
   first.servo = simulation_.state;
@@ -71,9 +70,7 @@ void ReplayPlayer::seek(std::int64_t tick) {
   if (goal_ < now_->servo.tick || from->servo.tick > now_->servo.tick) now_ = std::make_unique<Moment>(*from);
 }
 
-scenarios::Runner ReplayPlayer::make_runner() const {
-  return {setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names, setup_->session.exam_rules};
-}
+scenarios::Runner ReplayPlayer::make_runner() const { return {setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names}; }
 
 void ReplayPlayer::take_tick(Moment& moment, scenarios::Runner& runner) const {
   moment.input = inputs_[static_cast<std::size_t>(moment.servo.tick)];

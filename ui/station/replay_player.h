@@ -73,7 +73,7 @@ class ReplayPlayer {
   Simulation simulation_;
   scenarios::Runner runner_;
   std::vector<TickInput> inputs_;
-  std::vector<SessionEvent> events_;
+  std::vector<TimedEvent> events_;
   std::vector<ReplayMoment> moments_;
   bool ended_by_hand_ = false;  // what the candidate or the supervisor ended is no input of a tick
   std::int64_t between_ = 1, goal_ = 0;

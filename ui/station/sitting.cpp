@@ -201,11 +201,8 @@ void Sitting::begin() {
       });
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
-      SourceNotes notes = to_notes(source());
-      for (auto& said : device_->notes()) notes.push_back(std::move(said));
-      notes.emplace_back("device", device_->name());
-      for (auto& said : ledger::require_not_closed(setup_->session.notes, first)) notes.push_back(std::move(said));
-      auto exam = scenarios::Exam::resume(*setup_, first, notes);
+      const bool remembered = ledger::require_not_closed(setup_->session.notes, first);
+      auto exam = scenarios::Exam::resume(*setup_, first, {source(), device_->name(), remembered, device_->notes()});
       exam->set_second_place(second);
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     }
@@ -257,8 +254,8 @@ void Sitting::ask_to_end() {
   if (live_) live_->ask_to_end();
 }
 
-void Sitting::note(const std::string& kind, const std::string& detail_json) {
-  if (stage_ == Stage::running) live_->note(kind, detail_json);
+void Sitting::note(Event event) {
+  if (stage_ == Stage::running) live_->note(std::move(event));
 }
 
 void Sitting::end_running() {
@@ -275,7 +272,7 @@ void Sitting::end_running() {
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {
     grading::ClosedExam closed = grading::grade_and_close(live_->exam());
-    ledger::remember_closed(closed.graded->notes, live_->exam().recorder().path());
+    ledger::remember_closed(closed.graded->session.notes, live_->exam().recorder().path());
     lessons_ = grading::lessons(closed.graded->input(), closed.result);
     return closed;
   });

@@ -83,7 +83,7 @@ class Sitting {
   [[nodiscard]] Desk& desk() noexcept { return desk_; }
   void ask_to_end();
   /// Recorded as an event of the session, see LiveExam::note; nothing while it does not run.
-  void note(const std::string& kind, const std::string& detail_json);
+  void note(Event event);
   /// The exam is left as it is: `interrupted`, or `unsaved` when the disk refuses its end; nothing while it does not run.
   void stop();
   /// For when nobody answers any more: stops what runs, waits until what was graded is sealed, and saves what is in memory only, where it is or else

@@ -257,7 +257,7 @@ class Station {
   /// Each step of the tutorial that was done is recorded.
   void note_tutorial() {
     const int done = state_.tutorial ? state_.tutorial->step() : 0;
-    if (done > tutorial_noted_) sitting_->note("tutorial", fmt::format("{{\"step\":{}}}", done));
+    if (done > tutorial_noted_) sitting_->note(TutorialStep{done});
     tutorial_noted_ = done;
   }
 

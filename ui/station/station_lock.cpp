@@ -9,8 +9,8 @@ bool examined(const Sitting* sitting) { return sitting != nullptr && sitting->st
 void keep(const LockAttempt& a, StationState& state, Sitting* sitting) {
   constexpr int k_most = 1000;  // in one exam: who goes on and on fills no disk
   if (!examined(sitting) || state.attempts >= k_most) return;
-  sitting->note(k_lock_event, to_json(a));
-  if (a.what == "focus_back" || a.what == "screen_back") return;
+  sitting->note(a);
+  if (a.what == LockTry::focus_back || a.what == LockTry::screen_back) return;
   ++state.attempts;
   state.attempt = lock_words(a);
   constexpr double k_shown_s = 10.0;
@@ -22,7 +22,7 @@ void keep(const LockAttempt& a, StationState& state, Sitting* sitting) {
 void StationLock::watch(Window& window, StationState& state, Sitting* sitting) {
   for (const LockAttempt& a : lock_.look(window.input())) {
     keep(a, state, sitting);
-    if (locked() && (a.what == "screen_lost" || a.what == "screen_back")) window.come_back();
+    if (locked() && (a.what == LockTry::screen_lost || a.what == LockTry::screen_back)) window.come_back();
   }
   constexpr auto k_again = std::chrono::milliseconds(500);
   const auto now = std::chrono::steady_clock::now();
@@ -34,7 +34,7 @@ void StationLock::watch(Window& window, StationState& state, Sitting* sitting) {
 bool StationLock::lets_close(Window& window, StationState& state, Sitting* sitting) {
   if (granted_ || (!locked() && !examined(sitting))) return true;
   window.stay_open();
-  keep({"close_asked", ""}, state, sitting);
+  keep({LockTry::close_asked}, state, sitting);
   state.confirm_end = false;
   state.confirm_leave = true;
   return false;
@@ -44,12 +44,12 @@ void StationLock::leave(Window& window, StationState& state, Sitting* sitting) {
   const std::string code = state.supervisor_code.data();
   state.supervisor_code = {};
   if (locked() && !lock_.opens(code)) {
-    keep({"close_refused", ""}, state, sitting);
+    keep({LockTry::close_refused}, state, sitting);
     state.focus_supervisor = true;
     state.leave_message = "This is not the supervisor's code.";
     return;
   }
-  keep({"close_granted", locked() ? k_by_supervisor : ""}, state, sitting);
+  keep({LockTry::close_granted, locked()}, state, sitting);
   granted_ = true;
   state.confirm_leave = false;
   window.ask_to_close();

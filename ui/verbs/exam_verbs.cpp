@@ -95,7 +95,7 @@ MotionSource motion_source(const ExamArguments& o) {
   return {"operator", o.operator_name};
 }
 
-SourceNotes source_notes(const ExamArguments& o) {
+Notes source_notes(const ExamArguments& o) {
   if (!o.motion.empty()) return {{"motion_file", std::filesystem::path(o.motion).filename().string()}};
   return {{"operator", o.operator_name}, {"operator_seed", std::to_string(o.seed)}};
 }
@@ -148,7 +148,7 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
   grading::ClosedExam closed;
   write_somewhere(exam, o.out_if_full, [&] { closed = grading::grade_and_close(exam); });
   const std::string& session = exam.recorder().path();
-  ledger::remember_closed(closed.graded->notes, session);
+  ledger::remember_closed(closed.graded->session.notes, session);
   const grading::Result& result = closed.result;
   if (o.json) {
     auto j = grading::to_json(result);
@@ -215,7 +215,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   const scenarios::LiveReport& report = live.finish();
   const nlohmann::json servo = servo_json(report);
   scenarios::Exam& exam = live.exam();
-  exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), "servo_lateness", servo.dump());
+  exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), ServoLateness{report.servo, report.first_disagreement});
   if (!o.json && !o.quiet)
     std::fprintf(stderr, "servo: %lld ticks, %lld late, worst %.1f ms%s\n", static_cast<long long>(report.servo.ticks),
                  static_cast<long long>(report.servo.overruns), report.servo.lateness.worst_us() * 1e-3,
@@ -314,9 +314,8 @@ int run_resumed(const ExamArguments& o) {
   if (!reader.closed()) require_same(o, reader.setup());  // of a closed one, that it is closed says more
   const auto setup = scenarios::prepare_exam(reader.setup());
   show_texts_of(setup->scenario);
-  SourceNotes notes;
-  if (!reader.closed()) notes = ledger::require_not_closed(setup->session.notes, o.out);
-  const auto say = [&notes](const SourceNotes& more) { notes.insert(notes.end(), more.begin(), more.end()); };
+  ResumedBy by;
+  if (!reader.closed()) by.ticket_remembered = ledger::require_not_closed(setup->session.notes, o.out);
   if (!o.device.empty()) {
     const Interrupt interrupt;
     const auto live = open_source(o);
@@ -324,20 +323,13 @@ int run_resumed(const ExamArguments& o) {
       throw Error("--device " + o.device, fmt::format("has another encoder than the one that {} was begun with", o.out),
                   "go on with the same device, or close the exam with --end");
     live->begin(*setup);
-    say(to_notes(live->source()));
-    say(live->notes());
-    say({{"device", live->name()}});
-    return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, notes));
+    return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, {live->source(), live->name(), by.ticket_remembered, live->notes()}));
   }
   const bool moves = !o.motion.empty() || !o.operator_name.empty();
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
   const auto source = moves ? make_source(o, *setup) : nullptr;
-  if (moves) {
-    say(to_notes(motion_source(o)));
-    say(source_notes(o));
-    say({{"device", source_name(o)}});
-  }
-  const auto exam = scenarios::Exam::resume(*setup, o.out, notes);
+  if (moves) by = {motion_source(o), source_name(o), by.ticket_remembered, source_notes(o)};
+  const auto exam = scenarios::Exam::resume(*setup, o.out, by);
   exam->set_second_place(o.out_if_full);
   if (source && exam->over()) {
     std::fprintf(stderr, "cavum: %s: this exam was over when it was interrupted: it is closed as it stands, and nothing more is run\n",

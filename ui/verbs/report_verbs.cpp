@@ -109,7 +109,7 @@ std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession&
 }
 
 bool is_practice(const grading::GradedSession& s) {
-  return std::any_of(s.notes.begin(), s.notes.end(), [](const auto& note) { return note.first == "practice"; });
+  return std::any_of(s.session.notes.begin(), s.session.notes.end(), [](const auto& note) { return note.first == "practice"; });
 }
 
 /// The report of one session, as a file of that name holds it.

@@ -139,7 +139,7 @@ struct Caught {
 std::string advice_for(const Caught& c) {
   const grading::CriterionResult& named = c.criterion;
   const bool lost_all = named.critical_failed || named.points <= 0;
-  if (c.result.progress.finish == "time")
+  if (c.result.progress.finish == Finish::time)
     return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
   if (lost_all && c.result.verdict == grading::Verdict::review)
     return fmt::format("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
@@ -160,8 +160,8 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
   for (const auto& one : c.result.criteria)
     if (one.id == setup.scenario.careless.fails_by) c.criterion = one;
   // running out of time is another reason than the one the task is there for
-  c.as_named =
-      c.result.verdict == grading::Verdict::fail && c.result.progress.finish != "time" && (c.criterion.critical_failed || c.criterion.points <= 0);
+  c.as_named = c.result.verdict == grading::Verdict::fail && c.result.progress.finish != Finish::time &&
+               (c.criterion.critical_failed || c.criterion.points <= 0);
   if (!c.as_named) c.advice = advice_for(c);
   return c;
 }
@@ -235,7 +235,7 @@ int solve(const ScenarioArguments& o) {
               << grading::verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %"
               << (r.compensatory ? "" : " of each criterion") << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s ("
               << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of "
-              << r.progress.steps << " completed, ended: " << r.progress.finish << "\n";
+              << r.progress.steps << " completed, ended: " << finish_name(r.progress.finish) << "\n";
     for (const auto& c : r.criteria)
       std::cout << "  " << kept(one_line(c.id)) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
   }

@@ -15,7 +15,7 @@ namespace {
 
 /// What an instructor can do when the expert did not pass.
 std::string advice_for_expert(const grading::Result& r) {
-  if (r.progress.finish == "time") return "allow more time (time_limit_s), or make the target smaller";
+  if (r.progress.finish == Finish::time) return "allow more time (time_limit_s), or make the target smaller";
   for (const auto& c : r.criteria)
     if (!c.value) return fmt::format("take '{}' out: this cavity has nothing that it measures", c.id);
   for (const auto& c : r.criteria)
@@ -61,7 +61,7 @@ Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed, const s
   const grading::Result& r = solved.result.emplace(sat_by(setup, *expert, session));
   if (r.verdict == grading::Verdict::pass) return solved;
   solved.reasons = r.verdict_reasons;
-  if (r.progress.finish == "time")
+  if (r.progress.finish == Finish::time)
     solved.reasons.push_back(fmt::format("time was up after {} s: the expert was not finished", fixed(r.motion.time_s, 1)));
   for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
     solved.reasons.push_back(fmt::format("step {} was not completed ({})", setup.scenario.steps[i].id, setup.scenario.steps[i].complete_when));

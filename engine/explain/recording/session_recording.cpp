@@ -7,8 +7,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/simulation.h"
 
@@ -44,21 +42,16 @@ Force force_of_csv(const std::string& path) {
 Force force_of_events(const SessionReader& session, double tick_s) {
   Force out;
   out.source = "measured, in the session";
-  for (const auto& event : session.events()) {
-    if (event.kind != k_measured_force_event) continue;
-    const auto detail = parse_json_or_null(event.detail_json);
-    const std::string where = fmt::format("{}: event {} at tick {}", session.path(), k_measured_force_event, event.tick);
-    if (!detail.is_object() || !detail.contains("f_n") || !detail["f_n"].is_array())
-      throw Error(where, msg("holds no list f_n"), msg("record {{\"f_n\": [...], \"every_ticks\": N}}"));
-    const auto& told = member_of(detail, "every_ticks");
-    const double every = told.is_number() ? std::clamp(told.get<double>(), 1.0, 1e9) : 1.0;
-    double at = static_cast<double>(event.tick);
-    for (const auto& value : detail["f_n"]) {
-      if (!value.is_number()) throw Error(where, msg("f_n holds something that is no number"), msg("record forces in N"));
-      if (!out.t_s.empty() && !(at * tick_s > out.t_s.back())) throw Error(where, msg("overlaps the one before"), msg("record each tick once"));
+  for (const auto& e : session.event_rows()) {
+    const auto* measured = e.as<MeasuredForce>();
+    if (measured == nullptr) continue;
+    double at = static_cast<double>(e.tick);
+    for (const double f_n : measured->f_n) {
+      if (!out.t_s.empty() && !(at * tick_s > out.t_s.back()))
+        throw Error(msg("{}: force measured at tick {}", session.path(), e.tick), msg("overlaps the one before"), msg("record each tick once"));
       out.t_s.push_back(at * tick_s);
-      out.f_n.push_back(value.get<double>());
-      at += every;
+      out.f_n.push_back(f_n);
+      at += std::max(1, measured->every_ticks);
     }
   }
   return out;

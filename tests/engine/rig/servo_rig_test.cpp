@@ -44,7 +44,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     EXPECT_EQ(nlohmann::json::parse(session.result_json())["overruns"], r.servo.overruns);
     std::int64_t told = 0;
     for (const auto& e : session.event_rows())
-      if (e.event.kind == "overruns") told += nlohmann::json::parse(e.event.detail_json)["count"].get<std::int64_t>();
+      if (const auto* overruns = e.as<Overruns>()) told += overruns->count;
     EXPECT_EQ(told, r.servo.overruns);
     const VerifyReport report = verify_session(path);
     EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());

@@ -56,7 +56,7 @@ TEST(RealTime, KeepsThePaceOfTheClockAndTellsWhatItGot) {
   run.go(500);
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
   EXPECT_EQ(run.report.ticks, 500);
-  EXPECT_EQ(run.report.why, "ticks");
+  EXPECT_EQ(run.report.why, ServoEnd::ticks);
   EXPECT_EQ(run.report.lateness.ticks, 500);
   EXPECT_GE(seconds, 0.499) << "never faster than real time";
   EXPECT_LT(seconds, 0.499 + static_cast<double>(run.report.lateness.worst_ns) * 1e-9 + k_patience_s);
@@ -110,7 +110,7 @@ TEST(RealTime, NaNFromTheDeviceEndsWithZeroForceAndTheServoLives) {
     }
   });
   run.go(600);
-  EXPECT_EQ(run.report.why, "ticks");
+  EXPECT_EQ(run.report.why, ServoEnd::ticks);
   for (const auto& s : run.device.sent) {
     ASSERT_TRUE(is_finite(s.force_n));
     if (s.read > 212 && s.read < 300) {
@@ -131,12 +131,12 @@ TEST(RealTime, WhatTheDeviceThrowsStopsTheServoWithZeroForce) {
       throw 42;
     });
     run.go(1000);
-    EXPECT_EQ(run.report.why, "device_failed");
+    EXPECT_EQ(run.report.why, ServoEnd::device_failed);
     EXPECT_EQ(run.report.error, kind == 0 ? "the cable came out" : "something that is no std::exception");
     EXPECT_GT(length(run.device.sent[run.device.sent.size() - 2].force_n), 0.5);
     EXPECT_EQ(run.device.sent.back().force_n, Vec3{});
     EXPECT_TRUE(run.stream.closed());
-    EXPECT_EQ(run.stream.why(), "device_failed");
+    EXPECT_EQ(run.stream.why(), ServoEnd::device_failed);
     EXPECT_EQ(run.stream.detail(), run.report.error);
     EXPECT_EQ(static_cast<std::int64_t>(run.ticks.size()), run.report.ticks);
   }
@@ -199,7 +199,7 @@ TEST(RealTime, WithoutRoomInTheStreamNoStepIsTakenAndTheForceIsZero) {
   servo.ask_to_stop();
   run.report = servo.join();
   run.empty();
-  EXPECT_EQ(run.report.why, "asked");
+  EXPECT_EQ(run.report.why, ServoEnd::asked);
   EXPECT_GE(run.report.skipped_full, 30);
   ASSERT_EQ(static_cast<std::int64_t>(ticks.size()), run.report.ticks);
   std::int64_t told = 0;

@@ -76,7 +76,7 @@ TEST_F(ClockCheck, TimeThatTheServoOwnsUpToIsAccountedFor) {
     for (; tick < 3000; ++tick) {
       if (tick == 1500) {
         lost_ms = 4000;
-        recorder.add_event(tick, k_servo_gap_event, R"({"periods":4000,"times":1,"first_tick":1500})");
+        recorder.add_event(tick, ServoGap{4000, 1, 1500});
       }
       test::drill(simulation, recorder, tick, 1);
     }

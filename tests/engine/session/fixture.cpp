@@ -89,7 +89,7 @@ std::string make_closed_session(const std::string& path, std::int64_t ticks) {
   Recorder recorder = Recorder::create(path, setup);
   std::string result = R"({"verdict":"pass","score":{"points":83,"max":100}})";
   for (std::int64_t tick = 0; tick < ticks; tick += 700) {
-    recorder.add_event(tick, "step", "{\"step\":" + std::to_string(tick / 700) + "}");
+    recorder.add_event(tick, StepCompleted{static_cast<std::int32_t>(tick / 700)});
     drill(simulation, recorder, tick, std::min<std::int64_t>(700, ticks - tick));
   }
   recorder.close(save_tooth(drilled_tooth(simulation)), result);

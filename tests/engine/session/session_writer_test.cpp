@@ -48,17 +48,21 @@ struct Live {
 };
 
 struct Kept {
-  std::map<std::string, std::vector<nlohmann::json>> events;
+  std::vector<TimedEvent> events;
   std::int64_t ticks = 0;
+  template <class E>
+  [[nodiscard]] std::vector<E> of() const {
+    std::vector<E> list;
+    for (const auto& e : events)
+      if (const E* event = e.as<E>()) list.push_back(*event);
+    return list;
+  }
 };
 Kept kept(const std::string& path) {
   const SessionReader session(path);
   session.require_readable();
   EXPECT_TRUE(session.findings().empty());
-  Kept out;
-  out.ticks = session.ticks();
-  for (const auto& e : session.event_rows()) out.events[e.event.kind].push_back(nlohmann::json::parse(e.event.detail_json));
-  return out;
+  return {session.events(), session.ticks()};
 }
 
 /// The open session can be taken up, ends in the state the servo ended in, closes and verifies.
@@ -88,8 +92,8 @@ TEST(SessionWriter, AQuietRunIsRecordedTickByTickAndVerifies) {
   EXPECT_GT(watched_leaves, 100) << "the motion must drill, or the test shows little";
   const Kept k = kept(path);
   EXPECT_EQ(k.ticks, 1500);
-  ASSERT_EQ(k.events.at("servo_stopped").size(), 1u);
-  EXPECT_EQ(k.events.at("servo_stopped").front()["why"], "ticks");
+  ASSERT_EQ(k.of<ServoStopped>().size(), 1u);
+  EXPECT_EQ(k.of<ServoStopped>().front().why, ServoEnd::ticks);
   expect_resumes_and_verifies(path, live);
 }
 
@@ -103,9 +107,9 @@ TEST(SessionWriter, OverrunsAreEventsAndNoneIsHidden) {
   const Kept k = kept(path);
   std::int64_t told = 0;
   double worst = 0;
-  for (const auto& e : k.events.at("overruns")) {
-    told += e["count"].get<std::int64_t>();
-    worst = std::max(worst, e["worst_late_ms"].get<double>());
+  for (const auto& e : k.of<Overruns>()) {
+    told += e.count;
+    worst = std::max(worst, e.worst_late_ms);
   }
   EXPECT_EQ(told, live.servo_report.overruns);
   EXPECT_GE(told, 30);
@@ -125,13 +129,12 @@ TEST(SessionWriter, NaNIsAnEventAndTheSessionGoesOn) {
   live.run(path, 1000);
   const Kept k = kept(path);
   EXPECT_EQ(k.ticks, 1000);
-  ASSERT_GE(k.events.count("stylus_silent"), 1u);
   bool fault = false;
-  for (const auto& e : k.events.at("stylus_silent")) fault = fault || e["fault"] == true;
+  for (const auto& e : k.of<StylusSilent>()) fault = fault || e.fault;
   EXPECT_TRUE(fault);
-  EXPECT_GE(k.events.count("stylus_back"), 1u);
-  EXPECT_GE(k.events.count("pedal_lost"), 1u);
-  EXPECT_GE(k.events.count("pedal_back"), 1u);
+  EXPECT_GE(k.of<StylusBack>().size(), 1u);
+  EXPECT_GE(k.of<PedalLost>().size(), 1u);
+  EXPECT_GE(k.of<PedalBack>().size(), 1u);
   expect_resumes_and_verifies(path, live);
 }
 
@@ -146,9 +149,9 @@ TEST(SessionWriter, AThrowingDeviceLeavesAnOpenSessionThatSaysWhy) {
   EXPECT_EQ(live.device.sent.back().force_n, Vec3{});
   const Kept k = kept(path);
   EXPECT_EQ(k.ticks, live.servo_report.ticks);
-  ASSERT_EQ(k.events.at("servo_stopped").size(), 1u);
-  EXPECT_EQ(k.events.at("servo_stopped").front()["why"], "device_failed");
-  EXPECT_EQ(k.events.at("servo_stopped").front()["error"].get<std::string>().rfind("transfer failed", 0), 0u);
+  ASSERT_EQ(k.of<ServoStopped>().size(), 1u);
+  EXPECT_EQ(k.of<ServoStopped>().front().why, ServoEnd::device_failed);
+  EXPECT_EQ(k.of<ServoStopped>().front().error, "transfer failed: \"pipe\" ?");
   expect_resumes_and_verifies(path, live);
 }
 
@@ -165,7 +168,7 @@ TEST(SessionWriter, AStalledWriterLosesNoTickAndTheGapIsTold) {
   const Kept k = kept(path);
   EXPECT_EQ(k.ticks, 600);
   std::int64_t told = 0;
-  for (const auto& e : k.events.at("servo_gap")) told += e["periods"].get<std::int64_t>();
+  for (const auto& e : k.of<ServoGap>()) told += e.periods;
   EXPECT_EQ(told, live.servo_report.skipped_full + live.servo_report.skipped_late);
   expect_resumes_and_verifies(path, live);
 }

@@ -16,7 +16,7 @@ using nlohmann::json;
 /// it.
 struct Forgery {
   std::function<void(SessionSetup&)> setup = {};
-  std::function<void(std::vector<SessionEvent>&)> events = {};
+  std::function<void(std::vector<TimedEvent>&)> events = {};
   std::function<void(json& result)> result = {};
   std::int64_t later_s = 0;  ///< by which all clocks are put forward
 };
@@ -40,12 +40,11 @@ std::string forged(const School& school, const std::string& session, const Forge
   std::size_t next = 0;
   for (const auto& input : real.inputs()) {
     const TickOutput output = step(simulation.model, simulation.state, input);
-    for (; next < events.size() && events[next].tick <= tick; ++next)
-      recorder.add_event(events[next].tick, events[next].kind, events[next].detail_json);
+    for (; next < events.size() && events[next].tick <= tick; ++next) recorder.add_event(events[next].tick, events[next].event);
     ++tick;
     recorder.append(input, make_tick_record(output), simulation.state.removed, state_hash(simulation.state));
   }
-  for (; next < events.size(); ++next) recorder.add_event(events[next].tick, events[next].kind, events[next].detail_json);
+  for (; next < events.size(); ++next) recorder.add_event(events[next].tick, events[next].event);
   recorder.close(save_tooth(drilled_tooth(simulation)), result.dump());
   return path;
 }
@@ -137,7 +136,7 @@ TEST_F(SchoolMarks, AnEventThatNeverHappened) {
   expect_finding(refused(forged(school_, session_,
                                 {.events =
                                      [](auto& e) {
-                                       e.insert(e.begin() + 1, {5, "step_completed", "{\"step\":\"x\"}"});
+                                       e.insert(e.begin() + 1, {5, StepCompleted{}});
                                      }})),
                  {"event 1", "recorded 'step_completed"});
 }
@@ -145,7 +144,7 @@ TEST_F(SchoolMarks, AnEndThatHidesWhatCameAfterIt) {
   expect_finding(refused(forged(school_, session_,
                                 {.events =
                                      [](auto& e) {
-                                       e.insert(e.begin() + 1, {3000, "finished", R"({"how":"ended"})"});
+                                       e.insert(e.begin() + 1, {3000, Finished{Finish::ended}});
                                      }})),
                  {"ended at tick 3000", "recorded on to tick"});
 }

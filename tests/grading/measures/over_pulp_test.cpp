@@ -95,7 +95,7 @@ TEST(OverPulp, CutsAfterTheEndDoNotCount) {
   Carved c(asking(), with_pulp(pulp_ball));
   c.carve(round_hole(0, 0, 0.4, -1.0), 2);
   c.carve(round_hole(0, 0, 0.4, -2.0), 6);
-  c.events.push_back({4, "finished", "{\"how\":\"ended\"}"});
+  c.events.push_back({4, Finished{Finish::ended}});
   EXPECT_EQ(c.graded().over_pulp.thinnest.tick, 2);
 }
 

@@ -42,7 +42,7 @@ struct Sat {
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;
   std::vector<RemovedAt> removed;
-  std::vector<SessionEvent> events;
+  std::vector<TimedEvent> events;
   Tooth after;
   [[nodiscard]] grading::GradeInput input(const NoviceTask& t) const {
     return {t.setup->scenario, t.setup->tooth, t.setup->zones, after.octree, inputs, records, removed, events};

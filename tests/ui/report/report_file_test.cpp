@@ -121,8 +121,8 @@ TEST_F(ReportFile, SaysHowTheExamEndedAndHowItsBoundsAreMeant) {
   EXPECT_EQ(html.find("Care counts for as much as was done: where less than 50 %") != std::string::npos, by_work);
   const std::string of_the_floor = html_with([](grading::GradedSession& graded) { graded.rubric.criteria[0].metric = "floor_max_over_mm"; });
   EXPECT_EQ(times(of_the_floor, "the overcut ends at the pulp"), 2u) << "beside the criteria, too";
-  EXPECT_EQ(finish_words("time"), "time was up");
-  EXPECT_EQ(finish_words("failed"), "a step was failed");
+  EXPECT_EQ(finish_words(Finish::time), "time was up");
+  EXPECT_EQ(finish_words(Finish::failed), "a step was failed");
 }
 
 TEST_F(ReportFile, NoPageIsLeftHalfEmptyBeforeAPicture) {
@@ -278,9 +278,8 @@ TEST_F(ReportFile, NothingThatPeopleWroteBecomesMarkupOrScript) {
     named->name = evil;
     s.before = std::move(named);
     for (auto& c : s.rubric.criteria) c.title = evil;
-    for (auto& e : s.events)
-      if (e.kind == "step_started") e.detail_json = json{{"step", evil}}.dump();
-    s.events.push_back({5, evil, evil});
+    s.scenario.steps[0].id = s.scenario.steps[0].instruction = evil;
+    s.events.push_back({5, Announced{{1, evil}}});
   });
   EXPECT_EQ(times(html, "<script"), 2u) << "the data and the page's own";
   EXPECT_EQ(times(html, "</script"), 2u);

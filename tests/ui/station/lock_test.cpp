@@ -39,15 +39,13 @@ class StationByHand : public StationWindow {
     }
     return false;
   }
-  [[nodiscard]] std::vector<std::string> attempts() const {
-    std::vector<std::string> what;
-    for (const SessionEvent& e : SessionReader(session()).events())
-      if (e.kind == k_lock_event) what.push_back(lock_attempt_of(e.detail_json).what);
+  [[nodiscard]] std::vector<LockTry> attempts() const {
+    std::vector<LockTry> what;
+    for (const TimedEvent& e : SessionReader(session()).events())
+      if (const auto* attempt = e.as<LockAttempt>()) what.push_back(attempt->what);
     return what;
   }
-  [[nodiscard]] static bool holds(const std::vector<std::string>& all, const std::string& one) {
-    return std::find(all.begin(), all.end(), one) != all.end();
-  }
+  [[nodiscard]] static bool holds(const std::vector<LockTry>& all, LockTry one) { return std::find(all.begin(), all.end(), one) != all.end(); }
   std::unique_ptr<testing_station::XHand> hand_;
 };
 
@@ -84,7 +82,7 @@ TEST_F(LockedExam, FillsTheScreenAndClosesByTheSupervisorsCodeAlone) {
   EXPECT_TRUE(hand_->ask_to_close("Cavum"));
   EXPECT_EQ(wait(child), 1) << said();
   expect_resumable(before + 2000);
-  EXPECT_EQ(attempts(), (std::vector<std::string>{"close_asked", "close_refused", "close_asked", "close_granted"}));
+  EXPECT_EQ(attempts(), (std::vector{LockTry::close_asked, LockTry::close_refused, LockTry::close_asked, LockTry::close_granted}));
   EXPECT_EQ(SessionReader(session()).fact("note.locked"), "yes");
   expect_told({"the window was asked to close", "a wrong supervisor code was typed", "the window was closed with the supervisor code"});
 }
@@ -104,10 +102,10 @@ TEST_F(LockedExam, AnotherWindowAndASecondStartAreRecordedAndEndNothing) {
   const VerifyReport report = verify_session(session());
   EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings[0]);
   const auto all = attempts();
-  EXPECT_TRUE(holds(all, "focus_lost"));
-  EXPECT_TRUE(holds(all, "focus_back")) << "it takes the keyboard back";
-  EXPECT_TRUE(holds(all, "second_station"));
-  EXPECT_FALSE(holds(all, "close_asked")) << "the exam was over by then";
+  EXPECT_TRUE(holds(all, LockTry::focus_lost));
+  EXPECT_TRUE(holds(all, LockTry::focus_back)) << "it takes the keyboard back";
+  EXPECT_TRUE(holds(all, LockTry::second_station));
+  EXPECT_FALSE(holds(all, LockTry::close_asked)) << "the exam was over by then";
   expect_told({"another window took the keyboard", "the program was started a second time"});
 }
 
@@ -126,8 +124,8 @@ TEST_F(LockedExam, GoesOnWithoutAScreenAndFillsItAgain) {
   EXPECT_EQ(wait(child), 0) << said();
   EXPECT_TRUE(verify_session(session()).verified);
   if (!can) GTEST_SKIP() << "this X server's screen cannot be taken away";
-  EXPECT_TRUE(holds(attempts(), "screen_lost"));
-  EXPECT_TRUE(holds(attempts(), "screen_back"));
+  EXPECT_TRUE(holds(attempts(), LockTry::screen_lost));
+  EXPECT_TRUE(holds(attempts(), LockTry::screen_back));
   expect_told({"a screen was unplugged"});
 }
 
@@ -202,10 +200,10 @@ key enter
   const SessionReader reader(session());
   EXPECT_TRUE(verify_session(session()).verified);
   EXPECT_EQ(reader.fact("note.practice"), "true");
-  std::vector<std::string> steps;
-  for (const SessionEvent& e : reader.events())
-    if (e.kind == "tutorial") steps.push_back(e.detail_json);
-  EXPECT_EQ(steps.size(), 7u) << (steps.empty() ? "none" : steps.back());
+  std::vector<int> steps;
+  for (const auto& e : reader.event_rows())
+    if (const auto* done = e.as<TutorialStep>()) steps.push_back(done->step);
+  EXPECT_EQ(steps, (std::vector{1, 2, 3, 4, 5, 6, 7}));
   EXPECT_GT(reader.removed().size(), 20u) << "there is a hole";
 }
 

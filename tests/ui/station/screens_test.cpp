@@ -118,7 +118,7 @@ TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
 }
 
 TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
-  const std::vector<SessionEvent> events{{100, "step_completed", "{}"}, {100, "perforation", "{}"}, {300, "device_lost", "{}"}};
+  const std::vector<TimedEvent> events{{100, StepCompleted{}}, {100, Perforated{}}, {300, StylusSilent{}}};
   const std::string result =
       R"({"criteria":[{"title":"Depth","points":3.5,"max":10,"first_tick":50},{"title":"Full","points":5,"max":5,"first_tick":60},
           {"title":"Time","points":0,"max":2,"first_tick":null}]})";
@@ -266,7 +266,7 @@ TEST(ReplayPlayer, ShowsTheRecordedStateWhereverItIsSent) {
     EXPECT_EQ(player.hash(), chunk.state_hash) << "after tick " << chunk.first_tick + chunk.ticks << ", seed " << seed;
   }
   go(player.ticks());
-  EXPECT_NE(player.runner().finish, scenarios::Finish::running);
+  EXPECT_NE(player.runner().finish, Finish::running);
   EXPECT_EQ(player.instruction(player.runner()), "");
   go(0);
   EXPECT_EQ(player.runner().ticks, 0);

@@ -28,18 +28,18 @@ std::string make_session(const std::string& path, bool with_force) {
   Simulation simulation = make_simulation(setup, "test");
   Recorder recorder = Recorder::create(path, setup);
   Random random(3);
-  std::string list, csv = "t_s,f_n\n";
+  MeasuredForce measured{5, {}};
+  std::string csv = "t_s,f_n\n";
   for (std::int64_t tick = 0; tick < k_ticks; ++tick) {
     const TickInput input = test::motion_at(tick);
     const TickOutput out = step(simulation.model, simulation.state, input);
     if (tick % 5 == 0) {
-      const std::string force = std::to_string(measured_n(simulation, out, random));
-      list += (list.empty() ? "" : ",") + force;
-      csv += std::to_string(0.001 * static_cast<double>(tick)) + "," + force + "\n";
+      measured.f_n.push_back(measured_n(simulation, out, random));
+      csv += std::to_string(0.001 * static_cast<double>(tick)) + "," + std::to_string(measured.f_n.back()) + "\n";
     }
     if (with_force && tick % 1000 == 999) {
-      recorder.add_event(tick - 999, k_measured_force_event, "{\"f_n\":[" + list + "],\"every_ticks\":5}");
-      list.clear();
+      recorder.add_event(tick - 999, measured);
+      measured.f_n.clear();
     }
     recorder.append(input, make_tick_record(out), simulation.state.removed, state_hash(simulation.state));
   }
@@ -114,16 +114,16 @@ TEST(SessionRecording, XAndVAreThoseOfTheReplay) {
   EXPECT_EQ(row, r.rows());
 }
 
-TEST(SessionRecording, ADamagedMeasurementOrMotionIsAnError) {
+TEST(SessionRecording, AForceMeasuredTwiceIsAnError) {
   const test::Folder folder;
   const std::string path = folder.file("bad.cavum");
   const SessionSetup setup = test::block_setup();
   Simulation simulation = make_simulation(setup, "test");
   Recorder recorder = Recorder::create(path, setup);
-  recorder.add_event(0, k_measured_force_event, "{\"f\":1}");
+  for (int i = 0; i < 2; ++i) recorder.add_event(0, MeasuredForce{1, {0.5}});
   test::drill(simulation, recorder, 0, 1500);
   recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
-  EXPECT_NE(testing_basics::error_of([&] { (void)read_session_recording(path); }).find("holds no list f_n"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(read_session_recording(path)), Error);
 }
 
 }  // namespace

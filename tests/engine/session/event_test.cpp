@@ -1,0 +1,91 @@
+// Every kind of event is read as it was written, the page of the format names it, and what a damaged one lacks is named.
+#include "engine/session/event.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+#include <set>
+
+#include "engine/base/file.h"
+#include "tests/engine/support/basics.h"
+
+namespace cavum {
+namespace {
+
+template <std::size_t... i>
+std::vector<Event> one_of_each(std::index_sequence<i...>) {
+  return {Event(std::in_place_index<i>)...};
+}
+const std::vector<Event> k_one_of_each = one_of_each(std::make_index_sequence<std::variant_size_v<Event>>());
+
+RealTimeReport punctuality() {
+  RealTimeReport r;
+  for (const std::int64_t late_ns : {200, 3000, 2'000'000'000}) r.lateness.add(late_ns);
+  r.ticks = 3;
+  r.why = ServoEnd::device_failed;
+  r.error = "gone";
+  return r;
+}
+
+TEST(SessionEvents, EveryKindIsReadAsItWasWritten) {
+  std::vector<Event> events = k_one_of_each;
+  events.insert(events.end(),
+                {StepFailed{7}, PointNotAllowed{3}, AimReached{{3, {-0.1, 1e-9, 12}}}, Finished{Finish::time}, PauseRefused{2},
+                 RecordingGap{-5, INT64_MAX, 0.1, "boot", "ab", {MotionSource{"device", "falcon", "F1"}, "Falcon", false, {{"a", "b"}}}},
+                 RecordingMoved{"e.cavum", 6000, "full"}, ServoGap{4, 2, 9}, Overruns{3, 2.5}, StylusSilent{true},
+                 ServoStopped{ServoEnd::ticks, "why"}, ServoLateness{punctuality(), 8}, WorkAfterEnd{2500, 1200},
+                 LockAttempt{LockTry::keyboard_added, true, 1, "usb"}, Announced{{UINT64_MAX, "Lunch \"at\" one"}}, MeasuredForce{5, {0.25, -3}}});
+  for (const Event& e : events) {
+    const EventText text = encode(e);
+    EXPECT_EQ((TimedEvent{5, decode(text, "test")}), (TimedEvent{5, e})) << text.kind << " " << text.detail_json;
+  }
+}
+
+TEST(SessionEvents, NoTwoKindsHaveOneName) {
+  std::set<std::string> names;
+  for (const Event& e : k_one_of_each) names.insert(kind_of(e));
+  EXPECT_EQ(names.size(), k_one_of_each.size());
+}
+
+TEST(SessionEvents, ThePageOfTheFormatHasEachKindWithItsMembers) {
+  const std::string page = read_text_file(std::string(CAVUM_SOURCE_DIR) + "/docs/formats/session.md");
+  for (const Event& e : k_one_of_each) {
+    const EventText text = encode(e);
+    EXPECT_NE(page.find("`" + text.kind + "`"), std::string::npos) << text.kind;
+    const auto detail = nlohmann::json::parse(text.detail_json);
+    for (const auto& [member, value] : detail.items())
+      EXPECT_TRUE(page.find("\"" + member + "\"") != std::string::npos || page.find("`" + member + "`") != std::string::npos)
+          << text.kind << " " << member;
+  }
+}
+
+TEST(SessionEvents, TextsAreKeptOnOneLine) {
+  EXPECT_EQ((TimedEvent{0, decode(encode(Announced{{1, "a\nb\xff"}}), "test")}), (TimedEvent{0, Announced{{1, "a b?"}}}));
+}
+
+TEST(SessionEvents, WhatIsWrongInADamagedOneIsNamed) {
+  const auto wrong = [](const std::string& kind, const std::string& detail) {
+    return testing_basics::error_of([&] { static_cast<void>(decode({kind, detail}, "row 3")); });
+  };
+  EXPECT_NE(wrong("examiner_excused", "{}").find("'examiner_excused'"), std::string::npos);
+  EXPECT_NE(wrong("step_started", "{}").find("'step'"), std::string::npos);
+  for (const char* step : {"-1", "2147483648", "18446744073709551616", "1.5", "\"0\"", "null", "[0]"})
+    EXPECT_NE(wrong("step_started", std::string("{\"step\":") + step + "}").find("'step'"), std::string::npos) << step;
+  EXPECT_NE(wrong("finished", R"({"how":"won"})").find("'how'"), std::string::npos);
+  EXPECT_NE(wrong("perforation", R"({"site_mm":[0.0,1.0],"tissue":1})").find("'site_mm'"), std::string::npos);
+  EXPECT_NE(wrong("perforation", R"({"site_mm":[0.0,1.0,2.0],"tissue":256})").find("'tissue'"), std::string::npos);
+  EventText gap = encode(RecordingGap{});
+  gap.detail_json.replace(gap.detail_json.find("\"device\":\"\""), 11, "\"device\":0");
+  EXPECT_NE(wrong(gap.kind, gap.detail_json).find("'by'"), std::string::npos);
+  EventText lateness = encode(ServoLateness{});
+  lateness.detail_json.replace(lateness.detail_json.find("[0,"), 3, "[1e300,");
+  EXPECT_NE(wrong(lateness.kind, lateness.detail_json).find("'servo'"), std::string::npos);
+  for (const char* detail : {R"({"step": 0})", R"({"more":1,"step":0})", R"({"step":1,"step":0})", R"({"step":0} )", "", "null", "{\"step\":0"})
+    EXPECT_NE(wrong("step_started", detail), "") << detail;
+  std::string deep;
+  for (int i = 0; i < 100000; ++i) deep += "{\"step\":";
+  EXPECT_NE(wrong("step_started", deep), "");
+}
+
+}  // namespace
+}  // namespace cavum
