@@ -234,7 +234,7 @@ TEST_F(Attack, AnEntryTakenOutWithItsSignature) {
   expect_ledger_finding({"older copy", "has 4 entries, and had 5"});
 }
 TEST_F(Attack, AnEntrySlippedIn) {
-  edit_ledger("INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32), NULL)");
+  edit_ledger("INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))");
   expect_ledger_finding({"entry 4", "signed nothing"});
 }
 /// One entry is in the ledger, so that a change counts as one.

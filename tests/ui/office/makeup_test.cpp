@@ -46,7 +46,7 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   const Heard given = make_up(first, {{"accommodations", "as before"}});
   ASSERT_EQ(given.status, 200) << given.body;
   const auto last = opened_.content().entries.back();
-  EXPECT_EQ(last.kind, "ticket");
+  ASSERT_NE(last.as<ledger::TicketEntry>(), nullptr);
   EXPECT_EQ(last.as<ledger::TicketEntry>()->makes_up->ticket, first["entry"]);
   EXPECT_EQ(last.by.account, "The officer");
   EXPECT_EQ(last.by.reason, "the power failed");
