@@ -4,7 +4,7 @@
 usage: verify_receipt.py RECEIPT.json SCHOOL_KEY [COSIGNER_KEY_LINE ...]
 
 SCHOOL_KEY: the school's public key, 64 hexadecimal digits, from the school and not from the receipt. COSIGNER_KEY_LINE: "NAME+id+base64", from the
-cosigner; each one that is named must have signed. Exit code 0: verified. Receipts of ledgers before format 4: `cavum ledger verify --receipt`."""
+cosigner; each one that is named must have signed. Exit code 0: verified."""
 import base64, hashlib, json, sys
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PublicKey
 

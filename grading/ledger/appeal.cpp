@@ -2,10 +2,8 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "engine/base/json_fields.h"
-#include "grading/ledger/regrade.h"
+#include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
 namespace {
@@ -13,8 +11,8 @@ namespace {
 using nlohmann::json;
 
 const FiledSession& appealed(const Registry& registry, std::uint64_t session) {
-  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
-  if (found == registry.sessions.end()) throw Error(fmt::format("--session {}", session), "is no session's entry", "see `cavum ledger show`");
+  const FiledSession* found = registry.session(session);
+  if (found == nullptr) throw Error(fmt::format("--session {}", session), "is no session's entry", "see `cavum ledger show`");
   return *found;
 }
 
@@ -35,32 +33,33 @@ bool changed_since(const FiledSession& session, const Appeal& appeal) {
 
 const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason) {
   require_reason(reason);
-  return ledger.append("appeal", [&](const LedgerContent&) {
-    const Registry& registry = ledger.registry();
-    const FiledSession& s = appealed(registry, session);
-    const std::string where = fmt::format("--session {}", session);
-    if (!s.result->is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
-    if (const Appeal* open = s.open_appeal()) throw Error(where, fmt::format("an appeal is open (entry {})", open->seq), "answer that one first");
-    return json{{"session", session}, {"reason", reason}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        const FiledSession& s = appealed(ledger.registry(), session);
+        const std::string where = fmt::format("--session {}", session);
+        if (!s.result->is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
+        if (const Appeal* open = s.open_appeal()) throw Error(where, fmt::format("an appeal is open (entry {})", open->seq), "answer that one first");
+        return AppealEntry{session};
+      },
+      reason);
 }
 
-const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, const std::string& outcome, const std::string& reason) {
-  if (outcome != k_stands && outcome != k_changed) throw Error("--outcome " + outcome, "is none", "say stands or changed");
+const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome outcome, const std::string& reason) {
   require_reason(reason);
-  return ledger.append("appeal", [&](const LedgerContent&) {
-    const Registry& registry = ledger.registry();
-    const FiledSession& s = appealed(registry, session);
-    const std::string where = fmt::format("--session {}", session);
-    const Appeal* open = s.open_appeal();
-    if (open == nullptr) throw Error(where, "no appeal is open", "see `cavum ledger appeal` without --session");
-    const bool changed = changed_since(s, *open);
-    if (outcome == k_changed && !changed)
-      throw Error(where, "no other result was entered since the appeal", "enter it first: `cavum ledger regrade` or `cavum ledger decide`");
-    if (outcome == k_stands && changed)
-      throw Error(where, "another result was entered since the appeal", "look at that one; if it is right, answer that the result was changed");
-    return json{{"session", session}, {"answers", open->seq}, {"outcome", outcome}, {"reason", reason}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        const FiledSession& s = appealed(ledger.registry(), session);
+        const std::string where = fmt::format("--session {}", session);
+        const Appeal* open = s.open_appeal();
+        if (open == nullptr) throw Error(where, "no appeal is open", "see `cavum ledger appeal` without --session");
+        const bool changed = changed_since(s, *open);
+        if (outcome == Outcome::changed && !changed)
+          throw Error(where, "no other result was entered since the appeal", "enter it first: `cavum ledger regrade` or `cavum ledger decide`");
+        if (outcome == Outcome::stands && changed)
+          throw Error(where, "another result was entered since the appeal", "look at that one; if it is right, answer that the result was changed");
+        return AnswerEntry{session, open->seq, outcome};
+      },
+      reason);
 }
 
 }  // namespace cavum::ledger

@@ -10,17 +10,13 @@
 
 namespace cavum::ledger {
 
-/// How an appeal ends: the result is as it was, or another one was entered since.
-inline constexpr char k_stands[] = "stands", k_changed[] = "changed";
-
 /// Whether the result that counts now has another verdict or other points than the one that counted when the appeal was made.
 [[nodiscard]] bool changed_since(const FiledSession& session, const Appeal& appeal);
 
 /// Enters an appeal against the result of the session of entry `session`. `reason`: what the candidate objects to, one line without names, kept for
 /// ever. Throws Error when the session has no result, or an appeal is open already.
 const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std::string& reason);
-/// Enters the answer to the open appeal of that session. Throws Error when there is none, the outcome is another word, or it is not
-/// what changed_since says.
-const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, const std::string& outcome, const std::string& reason);
+/// Enters the answer to the open appeal of that session. Throws Error when there is none, or the outcome is not what changed_since says.
+const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome outcome, const std::string& reason);
 
 }  // namespace cavum::ledger

@@ -12,6 +12,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/folder_lock.h"
 #include "grading/ledger/history.h"
@@ -61,7 +62,8 @@ std::set<std::string> filed_sessions(const LedgerContent& c) {
   const auto gone = erased_recordings(c);
   std::set<std::string> out;
   for (const auto& e : c.entries) {
-    const std::string hash = e.kind == "session" ? text_in(e.body, "file_sha256") : "";
+    const auto* session = e.as<SessionEntry>();
+    const std::string hash = session == nullptr ? "" : session->file_sha256;
     if (hash.size() == 64 && hash.find_first_not_of("0123456789abcdef") == std::string::npos && !gone.contains(hash)) out.insert(hash);
   }
   return out;
@@ -141,8 +143,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
   const LedgerContent& c = plan.content;
   if (!fs::exists(path)) return;
   try {
-    const std::string text = read_text_file(path);
-    const json told = text.starts_with("{") ? parse_json(text, path) : json(text);
+    const std::string told = read_text_file(path);
     const Checkpoint& own = c.checkpoints.back();
     const std::string key_then = c.key_of(checkpoint_in(told, c.id, c.public_key, path).size);
     const Checkpoint p = checkpoint_in(told, c.id, key_then, path);
@@ -191,8 +192,8 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     Identities older(to.identities());
     remove_forgotten(copy, older);
   }
-  const json told = checkpoint_json(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size));
-  write_text_file(checkpoint_path(folder), told.is_string() ? told.get<std::string>() : told.dump() + "\n");
+  write_text_file(checkpoint_path(folder),
+                  checkpoint_note(copy.id, copy.key_of(out.checkpoint.size), out.checkpoint, cosignatures_of(copy, out.checkpoint.size)));
   sync_folder_of(folder);
   return out;
 }
@@ -211,7 +212,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
   check_own_checkpoint(plan, history, checkpoint_path(backup));
   std::vector<std::string> changed;
   for (const auto& w : read_witness(c.id, changed)) {
-    if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w))
+    if (!is_signed_by_school(c.id, c.key_of(w.size), w))
       changed.push_back(fmt::format("{}: the witness was changed at entry {}", witness_path(c.id), w.size));
     else
       compare(plan, history, c.id, w, "the witness", "");
@@ -223,13 +224,14 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     if (const auto wrong = check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr); !wrong.empty())
       throw Error(path, wrong[0], "use an intact copy");
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
-    const json entry = parse_json_or_null(text), &body = member_of(entry, "body");
+    const LedgerEntry entry = read_entry_or_none(text);
+    const auto* session = entry.as<SessionEntry>();
     const auto seq = receipt.at("seq").get<std::uint64_t>();
-    const std::string candidate = text_in(body, "candidate"), file = text_in(body, "file_sha256");
-    const std::string told = seq < c.entries.size() ? ""
-                                                    : fmt::format("entry {}: {}{}{} ({})", seq, one_line(text_in(entry, "kind")),
-                                                                  candidate.empty() ? "" : " of " + one_line(candidate),
-                                                                  file.empty() ? "" : ", file " + one_line(file), path);
+    std::string told;
+    if (seq >= c.entries.size())
+      told =
+          fmt::format("entry {}: {}{} ({})", seq, entry.what ? kind_name(*entry.what) : "of a kind that this version does not know",
+                      session == nullptr ? "" : fmt::format(" of {}, file {}", one_line(session->candidate), one_line(session->file_sha256)), path);
     compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), path, told);
   }
   for (const auto& path : notes) {
@@ -263,17 +265,16 @@ void restore(const std::string& backup, const std::string& folder, const Restore
   static_cast<void>(copy_sessions(plan.content, from, to, copied));
   static_cast<void>(copy_identities(plan.content, from, to));
   copy_database(from.database(), to.database());
-  std::set<std::pair<std::uint64_t, std::string>> seen;
-  for (const auto& p : plan.lost) seen.emplace(p.size, to_hex(p.root));
-  json lost = json::array();
-  for (const auto& [size, root] : seen) lost.push_back({{"size", size}, {"root", root}});
+  std::map<std::pair<std::uint64_t, Sha256>, SizeAndRoot> lost;  // each once, by size
+  for (const auto& p : plan.lost) lost[{p.size, p.root}] = {p.size, p.root};
   Ledger ledger(folder, key, LedgerUse::restore);
-  ledger.append("restore", [&](const LedgerContent& c) {
-    return json{{"backup", {{"size", c.entries.size()}, {"root", to_hex(merkle_root(leaves_of(c)))}}},
-                {"lost", lost},
-                {"missing_sessions", plan.missing_sessions},
-                {"reason", reason}};
-  });
+  ledger.append(
+      [&](const LedgerContent& c) {
+        RestoreEntry entry{{c.entries.size(), merkle_root(leaves_of(c))}, {}, plan.missing_sessions};
+        for (const auto& [size, one] : lost) entry.lost.push_back(one);
+        return entry;
+      },
+      reason);
   sync_folder_of(folder);
 }
 

@@ -8,6 +8,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/registry.h"
 
 namespace cavum::ledger {
@@ -15,31 +16,32 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char k_format[] = "cavum begin 1";
-
-Bytes message_of(const json& facts) {
-  const std::string text = "CVLETBEG" + facts.dump();
+Bytes message_of(const Begin& b) {
+  const std::string text = "CVLETBEG" + json_of(b).dump();
   return {text.begin(), text.end()};
 }
 
 }  // namespace
 
+std::string begin_text(const BeginEntry& e) { return json{{"begin", json_of(e.begin)}, {"signature", e.signature}}.dump(); }
+
+void require_signed(const Begin& b, const std::string& signature, const std::string& public_key, const std::string& where) {
+  if (!public_key.empty() && b.public_key != public_key) throw Error(where, "is of another school", "ask this school's office");
+  if (!is_signed_by(b.public_key, message_of(b), signature)) throw Error(where, "was changed after the school signed it", "ask the office again");
+}
+
 Begin parse_begin(const std::string& text, const std::string& public_key, const std::string& where) {
   const json j = parse_json_or_null(text);
-  const json& facts = member_of(j, "begin");
-  if (text_in(facts, "format") != k_format) throw Error(where, "is not the ledger's word to begin", "name a file that `cavum ledger begin` wrote");
-  Begin b{text_in(facts, "ledger"), text_in(facts, "ticket"), text_in(facts, "nonce"), require_whole<std::int64_t>(facts, "utc_ns", where),
-          text_in(facts, "public_key")};
-  if (!public_key.empty() && b.public_key != public_key) throw Error(where, "is of another school", "ask this school's office");
-  if (!is_signed_by(b.public_key, message_of(facts), text_in(j, "signature")))
-    throw Error(where, "was changed after the school signed it", "ask the office again");
+  if (!member_of(j, "begin").is_object()) throw Error(where, "is not the ledger's word to begin", "name a file that `cavum ledger begin` wrote");
+  auto b = value_in<Begin>(j["begin"], where);
+  require_signed(b, text_in(j, "signature"), public_key, where);
   return b;
 }
 
 namespace {
 
 std::string begun_before(const Registry& registry, const LedgerEntry& begin) {
-  const Station* at = registry.stations.of(text_in(begin.body, "station"));
+  const Station* at = registry.stations.of(begin.by.station);
   if (at == nullptr) return fmt::format("was let begin before, by entry {}", begin.seq);
   return fmt::format("was let begin before, at {}, by entry {}", one_line(at->name), begin.seq);
 }
@@ -47,32 +49,29 @@ std::string begun_before(const Registry& registry, const LedgerEntry& begin) {
 }  // namespace
 
 std::string let_begin(Ledger& ledger, const std::string& nonce, const std::string& again) {
-  std::string text;
-  ledger.append("begin", [&](const LedgerContent& now) -> json {
-    const Registry& registry = ledger.registry();
-    const std::int64_t utc_ns = read_clocks().utc_ns;
-    const auto t =
-        std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
-    const auto refuse = [](const std::string& why, const std::string& advice) { throw Error("the ticket", why, advice); };
-    if (t == registry.tickets.end()) refuse("was not issued by this ledger", "name a ticket of it");
-    if (t->cancelled_by) refuse(fmt::format("was cancelled by entry {}", *t->cancelled_by), "give the candidate another");
-    if (t->made_up_by) refuse(fmt::format("was made up by entry {}", *t->made_up_by), "the makeup's ticket is good");
-    if (t->used_by) refuse(fmt::format("was used: its exam is filed as entry {}", *t->used_by), "give the candidate another");
-    if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
-      refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
-             "wait, or give another");
-    if (!t->begins.empty() && again.empty())
-      refuse(begun_before(registry, now.entries.at(t->begins.back().seq)),
-             "only the exam that bears the last word counts: say with --again why it begins anew");
-    const json facts = {{"format", k_format},      {"ledger", now.id}, {"ticket", nonce},
-                        {"nonce", random_hex(16)}, {"utc_ns", utc_ns}, {"public_key", now.public_key}};
-    const json signed_facts = {{"begin", facts}, {"signature", to_hex(ledger.key().sign(message_of(facts)))}};
-    text = signed_facts.dump();
-    json body = signed_facts;
-    if (!again.empty()) body["again"] = one_line(again);
-    return body;
-  });
-  return text;
+  const auto& entered = ledger.append(
+      [&](const LedgerContent& now) {
+        const Registry& registry = ledger.registry();
+        const std::int64_t utc_ns = read_clocks().utc_ns;
+        const auto t =
+            std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
+        const auto refuse = [](const std::string& why, const std::string& advice) { throw Error("the ticket", why, advice); };
+        if (t == registry.tickets.end()) refuse("was not issued by this ledger", "name a ticket of it");
+        if (t->cancelled_by) refuse(fmt::format("was cancelled by entry {}", *t->cancelled_by), "give the candidate another");
+        if (t->made_up_by) refuse(fmt::format("was made up by entry {}", *t->made_up_by), "the makeup's ticket is good");
+        if (t->used_by) refuse(fmt::format("was used: its exam is filed as entry {}", *t->used_by), "give the candidate another");
+        if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
+          refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
+                 "wait, or give another");
+        if (!t->begins.empty() && again.empty())
+          refuse(begun_before(registry, now.entries.at(t->begins.back().seq)),
+                 "only the exam that bears the last word counts: say with --again why it begins anew");
+        BeginEntry entry{{now.id, nonce, random_hex(16), utc_ns, now.public_key}, {}, !t->begins.empty()};
+        entry.signature = to_hex(ledger.key().sign(message_of(entry.begin)));
+        return entry;
+      },
+      one_line(again));
+  return begin_text(*entered.as<BeginEntry>());
 }
 
 std::string begin_path(const std::string& ticket_path) { return std::filesystem::path(ticket_path).replace_extension(".begin").string(); }

@@ -13,16 +13,13 @@ namespace cavum::ledger {
 /// Note of a session that holds the word it was begun with.
 inline constexpr char k_begin_note[] = "begin";
 
-struct Begin {
-  std::string ledger, ticket;  ///< the ledger's id, the ticket's number
-  std::string nonce;           ///< 32 hexadecimal digits, drawn
-  std::int64_t utc_ns = 0;     ///< by the ledger's clock
-  std::string public_key;      ///< of the school, hexadecimal
-};
-
-/// Throws Error(`where`, ...) when the text is none or its signature does not hold. `public_key`: as parse_ticket().
+/// The word, one line of JSON {"begin","signature"}.
+[[nodiscard]] std::string begin_text(const BeginEntry& entry);
+/// Throws Error(`where`, ...) when the signature does not hold. `public_key`: as parse_ticket().
+void require_signed(const Begin& begin, const std::string& signature, const std::string& public_key, const std::string& where);
+/// Throws Error(`where`, ...) when the text is none or its signature does not hold.
 [[nodiscard]] Begin parse_begin(const std::string& text, const std::string& public_key, const std::string& where);
-/// Enters that the exam of a ticket's number may begin, and returns the word: one line of JSON {"begin","signature"}. Throws Error when the ledger
+/// Enters that the exam of a ticket's number may begin, and returns the word. Throws Error when the ledger
 /// has not issued the ticket, it was cancelled or used, this is not its time, or it was begun before and `again` gives no reason.
 [[nodiscard]] std::string let_begin(Ledger& ledger, const std::string& ticket_nonce, const std::string& again);
 /// Where the word lies for a station: beside the ticket, NAME.begin for NAME.ticket.

@@ -91,7 +91,7 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
     return Recording::erased;
   }
   if (!std::filesystem::exists(path)) {
-    if (erased_by(read_ledger(places).erased, s.seq, k_motion)) return Recording::erased;  // meanwhile
+    if (erased_by(read_ledger(places).erased, s.seq, Part::motion)) return Recording::erased;  // meanwhile
     out.findings.push_back(fmt::format("{}: its file is gone: {}", name, path));
     return Recording::changed;
   } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
@@ -165,7 +165,7 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
     if (!identities.of_pseudonym(t.ticket.candidate)) missing.try_emplace(t.ticket.candidate, t.seq);
   if (missing.empty()) return;
   for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
-    if (e.kind == "forget") missing.erase(text_in(e.body, "candidate"));
+    if (const auto* forgotten = e.as<ForgetEntry>()) missing.erase(forgotten->candidate);
   for (const auto& [who, seq] : missing)
     out.findings.push_back(fmt::format(
         "identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
@@ -247,9 +247,10 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       Identities identities(places.identities());
       for (auto& f : identities.check(*key)) check.findings.push_back(std::move(f));
       for (const auto& e : content.entries)
-        if (const std::string who = text_in(e.body, "candidate"); e.kind == "forget" && identities.of_pseudonym(who))
-          check.findings.push_back(fmt::format(
-              "identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it", one_line(who), e.seq));
+        if (const auto* forgotten = e.as<ForgetEntry>(); forgotten != nullptr && identities.of_pseudonym(forgotten->candidate))
+          check.findings.push_back(
+              fmt::format("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
+                          one_line(forgotten->candidate), e.seq));
       say_missing(places, content, identities, check);
     } catch (const Error& e) {
       check.findings.emplace_back(e.what());

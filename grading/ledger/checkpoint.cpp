@@ -5,7 +5,6 @@
 #include <charconv>
 #include <vector>
 
-#include "engine/base/json_fields.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
 
@@ -39,19 +38,8 @@ std::string checkpoint_text(const std::string& id, const Checkpoint& p) {
   return fmt::format("{}\n{}\n{}\n{}{}\n", ledger_origin(id), p.size, to_base64(p.root), k_time, p.utc_ns);
 }
 
-Bytes checkpoint_message(const std::string& id, const Checkpoint& p) {
-  ByteWriter out;
-  static constexpr char k_purpose[] = "CVCHKPT1";
-  out.put_bytes({reinterpret_cast<const std::uint8_t*>(k_purpose), 8});
-  out.put_string(id);
-  out.put(p.size);
-  out.put_bytes(p.root);
-  out.put(p.utc_ns);
-  return out.take();
-}
-
 Checkpoint sign_checkpoint(const std::string& id, std::uint64_t size, const Sha256& root, std::int64_t utc_ns, const SigningKey& key) {
-  Checkpoint p{size, root, utc_ns, {}, true};
+  Checkpoint p{size, root, utc_ns, {}};
   const std::string text = checkpoint_text(id, p);
   p.signature = key.sign({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
   return p;
@@ -59,7 +47,6 @@ Checkpoint sign_checkpoint(const std::string& id, std::uint64_t size, const Sha2
 
 bool is_signed_by_school(const std::string& id, const std::string& public_key, const Checkpoint& p) {
   const auto key = fixed_from_hex<32>(public_key, "public key");
-  if (!p.is_note) return is_signed_by(key, checkpoint_message(id, p), p.signature);
   const std::string text = checkpoint_text(id, p);
   return is_signed_by(key, {reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}, p.signature);
 }
@@ -85,7 +72,6 @@ ReadCheckpoint parse_checkpoint(const std::string& text, const std::string& publ
   if (out.ledger_id.size() != k_id_digits || out.ledger_id.find_first_not_of("0123456789abcdef") != std::string::npos)
     no_checkpoint(where, "its origin names no ledger");
   Checkpoint& p = out.checkpoint;
-  p.is_note = true;
   p.size = whole<std::uint64_t>(lines[1], where, "its size");
   p.utc_ns = whole<std::int64_t>(std::string_view(lines[3]).substr(k_time.size()), where, "its time");
   const auto root = from_base64(lines[2]);
@@ -98,22 +84,10 @@ ReadCheckpoint parse_checkpoint(const std::string& text, const std::string& publ
   return out;
 }
 
-nlohmann::json checkpoint_json(const std::string& id, const std::string& public_key, const Checkpoint& p,
-                               std::span<const NoteSignature> cosignatures) {
-  if (p.is_note) return checkpoint_note(id, public_key, p, cosignatures);
-  return {{"size", p.size}, {"root", to_hex(p.root)}, {"utc", utc_text(p.utc_ns)}, {"utc_ns", p.utc_ns}, {"signature", to_hex(p.signature)}};
-}
-
-Checkpoint checkpoint_in(const nlohmann::json& told, const std::string& id, const std::string& public_key, const std::string& where) {
-  if (told.is_string()) {
-    const ReadCheckpoint read = parse_checkpoint(told.get<std::string>(), public_key, where);
-    if (read.ledger_id != id) throw Error(where, "its checkpoint is of another ledger", "use an intact copy");
-    return read.checkpoint;
-  }
-  Checkpoint p{
-      require_whole<std::uint64_t>(told, "size", where), fixed_from_hex<32>(text_in(told, "root"), where + ": root"), whole_in(told, "utc_ns"), {}};
-  if (told.contains("signature")) p.signature = fixed_from_hex<64>(text_in(told, "signature"), where + ": signature");
-  return p;
+Checkpoint checkpoint_in(const std::string& note, const std::string& id, const std::string& public_key, const std::string& where) {
+  const ReadCheckpoint read = parse_checkpoint(note, public_key, where);
+  if (read.ledger_id != id) throw Error(where, "its checkpoint is of another ledger", "use an intact copy");
+  return read.checkpoint;
 }
 
 }  // namespace cavum::ledger

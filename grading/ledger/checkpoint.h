@@ -1,10 +1,9 @@
-// The school's word that a ledger's first entries have a certain root: since format 4 a C2SP checkpoint (c2sp.org/tlog-checkpoint), before that a
-// signature over bytes of our own ("CVCHKPT1"). Both are checked for ever.
+// The school's word that a ledger's first entries have a certain root: a C2SP checkpoint (c2sp.org/tlog-checkpoint), which any program can check and
+// others can cosign.
 #pragma once
 
 #include <array>
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 
@@ -19,7 +18,6 @@ struct Checkpoint {
   Sha256 root{};           ///< of the tree over them
   std::int64_t utc_ns = 0;
   std::array<std::uint8_t, 64> signature{};
-  bool is_note = false;  ///< signed as a note's text; else as checkpoint_message()
 };
 
 /// First line of a ledger's checkpoints, and the name under which its school signs them: "cavum.ledger/ID".
@@ -28,16 +26,13 @@ struct Checkpoint {
 [[nodiscard]] NoteKey checkpoint_key(const std::string& ledger_id, const std::string& public_key);
 /// What is signed: four lines, origin, size, root in base64, "utc_ns" and the time.
 [[nodiscard]] std::string checkpoint_text(const std::string& ledger_id, const Checkpoint& checkpoint);
-/// What was signed before format 4: "CVCHKPT1", the ledger's id, size, root, utc_ns.
-[[nodiscard]] Bytes checkpoint_message(const std::string& ledger_id, const Checkpoint& checkpoint);
 
-/// A checkpoint that is signed as a note.
 [[nodiscard]] Checkpoint sign_checkpoint(const std::string& ledger_id, std::uint64_t size, const Sha256& root, std::int64_t utc_ns,
                                          const SigningKey& key);
-/// True when the school signed it, in the form that it has. Throws Error when `public_key` is not 64 hexadecimal digits.
+/// True when the school signed it. Throws Error when `public_key` is not 64 hexadecimal digits.
 [[nodiscard]] bool is_signed_by_school(const std::string& ledger_id, const std::string& public_key, const Checkpoint& checkpoint);
 
-/// The checkpoint as a note, with what others have signed of it. It must be one (is_note).
+/// The checkpoint as a note, with what others have signed of it.
 [[nodiscard]] std::string checkpoint_note(const std::string& ledger_id, const std::string& public_key, const Checkpoint& checkpoint,
                                           std::span<const NoteSignature> cosignatures = {});
 /// A note that is a ledger's checkpoint.
@@ -49,11 +44,8 @@ struct ReadCheckpoint {
 /// Throws Error(`where`, ...) when `note` is no checkpoint of a ledger. The signature is not checked.
 [[nodiscard]] ReadCheckpoint parse_checkpoint(const std::string& note, const std::string& public_key, const std::string& where);
 
-/// As receipts and exports bear it: the note's text; before format 4 an object, whose signature is absent in exports.
-[[nodiscard]] nlohmann::json checkpoint_json(const std::string& ledger_id, const std::string& public_key, const Checkpoint& checkpoint,
-                                             std::span<const NoteSignature> cosignatures);
-/// Reads either. Throws Error(`where`, ...) when it is neither, or of another ledger than `ledger_id`.
-[[nodiscard]] Checkpoint checkpoint_in(const nlohmann::json& told, const std::string& ledger_id, const std::string& public_key,
+/// The same of a ledger's own. Throws Error(`where`, ...) also when it is of another one.
+[[nodiscard]] Checkpoint checkpoint_in(const std::string& note, const std::string& ledger_id, const std::string& public_key,
                                        const std::string& where);
 
 }  // namespace cavum::ledger

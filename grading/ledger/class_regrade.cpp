@@ -7,17 +7,12 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
 namespace {
 
 using nlohmann::json;
-
-const FiledSession& session_in(const Registry& registry, std::uint64_t seq) {
-  for (const auto& s : registry.sessions)
-    if (s.seq == seq) return s;
-  throw Error(fmt::format("entry {}", seq), "is no session's", "make the plan anew");
-}
 
 /// Marked anew by the same already.
 bool is_entered(const LedgerContent& content, const FiledSession& s, const ClassRegrade& plan, const json& result) {
@@ -83,20 +78,19 @@ std::size_t enter_class_regrade(Ledger& ledger, const ClassRegrade& plan, const 
   require_reason(reason);
   const KeptParts parts = kept_parts(plan.basis);
   return ledger.append_all(
-      "regrade",
       [&](const LedgerContent& now) {
         const Registry& registry = ledger.registry();
         const ClassRegrade fresh = plan_class_regrade(registry, plan.exam, {});
         if (!std::equal(fresh.sessions.begin(), fresh.sessions.end(), plan.sessions.begin(), plan.sessions.end(), are_the_same))
           throw Error("exam " + one_line(plan.exam), "has other sessions or results by now than those that were marked",
                       "nothing was entered; begin anew");
-        std::vector<json> bodies;
+        std::vector<Entry> entries;
         for (const auto& s : plan.sessions)
-          if (!is_entered(now, session_in(registry, s.session), plan, s.after))
-            bodies.push_back({{"session", s.session}, {"result", s.after}, {"by", parts.by}, {"reason", reason}});
-        return bodies;
+          if (!is_entered(now, *registry.session(s.session), plan, s.after))
+            entries.emplace_back(RegradeEntry{s.session, make_opening(s.after), parts.by, ""});
+        return entries;
       },
-      parts.documents);
+      reason, parts.documents);
 }
 
 }  // namespace cavum::ledger

@@ -208,7 +208,7 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
     const std::string name = fmt::format("cosignature of {} under {}", one_line(s.by.name), entries(s.size));
     const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
     const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
-    if (p == ledger.checkpoints.rend() || !p->is_note)
+    if (p == ledger.checkpoints.rend())
       findings.push_back(name + ": there is no such checkpoint");
     else if (key == known.end())
       ++strange;

@@ -2,11 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
-
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "grading/ledger/regrade.h"
+#include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
 namespace {
@@ -22,8 +20,8 @@ void require_person(const std::string& text) {
 /// The result of a session that a person has to decide. Throws Error.
 const FiledSession& undecided_session(const Registry& registry, std::uint64_t session) {
   const std::string where = fmt::format("--session {}", session);
-  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == session; });
-  if (found == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
+  const FiledSession* found = registry.session(session);
+  if (found == nullptr) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
   if (found->made_up_by)
     throw Error(where, fmt::format("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
                 "decide the makeup sitting's own result");
@@ -53,21 +51,27 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
   return queue;
 }
 
+grading::Verdict decided_verdict(const std::string& word) {
+  for (const auto verdict : {grading::Verdict::pass, grading::Verdict::fail})
+    if (word == grading::verdict_name(verdict)) return verdict;
+  throw Error("--verdict " + one_line(word), "is none that a person gives", "say pass or fail");
+}
+
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision) {
-  if (decision.verdict != "pass" && decision.verdict != "fail") throw Error("--verdict " + decision.verdict, "is none", "say pass or fail");
+  static_cast<void>(decided_verdict(grading::verdict_name(decision.verdict)));
   require_person(decision.person);
   require_reason(decision.reason);
-  return ledger.append("regrade", [&](const LedgerContent&) {
-    const Registry& registry = ledger.registry();
-    const FiledSession& s = undecided_session(registry, session);
-    json result = *s.result;
-    result["decision"] = {{"verdict_before", result.at("verdict")}, {"person", decision.person}};
-    result["verdict"] = decision.verdict;
-    const Regrade* before = s.regrade(s.result_seq);  // what the decided result was marked by, this one is, too
-    json by = json::object();
-    if (before != nullptr) by = before->documents;
-    return json{{"session", session}, {"result", result}, {"by", by}, {"person", decision.person}, {"reason", decision.reason}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        const FiledSession& s = undecided_session(ledger.registry(), session);
+        json result = *s.result;
+        result["decision"] = {{"verdict_before", result.at("verdict")}, {"person", decision.person}};
+        result["verdict"] = grading::verdict_name(decision.verdict);
+        RegradeEntry entry{session, make_opening(result), {}, decision.person};
+        if (const Regrade* before = s.regrade(s.result_seq)) entry.by = before->documents;  // what the decided result was marked by, this one is, too
+        return entry;
+      },
+      decision.reason);
 }
 
 std::string verdict_by_program(const FiledSession& session, std::uint64_t entry) {

@@ -7,6 +7,7 @@
 
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
+#include "grading/result/result.h"
 
 namespace cavum::ledger {
 
@@ -23,12 +24,14 @@ struct ToDecide {
 /// Who decides, in at most this many bytes.
 inline constexpr std::size_t k_longest_person = 200;
 struct Decision {
-  std::string verdict;  ///< pass or fail
-  std::string person;   ///< who decides: one line, kept for ever
-  std::string reason;   ///< why: one line, kept for ever
+  grading::Verdict verdict = grading::Verdict::fail;  ///< pass or fail
+  std::string person;                                 ///< who decides: one line, kept for ever
+  std::string reason;                                 ///< why: one line, kept for ever
 };
+/// Throws Error for another word than pass or fail.
+[[nodiscard]] grading::Verdict decided_verdict(const std::string& word);
 /// Enters the decision on the result that counts of the session of entry `session`. Throws Error when that is not `review` (any more) and no appeal
-/// against it is open, a makeup sitting counts in its place, a text is empty, too long or no plain line, or the verdict is another word.
+/// against it is open, a makeup sitting counts in its place, or a text is empty, too long or no plain line.
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision);
 
 /// The verdict that the program gave to the result in `entry`, below all that persons decided on it since it was marked; empty without a result.

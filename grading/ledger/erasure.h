@@ -16,9 +16,11 @@ namespace cavum::ledger {
 /// What entries say was erased; adds findings for what they name and cannot be erased.
 [[nodiscard]] Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<std::string>& findings);
 /// The entry that says that `what` of entry `seq` was erased.
-[[nodiscard]] std::optional<std::uint64_t> erased_by(const Erased& erased, std::uint64_t seq, const std::string& what);
-/// What of the ledger's file an entry with this body takes out: of its `erased`, a list of {"entry","what"}.
-[[nodiscard]] TakenOut taken_out_by(const LedgerContent& content, const nlohmann::json& body);
+[[nodiscard]] std::optional<std::uint64_t> erased_by(const Erased& erased, std::uint64_t seq, Part what);
+/// What an entry says was erased.
+[[nodiscard]] const std::vector<ErasedPart>& erased_parts(const LedgerEntry& entry);
+/// The openings, by their hashes, that an entry takes out of the ledger's file.
+[[nodiscard]] std::vector<std::string> taken_out_by(const LedgerContent& content, const LedgerEntry& entry);
 
 struct ErasureWish {
   std::vector<std::uint64_t> sessions = {};          ///< their entries
@@ -26,11 +28,9 @@ struct ErasureWish {
   bool motion = false;                               ///< the recording: motion, forces, ticket and accommodations
   bool results = false;                              ///< the school's mark, all regrades, and what the station sealed
 };
-/// What of it is still there, as entries name it: a list of {"entry","what"}. Throws Error when an entry is no session's.
-[[nodiscard]] nlohmann::json select_erasures(const LedgerContent& content, const ErasureWish& wish);
 /// Enters the erasure, then takes it out of the file and removes recordings. Returns what was erased; nothing is entered when that is nothing.
-/// Throws Error when `reason` is no line of text.
-nlohmann::json erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason);
+/// Throws Error when an entry is no session's, or `reason` is none.
+std::vector<ErasedPart> erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason);
 /// Enters that these pseudonyms' identities are removed, one entry for each, and erases of their sessions what `wish` says; its own list of sessions
 /// is not asked. What incidents say of them is erased.
 void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);

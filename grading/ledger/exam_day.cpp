@@ -4,26 +4,16 @@
 
 #include <algorithm>
 
-#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
-#include "grading/ledger/erasure.h"
 #include "grading/ledger/ledger.h"
 
 namespace cavum::ledger {
 namespace {
 
-using nlohmann::json;
-
 void require_words(const std::string& what, const std::string& text) {
   if (text.size() > k_longest_words || !is_seen_text(text))
     throw Error(what, fmt::format("is no line of text of at most {} bytes", k_longest_words), "say it in one line, without names: it is kept");
-}
-
-Audience audience_in(const json& body) {
-  Audience a{text_in(body, "room"), {}};
-  if (const json& list = member_of(body, "stations"); list.is_array()) a.stations = list.get<std::vector<std::string>>();
-  return a;
 }
 
 void require_station(const Registry& registry, const std::string& key) {
@@ -31,11 +21,9 @@ void require_station(const Registry& registry, const std::string& key) {
   if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(key), "is none that is enrolled", "choose one of the list");
 }
 
-void put_audience(json& body, const Registry& registry, const Audience& audience) {
+void require_audience(const Registry& registry, const Audience& audience) {
   for (const auto& key : audience.stations) require_station(registry, key);
   if (audience.stations.empty() && !audience.room.empty()) throw Error("room " + one_line(audience.room), "has no station", "choose another, or all");
-  if (!audience.room.empty()) body["room"] = audience.room;
-  if (!audience.stations.empty()) body["stations"] = audience.stations;
 }
 
 Hold* lasting(ExamDay& day, std::uint64_t seq) {
@@ -54,66 +42,52 @@ const Hold* ExamDay::hold_of(const std::string& station) const {
   return found == holds.end() ? nullptr : &*found;
 }
 
-void apply_day_entry(ExamDay& day, const LedgerEntry& e, const LedgerContent& content) {
-  if (e.kind == "announce") {
-    day.announcements.push_back({e.seq, e.utc_ns, text_in(e.body, "text"), audience_in(e.body)});
-  } else if (e.kind == "hold") {
-    day.holds.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), audience_in(e.body), {}, 0});
-  } else if (e.kind == "go_on") {
-    Hold* hold = lasting(day, require_whole<std::uint64_t>(e.body, "hold", "go_on"));
-    if (hold == nullptr) throw Error("go_on", "lets exams go on that were not held", "use an intact copy");
-    hold->ended_by = e.seq;
-    hold->ended_utc_ns = e.utc_ns;
-  } else {
-    day.incidents.push_back({e.seq, e.utc_ns, text_in(e.body, "account"), text_in(e.body, "about_station"), text_in(e.body, "candidate"),
-                             text_opened(e, k_words), erased_by(content.erased, e.seq, k_words)});
-  }
+void take_go_on(ExamDay& day, const LedgerEntry& e, const GoOnEntry& what) {
+  Hold* hold = lasting(day, what.hold);
+  if (hold == nullptr) throw Error("go_on", "lets exams go on that were not held", "use an intact copy");
+  hold->ended_by = e.seq;
+  hold->ended_utc_ns = e.utc_ns;
 }
 
 const LedgerEntry& announce(Ledger& ledger, const std::string& words, const Audience& audience) {
   require_words("the announcement", words);
-  return ledger.append("announce", [&](const LedgerContent&) -> json {
-    json body = {{"text", words}};
-    put_audience(body, ledger.registry(), audience);
-    return body;
+  return ledger.append([&](const LedgerContent&) {
+    require_audience(ledger.registry(), audience);
+    return AnnounceEntry{words, audience};
   });
 }
 
 const LedgerEntry& hold_exams(Ledger& ledger, const std::string& reason, const Audience& audience) {
   require_words("the reason", reason);
-  return ledger.append("hold", [&](const LedgerContent&) -> json {
-    json body = {{"reason", reason}};
-    put_audience(body, ledger.registry(), audience);
-    return body;
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        require_audience(ledger.registry(), audience);
+        return HoldEntry{audience};
+      },
+      reason);
 }
 
 const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::string& reason) {
   require_words("the reason", reason);
-  return ledger.append("go_on", [&](const LedgerContent&) -> json {
-    ExamDay day = ledger.registry().day;
-    if (lasting(day, hold) == nullptr) throw Error(fmt::format("entry {}", hold), "holds no exam, or not any more", "look at the board again");
-    return {{"hold", hold}, {"reason", reason}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        ExamDay day = ledger.registry().day;
+        if (lasting(day, hold) == nullptr) throw Error(fmt::format("entry {}", hold), "holds no exam, or not any more", "look at the board again");
+        return GoOnEntry{hold};
+      },
+      reason);
 }
 
 const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, const std::string& candidate, const std::string& words) {
   require_words("the incident", words);
   if (!candidate.empty() && !is_pseudonym(candidate)) throw Error("the candidate", "is no pseudonym", "choose one of the list");
-  return ledger.append("incident", [&](const LedgerContent&) -> json {
-    json body = {{k_words, words}};
+  return ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();
-    if (!station.empty()) {
-      require_station(registry, station);
-      body["about_station"] = station;
-    }
+    if (!station.empty()) require_station(registry, station);
     const auto& tickets = registry.tickets;
-    if (!candidate.empty()) {
-      if (std::none_of(tickets.begin(), tickets.end(), [&](const IssuedTicket& t) { return t.ticket.candidate == candidate; }))
-        throw Error("candidate " + candidate, "has no ticket here", "choose one of the list");
-      body["candidate"] = candidate;
-    }
-    return body;
+    if (!candidate.empty() && std::none_of(tickets.begin(), tickets.end(), [&](const IssuedTicket& t) { return t.ticket.candidate == candidate; }))
+      throw Error("candidate " + candidate, "has no ticket here", "choose one of the list");
+    return IncidentEntry{station, candidate, make_opening(words)};
   });
 }
 

@@ -9,18 +9,12 @@
 #include <utility>
 #include <vector>
 
+#include "grading/ledger/entry.h"
+
 namespace cavum::ledger {
 
 class Ledger;
-struct LedgerEntry;
-struct LedgerContent;
 
-/// The stations that something is for.
-struct Audience {
-  std::string room = {};                   ///< as it was chosen; empty: all, or one station
-  std::vector<std::string> stations = {};  ///< public keys; empty: all that there are and will be
-  [[nodiscard]] bool holds(const std::string& station) const;
-};
 struct Announcement {
   std::uint64_t seq = 0;
   std::int64_t utc_ns = 0;
@@ -52,8 +46,8 @@ struct ExamDay {
   [[nodiscard]] const Hold* hold_of(const std::string& station) const;
 };
 
-/// Takes an entry of kind `announce`, `hold`, `go_on` or `incident`. Throws Error when it contradicts what is there.
-void apply_day_entry(ExamDay& day, const LedgerEntry& entry, const LedgerContent& content);
+/// Throws Error when that pause does not last.
+void take_go_on(ExamDay& day, const LedgerEntry& entry, const GoOnEntry& what);
 
 // Each throws Error when `words` or `reason` is no line of at most k_longest_words bytes, a station is not enrolled, or the audience is nobody.
 inline constexpr std::size_t k_longest_words = 500;

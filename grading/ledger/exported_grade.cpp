@@ -8,6 +8,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 
 namespace cavum::ledger {
 namespace {
@@ -32,7 +33,7 @@ std::string critical_in(const json& result) {
 /// What a person decided before this result was released, or has to decide.
 std::string doubts_of(const FiledSession& s) {
   std::string out;
-  if (s.makes_up) out += fmt::format("Makeup sitting, for the first was {} (entry {}). ", one_line(s.first_became), *s.makes_up);
+  if (s.makes_up) out += fmt::format("Makeup sitting, for the first was {} (entry {}). ", word_of(s.makes_up->became), s.makes_up->ticket);
   if (!s.contested_by.empty()) {
     std::string others;
     for (const auto other : s.contested_by) others += (others.empty() ? "" : ", ") + std::to_string(other);

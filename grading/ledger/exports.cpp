@@ -150,14 +150,14 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
                        {"simulated", s.simulated},
                        {"contested_by", s.contested_by},
                        {"chosen", s.chosen},
-                       {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
+                       {"makes_up", s.makes_up ? json(s.makes_up->ticket) : json()},
                        {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                        {"findings", s.findings}});
   const Checkpoint& p = ledger.content().checkpoints.back();
   json facts = {{"results", results},
                 {"ledger", ledger.content().id},
                 {"public_key", ledger.content().public_key},
-                {"checkpoint", checkpoint_json(ledger.content().id, ledger.content().key_of(p.size), p, cosignatures_of(ledger.content(), p.size))}};
+                {"checkpoint", checkpoint_note(ledger.content().id, ledger.content().key_of(p.size), p, cosignatures_of(ledger.content(), p.size))}};
   const std::string signature = to_hex(ledger.key().sign(results_message(facts)));
   facts["signature"] = signature;
   return facts.dump();
@@ -179,7 +179,7 @@ std::vector<std::string> check_results(const std::string& text, const std::strin
       const std::string id = facts.at("ledger");
       const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, "results");
       if (key != ledger->key_of(seen.size)) findings.emplace_back("the results are signed by a key that was not the school's at that time");
-      if (seen.is_note && !is_signed_by_school(id, key, seen)) findings.emplace_back("the school's signature on the checkpoint does not hold");
+      if (!is_signed_by_school(id, key, seen)) findings.emplace_back("the school's signature on the checkpoint does not hold");
       check_history(*ledger, id, seen, "the export", findings);
     }
   } catch (const json::exception&) {
@@ -201,10 +201,10 @@ std::string tidy_csv(const Registry& registry) {
     for (const auto& c : s.result->at("criteria"))
       out += std::to_string(s.seq) + "," + csv_field(s.candidate) + "," + csv_field(s.scenario_id) + "," + csv_field(s.station_key.substr(0, 16)) +
              "," + csv_field(s.simulated) + "," + (s.result_seq != s.seq ? "1" : "0") + "," + std::to_string(s.findings.size()) + "," +
-             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + (s.makes_up ? std::to_string(*s.makes_up) : "") + "," +
-             (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result->value("verdict", "")) + "," + (s.released ? "1" : "0") +
-             "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) + "," +
-             csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
+             std::to_string(s.contested_by.size()) + "," + (s.chosen ? "1" : "0") + "," + (s.makes_up ? std::to_string(s.makes_up->ticket) : "") +
+             "," + (s.made_up_by ? std::to_string(*s.made_up_by) : "") + "," + csv_field(s.result->value("verdict", "")) + "," +
+             (s.released ? "1" : "0") + "," + csv_field(c.value("id", "")) + "," + csv_field(c.value("metric", "")) + "," + number_in(c.at("value")) +
+             "," + csv_field(c.value("unit", "")) + "," + number_in(c.at("points")) + "," + number_in(c.at("max")) + "\n";
   }
   return out;
 }

@@ -15,8 +15,6 @@
 namespace cavum::ledger {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::int64_t k_longest_refused_ticks = 600'000;  // 10 minutes, simulated in some 3 s
 
 std::string scenario_id_of(const SessionSetup& setup, const grading::SchoolMark& mark) {
@@ -36,23 +34,26 @@ std::vector<std::string> on_lines(std::vector<std::string> texts) {
   return texts;
 }
 
-/// The entry's body, as far as the recording and its mark give it.
-json body_of(const SessionReader& session, const SessionSetup& setup, const grading::SchoolMark& mark, const std::string& file_sha256) {
-  return {{"candidate", one_line(setup.candidate)},
-          {"chain_sha256", to_hex(session.seal()->chain_sha256)},
-          {"file_sha256", file_sha256},
-          {"begun_utc_ns", session.created().utc_ns},
-          {"closed_utc_ns", session.seal()->clocks.utc_ns},
-          {"nonce", ticket_nonce_in(setup)},
-          {"simulated", one_line(simulated_by(session, setup))},
-          {"source", {{"kind", one_line(setup.source.kind)}, {"name", one_line(setup.source.name)}, {"serial", one_line(setup.source.serial)}}},
-          {"result", mark.result},
-          {"grading_version", grading::k_grading_version},
-          {"physics_version", session.number("physics_version", 0)},
-          {"remarks", on_lines(mark.remarks)},
-          {"scenario_id", scenario_id_of(setup, mark)},
-          {"station_key", mark.replay.station_key},
-          {"ticks", mark.replay.ticks}};
+/// The entry, as far as the recording and its mark give it.
+SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, const grading::SchoolMark& mark, const std::string& file_sha256) {
+  SessionEntry e;
+  e.candidate = one_line(setup.candidate);
+  e.scenario_id = scenario_id_of(setup, mark);
+  e.file_sha256 = file_sha256;
+  e.chain_sha256 = to_hex(session.seal()->chain_sha256);
+  e.station_key = mark.replay.station_key;
+  e.nonce = ticket_nonce_in(setup);
+  e.source = {one_line(setup.source.kind), one_line(setup.source.name), one_line(setup.source.serial)};
+  e.simulated = one_line(simulated_by(session, setup));
+  e.begun_utc_ns = session.created().utc_ns;
+  e.closed_utc_ns = session.seal()->clocks.utc_ns;
+  e.ticks = mark.replay.ticks;
+  e.remarks = on_lines(mark.remarks);
+  e.grading_version = grading::k_grading_version;
+  e.physics_version = session.number("physics_version", 0);
+  e.result = make_opening(mark.result);
+  if (!mark.sealed_otherwise.is_null()) e.sealed = make_opening(session.result_json());
+  return e;
 }
 
 /// Throws Error when it cannot be filed at all.
@@ -83,21 +84,16 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   make_private_folder(ledger.places().folder + "/sessions");
   write_private_file(kept, image);
   if (read_file(kept) != image) throw DatabaseError(kept, "does not hold what was written", "check the disk, and file the exam again", 0);
-  json body = body_of(session, setup, mark, file_sha256);
-  if (!mark.sealed_otherwise.is_null()) body[k_sealed] = session.result_json();
-  struct Refused {};
-  try {
-    const auto& entry = ledger.append("session", [&](const LedgerContent& now) -> json {
-      // again under the lock: somebody may have used the ticket meanwhile
-      auto late = now.entries.size() == seen ? std::vector<std::string>() : claims(now);
-      if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
-      if (refused()) throw Refused();
-      body["findings"] = on_lines(out.findings);
-      return body;
-    });
-    out.seq = entry.seq;
-  } catch (const Refused&) {
-  }
+  SessionEntry entry = entry_of(session, setup, mark, file_sha256);
+  const std::size_t entered = ledger.append_all([&](const LedgerContent& now) -> std::vector<Entry> {
+    // again under the lock: somebody may have used the ticket meanwhile
+    auto late = now.entries.size() == seen ? std::vector<std::string>() : claims(now);
+    if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
+    if (refused()) return {};
+    entry.findings = on_lines(out.findings);
+    return {std::move(entry)};
+  });
+  if (entered > 0) out.seq = ledger.content().entries.back().seq;
 }
 
 SessionReader require_closed_session(const Bytes& image, const std::string& path) {

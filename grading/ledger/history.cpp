@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
@@ -12,8 +11,6 @@
 #include "grading/ledger/witness.h"
 
 namespace cavum::ledger {
-
-using nlohmann::json;
 
 History::History(const LedgerContent& c) : id_(c.id), restores_(restores_of(c)) {
   GrowingRoot growing;
@@ -26,18 +23,10 @@ History::History(const LedgerContent& c) : id_(c.id), restores_(restores_of(c)) 
 std::vector<RestoredHere> restores_of(const LedgerContent& c) {
   std::vector<RestoredHere> out;
   for (const auto& e : c.entries) {
-    if (e.kind != "restore") continue;
-    RestoredHere r{e.seq, e.utc_ns, text_in(e.body, "reason"), {}, 0};
-    try {
-      for (const json& seen : member_of(e.body, "lost")) {
-        r.lost.emplace_back(require_whole<std::uint64_t>(seen, "size", "restore"), fixed_from_hex<32>(text_in(seen, "root"), "restore"));
-        r.lost_size = std::max(r.lost_size, r.lost.back().first);
-      }
-    } catch (const Error&) {  // it then stands for no loss
-      r.lost.clear();
-      r.lost_size = 0;
-    }
-    out.push_back(std::move(r));
+    const auto* restore = e.as<RestoreEntry>();
+    if (restore == nullptr) continue;
+    RestoredHere& r = out.emplace_back(RestoredHere{e.seq, e.utc_ns, e.by.reason, restore->lost, 0});
+    for (const auto& seen : r.lost) r.lost_size = std::max(r.lost_size, seen.size);
   }
   return out;
 }
@@ -93,8 +82,7 @@ void check_checkpoints(LedgerContent& c) {
   std::uint64_t expected = 0;
   for (const auto& p : c.checkpoints) {
     const std::string name = fmt::format("checkpoint {}", p.size);
-    const bool again = p.is_note && p.size == expected;  // the last one before notes were signed has both forms
-    if (!again && p.size != ++expected) {
+    if (p.size != ++expected) {
       c.findings.push_back(fmt::format("checkpoint {}: is missing", expected));
       expected = p.size;
     }
@@ -115,7 +103,7 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
   for (const auto& w : witnessed) {
     const Standing standing = history.standing_of(w);
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
-    if (w.is_note && !is_signed_by_school(c.id, c.key_of(w.size), w)) {
+    if (!is_signed_by_school(c.id, c.key_of(w.size), w)) {
       c.findings.push_back(
           fmt::format("{}: the witness was changed at entry {}{}", witness_path(c.id), w.size,
                       w.size > roots.size() ? ", or an older copy of the ledger was put back, from before the school's key was replaced" : ""));

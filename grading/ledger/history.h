@@ -16,7 +16,7 @@ struct RestoredHere {
   std::int64_t utc_ns = 0;
   std::string reason;  ///< why the school accepted the loss; empty when nothing was known to be lost
   /// What anything at hand had seen of the lost entries: sizes and roots, a size twice when two histories were lost.
-  std::vector<std::pair<std::uint64_t, Sha256>> lost;
+  std::vector<SizeAndRoot> lost;
   std::uint64_t lost_size = 0;  ///< the largest of them; 0: nothing was known to be lost
 };
 [[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);

@@ -14,23 +14,23 @@ namespace {
 
 constexpr std::int64_t k_application_id = 0x43617649;  // "CavI"
 
-constexpr std::int64_t k_format = 2;
+constexpr std::int64_t k_format = 1;
 constexpr char k_table[] =
-    "CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, exam TEXT NOT NULL, id TEXT NOT NULL, name TEXT NOT NULL, seal BLOB NOT NULL, salt BLOB, "
+    "CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, exam TEXT NOT NULL, id TEXT NOT NULL, name TEXT NOT NULL, seal BLOB NOT NULL, "
     "UNIQUE (id, exam)) STRICT";
 
 struct Row {
   Identity who;
-  Bytes seal, salt;  // a salt only before format 2: the pseudonym was made of it
+  Bytes seal;
 };
 
 Statement select(Database& db, const std::string& which) {
-  return db.prepare(("SELECT pseudonym, exam, id, name, seal, coalesce(salt, x'') FROM identity " + which).c_str());
+  return db.prepare(("SELECT pseudonym, exam, id, name, seal FROM identity " + which).c_str());
 }
 
 std::vector<Row> rows(Statement s) {
   std::vector<Row> out;
-  while (s.step()) out.push_back({{s.text(0), s.text(1), s.text(2), s.text(3)}, s.blob(4), s.blob(5)});
+  while (s.step()) out.push_back({{s.text(0), s.text(1), s.text(2), s.text(3)}, s.blob(4)});
   return out;
 }
 
@@ -43,23 +43,7 @@ std::vector<Identity> identities(Statement s) {
 /// What is sealed of a row.
 std::string sealed_text(const Identity& i) { return nlohmann::json{i.pseudonym, i.exam, i.id, i.name}.dump(); }
 
-bool holds(const Row& r, const SigningKey& school) {
-  if (!r.salt.empty()) return old_pseudonym_of(school, r.salt, r.who.id) == r.who.pseudonym;
-  return r.seal == identity_seal(school, sealed_text(r.who));
-}
-
-/// Older files had one pseudonym for all exams of a candidate: it stays theirs, for no exam by name.
-void bring_up_to_date(Database& db) {
-  if (db.integer("PRAGMA user_version") == k_format) return;
-  Transaction all(db);
-  if (db.integer("PRAGMA user_version") == k_format) return;
-  db.run("ALTER TABLE identity RENAME TO old");
-  db.run(k_table);
-  db.run("INSERT INTO identity SELECT pseudonym, '', id, name, x'', salt FROM old");
-  db.run("DROP TABLE old");
-  db.run(fmt::format("PRAGMA user_version = {}", k_format).c_str());
-  all.commit();
-}
+bool holds(const Row& r, const SigningKey& school) { return r.seal == identity_seal(school, sealed_text(r.who)); }
 
 }  // namespace
 
@@ -82,10 +66,9 @@ Identities::Identities(const std::string& path, bool may_make)
         return db;
       }()) {
   if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
-  if (const auto format = database_.integer("PRAGMA user_version"); format > k_format)
-    throw Error(path, fmt::format("was written by a newer version of Cavum (format {})", format), "use that version");
+  if (const auto format = database_.integer("PRAGMA user_version"); format != k_format)
+    throw Error(path, fmt::format("is of format {}, and this version of Cavum reads format {}", format, k_format), "use the version that wrote it");
   database_.run("PRAGMA secure_delete = ON");
-  bring_up_to_date(database_);
   if (database_.integer("SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'") != 1 ||
       database_.text("SELECT sql FROM sqlite_schema WHERE name = 'identity'") != k_table)
     throw Error(path, "holds tables or triggers that this program did not make: who is forgotten might stay in them",
@@ -147,7 +130,7 @@ void Identities::seal_again(const SigningKey& before, const SigningKey& now) {
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym"))) {
     if (!holds(r, before) && !holds(r, now))
       throw Error("identities", r.who.pseudonym + " is not whom it was given to; the row was changed", "restore the file from its backup");
-    database_.prepare("UPDATE identity SET seal = ?, salt = NULL WHERE pseudonym = ?")
+    database_.prepare("UPDATE identity SET seal = ? WHERE pseudonym = ?")
         .bind(1, identity_seal(now, sealed_text(r.who)))
         .bind(2, r.who.pseudonym)
         .run();

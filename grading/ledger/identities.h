@@ -14,7 +14,7 @@ namespace cavum::ledger {
 
 struct Identity {
   std::string pseudonym;
-  std::string exam;  ///< id of the scenario; empty for one that was given before each exam had its own
+  std::string exam;  ///< id of the scenario
   std::string id;    ///< how the school's other systems name the candidate: a matriculation number or mail address
   std::string name;  ///< for people; may be empty
 };

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/reason.h"
 #include "grading/ledger/registry.h"
 
 namespace cavum::ledger {
@@ -25,41 +26,41 @@ Ticket promise(const scenarios::ExamSetup& setup, const LedgerContent& ledger, s
 std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, Another another) {
   ticket.candidate = candidate;
   ticket.nonce = random_hex(16);
-  std::string text = sign_ticket(ticket, ledger.key());
-  ledger.append("ticket", [&](const LedgerContent&) {
+  const SignedTicket made = sign_ticket(std::move(ticket), ledger.key());
+  ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();  // as it is under the lock
-    const IssuedTicket* live = registry.live_ticket(candidate, ticket.exam, read_clocks().utc_ns);
+    const std::string& exam = made.ticket.exam;
+    const IssuedTicket* live = registry.live_ticket(candidate, exam, read_clocks().utc_ns);
     if (live != nullptr && another == Another::refuse)
-      throw AnotherTicket("candidate " + candidate,
-                          fmt::format("has a ticket for {} that is good until {} (entry {})", one_line(ticket.exam),
-                                      utc_text(live->ticket.not_after_utc_ns), live->seq),
-                          "cancel it with `cavum ledger cancel`, or add --another");
+      throw AnotherTicket(
+          "candidate " + candidate,
+          fmt::format("has a ticket for {} that is good until {} (entry {})", one_line(exam), utc_text(live->ticket.not_after_utc_ns), live->seq),
+          "cancel it with `cavum ledger cancel`, or add --another");
     const auto sat = std::find_if(registry.sessions.begin(), registry.sessions.end(),
-                                  [&](const FiledSession& s) { return s.candidate == candidate && s.scenario_id == ticket.exam; });
+                                  [&](const FiledSession& s) { return s.candidate == candidate && s.scenario_id == exam; });
     if (sat != registry.sessions.end() && another == Another::refuse)
-      throw AnotherTicket("candidate " + candidate, fmt::format("has sat {} (entry {})", one_line(ticket.exam), sat->seq),
+      throw AnotherTicket("candidate " + candidate, fmt::format("has sat {} (entry {})", one_line(exam), sat->seq),
                           "give a makeup sitting for it, or add --another: of several attempts the last one that is released counts");
-    return without_grant(text);
+    return TicketEntry{made.ticket, made.signature, {}};
   });
-  return text;
+  return made.text;
 }
 
 const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason) {
-  constexpr std::size_t k_longest = 2000;
-  if (reason.size() > k_longest || !is_seen_text(reason))
-    throw Error("--reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
-  return ledger.append("cancel", [&](const LedgerContent&) -> nlohmann::json {
-    const Registry& registry = ledger.registry();
-    const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.seq == seq; });
-    const std::string where = fmt::format("--ticket {}", seq);
-    if (t == registry.tickets.end()) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
-    if (t->used_by)
-      throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
-                  "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
-    if (t->made_up_by) throw Error(where, fmt::format("was made up by entry {}", *t->made_up_by), "cancel that one, if it is too much");
-    if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
-    return {{"ticket", seq}, {"reason", reason}};
-  });
+  require_reason(reason);
+  return ledger.append(
+      [&](const LedgerContent&) {
+        const IssuedTicket* t = ledger.registry().ticket(seq);
+        const std::string where = fmt::format("--ticket {}", seq);
+        if (t == nullptr) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
+        if (t->used_by)
+          throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
+                      "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
+        if (t->made_up_by) throw Error(where, fmt::format("was made up by entry {}", *t->made_up_by), "cancel that one, if it is too much");
+        if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
+        return CancelEntry{seq};
+      },
+      reason);
 }
 
 namespace {
@@ -102,30 +103,57 @@ std::vector<std::string> stations_of(const Registry& registry, Identities& ident
   return keys;
 }
 
+std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListWish& wish, const KeepTicket& keep) {
+  // before the first ticket: a name that is none refuses the list
+  const auto stations = stations_of(ledger.registry(), identities, wish.people, wish.times, wish.where);
+  std::vector<Issued> out;
+  std::vector<Seat> seats;
+  for (std::size_t i = wish.first; i < wish.end; ++i) {
+    const Person& person = wish.people[i];
+    Issued& one = out.emplace_back();
+    Ticket ticket = wish.ticket;
+    ticket.not_before_utc_ns = wish.times[i].from_utc_ns;
+    ticket.not_after_utc_ns = wish.times[i].until_utc_ns;
+    ticket.grant = scenarios::notes_of(together(wish.grant, person.grant));
+    std::sort(ticket.grant.begin(), ticket.grant.end());
+    one.person = person;
+    one.candidate = identities.enrol(person.id, person.name, ticket.exam, ledger.key());
+    try {
+      const std::string text = issue(ledger, ticket, one.candidate, wish.another);
+      one.ticket = parse_ticket(text, "", "the ticket");
+      one.entry = ledger.content().entries.back().seq;
+      keep(one, text);
+      if (!stations[i].empty()) seats.push_back({*one.entry, stations[i]});
+    } catch (const AnotherTicket& has) {  // the others get theirs
+      one.refused = has;
+    }
+  }
+  if (!seats.empty()) seat_candidates(ledger, seats);
+  return out;
+}
+
 const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats) {
   if (seats.empty()) throw Error("the seats", "are none", "choose who is to sit where");
-  return ledger.append("seats", [&](const LedgerContent&) -> nlohmann::json {
+  return ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();
-    nlohmann::json list = nlohmann::json::array();
     for (const Seat& s : seats) {
-      const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == s.ticket; });
-      if (t == registry.tickets.end() || t->used_by || t->cancelled_by || t->made_up_by)
+      const IssuedTicket* t = registry.ticket(s.ticket);
+      if (t == nullptr || t->used_by || t->cancelled_by || t->made_up_by)
         throw Error(fmt::format("entry {}", s.ticket), "is no ticket that is good", "look at the list of tickets again");
       const Station* at = registry.stations.of(s.station);
       if (!s.station.empty() && (at == nullptr || at->revoked_utc_ns))
         throw Error("station " + one_line(s.station), "is none that is enrolled", "choose one of the list");
       const TimeSpan when{t->ticket.not_before_utc_ns, t->ticket.not_after_utc_ns};
       const bool twice = !s.station.empty() && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) {
-        const auto other = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& i) { return i.seq == o.ticket; });
-        return o.ticket != s.ticket && o.station == s.station && other != registry.tickets.end() && meet(when, other->ticket);
+        const IssuedTicket* other = registry.ticket(o.ticket);
+        return o.ticket != s.ticket && o.station == s.station && other != nullptr && meet(when, other->ticket);
       });
       const IssuedTicket* there = seated_there(registry, s.station, when, s.ticket, read_clocks().utc_ns);
       const bool moves = there != nullptr && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) { return o.ticket == there->seq; });
       if (twice || (there != nullptr && !moves))
         throw Error("station " + one_line(at->name), "has another candidate at that time", "choose another station");
-      list.push_back({{"ticket", s.ticket}, {"station", s.station}});
     }
-    return {{"seats", list}};
+    return SeatsEntry{seats};
   });
 }
 

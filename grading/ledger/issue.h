@@ -1,6 +1,7 @@
 // Issuing tickets: what one promises of an exam that was made ready, its entry in the ledger, and seats.
 #pragma once
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,11 +32,6 @@ enum class Another { refuse, allow };
 /// line of text.
 const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::string& reason);
 
-/// Where the candidate of a ticket's entry is to sit: a station's public key, or nothing for any.
-struct Seat {
-  std::uint64_t ticket = 0;
-  std::string station;
-};
 /// Enters seats, all in one entry. Throws Error when one is of no ticket that is good, at no station that is enrolled, or at one where another
 /// candidate is to sit at that time.
 const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats);
@@ -51,5 +47,28 @@ struct TimeSpan {
 /// The ticket of another candidate, good at this time or later, whose seat is this station within a time that meets `when`; null: none.
 [[nodiscard]] const IssuedTicket* seated_there(const Registry& registry, const std::string& station, const TimeSpan& when, std::uint64_t but_ticket,
                                                std::int64_t now_utc_ns);
+
+/// Tickets for a list.
+struct ListWish {
+  Ticket ticket;                   ///< as it was promised
+  std::vector<Person> people;      ///< all of the list
+  std::vector<TimeSpan> times;     ///< of each
+  std::string where;               ///< the list, for mistakes
+  std::size_t first = 0, end = 0;  ///< who of the list gets one now
+  scenarios::Grant grant = {};     ///< for all; what is granted to one of them goes before
+  Another another = Another::refuse;
+};
+struct Issued {
+  Person person;
+  std::string candidate;               ///< pseudonym
+  Ticket ticket;                       ///< with its accommodations
+  std::optional<std::uint64_t> entry;  ///< none: refused
+  std::optional<AnotherTicket> refused;
+};
+/// Is told each ticket's text as soon as it is entered.
+using KeepTicket = std::function<void(const Issued& issued, const std::string& text)>;
+/// Issues them one after the other, then enters the seats that the list names. Who has a ticket already, or has sat, is refused, and the others get
+/// theirs. Throws as stations_of().
+[[nodiscard]] std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListWish& wish, const KeepTicket& keep);
 
 }  // namespace cavum::ledger

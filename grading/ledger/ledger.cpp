@@ -4,17 +4,16 @@
 
 #include <filesystem>
 
-#include "engine/base/json_fields.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/school_keys.h"
 
 namespace cavum::ledger {
-
-using nlohmann::json;
 
 void Ledger::create(const std::string& folder, const std::string& school_name, const SigningKey& key) {
   const LedgerPlaces places{folder};
@@ -30,14 +29,13 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   };
   try {
     Database db = open_for_adding(fresh, true);
-    db.run(fmt::format("PRAGMA application_id = {}", k_ledger_application_id).c_str());
-    migrate(db, fresh);
+    make_tables(db);
     const std::string id = random_hex(16);
-    const LedgerEntry e = make_entry(0, "init", {{"ledger", id}, {"public_key", to_hex(key.public_key)}, {"school", school_name}});
+    const LedgerEntry e = make_entry(0, InitEntry{id, to_hex(key.public_key), school_name}, {});
     const Checkpoint p = sign_checkpoint(id, 1, merkle_root(std::span(&e.leaf, 1)), e.utc_ns, key);
     {
       Transaction all(db);
-      insert(db, e, checkpoint_note(id, to_hex(key.public_key), p), {});
+      insert(db, e, {}, checkpoint_note(id, to_hex(key.public_key), p), {});
       all.commit();
     }
     db.run("PRAGMA journal_mode = DELETE");  // one file, to be renamed whole
@@ -54,22 +52,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
 Ledger::Ledger(const std::string& folder, const SigningKey& key, LedgerUse use)
     : places_{folder}, key_(key), use_(use), database_(open_for_adding(LedgerPlaces{folder}.database(), false)) {
   require_ledger(database_, places_.database());
-  migrate(database_, places_.database());
   reload();
-  sign_last_as_note();
-}
-
-/// A ledger from before format 4, opened for the first time: what was signed last is signed as a note, too, so that it can be shown and cosigned.
-void Ledger::sign_last_as_note() {
-  if (content_.checkpoints.back().is_note) return;
-  Transaction all(database_);
-  refresh();
-  if (content_.checkpoints.back().is_note) return;
-  const Checkpoint last = content_.checkpoints.back();
-  const Checkpoint p = sign_checkpoint(content_.id, last.size, last.root, last.utc_ns, key_);
-  insert_note(database_, p.size, checkpoint_note(content_.id, content_.public_key, p));
-  all.commit();
-  content_.checkpoints.push_back(p);
 }
 
 void Ledger::keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures) {
@@ -107,35 +90,30 @@ void Ledger::refresh() {
   if (static_cast<std::uint64_t>(database_.integer("SELECT count(*) FROM entry")) != content_.entries.size()) reload();
 }
 
-const LedgerEntry& Ledger::append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents) {
-  append_all(
-      kind, [&](const LedgerContent& now) { return std::vector<json>{body(now)}; }, documents);
+const LedgerEntry& Ledger::append(const MakeEntry& entry, const std::string& reason, std::span<const Bytes> documents) {
+  append_all([&](const LedgerContent& now) { return std::vector<Entry>{entry(now)}; }, reason, documents);
   return content_.entries.back();
 }
 
-std::size_t Ledger::append_all(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents) {
+std::size_t Ledger::append_all(const MakeEntries& entries, const std::string& reason, std::span<const Bytes> documents) {
+  Actor by = actor_;
+  if (!reason.empty()) by.reason = reason;
   return append_signed(
-      kind,
       [&](const LedgerContent& now) {
         require_key_in_time(now, read_clocks().utc_ns);
-        std::vector<json> made = bodies(now);
-        for (json& one : made)
-          for (const auto& [name, text] :
-               {std::pair("account", actor_.account), std::pair("reason", actor_.reason), std::pair("station", actor_.station)})
-            if (!text.empty() && !one.contains(name)) one[name] = text;
-        return made;
+        return entries(now);
       },
-      documents, key_);
+      by, documents, key_);
 }
 
 void Ledger::change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason) {
-  append_signed(
-      "key", [&](const LedgerContent& now) { return std::vector<json>{school_key_body(now, key_, next, until_utc_ns, reason)}; }, {}, next);
+  append_signed([&](const LedgerContent& now) { return std::vector<Entry>{school_key_entry(now, key_, next, until_utc_ns)}; },
+                {"", one_line(reason), ""}, {}, next);
   key_ = next;
   reload();
 }
 
-std::size_t Ledger::append_signed(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents, const SigningKey& key) {
+std::size_t Ledger::append_signed(const MakeEntries& entries, const Actor& by, std::span<const Bytes> documents, const SigningKey& key) {
   Transaction all(database_);
   refresh();
   std::vector<LedgerEntry> added;
@@ -143,15 +121,15 @@ std::size_t Ledger::append_signed(const std::string& kind, const MakeBodies& bod
   GrowingRoot tree;
   for (const LedgerEntry& e : content_.entries) tree.add(e.leaf);
   bool erases = false;
-  for (json& body : bodies(content_)) {
-    LedgerEntry& e = added.emplace_back(make_entry(tree.size(), kind, std::move(body)));
-    e.erases = taken_out_by(content_, e.body);
+  for (Entry& what : entries(content_)) {
+    LedgerEntry& e = added.emplace_back(make_entry(tree.size(), std::move(what), by));
+    const auto taken = taken_out_by(content_, e);
     tree.add(e.leaf);
     points.push_back(sign_checkpoint(content_.id, tree.size(), tree.root(), e.utc_ns, key));
-    insert(database_, e, checkpoint_note(content_.id, to_hex(key.public_key), points.back()),
+    insert(database_, e, taken, checkpoint_note(content_.id, to_hex(key.public_key), points.back()),
            added.size() == 1 ? documents : std::span<const Bytes>());
-    e.openings.clear();  // the file has them
-    erases = erases || !member_of(e.body, "erased").empty();
+    for (const auto& [part, opening] : openings_of(*e.what)) opening->text.clear();  // the file has them
+    erases = erases || !erased_parts(e).empty();
   }
   if (added.empty()) return 0;
   require_memory(places_.folder);

@@ -22,18 +22,11 @@ namespace cavum::ledger {
 /// witness is not asked about.
 enum class LedgerUse { add, tell, restore };
 
-/// On whose behalf entries are added: a person of the office by the name of his account, or an enrolled station that asked.
-struct Actor {
-  std::string account;  ///< empty: nobody who signed in
-  std::string reason;   ///< why, where an entry of that kind has no reason of its own; may be empty
-  std::string station;  ///< its public key, hexadecimal; empty: none
-};
-
 class Ledger {
  public:
-  /// Makes an entry's body from what is there so far.
-  using MakeBody = std::function<nlohmann::json(const LedgerContent&)>;
-  using MakeBodies = std::function<std::vector<nlohmann::json>(const LedgerContent&)>;
+  /// Makes an entry from what is there so far.
+  using MakeEntry = std::function<Entry(const LedgerContent&)>;
+  using MakeEntries = std::function<std::vector<Entry>(const LedgerContent&)>;
   /// A new ledger in a folder, made when missing. Throws Error when there is one already.
   static void create(const std::string& folder, const std::string& school_name, const SigningKey& key);
   /// Throws Error, in the words of its use, when anything in it does not hold, or the key is another school's.
@@ -46,14 +39,13 @@ class Ledger {
   [[nodiscard]] const SigningKey& key() const noexcept { return key_; }
   /// Reads what somebody else has added meanwhile. Throws Error as the constructor does.
   void refresh();
-  /// Adds one entry and its checkpoint in one transaction, then tells the witness. `body` is asked for while nobody else can add; it may throw, and
-  /// nothing is added then. Throws DatabaseError when the disk refuses; the ledger then holds what it held. `documents` are kept with it, each once;
-  /// the body names them (documents_of).
-  const LedgerEntry& append(const std::string& kind, const MakeBody& body, std::span<const Bytes> documents = {});
-  /// The same with several entries of a kind in one transaction: all of them are added, or none. Returns how many; nothing is added for no body.
-  std::size_t append_all(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents = {});
-  /// Entries that are added from now on name this actor: members `account`, `reason`, `station` of their bodies, each where it is not empty and the
-  /// body has no such member.
+  /// Adds one entry and its checkpoint in one transaction, then tells the witness. It is asked for while nobody else can add; it may throw, and
+  /// nothing is added then. Throws DatabaseError when the disk refuses; the ledger then holds what it held. `reason`: of the actor; else the one that
+  /// he gave before. `documents` are kept with it, each once; the entry names them.
+  const LedgerEntry& append(const MakeEntry& entry, const std::string& reason = {}, std::span<const Bytes> documents = {});
+  /// The same with several entries in one transaction: all of them are added, or none. Returns how many; none may be asked for.
+  std::size_t append_all(const MakeEntries& entries, const std::string& reason = {}, std::span<const Bytes> documents = {});
+  /// Entries that are added from now on name this actor.
   void act_for(Actor actor) { actor_ = std::move(actor); }
   /// Enters that from now on `next` signs, good until `until_utc_ns` (0 = without end), or how long the present one is good (`next` is that one). The
   /// present key signs that, and `next` the entry and all that follow. Throws Error.
@@ -65,9 +57,8 @@ class Ledger {
   void keep_cosignatures(std::uint64_t size, std::span<const NoteSignature> cosignatures);
 
  private:
-  std::size_t append_signed(const std::string& kind, const MakeBodies& bodies, std::span<const Bytes> documents, const SigningKey& key);
+  std::size_t append_signed(const MakeEntries& entries, const Actor& by, std::span<const Bytes> documents, const SigningKey& key);
   void reload();
-  void sign_last_as_note();
 
   LedgerPlaces places_;
   SigningKey key_;

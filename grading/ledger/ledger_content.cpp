@@ -2,15 +2,12 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
-#include <functional>
 #include <set>
 
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
 #include "engine/session/session.h"
 #include "engine/session/session_image.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/ledger_file.h"
@@ -22,31 +19,22 @@
 namespace cavum::ledger {
 namespace {
 
-using nlohmann::json;
-
 /// What the row says, as far as it can be read; else a finding.
-LedgerEntry parse_entry(std::uint64_t seq, std::string text, const Sha256& leaf, std::string attachment, std::vector<std::string>& findings) {
+LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, std::vector<std::string>& findings) {
+  const std::string name = fmt::format("entry {}", seq);
+  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
   LedgerEntry e;
+  try {
+    e = read_entry(text, name);
+    if (entry_text(e) != text) findings.push_back(name + ": is not written as this program writes entries: keys, spaces or numbers");
+    if (e.seq != seq) findings.push_back(fmt::format("{}: was entered as number {}: entries were moved", name, e.seq));
+    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(name + ": begins a ledger a second time");
+  } catch (const Error& wrong) {
+    findings.push_back(without_advice(wrong.what()));
+    e.text = text;
+  }
   e.seq = seq;
   e.leaf = leaf;
-  e.text = std::move(text);
-  const std::string name = fmt::format("entry {}", seq);
-  if (leaf_hash(ledger_bytes(e.text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
-  try {
-    const json j = parse_json(e.text, name);
-    if (j.dump() != e.text) findings.push_back(name + ": is not written as this program writes entries: keys, spaces or numbers");
-    e.kind = j.at("kind").get<std::string>();
-    if (e.kind == "init" && seq != 0) findings.push_back(name + ": begins a ledger a second time");
-    e.body = j.at("body");
-    e.utc_ns = require_whole<std::int64_t>(j, "utc_ns", name);
-    e.attachment = std::move(attachment);
-    if (require_whole<std::uint64_t>(j, "seq", name) != seq)
-      findings.push_back(fmt::format("{}: was entered as number {}: entries were moved", name, j.at("seq").dump()));
-  } catch (const std::bad_alloc&) {
-    throw;  // nothing is wrong with the entry
-  } catch (const std::exception&) {
-    findings.push_back(name + ": is no JSON object with kind, seq, utc_ns and body");
-  }
   return e;
 }
 
@@ -55,41 +43,27 @@ bool has_table(Database& db, const std::string& name) {
   return db.integer(fmt::format("SELECT count(*) FROM sqlite_schema WHERE type = 'table' AND name = '{}'", name).c_str()) == 1;
 }
 
-/// Puts what openings, and attachments of before them, hold beside the entries. Each must be as it was bound, named by one entry, and be gone
-/// when, and only when, an entry says so.
+/// Puts what openings hold into the entries. Each must be as it was bound, named by one entry, and be gone when, and only when, an entry says so.
 void take_openings(LedgerContent& c, const std::map<std::string, std::string>& stored) {
   c.erased = read_erased(c.entries, c.findings);
   std::set<std::string> named;
   for (auto& e : c.entries) {
-    const std::string name = fmt::format("entry {}: its ", e.seq);
-    const auto take = [&](const std::string& what, bool there, const std::function<json()>& value) {
-      const auto by = erased_by(c.erased, e.seq, what);
-      e.opened[what] = json();
-      if (!there && !by) c.findings.push_back(fmt::format("{}{} was taken out of the ledger", name, what));
-      if (there && by) c.findings.push_back(fmt::format("{}{} was erased by entry {}, and stands there again", name, what, *by));
-      if (!there) return;
+    if (!e.what) continue;
+    for (const auto& [part, opening] : openings_of(*e.what)) {
+      const std::string name = fmt::format("entry {}: its {}", e.seq, word_of(part));
+      const auto found = stored.find(opening->sha256);
+      const bool there = found != stored.end();
+      const auto by = erased_by(c.erased, e.seq, part);
+      named.insert(opening->sha256);
+      if (!there && !by) c.findings.push_back(name + " was taken out of the ledger");
+      if (there && by) c.findings.push_back(fmt::format("{} was erased by entry {}, and stands there again", name, *by));
+      if (!there) continue;
       try {
-        e.opened[what] = value();
+        opening->value = opened_value(found->second, opening->sha256, "opening");
       } catch (const Error&) {
-        c.findings.push_back(fmt::format("{}{} was changed after it was entered", name, what));
+        c.findings.push_back(name + " was changed after it was entered");
       }
-    };
-    if (!e.body.is_object()) continue;
-    const json& opens = member_of(e.body, "opens");
-    for (const char* what : {k_result, k_sealed, k_words}) {
-      const std::string hash = text_in(opens, what);
-      if (hash.empty()) continue;
-      named.insert(hash);
-      const auto found = stored.find(hash);
-      take(what, found != stored.end(), [&] { return opened_value(found->second, hash, "opening"); });
     }
-    if (const std::string bound = text_in(e.body, "result_sha256"); !bound.empty())
-      take(k_result, !e.attachment.empty(), [&] {
-        if (to_hex(sha256(e.attachment)) != bound) throw Error("attachment", "is not what was bound", "use an intact copy");
-        return parse_json(e.attachment, "attachment");
-      });
-    else if (!e.attachment.empty())
-      c.findings.push_back(name + "result was added after it was entered");
   }
   for (const auto& [hash, text] : stored)
     if (!named.contains(hash)) c.findings.push_back(fmt::format("opening {}: belongs to no entry; it was put into the ledger's file", hash));
@@ -116,11 +90,12 @@ void read_documents(Database& db, LedgerContent& c) {
   }
   std::set<std::string> named;
   for (const auto& e : c.entries)
-    for (const auto& [name, hash] : documents_of(e)) {
-      named.insert(hash);
-      if (!c.documents.contains(hash))
-        c.findings.push_back(fmt::format("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name));
-    }
+    if (const auto* regrade = e.as<RegradeEntry>())
+      for (const auto& [name, hash] : regrade->by) {
+        named.insert(hash);
+        if (!c.documents.contains(hash))
+          c.findings.push_back(fmt::format("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name));
+      }
   for (const auto& [hash, bytes] : c.documents)
     if (!named.contains(hash)) c.findings.push_back(fmt::format("document {}: belongs to no entry; it was put into the ledger's file", hash));
 }
@@ -153,7 +128,6 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
       c.findings.push_back(without_advice(e.what()));
     }
   }
-  std::stable_sort(c.checkpoints.begin(), c.checkpoints.end(), [](const Checkpoint& a, const Checkpoint& b) { return a.size < b.size; });
   for (const auto& [size, line] : stored.cosignatures) {
     const std::string name = fmt::format("cosignature under {} entries", size);
     try {
@@ -166,28 +140,16 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
 
 }  // namespace
 
-LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, json body) {
+LedgerEntry make_entry(std::uint64_t seq, Entry what, Actor by) {
   LedgerEntry e;
   e.seq = seq;
-  e.kind = kind;
   e.utc_ns = read_clocks().utc_ns;
-  e.body = std::move(body);
-  for (const char* what : {k_result, k_sealed, k_words}) {
-    const auto value = e.body.find(what);
-    if (value == e.body.end() || !tells_of_people(kind)) continue;
-    e.openings.push_back(make_opening(*value));
-    e.opened[what] = std::move(*value);
-    e.body.erase(what);
-    e.body["opens"][what] = e.openings.back().sha256;
-  }
-  e.text = json{{"body", e.body}, {"kind", kind}, {"seq", seq}, {"utc_ns", e.utc_ns}}.dump();
+  e.by = std::move(by);
+  e.what = std::move(what);
+  e.text = entry_text(e);
+  static_cast<void>(read_entry(e.text, fmt::format("entry {}", seq)));  // nothing is entered that could not be read
   e.leaf = leaf_hash(ledger_bytes(e.text));
   return e;
-}
-
-std::string text_opened(const LedgerEntry& e, const char* what) {
-  const auto found = e.opened.find(what);
-  return found != e.opened.end() && found->second->is_string() ? found->second->get<std::string>() : "";
 }
 
 std::vector<Sha256> leaves_of(const LedgerContent& c) {
@@ -203,57 +165,42 @@ std::vector<NoteSignature> cosignatures_of(const LedgerContent& c, std::uint64_t
   return out;
 }
 
-std::map<std::string, std::string> documents_of(const LedgerEntry& e) {
-  std::map<std::string, std::string> out;
-  if (e.kind == "session")
-    if (const std::string hash = text_in(e.body, "sealed_sha256"); !hash.empty()) out["sealed result"] = hash;
-  const json& by = e.kind == "regrade" ? member_of(e.body, "by") : json();
-  if (by.is_object())
-    for (const auto& [name, hash] : by.items())
-      if (hash.is_string() && !name.ends_with("_sha256")) out[name] = hash.get<std::string>();  // older entries name a file that was not kept
-  return out;
-}
-
 LedgerContent read_content(Database& db, const std::string& where, AskWitness ask) {
   require_ledger(db, where);
-  static_cast<void>(ledger_format(db, where));
   LedgerContent c;
   check_schema(db, c.findings);
   // The witness first: it is told after each entry, so what it knows by now is in the database by then. One snapshot of the tables for the same
   // reason.
   const bool has_entries = has_table(db, "entry");
   const std::string first = has_entries ? db.text("SELECT text FROM entry WHERE seq = 0") : "";
-  const json begin = parse_json_or_null(first);
-  const std::string id = text_in(member_of(begin, "body"), "ledger");
+  const LedgerEntry begin = read_entry_or_none(first);
+  const auto* named = begin.as<InitEntry>();
+  const std::string id = named == nullptr ? "" : named->ledger;
   const bool known = ask == AskWitness::yes && id.size() == 32 && id.find('/') == std::string::npos;
   const auto witnessed = known ? read_witness(id, c.findings) : std::vector<Checkpoint>();
   const bool alone = !db.in_transaction();
   if (alone) db.run("BEGIN");
   if (has_entries) {
-    auto rows = db.prepare("SELECT seq, text, leaf_sha256, coalesce(attachment, '') FROM entry ORDER BY seq");
+    auto rows = db.prepare("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq");
     for (std::uint64_t expected = 0; rows.step(); ++expected) {
       const auto seq = static_cast<std::uint64_t>(rows.integer(0));
       if (seq != expected) c.findings.push_back(fmt::format("entry {}: is missing", expected));
       expected = seq;
-      c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), rows.text(3), c.findings));
+      c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), c.findings));
     }
-  }
-  if (has_table(db, "checkpoint")) {
-    auto points = db.prepare("SELECT size, root_sha256, utc_ns, signature FROM checkpoint ORDER BY size");
-    while (points.step())
-      c.checkpoints.push_back({static_cast<std::uint64_t>(points.integer(0)), points.fixed_blob<32>(1), points.integer(2), points.fixed_blob<64>(3)});
   }
   const StoredNotes notes = stored_notes(db);
   const auto openings = stored_openings(db);
-  if (ledger_format(db, where) >= 3) read_documents(db, c);
+  read_documents(db, c);
   if (alone) db.run("COMMIT");
   take_openings(c, openings);
-  if (c.entries.empty() || c.entries[0].kind != "init") {
+  const auto* init = c.entries.empty() ? nullptr : c.entries[0].as<InitEntry>();
+  if (init == nullptr) {
     c.findings.emplace_back("entry 0: does not begin a ledger");
     return c;
   }
-  c.id = text_in(c.entries[0].body, "ledger");
-  c.school = text_in(c.entries[0].body, "school");
+  c.id = init->ledger;
+  c.school = init->school;
   read_school_keys(c);
   take_notes(c, notes);
   check_checkpoints(c);

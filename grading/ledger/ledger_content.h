@@ -5,7 +5,6 @@
 #include <fmt/core.h>
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <span>
 #include <string>
 #include <vector>
@@ -14,29 +13,9 @@
 #include "engine/base/hash.h"
 #include "engine/session/sqlite.h"
 #include "grading/ledger/checkpoint.h"
-#include "grading/ledger/opening.h"
+#include "grading/ledger/entry.h"
 
 namespace cavum::ledger {
-
-/// What an entry takes out of the file: hashes of openings, and entries whose result lies in them as it did before format 5.
-struct TakenOut {
-  std::vector<std::string> openings;
-  std::vector<std::uint64_t> attachments;
-};
-
-/// One entry. `text` is the JSON that is hashed: {"body":…,"kind":…,"seq":…,"utc_ns":…}, keys in order, no spaces.
-struct LedgerEntry {
-  std::uint64_t seq = 0;
-  std::string text;
-  Sha256 leaf{};
-  std::string attachment;  ///< before format 5 a result's JSON text, or nothing; its SHA-256 is in the text
-  std::string kind;        ///< RegistryReader in registry.cpp lists them
-  nlohmann::json body;
-  std::map<std::string, SharedJson> opened;  ///< what its openings hold, by name: `result`, `sealed`, `words`; null what was erased
-  std::int64_t utc_ns = 0;
-  std::vector<Opening> openings;  ///< of an entry that is being made
-  TakenOut erases;                ///< the same
-};
 
 /// A text as it is hashed.
 [[nodiscard]] inline std::span<const std::uint8_t> ledger_bytes(const std::string& text) {
@@ -64,7 +43,7 @@ struct LedgerContent {
   std::string school;           ///< its name
   bool witnessed = false;       ///< this computer has a witness of the ledger
   std::vector<LedgerEntry> entries;
-  std::vector<Checkpoint> checkpoints;     ///< by size; the last one before format 4 in both forms
+  std::vector<Checkpoint> checkpoints;     ///< by size
   std::vector<Cosignature> cosignatures;   ///< by size; whose they are is not checked here
   std::map<std::string, Bytes> documents;  ///< by SHA-256 (hexadecimal): what results were marked anew by
   Erased erased;                           ///< what entries say was erased
@@ -76,11 +55,6 @@ struct LedgerContent {
   [[nodiscard]] bool has_key(const std::string& public_key) const;
 };
 
-/// What lies beside an entry. Of a session's of format 4 the result that its station sealed, where that is another than the school's mark. Of a
-/// regrade's what it was marked by: SHA-256 (hexadecimal) of each document by its name, `rubric.toml`, `scenario.toml`, `attachment/NAME`. Empty when
-/// the entry is older than the ledger's documents (format 3).
-[[nodiscard]] std::map<std::string, std::string> documents_of(const LedgerEntry& entry);
-
 /// Places of a ledger in its folder.
 struct LedgerPlaces {
   std::string folder;
@@ -88,8 +62,6 @@ struct LedgerPlaces {
   [[nodiscard]] std::string identities() const { return folder + "/identities.db"; }
   [[nodiscard]] std::string session(const std::string& file_sha256) const { return fmt::format("{}/sessions/{}.cavum", folder, file_sha256); }
 };
-/// The text that an entry's opening holds; empty when there is none, or it was erased.
-[[nodiscard]] std::string text_opened(const LedgerEntry& entry, const char* what);
 /// True where filed sessions or identities are, whose ledger may be gone.
 [[nodiscard]] bool holds_parts_of_a_ledger(const LedgerPlaces& places);
 /// Is the witness of this computer asked? A copy that was taken while others go on adding is behind it and sound.
@@ -99,8 +71,8 @@ enum class AskWitness { yes, no };
 /// The same of a database that is open. Throws DatabaseError when it cannot be read.
 [[nodiscard]] LedgerContent read_content(Database& database, const std::string& where, AskWitness ask = AskWitness::yes);
 
-/// The next entry, as it will be hashed. What of the body can be erased (opening.h) goes into openings, named under `opens`.
-[[nodiscard]] LedgerEntry make_entry(std::uint64_t seq, const std::string& kind, nlohmann::json body);
+/// The next entry, as it will be hashed. Throws Error where it could not be read back.
+[[nodiscard]] LedgerEntry make_entry(std::uint64_t seq, Entry what, Actor by);
 /// The cosignatures of one size.
 [[nodiscard]] std::vector<NoteSignature> cosignatures_of(const LedgerContent& content, std::uint64_t size);
 /// The tree's leaves, in order.

@@ -2,16 +2,14 @@
 
 #include <fmt/core.h>
 
-#include <algorithm>
 #include <filesystem>
 #include <map>
 
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/ledger_schema.h"
 
 namespace cavum::ledger {
 namespace {
-
-static_assert(k_ledger_migrations.size() == k_ledger_format);
 
 /// What a database defines, by name: "table entry" and its SQL. What SQLite keeps for itself is left out.
 std::map<std::string, std::string> schema_of(Database& db) {
@@ -30,22 +28,19 @@ std::string instead_of_none(const std::string& path) {
 }
 
 void require_ledger(Database& db, const std::string& where) {
-  if (db.integer("PRAGMA application_id") == k_ledger_application_id) return;
-  std::error_code none;
-  const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
-  throw Error(where, empty ? "is empty" : "is no ledger", instead_of_none(where));
-}
-
-std::int64_t ledger_format(Database& db, const std::string& where) {
-  const auto format = db.integer("PRAGMA user_version");
-  if (format > k_ledger_format) throw Error(where, fmt::format("was written by a newer version of Cavum (format {})", format), "use that version");
-  return std::max<std::int64_t>(format, 0);
+  if (db.integer("PRAGMA application_id") != k_ledger_application_id) {
+    std::error_code none;
+    const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
+    throw Error(where, empty ? "is empty" : "is no ledger", instead_of_none(where));
+  }
+  if (const auto format = db.integer("PRAGMA user_version"); format != k_ledger_format)
+    throw Error(where, fmt::format("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
+                "use the version that wrote it");
 }
 
 void check_schema(Database& db, std::vector<std::string>& findings) {
   Database fresh = Database::open(":memory:", true);
-  const auto format = static_cast<std::size_t>(std::clamp<std::int64_t>(db.integer("PRAGMA user_version"), 0, k_ledger_format));
-  for (std::size_t i = 0; i < format; ++i) fresh.run(k_ledger_migrations[i]);
+  fresh.run(k_ledger_schema);
   const auto wanted = schema_of(fresh), found = schema_of(db);
   for (const auto& [name, sql] : wanted) {
     const auto is = found.find(name);
@@ -68,11 +63,10 @@ std::vector<std::string> schema_findings(Database& db) noexcept {
   }
 }
 
-void migrate(Database& db, const std::string& where) {
-  if (ledger_format(db, where) == k_ledger_format) return;
+void make_tables(Database& db) {
   Transaction all(db);
-  const auto format = ledger_format(db, where);  // again under the lock: another program may have done it meanwhile
-  for (auto i = static_cast<std::size_t>(format); i < k_ledger_migrations.size(); ++i) db.run(k_ledger_migrations[i]);
+  db.run(fmt::format("PRAGMA application_id = {}", k_ledger_application_id).c_str());
+  db.run(k_ledger_schema);
   db.run(fmt::format("PRAGMA user_version = {}", k_ledger_format).c_str());
   all.commit();
 }
@@ -88,18 +82,16 @@ Database open_for_adding(const std::string& path, bool make) {
   return db;
 }
 
-void insert(Database& db, const LedgerEntry& e, const std::string& note, std::span<const Bytes> documents) {
+void insert(Database& db, const LedgerEntry& e, std::span<const std::string> erases, const std::string& note, std::span<const Bytes> documents) {
   for (const Bytes& d : documents) db.prepare("INSERT OR IGNORE INTO document (sha256, bytes) VALUES (?, ?)").bind(1, sha256(d)).bind(2, d).run();
-  db.prepare("INSERT INTO entry (seq, text, leaf_sha256, attachment) VALUES (?, ?, ?, nullif(?, ''))")
+  db.prepare("INSERT INTO entry (seq, text, leaf_sha256) VALUES (?, ?, ?)")
       .bind(1, static_cast<std::int64_t>(e.seq))
       .bind(2, e.text)
       .bind(3, e.leaf)
-      .bind(4, e.attachment)
       .run();
-  for (const Opening& o : e.openings) db.prepare("INSERT INTO opening (sha256, text) VALUES (?, ?)").bind(1, o.sha256).bind(2, o.text).run();
-  for (const auto& hash : e.erases.openings) db.prepare("DELETE FROM opening WHERE sha256 = ?").bind(1, hash).run();
-  for (const auto seq : e.erases.attachments)
-    db.prepare("UPDATE entry SET attachment = NULL WHERE seq = ?").bind(1, static_cast<std::int64_t>(seq)).run();
+  for (const auto& [part, o] : openings_of(e.what.value()))
+    db.prepare("INSERT INTO opening (sha256, text) VALUES (?, ?)").bind(1, o->sha256).bind(2, o->text).run();
+  for (const auto& hash : erases) db.prepare("DELETE FROM opening WHERE sha256 = ?").bind(1, hash).run();
   db.prepare("INSERT INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(e.seq + 1)).bind(2, note).run();
 }
 
@@ -107,10 +99,6 @@ void wipe_erased(Database& db, const std::string& where) {
   if (db.integer("PRAGMA wal_checkpoint(TRUNCATE)") != 0)
     throw Error(where, "what was erased is still in its log, which another program is reading",
                 "end that program, and run `cavum ledger erase` again");
-}
-
-void insert_note(Database& db, std::uint64_t size, const std::string& note) {
-  db.prepare("INSERT OR IGNORE INTO note (size, text) VALUES (?, ?)").bind(1, static_cast<std::int64_t>(size)).bind(2, note).run();
 }
 
 void insert_cosignature(Database& db, std::uint64_t size, const std::string& line) {

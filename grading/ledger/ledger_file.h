@@ -1,4 +1,4 @@
-// A ledger's database file: opened for adding, brought up to the present format, written to, and compared with the tables that it should have.
+// A ledger's database file: made, opened for adding, written to, and compared with the tables that it should have.
 #pragma once
 
 #include "grading/ledger/ledger_content.h"
@@ -6,7 +6,7 @@
 namespace cavum::ledger {
 
 /// Version of the ledger's tables (SQLite `user_version`).
-inline constexpr int k_ledger_format = 5;
+inline constexpr int k_ledger_format = 1;
 /// SQLite `application_id`: "CavL".
 inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
 
@@ -14,19 +14,16 @@ inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
 [[nodiscard]] Database open_for_adding(const std::string& path, bool make);
 /// What to do where a ledger is absent or empty: restore it where others of its files are, else make one.
 [[nodiscard]] std::string instead_of_none(const std::string& database_path);
-/// Throws Error unless it is a ledger's.
+/// Throws Error unless it is a ledger's, of this format.
 void require_ledger(Database& database, const std::string& where);
-/// Format of the file, 0 before there are tables. Throws Error when it is of a newer version.
-[[nodiscard]] std::int64_t ledger_format(Database& database, const std::string& where);
-/// Brings an older format up to date, in one transaction.
-void migrate(Database& database, const std::string& where);
+/// The tables of a new ledger, in one transaction.
+void make_tables(Database& database);
 /// Adds an entry with its openings, the note of its checkpoint, and the documents that the entry names, each unless it is there already; takes out
-/// what it says is erased.
-void insert(Database& database, const LedgerEntry& entry, const std::string& note, std::span<const Bytes> documents);
+/// the openings of these hashes.
+void insert(Database& database, const LedgerEntry& entry, std::span<const std::string> erases, const std::string& note,
+            std::span<const Bytes> documents);
 /// Writes over on disk, in file and log, what was taken out. Throws Error when a program that reads the ledger keeps the log in use for 30 s.
 void wipe_erased(Database& database, const std::string& where);
-/// Adds the note of a checkpoint, unless it is there already.
-void insert_note(Database& database, std::uint64_t size, const std::string& note);
 /// Adds what another party signed of a checkpoint, unless it is there already.
 void insert_cosignature(Database& database, std::uint64_t size, const std::string& line);
 /// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.

@@ -83,12 +83,4 @@ Bytes identity_seal(const SigningKey& school, const std::string& message) {
   return {mac.begin(), mac.end()};
 }
 
-std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity) {
-  static constexpr char k_purpose[] = "CVPSEUD1";
-  Bytes message(k_purpose, k_purpose + 8);
-  message.insert(message.end(), salt.begin(), salt.end());
-  message.insert(message.end(), identity.begin(), identity.end());
-  return pseudonym_from(hmac(std::span(school.secret_key).first(32), message));
-}
-
 }  // namespace cavum::ledger

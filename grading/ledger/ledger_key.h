@@ -42,7 +42,5 @@ template <std::size_t N>
 [[nodiscard]] std::string new_pseudonym();
 /// What binds a row of identities: HMAC-SHA-256 over `message` under derived_secret(school, "cavum identities").
 [[nodiscard]] Bytes identity_seal(const SigningKey& school, const std::string& message);
-/// A pseudonym as it was made before there was one for each exam: HMAC-SHA-256 of `salt` and `identity` under the school's seed.
-[[nodiscard]] std::string old_pseudonym_of(const SigningKey& school, std::span<const std::uint8_t> salt, const std::string& identity);
 
 }  // namespace cavum::ledger

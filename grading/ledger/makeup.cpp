@@ -4,18 +4,15 @@
 
 #include <algorithm>
 
-#include "engine/base/text.h"
 #include "grading/ledger/issue.h"
-#include "grading/ledger/regrade.h"
+#include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
 
-using nlohmann::json;
-
-std::vector<std::string> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now, std::string& why_not) {
+std::vector<FirstSitting> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now, std::string& why_not) {
   const auto no = [&](std::string why) {
     why_not = std::move(why);
-    return std::vector<std::string>();
+    return std::vector<FirstSitting>();
   };
   if (first.made_up_by) return no(fmt::format("has a makeup already (entry {})", *first.made_up_by));
   if (first.cancelled_by && first.begins.empty()) return no("was cancelled before it was begun: issue a new ticket");
@@ -23,39 +20,38 @@ std::vector<std::string> makeup_reasons(const Registry& registry, const IssuedTi
   for (const auto& s : registry.sessions)
     if (s.nonce == first.ticket.nonce && s.shown_seq != 0)
       return no(fmt::format("has a released result (entry {}): take it back first", s.shown_seq));
-  std::vector<std::string> out;
-  if (now > first.ticket.not_after_utc_ns && !first.used_by && first.begins.empty()) out.emplace_back(k_missed);
-  out.emplace_back(k_interrupted);
+  std::vector<FirstSitting> out;
+  if (now > first.ticket.not_after_utc_ns && !first.used_by && first.begins.empty()) out.push_back(FirstSitting::missed);
+  out.push_back(FirstSitting::interrupted);
   return out;
 }
 
 std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) {
   require_reason(wish.reason);
   std::string text;
-  ledger.append("ticket", [&](const LedgerContent&) {
-    const Registry& registry = ledger.registry();  // as it is under the lock
-    const std::string where = fmt::format("the ticket of entry {}", wish.first);
-    const auto first = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& t) { return t.seq == wish.first; });
-    if (first == registry.tickets.end()) throw Error(where, "is none", "look at the list of tickets again");
-    if (first->ticket.exam != ticket.exam) throw Error(where, "is of another exam", "a makeup is of the same exam");
-    std::string why_not;
-    const std::int64_t now = read_clocks().utc_ns;
-    const auto may = makeup_reasons(registry, *first, now, why_not);
-    if (std::find(may.begin(), may.end(), wish.became) == may.end())
-      throw Error(where, may.empty() ? why_not : "was not missed: it was begun, or its time is not over", "look at the list of tickets again");
-    for (const auto& t : registry.tickets)
-      if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
-        throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
-                            "cancel that one first");
-    ticket.candidate = first->ticket.candidate;
-    ticket.nonce = random_hex(16);
-    text = sign_ticket(ticket, ledger.key());
-    json body = without_grant(text);
-    body["makes_up"] = wish.first;
-    body["became"] = wish.became;
-    body["reason"] = wish.reason;
-    return body;
-  });
+  ledger.append(
+      [&](const LedgerContent&) {
+        const Registry& registry = ledger.registry();  // as it is under the lock
+        const std::string where = fmt::format("the ticket of entry {}", wish.first);
+        const IssuedTicket* first = registry.ticket(wish.first);
+        if (first == nullptr) throw Error(where, "is none", "look at the list of tickets again");
+        if (first->ticket.exam != ticket.exam) throw Error(where, "is of another exam", "a makeup is of the same exam");
+        std::string why_not;
+        const std::int64_t now = read_clocks().utc_ns;
+        const auto may = makeup_reasons(registry, *first, now, why_not);
+        if (std::find(may.begin(), may.end(), wish.became) == may.end())
+          throw Error(where, may.empty() ? why_not : "was not missed: it was begun, or its time is not over", "look at the list of tickets again");
+        for (const auto& t : registry.tickets)
+          if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
+            throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
+                                "cancel that one first");
+        ticket.candidate = first->ticket.candidate;
+        ticket.nonce = random_hex(16);
+        SignedTicket signed_ticket = sign_ticket(std::move(ticket), ledger.key());
+        text = std::move(signed_ticket.text);
+        return TicketEntry{std::move(signed_ticket.ticket), std::move(signed_ticket.signature), MakesUp{wish.first, wish.became}};
+      },
+      wish.reason);
   return text;
 }
 

@@ -10,17 +10,14 @@
 
 namespace cavum::ledger {
 
-/// What became of the first sitting.
-inline constexpr char k_missed[] = "missed";            ///< its time is over, and nothing of it is known
-inline constexpr char k_interrupted[] = "interrupted";  ///< it was begun, and did not come to its end as it should
 /// Which of the two may be said of a ticket now; none: it gets no makeup. `why_not` receives the reason, in words.
-[[nodiscard]] std::vector<std::string> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now_utc_ns,
-                                                      std::string& why_not);
+[[nodiscard]] std::vector<FirstSitting> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now_utc_ns,
+                                                       std::string& why_not);
 
 struct MakeupWish {
   std::uint64_t first = 0;  ///< entry of the ticket of the first sitting
-  std::string became;       ///< k_missed or k_interrupted
-  std::string reason;       ///< one line, kept for ever
+  FirstSitting became = FirstSitting::missed;
+  std::string reason;  ///< one line, kept for ever
 };
 /// Issues `ticket` (without candidate and number) as the makeup of another. Returns its signed text. Throws Error when the first gets none, or
 /// AnotherTicket when the candidate has a further good ticket for the exam.

@@ -11,7 +11,7 @@ namespace cavum::ledger {
 using nlohmann::json;
 
 Opening make_opening(const json& value) {
-  Opening o{{}, json{{"salt", random_hex(16)}, {"value", value}}.dump()};
+  Opening o{{}, json{{"salt", random_hex(16)}, {"value", value}}.dump(), value};
   o.sha256 = to_hex(cavum::sha256(o.text));
   return o;
 }

@@ -5,9 +5,7 @@
 #include <cstdint>
 #include <map>
 #include <nlohmann/json.hpp>
-#include <set>
 #include <string>
-#include <vector>
 
 #include "engine/base/shared_value.h"
 
@@ -18,7 +16,10 @@ using SharedJson = Shared<nlohmann::json>;
 
 struct Opening {
   std::string sha256;  ///< of `text`, hexadecimal: what an entry or a ticket names
-  std::string text;    ///< {"salt":"32 hexadecimal digits","value":…}, keys in order, no spaces
+  std::string text;    ///< {"salt":"32 hexadecimal digits","value":…}, keys in order, no spaces; empty where the value alone was read
+  SharedJson value;    ///< null: erased, or not read
+  /// The value where it is a text; else empty.
+  [[nodiscard]] std::string words() const { return value->is_string() ? value->get<std::string>() : std::string(); }
 };
 /// With 128 fresh random bits of salt.
 [[nodiscard]] Opening make_opening(const nlohmann::json& value);
@@ -27,10 +28,8 @@ struct Opening {
 
 /// What can be erased: of a filed session or a regrade its recording (a file), its result, and the result that its station sealed instead; of an
 /// incident what was said.
-inline constexpr char k_motion[] = "motion", k_result[] = "result", k_sealed[] = "sealed", k_words[] = "words";
-/// Kinds of entries that have any of it.
-[[nodiscard]] inline bool tells_of_people(const std::string& kind) { return kind == "session" || kind == "regrade" || kind == "incident"; }
+enum class Part { motion, result, sealed, words };
 /// Of an entry, by its number: what was erased of it, and the entry that says so.
-using Erased = std::map<std::uint64_t, std::map<std::string, std::uint64_t>>;
+using Erased = std::map<std::uint64_t, std::map<Part, std::uint64_t>>;
 
 }  // namespace cavum::ledger

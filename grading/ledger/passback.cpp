@@ -14,15 +14,14 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_longest_answer = 300, k_longest_place = 2000;
-constexpr int k_first_good = 200, k_last_good = 299;
+constexpr std::size_t k_longest_answer = 300;
 
 /// What is known of one candidate.
 struct Candidate {
   const FiledSession* counts = nullptr;  // the last attempt that is released; null: none is
   std::uint64_t last_session = 0;
-  std::int64_t changed_utc_ns = 0;  // when something was last released, or taken back
-  const Passback* sent = nullptr;   // the last one to this column
+  std::int64_t changed_utc_ns = 0;      // when something was last released, or taken back
+  const PassbackEntry* sent = nullptr;  // the last one to this column
 };
 
 json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales) {
@@ -41,8 +40,6 @@ json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales
 }
 
 }  // namespace
-
-bool Passback::accepted() const { return status >= k_first_good && status <= k_last_good; }
 
 std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities, const std::string& exam,
                                  const std::string& line_item, bool again) {
@@ -77,25 +74,7 @@ const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const st
                                   const std::string& answer) {
   std::string words = one_line(answer).substr(0, k_longest_answer);
   words.resize(whole_characters(words));
-  return ledger.append("passback", [&](const LedgerContent&) -> json {
-    return {{"session", sent.session}, {"result", sent.result}, {"platform", platform},
-            {"line_item", line_item},  {"status", status},      {"answer", words}};
-  });
-}
-
-Passback passback_in(const LedgerEntry& e) {
-  const auto apart = e.opened.find(k_result);  // where 0.2.0 put the number at first
-  Passback p{e.seq,
-             e.utc_ns,
-             require_whole<std::uint64_t>(e.body, "session", "passback"),
-             apart != e.opened.end() ? apart->second->get<std::uint64_t>() : require_whole<std::uint64_t>(e.body, "result", "passback"),
-             text_in(e.body, "platform"),
-             text_in(e.body, "line_item"),
-             static_cast<int>(whole_in(e.body, "status")),
-             text_in(e.body, "answer")};
-  if (p.platform.empty() || p.line_item.empty() || p.line_item.size() > k_longest_place)
-    throw Error("passback", "does not say where to", "use an intact copy");
-  return p;
+  return ledger.append([&](const LedgerContent&) { return PassbackEntry{sent.session, sent.result, platform, line_item, status, words}; });
 }
 
 }  // namespace cavum::ledger

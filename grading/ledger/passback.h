@@ -33,7 +33,4 @@ struct ScoreDue {
 const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
                                   const std::string& answer);
 
-/// Takes an entry of kind `passback`. Throws Error when it is none.
-[[nodiscard]] Passback passback_in(const LedgerEntry& entry);
-
 }  // namespace cavum::ledger

@@ -5,8 +5,8 @@
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
@@ -28,14 +28,16 @@ std::vector<Sha256> hashes_in(const json& list, const std::string& where) {
   return out;
 }
 
-json told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_json(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size)); }
+std::string told(const LedgerContent& c, const Checkpoint& p) { return checkpoint_note(c.id, c.key_of(p.size), p, cosignatures_of(c, p.size)); }
 
 /// The entry that holds the same session as the text of a lost one.
 bool is_filed_again(const LedgerContent& ledger, const std::string& lost) {
-  const json entry = parse_json_or_null(lost);
-  const std::string file = text_in(member_of(entry, "body"), "file_sha256");
-  return !file.empty() && std::any_of(ledger.entries.begin(), ledger.entries.end(),
-                                      [&](const LedgerEntry& e) { return e.kind == "session" && text_in(e.body, "file_sha256") == file; });
+  const LedgerEntry entry = read_entry_or_none(lost);
+  const auto* session = entry.as<SessionEntry>();
+  return session != nullptr && std::any_of(ledger.entries.begin(), ledger.entries.end(), [&](const LedgerEntry& e) {
+           const auto* other = e.as<SessionEntry>();
+           return other != nullptr && other->file_sha256 == session->file_sha256;
+         });
 }
 
 }  // namespace

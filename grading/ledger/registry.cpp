@@ -10,7 +10,6 @@
 #include "engine/base/json_reader.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/erasure.h"
-#include "grading/ledger/passback.h"
 
 namespace cavum::ledger {
 
@@ -18,9 +17,8 @@ using nlohmann::json;
 
 namespace {
 
-/// The result of an entry, which exports rely on: null, or in the shape that grading gives it. Throws Error for another one.
-const SharedJson& result_in(const LedgerEntry& e) {
-  const SharedJson& opened = e.opened.at(k_result);
+/// A result, which exports rely on: null, or in the shape that grading gives it. Throws Error for another one.
+const SharedJson& sound_result(const SharedJson& opened) {
   const json& result = *opened;
   if (result.is_null()) return opened;
   const auto text = [](const json& j, const char* name) { return j.contains(name) && j[name].is_string(); };
@@ -79,6 +77,16 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
 }
 
 }  // namespace
+
+const FiledSession* Registry::session(std::uint64_t seq) const {
+  const auto found = std::lower_bound(sessions.begin(), sessions.end(), seq, [](const FiledSession& s, std::uint64_t at) { return s.seq < at; });
+  return found == sessions.end() || found->seq != seq ? nullptr : &*found;
+}
+
+const IssuedTicket* Registry::ticket(std::uint64_t seq) const {
+  const auto found = std::lower_bound(tickets.begin(), tickets.end(), seq, [](const IssuedTicket& t, std::uint64_t at) { return t.seq < at; });
+  return found == tickets.end() || found->seq != seq ? nullptr : &*found;
+}
 
 const FiledSession* Registry::chosen_instead_of(const FiledSession& session) const {
   for (const auto& o : sessions)
@@ -156,216 +164,219 @@ std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
 class RegistryReader {
  public:
   void apply(const LedgerContent& content, const LedgerEntry& e) {
+    if (!e.what) return;  // which is a finding of the content
     content_ = &content;
-    static const std::map<std::string, void (RegistryReader::*)(const LedgerEntry&)> k_kinds = {
-        {"init", &RegistryReader::nothing},     {"ticket", &RegistryReader::ticket},    {"cancel", &RegistryReader::cancel},
-        {"begin", &RegistryReader::begin},      {"session", &RegistryReader::session},  {"regrade", &RegistryReader::regrade},
-        {"release", &RegistryReader::release_}, {"station", &RegistryReader::station},  {"key", &RegistryReader::nothing},
-        {"forget", &RegistryReader::forget},    {"erase", &RegistryReader::erase},      {"restore", &RegistryReader::nothing},
-        {"retract", &RegistryReader::retract},  {"appeal", &RegistryReader::appeal},    {"announce", &RegistryReader::day},
-        {"hold", &RegistryReader::day},         {"go_on", &RegistryReader::day},        {"incident", &RegistryReader::day},
-        {"seats", &RegistryReader::seats},      {"passback", &RegistryReader::passback}};
-    const auto kind = k_kinds.find(e.kind);
+    e_ = &e;
     try {
-      if (kind == k_kinds.end()) return say(e, fmt::format("is of a kind that this version does not know: '{}'", e.kind));
-      (this->*kind->second)(e);
+      std::visit(*this, *e.what);
     } catch (const std::out_of_range&) {
-      say(e, "speaks of an entry that is not there");
+      say("speaks of an entry that is not there");
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
-      say(e, error.what());
+      say(error.what());
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
   [[nodiscard]] Registry all() && noexcept { return std::move(r_); }
 
- private:
-  void say(const LedgerEntry& e, const std::string& what) { r_.findings.push_back(fmt::format("entry {}: {}", e.seq, what)); }
-  void nothing(const LedgerEntry&) {}
+  // What the content itself is asked for.
+  void operator()(const InitEntry&) {}
+  void operator()(const KeyEntry&) {}
+  void operator()(const RestoreEntry&) {}
 
-  void ticket(const LedgerEntry& e) {
-    IssuedTicket t{e.seq, parse_ticket(e.body.dump(), content_->key_of(e.seq + 1), "ticket", GrantIs::apart), {}, {}, {}};
-    t.first_sitting = e.seq;
-    if (e.body.contains("makes_up")) make_up(e, t);
-    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(e, "a ticket with a number that another one has");
-    by_ticket_[e.seq] = r_.tickets.size();
+  void operator()(const TicketEntry& what) {
+    require_signed(what.ticket, what.signature, content_->key_of(e_->seq + 1), "ticket");
+    IssuedTicket t{e_->seq, what.ticket, {}, {}, {}};
+    t.first_sitting = e_->seq;
+    if (what.makes_up) make_up(*what.makes_up, t);
+    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say("a ticket with a number that another one has");
+    by_ticket_[e_->seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
   }
 
-  /// Of the first sitting nothing counts from now on.
-  void make_up(const LedgerEntry& e, IssuedTicket& t) {
-    IssuedTicket& first = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "makes_up", "ticket")));
-    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
-      say(e, "makes up another candidate's ticket, or one of another exam");
-    if (first.made_up_by) say(e, "makes up a ticket that another one makes up");
-    first.made_up_by = e.seq;
-    t.makes_up = first.seq;
-    t.first_became = text_in(e.body, "became");
-    t.why = text_in(e.body, "reason");
-    t.first_sitting = first.first_sitting;
-    for (auto& s : r_.sessions) {
-      if (s.nonce.empty() || s.nonce != first.ticket.nonce) continue;
-      if (s.shown_seq != 0) say(e, "makes up a sitting whose result is released");
-      s.made_up_by = e.seq;
+  void operator()(const SeatsEntry& what) {
+    for (const Seat& seat : what.seats) {
+      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say("seats a candidate at a station that is not enrolled");
+      r_.tickets.at(by_ticket_.at(seat.ticket)).seat = seat.station;
     }
   }
 
-  /// A makeup that was cancelled before it was begun is none.
-  void unmake(const IssuedTicket& t) {
-    if (!t.makes_up || t.made_up_by || !t.begins.empty()) return;
-    IssuedTicket& first = r_.tickets.at(by_ticket_.at(*t.makes_up));
-    first.made_up_by.reset();
-    for (auto& s : r_.sessions)
-      if (s.nonce == first.ticket.nonce) s.made_up_by.reset();
-  }
-
-  void seats(const LedgerEntry& e) {
-    for (const json& one : e.body.at("seats")) {
-      const std::string key = text_in(one, "station");
-      if (!key.empty() && r_.stations.of(key) == nullptr) say(e, "seats a candidate at a station that is not enrolled");
-      r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(one, "ticket", "seats"))).seat = key;
-    }
-  }
-
-  void cancel(const LedgerEntry& e) {
-    IssuedTicket& t = r_.tickets.at(by_ticket_.at(require_whole<std::uint64_t>(e.body, "ticket", "cancel")));
-    if (t.used_by || t.cancelled_by) say(e, "cancels a ticket that was used or cancelled before");
+  void operator()(const CancelEntry& what) {
+    IssuedTicket& t = r_.tickets.at(by_ticket_.at(what.ticket));
+    if (t.used_by || t.cancelled_by) say("cancels a ticket that was used or cancelled before");
     if (!t.cancelled_by) {
-      t.cancelled_by = e.seq;
+      t.cancelled_by = e_->seq;
       unmake(t);
     }
   }
 
   /// Whoever is forgotten sits no more exams under that pseudonym.
-  void forget(const LedgerEntry& e) {
-    const std::string candidate = text_in(e.body, "candidate");
+  void operator()(const ForgetEntry& what) {
     for (auto& t : r_.tickets)
-      if (t.ticket.candidate == candidate && !t.used_by && !t.cancelled_by) t.cancelled_by = e.seq;
-    erase(e);
+      if (t.ticket.candidate == what.candidate && !t.used_by && !t.cancelled_by) t.cancelled_by = e_->seq;
+    erase();
   }
+  void operator()(const EraseEntry&) { erase(); }
 
-  /// Sessions that were entered before, where the registry grows with the ledger.
-  void erase(const LedgerEntry&) {
-    for (auto& s : r_.sessions) {
-      s.motion_erased_by = erased_by(content_->erased, s.seq, k_motion);
-      s.result_erased_by = erased_by(content_->erased, s.result_seq, k_result);
-      if (s.result_erased_by) s.result = json();
-    }
-    for (auto& i : r_.day.incidents)
-      if ((i.erased_by = erased_by(content_->erased, i.seq, k_words))) i.words.clear();
-  }
-
-  void begin(const LedgerEntry& e) {
-    const Begin b = parse_begin(e.body.dump(), content_->key_of(e.seq + 1), "begin");
+  void operator()(const BeginEntry& what) {
+    const Begin& b = what.begin;
+    require_signed(b, what.signature, content_->key_of(e_->seq + 1), "begin");
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
-    if (std::abs(b.utc_ns - e.utc_ns) > k_moment_ns) say(e, "lets an exam begin at another time than it was entered");
-    if (b.ledger != content_->id) say(e, "lets an exam of another ledger begin");
-    t.begins.push_back({e.seq, b.nonce, b.utc_ns});
+    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say("lets an exam begin at another time than it was entered");
+    if (b.ledger != content_->id) say("lets an exam of another ledger begin");
+    t.begins.push_back({e_->seq, b.nonce, b.utc_ns});
   }
 
-  void session(const LedgerEntry& e) {
+  void operator()(const SessionEntry& what) {
     FiledSession s;
-    s.seq = s.result_seq = e.seq;
-    s.received_utc_ns = e.utc_ns;
-    s.file_sha256 = e.body.at("file_sha256");
-    s.chain_sha256 = e.body.at("chain_sha256");
-    s.candidate = e.body.at("candidate");
-    s.scenario_id = e.body.at("scenario_id");
-    s.station_key = e.body.at("station_key");
-    s.nonce = e.body.at("nonce");
-    s.result = s.filed = result_in(e);
-    s.motion_erased_by = erased_by(content_->erased, e.seq, k_motion);
-    s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
-    s.sealed = parse_json_or_null(text_opened(e, k_sealed), k_json_part);
-    if (const auto sealed = content_->documents.find(text_in(e.body, "sealed_sha256")); sealed != content_->documents.end())  // before format 5
-      s.sealed = parse_json_or_null({reinterpret_cast<const char*>(sealed->second.data()), sealed->second.size()}, k_json_part);
-    s.grading_version = whole_in(e.body, "grading_version");
-    s.simulated = e.body.at("simulated");
-    s.findings = e.body.at("findings").get<std::vector<std::string>>();
-    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(e, "a session that was entered before");
-    if (!s.nonce.empty() && s.findings.empty()) use_ticket(e, s);
+    s.seq = s.result_seq = e_->seq;
+    s.received_utc_ns = e_->utc_ns;
+    s.file_sha256 = what.file_sha256;
+    s.chain_sha256 = what.chain_sha256;
+    s.candidate = what.candidate;
+    s.scenario_id = what.scenario_id;
+    s.station_key = what.station_key;
+    s.nonce = what.nonce;
+    s.result = s.filed = sound_result(what.result.value);
+    s.motion_erased_by = erased_by(content_->erased, e_->seq, Part::motion);
+    s.result_erased_by = erased_by(content_->erased, e_->seq, Part::result);
+    if (what.sealed) s.sealed = parse_json_or_null(what.sealed->words(), k_json_part);
+    s.grading_version = what.grading_version;
+    s.simulated = what.simulated;
+    s.findings = what.findings;
+    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
+    if (!s.nonce.empty() && s.findings.empty()) use_ticket(s);
     if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
       const IssuedTicket& ticket = r_.tickets[t->second];
-      s.made_up_by = ticket.made_up_by, s.makes_up = ticket.makes_up, s.first_became = ticket.first_became, s.first_sitting = ticket.first_sitting;
+      s.made_up_by = ticket.made_up_by, s.makes_up = ticket.makes_up, s.first_sitting = ticket.first_sitting;
     }
     for (auto& other : r_.sessions)  // two endings of one exam: the one that was filed as sound may be the wrong one
       if (!s.nonce.empty() && other.nonce == s.nonce && other.chain_sha256 != s.chain_sha256) {
         other.contested_by.push_back(s.seq);
         s.contested_by.push_back(other.seq);
       }
-    by_session_[e.seq] = r_.sessions.size();
+    by_session_[e_->seq] = r_.sessions.size();
     r_.sessions.push_back(std::move(s));
   }
 
-  void use_ticket(const LedgerEntry& e, const FiledSession& s) {
-    const auto found = by_nonce_.find(s.nonce);
-    if (found == by_nonce_.end()) return say(e, "a session with a ticket that was not issued");
-    IssuedTicket& t = r_.tickets[found->second];
-    if (t.used_by) return say(e, "a ticket that was used before");
-    if (t.cancelled_by) say(e, fmt::format("a ticket that was cancelled by entry {}", *t.cancelled_by));
-    if (t.made_up_by) say(e, fmt::format("a ticket that entry {} makes up", *t.made_up_by));
-    t.used_by = e.seq;
-  }
-
-  void regrade(const LedgerEntry& e) {
-    FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "regrade")));
-    s.result = result_in(e);
-    s.result_seq = e.seq;
-    s.result_erased_by = erased_by(content_->erased, e.seq, k_result);
-    s.regrades.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), text_in(e.body, "person"), documents_of(e), s.result});
+  void operator()(const RegradeEntry& what) {
+    FiledSession& s = session(what.session);
+    s.result = sound_result(what.result.value);
+    s.result_seq = e_->seq;
+    s.result_erased_by = erased_by(content_->erased, e_->seq, Part::result);
+    s.regrades.push_back({e_->seq, e_->utc_ns, e_->by.reason, what.person, what.by, s.result});
     s.released = false;  // a new result waits for its own release, and the old one stands until then
   }
 
-  void release_(const LedgerEntry& e) {
-    const auto results = e.body.at("results").get<std::set<std::uint64_t>>();
+  void operator()(const ReleaseEntry& what) {
+    const std::set<std::uint64_t> results(what.results.begin(), what.results.end());
     for (const auto seq : results)
       if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
-        say(e, "releases a result that does not count");
-    release(r_, e.seq, e.utc_ns, results);
+        say("releases a result that does not count");
+    release(r_, e_->seq, e_->utc_ns, results);
   }
 
-  void retract(const LedgerEntry& e) {
-    for (const auto seq : e.body.at("results").get<std::set<std::uint64_t>>()) {
+  void operator()(const RetractEntry& what) {
+    for (const auto seq : std::set<std::uint64_t>(what.results.begin(), what.results.end())) {
       const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& one) { return one.shown_seq == seq; });
       if (s == r_.sessions.end() || seq == 0) {
-        say(e, "takes back a result that is not released");
+        say("takes back a result that is not released");
         continue;
       }
       s->released = false, s->shown = json(), s->shown_seq = 0, s->released_utc_ns = 0;
-      s->retracted_by = e.seq;
-      s->retracted_why = text_in(e.body, "reason");
+      s->retracted_by = e_->seq;
+      s->retracted_why = e_->by.reason;
     }
   }
 
-  void appeal(const LedgerEntry& e) {
-    FiledSession& s = r_.sessions.at(by_session_.at(require_whole<std::uint64_t>(e.body, "session", "appeal")));
-    if (!e.body.contains("answers")) {
-      if (s.open_appeal() != nullptr) say(e, "an appeal beside one that is open");
-      s.appeals.push_back({e.seq, e.utc_ns, text_in(e.body, "reason"), {}, {}, {}});
+  void operator()(const AppealEntry& what) {
+    FiledSession& s = session(what.session);
+    if (s.open_appeal() != nullptr) say("an appeal beside one that is open");
+    s.appeals.push_back({e_->seq, e_->utc_ns, e_->by.reason, {}, {}, {}});
+  }
+  void operator()(const AnswerEntry& what) {
+    for (auto& a : session(what.session).appeals) {
+      if (a.seq != what.answers || a.closed_by) continue;
+      a.closed_by = e_->seq, a.outcome = what.outcome, a.answer = e_->by.reason;
       return;
     }
-    const auto answered = require_whole<std::uint64_t>(e.body, "answers", "appeal");
-    for (auto& a : s.appeals) {
-      if (a.seq != answered || a.closed_by) continue;
-      a.closed_by = e.seq, a.outcome = text_in(e.body, "outcome"), a.answer = text_in(e.body, "reason");
-      return;
+    say("answers an appeal that is not open");
+  }
+
+  void operator()(const PassbackEntry& what) {
+    const FiledSession& s = session(what.session);
+    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say("sends a result that is not the session's");
+    r_.passbacks.push_back(what);
+  }
+
+  void operator()(const AnnounceEntry& what) { r_.day.announcements.push_back({e_->seq, e_->utc_ns, what.text, what.audience}); }
+  void operator()(const HoldEntry& what) { r_.day.holds.push_back({e_->seq, e_->utc_ns, e_->by.reason, what.audience, {}, 0}); }
+  void operator()(const GoOnEntry& what) { take_go_on(r_.day, *e_, what); }
+  void operator()(const IncidentEntry& what) {
+    r_.day.incidents.push_back({e_->seq, e_->utc_ns, e_->by.account, what.about_station, what.candidate, what.words.words(),
+                                erased_by(content_->erased, e_->seq, Part::words)});
+  }
+
+  void operator()(const InviteEntry& what) { take_invite(r_.stations, *e_, what); }
+  void operator()(const EnrolEntry& what) { take_enrol(r_.stations, *e_, what, content_->key_of(e_->seq + 1)); }
+  void operator()(const RevokeEntry& what) { take_revoke(r_.stations, *e_, what); }
+  void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
+
+ private:
+  void say(const std::string& what) { r_.findings.push_back(fmt::format("entry {}: {}", e_->seq, what)); }
+  FiledSession& session(std::uint64_t seq) { return r_.sessions.at(by_session_.at(seq)); }
+
+  /// Of the first sitting nothing counts from now on.
+  void make_up(const MakesUp& what, IssuedTicket& t) {
+    IssuedTicket& first = r_.tickets.at(by_ticket_.at(what.ticket));
+    if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
+      say("makes up another candidate's ticket, or one of another exam");
+    if (first.made_up_by) say("makes up a ticket that another one makes up");
+    first.made_up_by = e_->seq;
+    t.makes_up = what;
+    t.why = e_->by.reason;
+    t.first_sitting = first.first_sitting;
+    for (auto& s : r_.sessions) {
+      if (s.nonce.empty() || s.nonce != first.ticket.nonce) continue;
+      if (s.shown_seq != 0) say("makes up a sitting whose result is released");
+      s.made_up_by = e_->seq;
     }
-    say(e, "answers an appeal that is not open");
   }
 
-  void passback(const LedgerEntry& e) {
-    Passback p = passback_in(e);
-    const FiledSession& s = r_.sessions.at(by_session_.at(p.session));
-    if (p.result != 0 && p.result != s.seq && s.regrade(p.result) == nullptr) say(e, "sends a result that is not the session's");
-    r_.passbacks.push_back(std::move(p));
+  /// A makeup that was cancelled before it was begun is none.
+  void unmake(const IssuedTicket& t) {
+    if (!t.makes_up || t.made_up_by || !t.begins.empty()) return;
+    IssuedTicket& first = r_.tickets.at(by_ticket_.at(t.makes_up->ticket));
+    first.made_up_by.reset();
+    for (auto& s : r_.sessions)
+      if (s.nonce == first.ticket.nonce) s.made_up_by.reset();
   }
 
-  void day(const LedgerEntry& e) { apply_day_entry(r_.day, e, *content_); }
-  void station(const LedgerEntry& e) { apply_station_entry(r_.stations, e, content_->key_of(e.seq + 1)); }
+  /// Of what was entered before, where the registry grows with the ledger.
+  void erase() {
+    for (auto& s : r_.sessions) {
+      s.motion_erased_by = erased_by(content_->erased, s.seq, Part::motion);
+      s.result_erased_by = erased_by(content_->erased, s.result_seq, Part::result);
+      if (s.result_erased_by) s.result = json();
+    }
+    for (auto& i : r_.day.incidents)
+      if ((i.erased_by = erased_by(content_->erased, i.seq, Part::words))) i.words.clear();
+  }
+
+  void use_ticket(const FiledSession& s) {
+    const auto found = by_nonce_.find(s.nonce);
+    if (found == by_nonce_.end()) return say("a session with a ticket that was not issued");
+    IssuedTicket& t = r_.tickets[found->second];
+    if (t.used_by) return say("a ticket that was used before");
+    if (t.cancelled_by) say(fmt::format("a ticket that was cancelled by entry {}", *t.cancelled_by));
+    if (t.made_up_by) say(fmt::format("a ticket that entry {} makes up", *t.made_up_by));
+    t.used_by = e_->seq;
+  }
 
   const LedgerContent* content_ = nullptr;  // of the entry that is applied
+  const LedgerEntry* e_ = nullptr;
   Registry r_;
   std::map<std::uint64_t, std::size_t> by_session_, by_ticket_;  // by their entries
   std::map<std::string, std::size_t> by_nonce_;                  // tickets

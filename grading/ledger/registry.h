@@ -31,7 +31,8 @@ struct Appeal {
   std::int64_t utc_ns = 0;
   std::string reason;
   std::optional<std::uint64_t> closed_by;  ///< entry of the answer
-  std::string outcome, answer;             ///< `stands` or `changed`, and why; empty while it is open
+  Outcome outcome = Outcome::stands;       ///< once it is answered, as is why
+  std::string answer;
 };
 
 /// What the entries say together.
@@ -41,7 +42,7 @@ struct FiledSession {
   std::string nonce;                 ///< of its ticket; empty without one
   SharedJson filed;                  ///< the school's own mark on filing; null when the recording could not be marked
   SharedJson sealed;                 ///< what the station sealed, where that is another one; null where it is the same
-  std::int64_t grading_version = 0;  ///< that marked it on filing; 0: older, the station's own result was filed
+  std::int64_t grading_version = 0;  ///< that marked it on filing
   SharedJson result;                 ///< that counts: the one that was filed, or the last regrade's
   std::uint64_t result_seq;          ///< of the entry that holds it
   std::vector<std::string> findings;
@@ -70,10 +71,8 @@ struct FiledSession {
     return nullptr;
   }
   std::optional<std::uint64_t> made_up_by;  ///< entry of the ticket of a makeup sitting, which counts in the place of this one
-  /// Of a makeup sitting: the entry of the ticket that it makes up, and what became of that one (makeup.h).
-  std::optional<std::uint64_t> makes_up;
-  std::string first_became;
-  std::uint64_t first_sitting = 0;  ///< entry of the ticket with which the row of sittings began that makeups go on; 0: there was no ticket
+  std::optional<MakesUp> makes_up;          ///< of a makeup sitting
+  std::uint64_t first_sitting = 0;          ///< entry of the ticket with which the row of sittings began that makeups go on; 0: there was no ticket
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
   /// The program leaves it to a person, and none has decided.
   [[nodiscard]] bool undecided() const { return result->is_object() && result->value("verdict", "") == "review"; }
@@ -103,39 +102,32 @@ struct LetBegin {
 };
 struct IssuedTicket {
   std::uint64_t seq = 0;
-  Ticket ticket;                                 ///< without its accommodations, which the ledger does not hold
-  std::optional<std::uint64_t> used_by;          ///< entry of the session
-  std::optional<std::uint64_t> cancelled_by;     ///< entry that says so
-  std::vector<LetBegin> begins;                  ///< the last one counts
-  std::string seat = {};                         ///< public key of the station where the candidate is to sit; empty: any
-  std::optional<std::uint64_t> makes_up = {};    ///< entry of the ticket that this one makes up
-  std::string first_became = {}, why = {};       ///< of that one, and the reason
+  Ticket ticket;                              ///< without its accommodations, which the ledger does not hold
+  std::optional<std::uint64_t> used_by;       ///< entry of the session
+  std::optional<std::uint64_t> cancelled_by;  ///< entry that says so
+  std::vector<LetBegin> begins;               ///< the last one counts
+  std::string seat = {};                      ///< public key of the station where the candidate is to sit; empty: any
+  std::optional<MakesUp> makes_up = {};
+  std::string why = {};                          ///< it makes up another
   std::optional<std::uint64_t> made_up_by = {};  ///< entry of the ticket that makes this one up: nothing is sat with this one any more
   std::uint64_t first_sitting = 0;               ///< entry of the ticket with which the row of makeups began; its own without any
   /// Neither used, cancelled nor made up, and good at this time or later.
   [[nodiscard]] bool live(std::int64_t utc_ns) const { return !used_by && !cancelled_by && !made_up_by && ticket.not_after_utc_ns >= utc_ns; }
-};
-/// A score that a learning platform has answered (passback.h).
-struct Passback {
-  std::uint64_t seq = 0;
-  std::int64_t utc_ns = 0;
-  std::uint64_t session = 0, result = 0;  ///< entries; result 0: the platform was to clear its score
-  std::string platform, line_item;        ///< issuer; address of the column
-  int status = 0;                         ///< of HTTP
-  std::string answer;
-  [[nodiscard]] bool accepted() const;
 };
 struct Registry {
   StationRegister stations;
   ExamDay day;
   std::vector<IssuedTicket> tickets;
   std::vector<FiledSession> sessions;
-  std::vector<Passback> passbacks;
+  std::vector<PassbackEntry> passbacks;
   /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.
   std::vector<std::string> findings;
   /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once; of a sitting when another one counts.
   /// None is a contradiction.
   std::vector<std::string> remarks;
+  /// Of that entry; null where it is no session's or ticket's.
+  [[nodiscard]] const FiledSession* session(std::uint64_t seq) const;
+  [[nodiscard]] const IssuedTicket* ticket(std::uint64_t seq) const;
   /// A ticket of the candidate for this exam that is neither used nor cancelled, and good at this time or later; null when there is none.
   [[nodiscard]] const IssuedTicket* live_ticket(const std::string& candidate, const std::string& exam, std::int64_t utc_ns) const;
   /// A released session of another sitting of the same exam by the same candidate, where one makes up the other; null when there is none.

@@ -3,7 +3,7 @@
 #include <fmt/core.h>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
+#include "grading/ledger/reason.h"
 #include "scenarios/file/parse.h"
 
 namespace cavum::ledger {
@@ -55,14 +55,8 @@ std::optional<scenarios::RubricSpec> rubric_of(const RegradeBasis& basis, const 
   return scenarios::parse_rubric(basis.rubric_toml, where);
 }
 
-void require_reason(const std::string& reason) {
-  if (reason.size() > k_longest_reason || !is_seen_text(reason))
-    throw Error("--reason", reason.size() > k_longest_reason ? fmt::format("is longer than {} bytes", k_longest_reason) : "is no line of text",
-                "say in one line of UTF-8 why, without names: it is kept for ever");
-}
-
 KeptParts kept_parts(const RegradeBasis& basis) {
-  KeptParts out{nlohmann::json::object(), {}};
+  KeptParts out;
   const auto keep = [&](const std::string& name, Bytes bytes) {
     out.by[name] = to_hex(sha256(bytes));
     out.documents.push_back(std::move(bytes));
@@ -77,12 +71,7 @@ const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nl
                                  const std::string& reason) {
   require_reason(reason);
   const KeptParts parts = kept_parts(basis);
-  return ledger.append(
-      "regrade",
-      [&](const LedgerContent&) {
-        return nlohmann::json{{"session", session}, {"result", result}, {"by", parts.by}, {"reason", reason}};
-      },
-      parts.documents);
+  return ledger.append([&](const LedgerContent&) { return RegradeEntry{session, make_opening(result), parts.by, ""}; }, reason, parts.documents);
 }
 
 }  // namespace cavum::ledger

@@ -19,7 +19,7 @@ struct RegradeBasis {
 
 /// Reads the files; an empty path is none. Throws Error when one is no rubric or scenario, or an STL is missing.
 [[nodiscard]] RegradeBasis read_basis(const std::string& rubric_path, const std::string& scenario_path);
-/// What the ledger keeps of a regrade; nothing when it was entered before the ledger kept any.
+/// What the ledger keeps of a regrade; nothing for a decision on a result that was marked on filing.
 [[nodiscard]] std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regrade& regrade);
 /// As it is marked by; nothing when the basis has none. `where` names it in errors.
 [[nodiscard]] std::optional<scenarios::Scenario> scenario_of(const RegradeBasis& basis, const std::string& where);
@@ -27,15 +27,11 @@ struct RegradeBasis {
 
 /// A basis as an entry names it and the ledger keeps it.
 struct KeptParts {
-  nlohmann::json by;             ///< name and SHA-256 (hexadecimal) of each document
-  std::vector<Bytes> documents;  ///< of the same
+  std::map<std::string, std::string> by;  ///< name and SHA-256 (hexadecimal) of each document
+  std::vector<Bytes> documents;           ///< of the same
 };
 [[nodiscard]] KeptParts kept_parts(const RegradeBasis& basis);
 
-/// The most bytes of a reason.
-inline constexpr std::size_t k_longest_reason = 2000;
-/// Throws Error for a reason that is empty, longer than that or no plain line.
-void require_reason(const std::string& reason);
 /// Enters the result of marking the session of entry `session` by `basis`, and keeps that. Throws Error when `reason` is empty, too long or no plain
 /// text.
 const LedgerEntry& enter_regrade(Ledger& ledger, std::uint64_t session, const nlohmann::json& result, const RegradeBasis& basis,

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "grading/ledger/regrade.h"
+#include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
 namespace {
@@ -48,11 +48,8 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
 }  // namespace
 
 Release select_results(const Registry& registry, const ReleaseWish& wish) {
-  const auto find = [&](std::uint64_t seq) {
-    return std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == seq; });
-  };
   for (const auto seq : wish.sessions)
-    if (find(seq) == registry.sessions.end()) throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
+    if (registry.session(seq) == nullptr) throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, "has no session in this ledger", "see `cavum ledger show`");
@@ -82,33 +79,30 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
 
 Release release_results(Ledger& ledger, const ReleaseWish& wish) {
   Release out;
-  struct Nothing {};
-  try {
-    ledger.append("release", [&](const LedgerContent&) -> nlohmann::json {
-      out = select_results(ledger.registry(), wish);
-      if (out.results.empty()) throw Nothing();
-      return {{"results", out.results}};
-    });
-  } catch (const Nothing&) {
-  }
+  ledger.append_all([&](const LedgerContent&) -> std::vector<Entry> {
+    out = select_results(ledger.registry(), wish);
+    if (out.results.empty()) return {};
+    return {ReleaseEntry{out.results}};
+  });
   return out;
 }
 
 const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64_t>& sessions, const std::string& reason) {
   if (sessions.empty()) throw Error("--session", "is missing", "name the entries of the sessions whose results are taken back");
   require_reason(reason);
-  return ledger.append("retract", [&](const LedgerContent&) {
-    const Registry& registry = ledger.registry();
-    std::vector<std::uint64_t> results;
-    for (const auto seq : sessions) {
-      const auto s = std::find_if(registry.sessions.begin(), registry.sessions.end(), [seq](const FiledSession& one) { return one.seq == seq; });
-      const std::string where = fmt::format("--session {}", seq);
-      if (s == registry.sessions.end()) throw Error(where, "is no session's entry", "see `cavum ledger show`");
-      if (s->shown_seq == 0) throw Error(where, "has no released result", "there is nothing to take back");
-      results.push_back(s->shown_seq);
-    }
-    return nlohmann::json{{"results", results}, {"reason", reason}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        RetractEntry entry;
+        for (const auto seq : sessions) {
+          const FiledSession* s = ledger.registry().session(seq);
+          const std::string where = fmt::format("--session {}", seq);
+          if (s == nullptr) throw Error(where, "is no session's entry", "see `cavum ledger show`");
+          if (s->shown_seq == 0) throw Error(where, "has no released result", "there is nothing to take back");
+          entry.results.push_back(s->shown_seq);
+        }
+        return entry;
+      },
+      reason);
 }
 
 }  // namespace cavum::ledger

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/base/json_fields.h"
-#include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 
@@ -26,6 +24,10 @@ Bytes message_of(const std::string& ledger, const std::string& previous, const s
 
 bool is_hex_key(const std::string& key) { return key.size() == 64 && key.find_first_not_of("0123456789abcdef") == std::string::npos; }
 
+bool is_signed_by_key_before(const KeyEntry& key, const std::string& ledger_id, const std::string& before) {
+  return is_hex_key(key.public_key) && is_signed_by(before, message_of(ledger_id, before, key.public_key, key.until_utc_ns), key.signature);
+}
+
 }  // namespace
 
 const std::string& LedgerContent::key_of(std::uint64_t size) const {
@@ -40,11 +42,11 @@ bool LedgerContent::has_key(const std::string& key) const {
 }
 
 void read_school_keys(LedgerContent& c) {
-  c.keys.assign(1, {1, text_in(c.entries.at(0).body, "public_key"), 0});
+  c.keys.assign(1, {1, c.entries.at(0).as<InitEntry>()->public_key, 0});
   for (const auto& e : c.entries) {
-    if (e.kind == "key") {
-      if (const auto next = successor_named_by(e.text, c.id, c.keys.back().public_key))
-        c.keys.push_back({e.seq + 1, *next, whole_in(e.body, "until_utc_ns")});
+    if (const auto* key = e.as<KeyEntry>()) {
+      if (is_signed_by_key_before(*key, c.id, c.keys.back().public_key))
+        c.keys.push_back({e.seq + 1, key->public_key, key->until_utc_ns});
       else
         c.findings.push_back(fmt::format("entry {}: names a key that the school's key before it has not signed", e.seq));
     } else if (const SchoolKey& k = c.keys.back(); k.until_utc_ns > 0 && e.utc_ns > k.until_utc_ns) {
@@ -56,13 +58,9 @@ void read_school_keys(LedgerContent& c) {
 }
 
 std::optional<std::string> successor_named_by(const std::string& entry_text, const std::string& ledger_id, const std::string& present) {
-  const json entry = parse_json_or_null(entry_text);
-  const json& body = member_of(entry, "body");
-  const std::string next = text_in(body, "public_key");
-  if (text_in(entry, "kind") != "key" || !is_hex_key(next) ||
-      !is_signed_by(present, message_of(ledger_id, present, next, whole_in(body, "until_utc_ns")), text_in(body, "signature")))
-    return {};
-  return next;
+  const LedgerEntry entry = read_entry_or_none(entry_text);
+  const auto* key = entry.as<KeyEntry>();
+  return key != nullptr && is_signed_by_key_before(*key, ledger_id, present) ? std::optional(key->public_key) : std::nullopt;
 }
 
 void require_key_in_time(const LedgerContent& c, std::int64_t now_utc_ns) {
@@ -71,13 +69,9 @@ void require_key_in_time(const LedgerContent& c, std::int64_t now_utc_ns) {
     throw Error("the school's key", "ran out on " + utc_text(k.until_utc_ns), "replace it: `cavum ledger key LEDGER --replace`");
 }
 
-json school_key_body(const LedgerContent& c, const SigningKey& present, const SigningKey& next, std::int64_t until_utc_ns,
-                     const std::string& reason) {
+KeyEntry school_key_entry(const LedgerContent& c, const SigningKey& present, const SigningKey& next, std::int64_t until_utc_ns) {
   const std::string next_key = to_hex(next.public_key);
-  return {{"public_key", next_key},
-          {"until_utc_ns", until_utc_ns},
-          {"reason", one_line(reason)},
-          {"signature", to_hex(present.sign(message_of(c.id, c.public_key, next_key, until_utc_ns)))}};
+  return {next_key, until_utc_ns, to_hex(present.sign(message_of(c.id, c.public_key, next_key, until_utc_ns)))};
 }
 
 std::string next_key_path(const std::string& path) { return path + ".next"; }

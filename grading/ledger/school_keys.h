@@ -19,9 +19,8 @@ void read_school_keys(LedgerContent& content);
 /// Throws Error when the school's key has run out by `now_utc_ns`.
 void require_key_in_time(const LedgerContent& content, std::int64_t now_utc_ns);
 
-/// The body of an entry `key`: from it on `next` signs, good until `until_utc_ns` (0 = without end). `present` signs that.
-[[nodiscard]] nlohmann::json school_key_body(const LedgerContent& content, const SigningKey& present, const SigningKey& next,
-                                             std::int64_t until_utc_ns, const std::string& reason);
+/// From this entry on `next` signs, good until `until_utc_ns` (0 = without end). `present` signs that.
+[[nodiscard]] KeyEntry school_key_entry(const LedgerContent& content, const SigningKey& present, const SigningKey& next, std::int64_t until_utc_ns);
 
 /// Where the next key waits while it takes the place of the one at `path`: PATH.next.
 [[nodiscard]] std::string next_key_path(const std::string& path);

@@ -9,6 +9,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
 
@@ -17,13 +18,12 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char k_request_format[] = "cavum station request 1";
 constexpr char k_code_alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";  // Crockford's base 32
 constexpr std::size_t k_code_digits = 20, k_most_devices = 8, k_longest_station_name = 80;
 constexpr std::int64_t k_late_ns = 86'400'000'000'000;  // a station that ran out may hand in for a day
 
-Bytes request_message(const json& facts) {
-  const std::string text = "CVENROL1" + facts.dump();
+Bytes request_message(const StationRequest& request) {
+  const std::string text = "CVENROL1" + json_of(request).dump();
   return {text.begin(), text.end()};
 }
 
@@ -45,36 +45,23 @@ SigningKey key_of_code(const std::string& code) {
   return key;
 }
 
-std::string request_of(const SigningKey& key, const std::string& school, const std::vector<MotionSource>& devices, const char* by,
-                       const SigningKey& other) {
-  json list = json::array();
-  for (const auto& d : devices) list.push_back({{"name", d.name}, {"serial", d.serial}});
-  const json facts = {{"format", k_request_format},           {"school", school},
-                      {"public_key", to_hex(key.public_key)}, {"by", to_hex(other.public_key)},
-                      {"made_utc_ns", read_clocks().utc_ns},  {"devices", list}};
-  return json{{"request", facts}, {"signature", to_hex(key.sign(request_message(facts)))}, {by, to_hex(other.sign(request_message(facts)))}}.dump();
+SignedRequest request_of(const SigningKey& key, const std::string& school, const std::vector<MotionSource>& devices, const SigningKey& other) {
+  SignedRequest out{{school, to_hex(key.public_key), to_hex(other.public_key), read_clocks().utc_ns, {}}, {}, {}, {}};
+  for (const auto& d : devices) out.request.devices.push_back({d.name, d.serial});
+  out.signature = to_hex(key.sign(request_message(out.request)));
+  return out;
 }
 
-/// What a request says, when its signatures hold.
-struct Request {
-  std::string public_key, by, school;
-  bool has_code = false;
-  std::vector<MotionSource> devices;
-};
-Request parse_request(const json& j, const std::string& where) {
-  const json& facts = member_of(j, "request");
-  Request r{text_in(facts, "public_key"), text_in(facts, "by"), text_in(facts, "school"), member_of(j, "code_signature").is_string(), {}};
-  if (text_in(facts, "format") != k_request_format) throw Error(where, "is no station's request", "name a file that `cavum station --enrol` wrote");
-  if (!is_signed_by(r.public_key, request_message(facts), text_in(j, "signature")))
+void require_signed(const SignedRequest& asked, const std::string& where) {
+  const StationRequest& r = asked.request;
+  const bool has_code = !asked.code_signature.empty();
+  if (!is_signed_by(r.public_key, request_message(r), asked.signature))
     throw Error(where, "the station's signature does not hold: the request was changed", "make it again on the station");
-  if (!is_signed_by(r.by, request_message(facts), text_in(j, r.has_code ? "code_signature" : "old_signature")))
-    throw Error(where, r.has_code ? "the code's signature does not hold" : "the signature of the key that is replaced does not hold",
+  if (!is_signed_by(r.by, request_message(r), has_code ? asked.code_signature : asked.old_signature))
+    throw Error(where, has_code ? "the code's signature does not hold" : "the signature of the key that is replaced does not hold",
                 "make it again on the station");
-  const json& devices = member_of(facts, "devices");
-  if (!devices.is_array() || devices.size() > k_most_devices)
+  if (r.devices.size() > k_most_devices)
     throw Error(where, fmt::format("names no list of at most {} styluses", k_most_devices), "make it again on the station");
-  for (const auto& d : devices) r.devices.push_back({"device", text_in(d, "name"), text_in(d, "serial")});
-  return r;
 }
 
 Station* station_in(StationRegister& r, const std::string& key) {
@@ -83,13 +70,14 @@ Station* station_in(StationRegister& r, const std::string& key) {
 }
 
 /// Whom the request makes a station, by code or in place of another. Throws Error when that cannot be.
-Station enrolled(StationRegister& r, const Request& request, std::int64_t now_utc_ns, const std::string& where) {
+Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t now_utc_ns, const std::string& where) {
+  const StationRequest& request = asked.request;
   if (station_in(r, request.public_key) != nullptr) throw Error(where, "this key was enrolled before", "see `cavum ledger station`");
   Station s;
   s.public_key = request.public_key;
   s.enrolled_utc_ns = now_utc_ns;
-  s.devices = request.devices;
-  if (!request.has_code) {
+  for (const auto& d : request.devices) s.devices.push_back({"device", d.name, d.serial});
+  if (asked.code_signature.empty()) {
     Station* old = station_in(r, request.by);
     if (old == nullptr || old->revoked_utc_ns || !old->replaced_by.empty())
       throw Error(where, "the key that it replaces is not, or no longer, enrolled", "invite the station anew");
@@ -130,30 +118,32 @@ std::string StationRegister::problem(const std::string& key, std::int64_t closed
   return {};
 }
 
-void apply_station_entry(StationRegister& r, const LedgerEntry& e, const std::string& school) {
-  const std::string action = text_in(e.body, "action"), where = "station entry";
-  if (action == "invite") {
-    r.invitations.push_back(
-        {e.seq, text_in(e.body, "name"), text_in(e.body, "code_key"), require_whole<std::int64_t>(e.body, "until_utc_ns", where)});
-  } else if (action == "enrol") {
-    const Request request = parse_request(member_of(e.body, "asked"), where);
-    if (request.school != school) throw Error(where, "asks another school", "use an intact copy");
-    Station s = enrolled(r, request, e.utc_ns, where);
-    s.seq = e.seq;
-    s.until_utc_ns = require_whole<std::int64_t>(e.body, "until_utc_ns", where);
-    r.stations.push_back(std::move(s));
-  } else if (action == "revoke") {
-    Station* s = station_in(r, text_in(e.body, "public_key"));
-    if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty())) throw Error(where, "revokes a key that is not enrolled", "use an intact copy");
-    s->revoked_utc_ns = e.utc_ns;
-    s->replaced_by.clear();
-  } else if (action == "room") {
-    Station* s = station_in(r, text_in(e.body, "public_key"));
-    if (s == nullptr) throw Error(where, "places a station that is not enrolled", "use an intact copy");
-    s->room = text_in(e.body, "room");
-  } else {
-    throw Error(where, fmt::format("'{}' is nothing that happens to a station", one_line(action)), "use the version of Cavum that entered it");
-  }
+void take_invite(StationRegister& r, const LedgerEntry& e, const InviteEntry& what) {
+  r.invitations.push_back({e.seq, what.name, what.code_key, what.until_utc_ns});
+}
+
+void take_enrol(StationRegister& r, const LedgerEntry& e, const EnrolEntry& what, const std::string& school) {
+  const std::string where = "station entry";
+  require_signed(what.asked, where);
+  if (what.asked.request.school != school) throw Error(where, "asks another school", "use an intact copy");
+  Station s = enrolled(r, what.asked, e.utc_ns, where);
+  s.seq = e.seq;
+  s.until_utc_ns = what.until_utc_ns;
+  r.stations.push_back(std::move(s));
+}
+
+void take_revoke(StationRegister& r, const LedgerEntry& e, const RevokeEntry& what) {
+  Station* s = station_in(r, what.public_key);
+  if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty()))
+    throw Error("station entry", "revokes a key that is not enrolled", "use an intact copy");
+  s->revoked_utc_ns = e.utc_ns;
+  s->replaced_by.clear();
+}
+
+void take_room(StationRegister& r, const RoomEntry& what) {
+  Station* s = station_in(r, what.public_key);
+  if (s == nullptr) throw Error("station entry", "places a station that is not enrolled", "use an intact copy");
+  s->room = what.room;
 }
 
 std::string new_station_code() {
@@ -167,11 +157,16 @@ std::string new_station_code() {
 }
 
 std::string station_request(const SigningKey& key, const std::string& school, const std::vector<MotionSource>& devices, const std::string& code) {
-  return request_of(key, school, devices, "code_signature", key_of_code(code));
+  const SigningKey by = key_of_code(code);
+  SignedRequest asked = request_of(key, school, devices, by);
+  asked.code_signature = to_hex(by.sign(request_message(asked.request)));
+  return json_of(asked).dump();
 }
 
 std::string station_request(const SigningKey& key, const std::string& school, const std::vector<MotionSource>& devices, const SigningKey& replaced) {
-  return request_of(key, school, devices, "old_signature", replaced);
+  SignedRequest asked = request_of(key, school, devices, replaced);
+  asked.old_signature = to_hex(replaced.sign(request_message(asked.request)));
+  return json_of(asked).dump();
 }
 
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
@@ -180,42 +175,43 @@ std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t
                 fmt::format("give one line of at most {} bytes", k_longest_station_name));
   std::string code = new_station_code();
   const std::string code_key = to_hex(key_of_code(code).public_key);
-  ledger.append("station", [&](const LedgerContent&) -> json {
-    return {{"action", "invite"}, {"name", name}, {"code_key", code_key}, {"until_utc_ns", until_utc_ns}};
-  });
+  ledger.append([&](const LedgerContent&) { return InviteEntry{name, code_key, until_utc_ns}; });
   return code;
 }
 
 const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::int64_t until_utc_ns, const std::string& where) {
-  const json asked = parse_json_or_null(text, k_json_part);
-  return ledger.append("station", [&](const LedgerContent& now) -> json {
-    const Request request = parse_request(asked, where);
-    if (request.school != now.public_key)
+  const json j = parse_json_or_null(text, k_json_part);
+  if (!member_of(j, "request").is_object()) throw Error(where, "is no station's request", "name a file that `cavum station --enrol` wrote");
+  const auto asked = value_in<SignedRequest>(j, where);
+  require_signed(asked, where);
+  return ledger.append([&](const LedgerContent& now) {
+    if (asked.request.school != now.public_key)
       throw Error(where, "asks another school to be enrolled", "copy this school's school.pub to the station, and ask again");
-    StationRegister stations = read_registry(now).stations;
-    static_cast<void>(enrolled(stations, request, read_clocks().utc_ns, where));
-    return {{"action", "enrol"}, {"asked", asked}, {"until_utc_ns", until_utc_ns}};
+    StationRegister stations = ledger.registry().stations;
+    static_cast<void>(enrolled(stations, asked, read_clocks().utc_ns, where));
+    return EnrolEntry{asked, until_utc_ns};
   });
 }
 
 const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room) {
   if (room.size() > k_longest_station_name || !is_plain_text(room))
     throw Error("the room", "is no line of text", fmt::format("give one line of at most {} bytes", k_longest_station_name));
-  return ledger.append("station", [&](const LedgerContent&) -> json {
+  return ledger.append([&](const LedgerContent&) {
     const Station* s = ledger.registry().stations.of(public_key);
     if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(public_key), "is none that is enrolled", "choose one of the list");
-    return {{"action", "room"}, {"public_key", public_key}, {"room", room}};
+    return RoomEntry{public_key, room};
   });
 }
 
 const LedgerEntry& revoke_station(Ledger& ledger, const std::string& public_key, const std::string& reason) {
-  return ledger.append("station", [&](const LedgerContent& now) -> json {
-    StationRegister stations = read_registry(now).stations;
-    const Station* s = stations.of(public_key);
-    if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty()))
-      throw Error("--revoke " + one_line(public_key), "is not, or no longer, a station's key here", "see `cavum ledger station`");
-    return {{"action", "revoke"}, {"public_key", public_key}, {"reason", one_line(reason)}};
-  });
+  return ledger.append(
+      [&](const LedgerContent&) {
+        const Station* s = ledger.registry().stations.of(public_key);
+        if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty()))
+          throw Error("--revoke " + one_line(public_key), "is not, or no longer, a station's key here", "see `cavum ledger station`");
+        return RevokeEntry{public_key};
+      },
+      one_line(reason));
 }
 
 }  // namespace cavum::ledger

@@ -3,18 +3,17 @@
 #pragma once
 
 #include <cstdint>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "engine/session/motion_source.h"
 #include "engine/session/station_key.h"
+#include "grading/ledger/entry.h"
 
 namespace cavum::ledger {
 
 class Ledger;
-struct LedgerEntry;
 
 /// A key that was enrolled.
 struct Station {
@@ -43,8 +42,11 @@ struct StationRegister {
   [[nodiscard]] std::string problem(const std::string& public_key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const;
 };
 
-/// Takes an entry of kind `station` into the register. Throws Error when it contradicts what is there.
-void apply_station_entry(StationRegister& stations, const LedgerEntry& entry, const std::string& ledger_id);
+// What an entry says of stations. Each throws Error when it contradicts what is there; `school`: its public key then.
+void take_invite(StationRegister& stations, const LedgerEntry& entry, const InviteEntry& what);
+void take_enrol(StationRegister& stations, const LedgerEntry& entry, const EnrolEntry& what, const std::string& school);
+void take_revoke(StationRegister& stations, const LedgerEntry& entry, const RevokeEntry& what);
+void take_room(StationRegister& stations, const RoomEntry& what);
 
 /// "S-7K3M-Q9WD-XT20-4FVA-HB6E", 100 random bits.
 [[nodiscard]] std::string new_station_code();

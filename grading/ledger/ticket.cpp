@@ -6,7 +6,9 @@
 #include <cstdio>
 
 #include "engine/base/error.h"
+#include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/opening.h"
 
@@ -15,10 +17,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char k_format[] = "cavum ticket 2", k_old_format[] = "cavum ticket 1";
-
-Bytes message_of(const json& facts) {
-  const std::string text = "CVTICKET" + facts.dump();
+Bytes message_of(const Ticket& t) {
+  const std::string text = "CVTICKET" + json_of(t).dump();
   return {text.begin(), text.end()};
 }
 
@@ -47,65 +47,33 @@ std::vector<std::pair<std::string, std::string>> accommodations_in(const Session
   return out;
 }
 
-std::string sign_ticket(const Ticket& t, const SigningKey& school) {
+SignedTicket sign_ticket(Ticket t, const SigningKey& school) {
   json grant = json::object();
   for (const auto& [key, value] : t.grant) grant[key] = value;
   const Opening opening = make_opening(grant);
-  const json facts = {{"format", k_format},
-                      {"ledger", t.ledger},
-                      {"exam", t.exam},
-                      {"candidate", t.candidate},
-                      {"nonce", t.nonce},
-                      {"not_before", utc_text(t.not_before_utc_ns)},
-                      {"not_after", utc_text(t.not_after_utc_ns)},
-                      {"artifacts", t.artifacts},
-                      {"begun_at_ledger", t.begun_at_ledger},
-                      {"grant_sha256", opening.sha256},
-                      {"public_key", t.public_key}};
-  return json{{"grant", opening.text}, {"signature", to_hex(school.sign(message_of(facts)))}, {"ticket", facts}}.dump();
+  t.grant_sha256 = opening.sha256;
+  t.grant.clear();
+  SignedTicket out{std::move(t), {}, {}};
+  out.signature = to_hex(school.sign(message_of(out.ticket)));
+  out.text = json{{"grant", opening.text}, {"signature", out.signature}, {"ticket", json_of(out.ticket)}}.dump();
+  return out;
 }
 
-json without_grant(const std::string& ticket) {
-  json j = parse_json(ticket, "the ticket");
-  j.erase("grant");
-  return j;
-}
-
-Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where, GrantIs grant) {
-  Ticket t;
-  json facts;
-  std::string signature;
-  try {
-    const json j = parse_json_or_null(text);
-    facts = j.at("ticket");
-    signature = j.at("signature");
-    const bool old = facts.at("format") == k_old_format;
-    if (!old && facts.at("format") != k_format) throw Error(where, "is a ticket of another format", "use the version of Cavum that issued it");
-    t.ledger = facts.at("ledger");
-    t.exam = facts.at("exam");
-    t.candidate = facts.at("candidate");
-    t.nonce = facts.at("nonce");
-    t.not_before_utc_ns = parse_utc(facts.at("not_before"), where + ": not_before");
-    t.not_after_utc_ns = parse_utc(facts.at("not_after"), where + ": not_after");
-    t.artifacts = facts.at("artifacts").get<std::map<std::string, std::string>>();
-    t.public_key = facts.at("public_key");
-    json granted = json::object();
-    if (old) {
-      granted = facts.at("grant");
-    } else {
-      t.begun_at_ledger = facts.at("begun_at_ledger");
-      t.grant_sha256 = facts.at("grant_sha256");
-      if (grant == GrantIs::with_it) granted = opened_value(j.at("grant"), t.grant_sha256, where + ": grant");
-    }
-    for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, value.get<std::string>());
-    std::sort(t.grant.begin(), t.grant.end());
-  } catch (const json::exception&) {
-    throw Error(where, "is no ticket", "name a file that `cavum ledger ticket` wrote");
-  }
+void require_signed(const Ticket& t, const std::string& signature, const std::string& public_key, const std::string& where) {
   if (!public_key.empty() && t.public_key != public_key) throw Error(where, "is the ticket of another school", "ask for one of this school");
-  if (!is_signed_by(fixed_from_hex<32>(t.public_key, where + ": public_key"), message_of(facts),
-                    fixed_from_hex<64>(signature, where + ": signature")))
+  if (!is_signed_by(fixed_from_hex<32>(t.public_key, where + ": public_key"), message_of(t), fixed_from_hex<64>(signature, where + ": signature")))
     throw Error(where, "was changed after the school signed it", "ask for a new ticket");
+}
+
+Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where) {
+  const json j = parse_json_or_null(text);
+  if (!member_of(j, "ticket").is_object()) throw Error(where, "is no ticket", "name a file that `cavum ledger ticket` wrote");
+  auto t = value_in<Ticket>(j["ticket"], where);
+  const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, where + ": grant");
+  if (!granted.is_object()) throw Error(where, "grants nothing that can be read", "ask for a new ticket");
+  for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, text_in(granted, key.c_str()));
+  std::sort(t.grant.begin(), t.grant.end());
+  require_signed(t, text_in(j, "signature"), public_key, where);
   return t;
 }
 

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -25,9 +24,9 @@ struct Ticket {
   std::map<std::string, std::string>
       artifacts;  ///< SHA-256 (hexadecimal) by name of all that is examined: scenario, tooth, rubric, points, force model
   std::vector<std::pair<std::string, std::string>> grant;  ///< accommodations as notes of the session (scenarios/file/accommodations.h)
-  std::string grant_sha256;      ///< of the opening that holds them, hexadecimal; set on signing. Empty: the ticket holds them itself (format 1)
-  bool begun_at_ledger = false;  ///< the exam begins only when the ledger lets it (begin.h)
-  std::string public_key;        ///< of the school, hexadecimal
+  std::string grant_sha256;                                ///< of the opening that holds them, hexadecimal; set on signing
+  bool begun_at_ledger = false;                            ///< the exam begins only when the ledger lets it (begin.h)
+  std::string public_key;                                  ///< of the school, hexadecimal
 };
 
 /// What a ticket fixes of a session: all its artifacts but the servo's settings, which are the device's.
@@ -36,16 +35,17 @@ struct Ticket {
 /// The notes of a session that grant something to its candidate, sorted.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> accommodations_in(const SessionSetup& setup);
 
-/// One line of JSON {"grant", "signature", "ticket"}: the ticket's file, signed over "CVTICKET" and the text of `ticket`, keys in order. `grant` is
-/// the opening of the accommodations: they stand with the candidate and in the recording, and the ledger knows their hash alone.
-[[nodiscard]] std::string sign_ticket(const Ticket& ticket, const SigningKey& school);
-/// A ticket's text without its accommodations, as the ledger enters it.
-[[nodiscard]] nlohmann::json without_grant(const std::string& ticket);
-/// Does a ticket bear its accommodations? The ledger's own copy does not.
-enum class GrantIs { with_it, apart };
-/// Throws Error(`where`, ...) when the text is no ticket or its signature does not hold. `public_key` (hexadecimal): the school's; empty = whoever
-/// signed.
-[[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where, GrantIs grant = GrantIs::with_it);
+struct SignedTicket {
+  Ticket ticket;
+  std::string signature;  ///< hexadecimal, over "CVTICKET" and the text of `ticket`, keys in order
+  std::string text;       ///< the ticket's file, one line of JSON {"grant", "signature", "ticket"}
+};
+/// `grant` is the opening of the accommodations: they stand with the candidate and in the recording, and the ledger knows their hash alone.
+[[nodiscard]] SignedTicket sign_ticket(Ticket ticket, const SigningKey& school);
+/// Throws Error(`where`, ...) when the signature does not hold. `public_key` (hexadecimal): the school's; empty = whoever signed.
+void require_signed(const Ticket& ticket, const std::string& signature, const std::string& public_key, const std::string& where);
+/// Throws Error(`where`, ...) when the text is no ticket or its signature does not hold.
+[[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where);
 
 /// What about the exam is not as promised, in words: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
 /// time.

@@ -28,13 +28,10 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<std::str
     std::istringstream words(line);
     Checkpoint p;
     std::string root, signature;
-    if (!(words >> p.size >> root >> p.utc_ns)) continue;
-    if (words >> signature) {
-      const auto bytes = from_base64(signature);
-      if (!bytes || bytes->size() != p.signature.size()) continue;
-      std::copy(bytes->begin(), bytes->end(), p.signature.begin());
-      p.is_note = true;
-    }
+    if (!(words >> p.size >> root >> p.utc_ns >> signature)) continue;
+    const auto bytes = from_base64(signature);
+    if (!bytes || bytes->size() != p.signature.size()) continue;
+    std::copy(bytes->begin(), bytes->end(), p.signature.begin());
     try {
       p.root = fixed_from_hex<32>(root, path);
     } catch (const Error&) {

@@ -7,7 +7,7 @@
 namespace cavum::ledger {
 
 /// $CAVUM_HOME/witness/ID, or below ~/.config/cavum: one line for each checkpoint, "size root utc_ns signature", root in hexadecimal digits. The
-/// signature, in base64, is the one under the checkpoint's note; lines of before format 4 have none.
+/// signature, in base64, is the one under the checkpoint's note.
 [[nodiscard]] std::string witness_path(const std::string& ledger_id);
 
 /// What it remembers, the oldest first; nothing when this computer has none. A root that is none is a finding; a line that a

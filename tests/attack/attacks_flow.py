@@ -171,12 +171,12 @@ def old_ledger(s, days, hours_open):
     ledger = lf.Ledger(s.L)
     init = ledger.body(0)
     ledger.entries, ledger.notes, ledger.documents, ledger.cosignatures = [], [], [], []
-    ledger.openings = None if ledger.openings is None else {}
+    ledger.openings = {}
     code = lf.code_key("S-0123-4567-89AB-CDEF-GHJK")
     ledger.add("init", init, utc_ns=then)
-    ledger.add("station", {"action": "invite", "name": "Seat 1", "code_key": code.hex, "until_utc_ns": then + 10**15}, utc_ns=then + 10**9)
+    ledger.add("invite", {"name": "Seat 1", "code_key": code.hex, "until_utc_ns": then + 10**15}, utc_ns=then + 10**9)
     asked = lf.station_request(key.hex, s.station(), code, made=then + 15 * 10**8)
-    ledger.add("station", {"action": "enrol", "asked": asked, "until_utc_ns": 0}, utc_ns=then + 2 * 10**9)
+    ledger.add("enrol", {"asked": asked, "until_utc_ns": 0}, utc_ns=then + 2 * 10**9)
     stamp = lambda t: time.strftime("%Y-%m-%dT%H:%M:%SZ", time.gmtime(t // 10**9))
     ticket = dict(ticket_of(s.session("anna.cavum"))["ticket"], nonce="ab" * 16, not_before=stamp(then), not_after=stamp(then + int(hours_open * 3600 * 10**9)))
     text = lf.signed_ticket(ticket, key)

@@ -118,41 +118,38 @@ def station_request(school_hex, key, by, devices=(), made=None, replaces=False, 
 
 
 def opening(value, salt=None):
-    """The text of an opening (format 5): what an entry or a ticket names by its hash."""
+    """The text of an opening: what an entry or a ticket names by its hash."""
     return json_text({"salt": (salt or os.urandom(16)).hex(), "value": value})
 
 
 def signed_ticket(ticket, school, grant=None):
-    """A ticket's JSON text; `school` is whoever signs it; `grant` the accommodations: inside (ticket 1) or as an opening beside it (ticket 2)."""
-    if ticket["format"] == "cavum ticket 1":
-        ticket = dict(ticket, grant=grant) if grant is not None else ticket
-        return json_text({"signature": school.sign(b"CVTICKET" + json_text(ticket).encode()).hex(), "ticket": ticket})
+    """A ticket's JSON text; `school` is whoever signs it; `grant` the accommodations, an opening beside it."""
     beside = opening(grant or {})
     ticket = dict(ticket, grant_sha256=sha(beside.encode()).hex())
     return json_text({"grant": beside, "signature": school.sign(b"CVTICKET" + json_text(ticket).encode()).hex(), "ticket": ticket})
 
 
 def ticket_entry(text):
-    """What the ledger enters of a ticket: all but the accommodations of ticket 2."""
+    """What the ledger enters of a ticket: all but the accommodations."""
     whole = json.loads(text)
     return {"signature": whole["signature"], "ticket": whole["ticket"]}
 
 
 def begin_word(ledger, ticket_nonce, school, utc_ns=None, **changes):
-    """The ledger's word to begin (format 5)."""
+    """The ledger's word to begin."""
     begin = {"format": "cavum begin 1", "ledger": ledger, "nonce": os.urandom(16).hex(), "public_key": school.hex, "ticket": ticket_nonce, "utc_ns": utc_ns or time.time_ns()}
     begin.update(changes)
     return {"begin": begin, "signature": school.sign(b"CVLETBEG" + json_text(begin).encode()).hex()}
 
 
 def key_entry(ledger, old, new, until_utc_ns=0, signed_by=None):
-    """The body of an entry `key` (format 5)."""
+    """The body of an entry `key`."""
     message = json_text({"ledger": ledger, "previous": old.hex, "public_key": new.hex, "until_utc_ns": until_utc_ns})
     return {"public_key": new.hex, "reason": "test", "signature": (signed_by or old).sign(b"CVKEYNEW" + message.encode()).hex(), "until_utc_ns": until_utc_ns}
 
 
 def identity_seal(school_seed, pseudonym, exam, number, name):
-    """The seal of a row of identities.db (version 2)."""
+    """The seal of a row of identities.db."""
     secret = HKDF(algorithm=hashes.SHA256(), length=32, salt=None, info=b"cavum identities").derive(school_seed)
     return hmac.new(secret, json_text([pseudonym, exam, number, name]).encode(), hashlib.sha256).digest()
 
@@ -163,12 +160,6 @@ def signed_results(results, school):
     return body[:-1] + ',"signature":"' + school.sign(b"CVRESULT" + body.encode()).hex() + '"}\n'
 
 
-def pseudonym(school_seed, salt, number):
-    bits = int.from_bytes(hmac.new(school_seed, b"CVPSEUD1" + salt + number.encode(), hashlib.sha256).digest()[:8], "big") >> 4
-    digits = "".join(CROCKFORD[bits >> 5 * i & 31] for i in reversed(range(12)))
-    return f"C-{digits[:4]}-{digits[4:8]}-{digits[8:]}"
-
-
 # --- ledger.db ------------------------------------------------------------------------------------------------------
 
 class Ledger:
@@ -177,12 +168,12 @@ class Ledger:
     def __init__(self, folder):
         self.path = f"{folder}/ledger.db"
         db = sqlite3.connect(self.path)
-        self.entries = [list(r) for r in db.execute("SELECT seq, text, leaf_sha256, attachment FROM entry ORDER BY seq")]
+        self.entries = [list(r) for r in db.execute("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq")]
         self.notes = [list(r) for r in db.execute("SELECT size, text FROM note ORDER BY size")]
         self.documents = [list(r) for r in db.execute("SELECT sha256, bytes FROM document")]
         self.cosignatures = [list(r) for r in db.execute("SELECT size, line FROM cosignature")]
         self.version = db.execute("PRAGMA user_version").fetchone()[0]
-        self.openings = dict(db.execute("SELECT sha256, text FROM opening").fetchall()) if self.version >= 5 else None
+        self.openings = dict(db.execute("SELECT sha256, text FROM opening").fetchall())
         db.close()
         self.id = self.body(0)["ledger"]
 
@@ -198,42 +189,32 @@ class Ledger:
     def leaves(self):
         return [leaf(r[1]) for r in self.entries]
 
-    def set_body(self, seq, body, attachment=...):
+    def set_body(self, seq, body):
         e = self.entry(seq)
         e["body"] = body
         self.entries[seq][1] = json_text(e)
-        if attachment is not ...:
-            self.entries[seq][3] = attachment
 
     def result(self, seq, name="result"):
-        """The result of an entry, wherever the format keeps it."""
-        opens = self.body(seq).get("opens")
-        return json.loads(self.openings[opens[name]])["value"] if opens else json.loads(self.entries[seq][3])
+        """The result of an entry."""
+        return json.loads(self.openings[self.body(seq)["opens"][name]])["value"]
 
     def set_result(self, seq, result, entry_too):
         """Puts another result in its place; with `entry_too` the entry names the new hash."""
         body = self.body(seq)
-        if "opens" in body:
-            text = opening(result)
-            old = body["opens"]["result"]
-            if entry_too:
-                del self.openings[old]
-                body["opens"]["result"] = sha(text.encode()).hex()
-                self.openings[body["opens"]["result"]] = text
-                self.set_body(seq, body)
-            else:
-                self.openings[old] = text
-            return
-        text = json_text(result)
-        self.entries[seq][3] = text
+        text = opening(result)
+        old = body["opens"]["result"]
         if entry_too:
-            body["result_sha256"] = sha(text.encode()).hex()
+            del self.openings[old]
+            body["opens"]["result"] = sha(text.encode()).hex()
+            self.openings[body["opens"]["result"]] = text
             self.set_body(seq, body)
+        else:
+            self.openings[old] = text
 
-    def add(self, kind, body, attachment=None, utc_ns=None):
+    def add(self, kind, body, utc_ns=None):
         seq = len(self.entries)
         body_text = json_text({"body": body, "kind": kind, "seq": seq, "utc_ns": utc_ns or time.time_ns()})
-        self.entries.append([seq, body_text, b"", attachment])
+        self.entries.append([seq, body_text, b""])
 
     def renumber(self):
         for i, r in enumerate(self.entries):
@@ -256,9 +237,8 @@ class Ledger:
         triggers = db.execute("SELECT name, sql FROM sqlite_master WHERE type = 'trigger'").fetchall()
         for name, _ in triggers:
             db.execute(f"DROP TRIGGER {name}")
-        tables = [("entry", self.entries), ("note", self.notes), ("document", self.documents), ("cosignature", self.cosignatures)]
-        if self.openings is not None:
-            tables.append(("opening", [list(o) for o in self.openings.items()]))
+        tables = [("entry", self.entries), ("note", self.notes), ("document", self.documents), ("cosignature", self.cosignatures),
+                  ("opening", [list(o) for o in self.openings.items()])]
         for table, rows in tables:
             db.execute(f"DELETE FROM {table}")
             for r in rows:
@@ -294,9 +274,7 @@ def worked_example():
     tree = root([leaf(first), leaf(second)])
     made = note(ledger, 2, tree, 1795426310579526174, school)
     line = cosigner_line(made.split("\n\n")[0] + "\n", "cosigner.example/one", cosigner, 1795426400)
-    old = school.sign(b"CVCHKPT1" + struct.pack("<I", len(ledger)) + ledger.encode() + struct.pack("<Q", 2) + tree + struct.pack("<q", 1795426310579526174))
     return (tree.hex() == "2beda5e108f20060f21f0c359957819034535e8af802a4e087d473a512a521c5" and
             made.endswith("mwYXn1BevOqtRPOT7y7pShSHESKQBmnZFj9fDrGJL1G0S8ELcbJfjPO60D4zCs1GETQ3ZtKAfs/KzH5l0G5pw5H/qw8=\n") and
             line.endswith("VOz1lgAAAABrBAhgN0gjWJVxxM0K1a43D99r64FY84Qs+5ob6KuNeE2PhZdbzmf5TVmCaTIRpWRzAE8chci0JWWGqXci7/5ZW8uMAg==\n") and
-            key_line("cosigner.example/one", 4, cosigner.public) == "cosigner.example/one+54ecf596+BCmsuuFBvMrwsi4alNNNC8c2HlJtC/4SyJeUvJMilm3X" and
-            old.hex().startswith("c24b48364f834090d86f271f32d3b2ee") and old.hex().endswith("7e712b00aeb9b8469803"))
+            key_line("cosigner.example/one", 4, cosigner.public) == "cosigner.example/one+54ecf596+BCmsuuFBvMrwsi4alNNNC8c2HlJtC/4SyJeUvJMilm3X")

@@ -11,7 +11,6 @@ import tempfile
 import time
 import traceback
 
-import ledger_format as lf
 import school
 from kinds import ATTACKS, judge
 import attacks_recordings  # noqa: F401
@@ -56,8 +55,7 @@ def main():
     print(f"the school stands after {time.monotonic() - started:.0f} s\n")
     holes = broken = failed = 0
     width = 400 if args.long else 78
-    version = lf.Ledger(base.L).version
-    chosen = [a for a in ATTACKS if (args.only in a.name or args.only in a.family) and (version >= 5 or a.family != "five")]
+    chosen = [a for a in ATTACKS if (args.only in a.name or args.only in a.family)]
     at, of = map(int, args.share.split("/"))
     chosen = [a for i, a in enumerate(chosen) if i % of == at % of]
     for a in chosen:

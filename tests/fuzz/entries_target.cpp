@@ -3,6 +3,7 @@
 #include <sstream>
 
 #include "engine/base/json_reader.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/registry.h"
 #include "grading/ledger/release.h"
@@ -37,12 +38,18 @@ void fuzz_entries(Data data) {
     json body = parse_json_or_null(line.substr(space + 1), k_json_part);
     if (!body.is_object()) continue;
     if (body.contains("asked")) sign_request(body["asked"]);
-    ledger::LedgerEntry e;
-    e.seq = content.entries.size();
-    e.kind = line.substr(0, space);
-    e.body = std::move(body);
-    e.utc_ns = 1'800'000'000'000'000'000;
-    content.entries.push_back(std::move(e));
+    const json opened = body.contains("opened") ? std::move(body["opened"]) : json();
+    body.erase("opened");
+    const std::string text =
+        json{{"body", body}, {"kind", line.substr(0, space)}, {"seq", content.entries.size()}, {"utc_ns", 1'800'000'000'000'000'000}}.dump(
+            -1, ' ', false, json::error_handler_t::replace);
+    try {
+      ledger::LedgerEntry e = ledger::read_entry(text, "entry");
+      for (const auto& [part, opening] : ledger::openings_of(*e.what)) opening->value = opened;
+      static_cast<void>(ledger::entry_text(e));
+      content.entries.push_back(std::move(e));
+    } catch (const Error&) {
+    }
   }
   try {
     const ledger::Registry registry = ledger::read_registry(content);
@@ -65,7 +72,8 @@ std::vector<Bytes> entries_seeds() {
                      {"simulated", ""},
                      {"findings", json::array({"a finding"})},
                      {"source", {{"kind", "device"}, {"name", "Omni"}, {"serial", "7"}}},
-                     {"result", parse_json_or_null(small_result())},
+                     {"opened", parse_json_or_null(small_result())},
+                     {"opens", {{"result", hash}}},
                      {"grading_version", 3},
                      {"physics_version", 4},
                      {"remarks", json::array()},
@@ -73,15 +81,22 @@ std::vector<Bytes> entries_seeds() {
                      {"station_key", key},
                      {"ticks", 30}};
   const std::string filed = "session " + session.dump() + "\n";
-  const std::string regraded = "regrade " + json{{"session", 2}, {"reason", "why"}, {"result", parse_json_or_null(small_result())}}.dump() + "\n";
+  const std::string regraded =
+      "regrade " +
+      json{{"session", 2}, {"by", json::object()}, {"reason", "why"}, {"opens", {{"result", hash}}}, {"opened", parse_json_or_null(small_result())}}
+          .dump() +
+      "\n";
+  json ticket = parse_json_or_null(small_ticket());
+  ticket.erase("grant");
   const auto release = [](std::uint64_t seq) { return "release " + json{{"results", {seq}}}.dump() + "\n"; };
-  const std::string invited =
-      "station " + json{{"action", "invite"}, {"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
+  const std::string invited = "invite " + json{{"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
   const auto asked = parse_json_or_null(ledger::station_request(station_key(), school, {{"device", "Omni", "7"}}, ledger::new_station_code()));
-  const std::string enrolled = "station " + json{{"action", "enrol"}, {"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
-  const std::string revoked = "station " + json{{"action", "revoke"}, {"public_key", key}, {"reason", "lost"}}.dump() + "\n";
-  return {bytes_of("ticket " + small_ticket() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),
-          bytes_of(invited + enrolled + revoked), bytes_of(filed + filed + release(2) + "forget {\"candidate\":\"C\"}\nrestore {\"from\":1}\n")};
+  const std::string enrolled = "enrol " + json{{"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
+  const std::string revoked = "revoke " + json{{"public_key", key}, {"reason", "lost"}}.dump() + "\n";
+  return {bytes_of("ticket " + ticket.dump() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),
+          bytes_of(invited + enrolled + revoked),
+          bytes_of(filed + filed + release(2) + "forget {\"candidate\":\"C\"}\nrestore {\"backup\":{\"root\":\"" + hash +
+                   "\",\"size\":1},\"lost\":[],\"missing_sessions\":[]}\n")};
 }
 
 }  // namespace cavum::fuzz

@@ -127,8 +127,8 @@ const SigningKey& school_key() {
   return k_key;
 }
 
-const std::string& small_ticket() {
-  static const std::string k_text = [] {
+const ledger::SignedTicket& signed_ticket() {
+  static const ledger::SignedTicket k_ticket = [] {
     ledger::Ticket t;
     t.ledger = std::string(32, '1');
     t.exam = "drill";
@@ -141,15 +141,16 @@ const std::string& small_ticket() {
     t.public_key = to_hex(school_key().public_key);
     return ledger::sign_ticket(t, school_key());
   }();
-  return k_text;
+  return k_ticket;
 }
+const std::string& small_ticket() { return signed_ticket().text; }
 
 const ledger::LedgerContent& school_ledger() {
   static const ledger::LedgerContent k_content = [] {
     const std::string folder = work_folder() + "/ledger";
     ledger::Ledger::create(folder, "School", school_key());
     ledger::Ledger ledger(folder, school_key());
-    ledger.append("ticket", [](const ledger::LedgerContent&) { return ledger::without_grant(small_ticket()); });
+    ledger.append([](const ledger::LedgerContent&) { return ledger::TicketEntry{signed_ticket().ticket, signed_ticket().signature, {}}; });
     return ledger.content();
   }();
   return k_content;

@@ -24,6 +24,7 @@ void read_all_ticks(const SessionReader& session);
 [[nodiscard]] const SigningKey& school_key();
 [[nodiscard]] const ledger::LedgerContent& school_ledger();
 [[nodiscard]] const std::string& small_ticket();
+[[nodiscard]] const ledger::SignedTicket& signed_ticket();
 /// A result as grading writes it, with two criteria.
 [[nodiscard]] std::string small_result();
 /// A folder in memory (/dev/shm, else the usual one for temporary files) that goes with the process.

@@ -226,8 +226,8 @@ void SchoolDay::file_exam() {
   const ledger::Filing filing = ledger::file_session(ledger, exam.path, {}, grounds());
   if (filing.seq) {
     entered(ledger, *filing.seq);
-    const json& body = ledger.content().entries.at(*filing.seq).body;
-    filed_files_[body.at("file_sha256")] = body.at("candidate");
+    const auto* filed = ledger.content().entries.at(*filing.seq).as<ledger::SessionEntry>();
+    filed_files_[filed->file_sha256] = filed->candidate;
     ++counts_["filed clean"];
   }
   const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
@@ -314,7 +314,7 @@ void SchoolDay::erase_some_session() {
   std::advance(some, static_cast<long>(world_.random().below(filed_files_.size())));
   const std::string hash = some->first;
   for (const auto& e : ledger.content().entries) {
-    if (e.kind != "session" || e.body.at("file_sha256") != hash) continue;
+    if (const auto* filed = e.as<ledger::SessionEntry>(); filed == nullptr || filed->file_sha256 != hash) continue;
     to_erase_.insert(hash);
     const std::uint64_t seq = e.seq;
     if (ledger::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;

@@ -58,7 +58,7 @@ void SchoolDay::check_end() {
   check_cosigner(content);
   world_.calmly("office", [&] {  // and work goes on
     ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
     entered(ledger, ledger.content().entries.size() - 1);
     const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
     if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
@@ -206,7 +206,7 @@ void SchoolDay::replace_key() {
     check_identities();
     if (content.keys.size() < 2) wrong("the key was replaced, and the ledger does not know it");
     ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
   });
 }
 
@@ -257,7 +257,7 @@ void SchoolDay::restore_from_backup() {
       if (history.recorded_loss(seen) == nullptr) wrong("entry " + std::to_string(e.seq) + " is lost, and no restore entry says so");
     }
     ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append("forget", [](const ledger::LedgerContent&) { return json{{"candidate", "nobody"}}; });
+    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
   });
 }
 

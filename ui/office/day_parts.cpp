@@ -13,8 +13,7 @@ using nlohmann::json;
 std::map<std::string, std::string> begun_at(const ledger::LedgerContent& content, const ledger::Registry& registry) {
   std::map<std::string, std::string> out;
   for (const auto& t : registry.tickets)
-    if (!t.begins.empty() && !t.used_by && !t.cancelled_by)
-      out[t.ticket.candidate] = text_in(content.entries.at(t.begins.back().seq).body, "station");
+    if (!t.begins.empty() && !t.used_by && !t.cancelled_by) out[t.ticket.candidate] = content.entries.at(t.begins.back().seq).by.station;
   return out;
 }
 

@@ -12,6 +12,7 @@
 #include "engine/language/shown.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/decision.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/identities.h"
@@ -38,9 +39,8 @@ Grants grants_of(const Roster& roster) {
 
 /// Made up by a ticket that can still be cancelled: then this one is good again.
 bool comes_back(const ledger::Registry& registry, const ledger::IssuedTicket& first, std::int64_t now_utc_ns) {
-  return first.made_up_by &&  // of few: not once for each ticket of a year
-         std::any_of(registry.tickets.begin(), registry.tickets.end(),
-                     [&](const ledger::IssuedTicket& t) { return t.seq == first.made_up_by && t.begins.empty() && t.live(now_utc_ns); });
+  const ledger::IssuedTicket* makeup = first.made_up_by ? registry.ticket(*first.made_up_by) : nullptr;
+  return makeup != nullptr && makeup->begins.empty() && makeup->live(now_utc_ns);
 }
 
 /// Who begins a sitting at its last moment is done before the next one begins, unless it is said that they may overlap.
@@ -113,35 +113,26 @@ json Desk::issue(const json& asked, const Account& by) {
     const std::int64_t later_ns = static_cast<std::int64_t>(i / at_once) * wish.apart_ns;
     times.push_back({wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns});
   }
-  // all before the first ticket: a name that is none refuses the list
-  const auto stations = ledger::stations_of(turn.book.registry(), identities, roster.people, times, k_list);
-  json issued = json::array(), refused = json::array();
-  std::vector<ledger::Seat> seats;
   const std::size_t first = std::min(whole("first", 0), roster.people.size());
   const std::size_t end = first + std::min(whole("most", roster.people.size()), roster.people.size() - first);
-  for (std::size_t i = first; i < end; ++i) {
-    const auto& person = roster.people[i];
-    const ledger::TimeSpan& when = times[i];
-    ticket.not_before_utc_ns = when.from_utc_ns;
-    ticket.not_after_utc_ns = when.until_utc_ns;
-    const std::string candidate = identities.enrol(person.id, person.name, ticket.exam, turn.book.key());
-    ticket.grant = scenarios::notes_of(person.grant);
-    std::sort(ticket.grant.begin(), ticket.grant.end());
-    try {
-      const std::string text = ledger::issue(turn.book, ticket, candidate, wish.another ? ledger::Another::allow : ledger::Another::refuse);
-      write_private_text_file(places_.ticket(ledger::parse_ticket(text, "", "the ticket").nonce), text + "\n");
-      if (!stations[i].empty()) seats.push_back({turn.book.content().entries.size() - 1, stations[i]});
-      issued.push_back({{"candidate", candidate},
-                        {"id", person.id},
-                        {"name", person.name},
-                        {"station", person.station},
-                        {"not_before", utc_text(when.from_utc_ns)},
-                        {"not_after", utc_text(when.until_utc_ns)}});
-    } catch (const ledger::AnotherTicket& has) {  // the others get theirs
-      refused.push_back({{"id", person.id}, {"name", person.name}, {"why", shown(without_advice(has.what()))}});
+  const auto keep = [&](const ledger::Issued& one, const std::string& text) {
+    write_private_text_file(places_.ticket(one.ticket.nonce), text + "\n");
+  };
+  json issued = json::array(), refused = json::array();
+  for (const auto& one : ledger::issue_list(
+           turn.book, identities,
+           {ticket, roster.people, times, k_list, first, end, {}, wish.another ? ledger::Another::allow : ledger::Another::refuse}, keep)) {
+    json row = {{"id", one.person.id}, {"name", one.person.name}};
+    if (one.refused) {
+      row["why"] = shown(without_advice(one.refused->what()));
+    } else {
+      row["candidate"] = one.candidate;
+      row["station"] = one.person.station;
+      row["not_before"] = utc_text(one.ticket.not_before_utc_ns);
+      row["not_after"] = utc_text(one.ticket.not_after_utc_ns);
     }
+    (one.refused ? refused : issued).push_back(std::move(row));
   }
-  if (!seats.empty()) static_cast<void>(ledger::seat_candidates(turn.book, seats));
   return {{"issued", issued}, {"refused", refused}, {"done", end}, {"of", roster.people.size()}};
 }
 
@@ -151,8 +142,7 @@ json Desk::make_up(const json& asked, const Account& by) {
   std::string exam;
   {
     Turn turn(*this);
-    for (const auto& t : turn.book.registry().tickets)
-      if (t.seq == first) exam = t.ticket.exam;
+    if (const auto* t = turn.book.registry().ticket(first)) exam = t->ticket.exam;
   }
   json wanted = asked;
   wanted["exam"] = exam;
@@ -161,14 +151,15 @@ json Desk::make_up(const json& asked, const Account& by) {
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});
   std::string why_not;
-  for (const auto& t : turn.book.registry().tickets)  // before what is granted: of one that has a makeup nothing may be kept
-    if (t.seq == first && ledger::makeup_reasons(turn.book.registry(), t, read_clocks().utc_ns, why_not).empty())
-      throw Error(fmt::format("the ticket of entry {}", first), why_not, "look at the list of tickets again");
+  if (const auto* t = turn.book.registry().ticket(first);  // before what is granted: of one that has a makeup nothing may be kept
+      t != nullptr && ledger::makeup_reasons(turn.book.registry(), *t, read_clocks().utc_ns, why_not).empty())
+    throw Error(fmt::format("the ticket of entry {}", first), why_not, "look at the list of tickets again");
   if (!grant) grant = first_grant(turn.book, first);
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = wish.begun_at_ledger;
   ticket.grant = *grant;
-  const std::string text = ledger::issue_makeup(turn.book, ticket, {first, text_in(asked, "became"), reason});
+  const std::string text = ledger::issue_makeup(
+      turn.book, ticket, {first, ledger::of_word<ledger::FirstSitting>(text_in(asked, "became"), "what became of the first"), reason});
   const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
@@ -179,19 +170,17 @@ json Desk::make_up(const json& asked, const Account& by) {
 
 bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
   if (std::filesystem::exists(places_.ticket(t.ticket.nonce))) return true;
-  return std::any_of(registry.sessions.begin(), registry.sessions.end(),
-                     [&](const ledger::FiledSession& s) { return s.seq == t.used_by && !s.motion_erased_by; });
+  const ledger::FiledSession* sat = t.used_by ? registry.session(*t.used_by) : nullptr;
+  return sat != nullptr && !sat->motion_erased_by;
 }
 
 std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledger& book, std::uint64_t ticket) const {
   const auto& registry = book.registry();
-  const auto t = std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const ledger::IssuedTicket& i) { return i.seq == ticket; });
-  if (t == registry.tickets.end() || !keeps_grant(registry, *t))
-    throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
+  const ledger::IssuedTicket* t = registry.ticket(ticket);
+  if (t == nullptr || !keeps_grant(registry, *t)) throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
   if (const std::string file = places_.ticket(t->ticket.nonce); std::filesystem::exists(file))
     return ledger::parse_ticket(read_text_file(file), "", "the first ticket").grant;
-  const auto sat =
-      std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return s.seq == t->used_by; });
+  const ledger::FiledSession* sat = registry.session(*t->used_by);
   return ledger::accommodations_in(SessionReader(ledger::recording_of(book.places(), *sat)).setup());
 }
 
@@ -228,9 +217,10 @@ json Desk::tickets(bool grants, const std::set<std::string>& seen) {
                 {"became", ""},
                 {"why", t.why}};
     std::string why_not;
-    for (const auto& makeup : turn.book.registry().tickets)
-      if (makeup.seq == t.made_up_by) row["became"] = makeup.first_became;
-    row["makeup"] = ledger::makeup_reasons(turn.book.registry(), t, now, why_not);
+    if (const auto* makeup = t.made_up_by ? turn.book.registry().ticket(*t.made_up_by) : nullptr)
+      row["became"] = ledger::word_of(makeup->makes_up->became);
+    row["makeup"] = json::array();
+    for (const auto became : ledger::makeup_reasons(turn.book.registry(), t, now, why_not)) row["makeup"].push_back(ledger::word_of(became));
     put_name(row, people, t.ticket.candidate);
     if (grants) row["accommodations"] = granted_on(t.ticket.nonce);
     if (state.live) granted[t.ticket.exam].push_back(grant_on(t.ticket.nonce));
@@ -249,10 +239,10 @@ json Desk::tickets(bool grants, const std::set<std::string>& seen) {
 json Desk::cancel(const json& asked, const Account& by, const std::set<std::string>& seen) {
   const auto entry = require_whole<std::uint64_t>(asked, "entry", "the ticket");
   Turn turn(*this, {by.name, "", ""});
-  for (const auto& t : turn.book.registry().tickets)
-    if (t.seq == entry && (!t.begins.empty() || seen.contains(t.ticket.candidate)) && member_of(asked, "begun") != true)
-      throw Error(one_line(t.ticket.candidate), "has begun, and what is handed in would be refused",
-                  "say that it is meant; a makeup keeps what was sat on record");
+  if (const auto* t = turn.book.registry().ticket(entry);
+      t != nullptr && (!t->begins.empty() || seen.contains(t->ticket.candidate)) && member_of(asked, "begun") != true)
+    throw Error(one_line(t->ticket.candidate), "has begun, and what is handed in would be refused",
+                "say that it is meant; a makeup keeps what was sat on record");
   const auto seq = ledger::cancel_ticket(turn.book, entry, reason_in(asked)).seq;
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {{"entry", seq}};
@@ -358,9 +348,9 @@ json Desk::begin(const json& asked, const std::string& station) {
   Turn turn(*this, {"", "", station});
   for (const auto& t : turn.book.registry().tickets) {
     if (t.ticket.nonce != nonce || t.begins.empty() || t.used_by || t.cancelled_by) continue;
-    const json& before = turn.book.content().entries.at(t.begins.back().seq).body;
-    if (text_in(before, "station") == station)  // its answer was lost on the way
-      return {{"begin", json{{"begin", before.at("begin")}, {"signature", before.at("signature")}}.dump()}};
+    const ledger::LedgerEntry& before = turn.book.content().entries.at(t.begins.back().seq);
+    if (before.by.station == station)  // its answer was lost on the way
+      return {{"begin", ledger::begin_text(*before.as<ledger::BeginEntry>())}};
   }
   return {{"begin", ledger::let_begin(turn.book, nonce, "")}};
 }

@@ -7,6 +7,7 @@
 #include "engine/base/text.h"
 #include "grading/ledger/appeal.h"
 #include "grading/ledger/decision.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exam_scale.h"
 #include "grading/ledger/exported_grade.h"
@@ -22,11 +23,6 @@ using nlohmann::json;
 
 namespace {
 
-const ledger::FiledSession* session_of(const ledger::Registry& registry, std::uint64_t seq) {
-  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(), [seq](const ledger::FiledSession& s) { return s.seq == seq; });
-  return found == registry.sessions.end() ? nullptr : &*found;
-}
-
 /// By which its report is asked for; empty where the recording was erased.
 std::string recording_sha256(const ledger::FiledSession& s) { return s.motion_erased_by ? "" : s.file_sha256; }
 
@@ -36,18 +32,6 @@ std::vector<std::uint64_t> sessions_in(const json& asked) {
     for (const json& s : sessions)
       if (s.is_number_unsigned()) out.push_back(s);
   return out;
-}
-
-/// Two people may have looked at one result at once; whoever comes second is told, in the page's words. Throws Error.
-void require_undecided(const ledger::Registry& registry, std::uint64_t session) {
-  const ledger::FiledSession* s = session_of(registry, session);
-  if (s == nullptr || s->undecided() || s->open_appeal() != nullptr) return;
-  const ledger::Regrade* last = s->regrade(s->result_seq);
-  throw Error(one_line(s->candidate),
-              last != nullptr && !last->person.empty()
-                  ? fmt::format("was decided by {} (entry {}): {}", last->person, last->seq, text_in(*s->result, "verdict"))
-                  : "waits for no decision",
-              "nothing was changed; after an appeal it can be decided anew");
 }
 
 /// The last decision of a person on it: {"entry","by","verdict","reason","counts"}; null without one.
@@ -99,17 +83,17 @@ json Desk::queue() {
                    {"points", d.points},
                    {"max", d.max},
                    {"reasons", shown_each(d.reasons)},
-                   {"decided", decided(*session_of(turn.book.registry(), d.session))},
+                   {"decided", decided(*turn.book.registry().session(d.session))},
                    {"noted", noted(turn.book.registry(), d.candidate)},
-                   {"sha256", recording_sha256(*session_of(turn.book.registry(), d.session))}});
+                   {"sha256", recording_sha256(*turn.book.registry().session(d.session))}});
   return {{"queue", out}};
 }
 
 json Desk::decide(const json& asked, const Account& by) {
   const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
   Turn turn(*this, {by.name, "", ""});
-  require_undecided(turn.book.registry(), session);
-  return {{"entry", ledger::enter_decision(turn.book, session, {text_in(asked, "verdict"), by.name, reason_in(asked)}).seq}};
+  const ledger::Decision decision{ledger::decided_verdict(text_in(asked, "verdict")), by.name, reason_in(asked)};
+  return {{"entry", ledger::enter_decision(turn.book, session, decision).seq}};
 }
 
 json Desk::results(bool names) {
@@ -136,7 +120,7 @@ json Desk::results(bool names) {
                 {"verdict", text_in(*s.result, "verdict")},
                 {"sha256", recording_sha256(s)},
                 {"shown", s.shown_seq != 0},
-                {"makes_up", s.makes_up ? json(*s.makes_up) : json()},
+                {"makes_up", s.makes_up ? json(s.makes_up->ticket) : json()},
                 {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                 {"appeal", s.open_appeal() != nullptr}};
     const json& score = member_of(*s.result, "score");
@@ -201,7 +185,7 @@ json Desk::appeals() {
                      {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
                      {"open", !a.closed_by.has_value()},
                      {"changed", ledger::changed_since(s, a)},
-                     {"outcome", a.outcome},
+                     {"outcome", a.closed_by ? ledger::word_of(a.outcome) : ""},
                      {"answer", a.answer}});
     }
   return {{"appeals", out}};
@@ -215,8 +199,9 @@ json Desk::open_appeal(const json& asked, const Account& by) {
 
 json Desk::answer_appeal(const json& asked, const Account& by) {
   const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+  const auto outcome = ledger::of_word<ledger::Outcome>(text_in(asked, "outcome"), "the outcome");
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::answer_appeal(turn.book, session, text_in(asked, "outcome"), reason_in(asked)).seq}};
+  return {{"entry", ledger::answer_appeal(turn.book, session, outcome, reason_in(asked)).seq}};
 }
 
 ledger::ClassRegrade Desk::plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries) {
@@ -241,7 +226,7 @@ std::uint64_t Desk::counted_regrades(const std::string& exam, const std::string&
     for (const auto& r : s.regrades) {
       const auto rubric = r.documents.find("rubric.toml");
       if (s.scenario_id != exam || r.seq < entries || rubric == r.documents.end() || rubric->second != rubric_sha256) continue;
-      if (text_in(content.entries.at(r.seq).body, "account") != by) continue;
+      if (content.entries.at(r.seq).by.account != by) continue;
       first = counted == 0 ? r.seq : std::min(first, r.seq);
       ++counted;
     }

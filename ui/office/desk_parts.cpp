@@ -12,7 +12,7 @@
 #include "engine/language/say.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/makeup.h"
-#include "grading/ledger/regrade.h"
+#include "grading/ledger/reason.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
@@ -138,8 +138,7 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const j
 
 std::string reason_in(const json& asked) {
   std::string reason = text_in(asked, "reason");
-  if (reason.size() > ledger::k_longest_reason || !is_seen_text(reason))
-    throw Error("the reason", "is no line of text of at most 2000 bytes", "say why, without names: it is kept for ever");
+  ledger::require_reason(reason);
   return reason;
 }
 
@@ -164,8 +163,9 @@ TicketState own_state(const ledger::IssuedTicket& t, std::int64_t now) {
 TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
   TicketState state = own_state(t, now);
   if (t.makes_up)
-    state.word = t.first_became == ledger::k_missed ? tr("{0}; makeup of entry {1}, which was missed", state.word, *t.makes_up)
-                                                    : tr("{0}; makeup of entry {1}, which was interrupted", state.word, *t.makes_up);
+    state.word = t.makes_up->became == ledger::FirstSitting::missed
+                     ? tr("{0}; makeup of entry {1}, which was missed", state.word, t.makes_up->ticket)
+                     : tr("{0}; makeup of entry {1}, which was interrupted", state.word, t.makes_up->ticket);
   if (t.made_up_by) {
     const bool open = state.group == "live" || state.group == "run out";  // it is neither any more
     state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{0}; made up by entry {1}", state.word, *t.made_up_by), "made up", false};

@@ -4,6 +4,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/session/session.h"
+#include "grading/ledger/entry_text.h"
 #include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -14,83 +15,101 @@ using nlohmann::json;
 
 namespace {
 
+/// What the trail says of an entry.
+struct Told {
+  std::string what;                       ///< its kind; where one kind does several things, which of them
+  std::string why = {};                   ///< its reason, or what was said
+  std::vector<std::uint64_t> about = {};  ///< entries of whom it is about
+  std::string candidate = {};             ///< or himself, by his pseudonym
+  std::size_t number = 0;                 ///< of results, seats or erased parts
+};
+
 /// Whom and which exam an entry is about, by what it names.
 class Trail {
  public:
   explicit Trail(const ledger::Registry& registry) : registry_(registry) {
     for (const auto& t : registry.tickets) {
-      tickets_[t.seq] = t.ticket.candidate;
-      for (const auto& b : t.begins) tickets_[b.seq] = t.ticket.candidate;
+      people_[t.seq] = t.ticket.candidate;
+      for (const auto& b : t.begins) people_[b.seq] = t.ticket.candidate;
     }
     for (const auto& s : registry.sessions) {
-      sessions_[s.seq] = s.candidate;
-      for (const auto& r : s.regrades) sessions_[r.seq] = s.candidate;
+      people_[s.seq] = s.candidate;
+      for (const auto& r : s.regrades) people_[r.seq] = s.candidate;
     }
   }
 
   /// {"entry","utc","what","by","why","number","people"}: `people` are pseudonyms; `number`: of results, seats or erased parts. Of incidents what
   /// happened only with `words`.
   [[nodiscard]] json row(const ledger::LedgerEntry& e, bool words) const {
-    const std::string account = text_in(e.body, "account");
-    const std::string station = text_in(e.body, e.kind == "session" ? "station_key" : "station");
-    return {{"entry", e.seq},       {"utc", utc_text(e.utc_ns)},
-            {"what", what(e)},      {"by", account.empty() ? station_name(registry_, station) : account},
-            {"why", why(e, words)}, {"number", number(e)},
-            {"people", people(e)}};
+    const auto* session = e.as<ledger::SessionEntry>();
+    const Told told = told_of(e, words);
+    std::vector<std::string> people;
+    if (!told.candidate.empty()) people.push_back(told.candidate);
+    for (const auto seq : told.about)
+      if (const auto who = people_.find(seq); who != people_.end() && std::find(people.begin(), people.end(), who->second) == people.end())
+        people.push_back(who->second);
+    return {{"entry", e.seq},
+            {"utc", utc_text(e.utc_ns)},
+            {"what", told.what},
+            {"by", e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account},
+            {"why", told.why},
+            {"number", told.number},
+            {"people", people}};
   }
 
  private:
-  /// The kind of an entry; where one kind does several things, which of them.
-  [[nodiscard]] std::string what(const ledger::LedgerEntry& e) const {
-    if (e.kind == "ticket" && e.body.contains("makes_up")) return "makeup";
-    if (e.kind == "begin" && e.body.contains("again")) return "begin again";
-    if (e.kind == "session" && !member_of(e.body, "findings").empty()) return "session with findings";
-    if (e.kind == "regrade" && !text_in(e.body, "person").empty()) return "decision";
-    if (e.kind == "appeal" && e.body.contains("answers")) return "answer";
-    return e.kind == "station" ? "station " + text_in(e.body, "action") : e.kind;
-  }
-
-  [[nodiscard]] std::string why(const ledger::LedgerEntry& e, bool words) const {
-    if (e.kind == "announce") return text_in(e.body, "text");
-    if (e.kind == "incident") return words ? text_opened(e, ledger::k_words) : "";
-    if (e.kind == "station") return about_station(e);
-    if (e.kind == "passback") return std::to_string(whole_in(e.body, "status"));
-    return text_in(e.body, "reason");
-  }
-
-  /// Its name, and where it stands or why.
-  [[nodiscard]] std::string about_station(const ledger::LedgerEntry& e) const {
-    std::string name = text_in(e.body, "name");
-    for (const auto& s : registry_.stations.stations)
-      if (s.seq == e.seq || s.public_key == text_in(e.body, "public_key")) name = s.name;
-    const std::string more = text_in(e.body, text_in(e.body, "action") == "room" ? "room" : "reason");
-    return more.empty() ? name : name + ": " + more;
-  }
-
-  [[nodiscard]] static std::size_t number(const ledger::LedgerEntry& e) {
-    for (const char* many : {"results", "seats", "erased"})
-      if (const json& list = member_of(e.body, many); list.is_array()) return list.size();
-    return 0;
-  }
-
-  [[nodiscard]] std::vector<std::string> people(const ledger::LedgerEntry& e) const {
-    std::vector<std::string> out;
-    const auto add = [&](const std::map<std::uint64_t, std::string>& known, std::int64_t seq) {
-      const auto found = seq < 0 ? known.end() : known.find(static_cast<std::uint64_t>(seq));
-      if (found != known.end() && std::find(out.begin(), out.end(), found->second) == out.end()) out.push_back(found->second);
+  [[nodiscard]] Told told_of(const ledger::LedgerEntry& e, bool words) const {
+    Told t{e.what ? ledger::kind_name(*e.what) : "", e.by.reason, {}, {}, 0};
+    const auto erased = [&](const std::vector<ledger::ErasedPart>& parts) {
+      t.number = parts.size();
+      for (const auto& part : parts) t.about.push_back(part.entry);
     };
-    if (const std::string who = text_in(e.body, "candidate"); !who.empty()) out.push_back(who);
-    add(tickets_, static_cast<std::int64_t>(e.seq));
-    if (e.kind == "cancel") add(tickets_, whole_in(e.body, "ticket"));
-    if (e.kind == "regrade" || e.kind == "appeal" || e.kind == "passback") add(sessions_, whole_in(e.body, "session"));
-    for (const json& result : member_of(e.body, "results")) add(sessions_, result.is_number_integer() ? result.get<std::int64_t>() : -1);
-    for (const json& seat : member_of(e.body, "seats")) add(tickets_, whole_in(seat, "ticket"));
-    for (const json& erased : member_of(e.body, "erased")) add(sessions_, whole_in(erased, "entry"));
-    return out;
+    const auto of_station = [&](const std::string& name, const std::string& more) { t.why = more.empty() ? name : name + ": " + more; };
+    const ledger::OfEach say{[](const ledger::InitEntry&) {},
+                             [&](const ledger::TicketEntry& x) {
+                               t.about = {e.seq};
+                               if (x.makes_up) t.what = "makeup";
+                             },
+                             [&](const ledger::CancelEntry& x) { t.about = {x.ticket}; },
+                             [&](const ledger::BeginEntry& x) {
+                               t.about = {e.seq};
+                               if (x.again) t.what = "begin again";
+                             },
+                             [&](const ledger::SessionEntry& x) {
+                               t.candidate = x.candidate;
+                               if (!x.findings.empty()) t.what = "session with findings";
+                             },
+                             [&](const ledger::RegradeEntry& x) {
+                               t.about = {x.session};
+                               if (!x.person.empty()) t.what = "decision";
+                             },
+                             [&](const ledger::ReleaseEntry& x) { t.about = x.results, t.number = x.results.size(); },
+                             [&](const ledger::RetractEntry& x) { t.about = x.results, t.number = x.results.size(); },
+                             [&](const ledger::AppealEntry& x) { t.about = {x.session}; },
+                             [&](const ledger::AnswerEntry& x) { t.about = {x.session}; },
+                             [&](const ledger::AnnounceEntry& x) { t.why = x.text; },
+                             [](const ledger::HoldEntry&) {},
+                             [](const ledger::GoOnEntry&) {},
+                             [&](const ledger::IncidentEntry& x) { t.candidate = x.candidate, t.why = words ? x.words.words() : ""; },
+                             [&](const ledger::SeatsEntry& x) {
+                               t.number = x.seats.size();
+                               for (const auto& seat : x.seats) t.about.push_back(seat.ticket);
+                             },
+                             [&](const ledger::PassbackEntry& x) { t.about = {x.session}, t.why = std::to_string(x.status); },
+                             [&](const ledger::EraseEntry& x) { erased(x.erased); },
+                             [&](const ledger::ForgetEntry& x) { t.candidate = x.candidate, erased(x.erased); },
+                             [](const ledger::KeyEntry&) {},
+                             [](const ledger::RestoreEntry&) {},
+                             [&](const ledger::InviteEntry& x) { of_station(x.name, ""); },
+                             [&](const ledger::EnrolEntry& x) { of_station(station_name(registry_, x.asked.request.public_key), ""); },
+                             [&](const ledger::RevokeEntry& x) { of_station(station_name(registry_, x.public_key), e.by.reason); },
+                             [&](const ledger::RoomEntry& x) { of_station(station_name(registry_, x.public_key), x.room); }};
+    if (e.what) std::visit(say, *e.what);
+    return t;
   }
 
   const ledger::Registry& registry_;
-  std::map<std::uint64_t, std::string> tickets_, sessions_;  // pseudonyms by entries: of tickets and begins; of sessions and regrades
+  std::map<std::uint64_t, std::string> people_;  // pseudonyms by entries: of tickets, begins, sessions and regrades
 };
 
 }  // namespace

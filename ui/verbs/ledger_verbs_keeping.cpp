@@ -3,9 +3,9 @@
 #include <iostream>
 
 #include "engine/base/file.h"
-#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/school_keys.h"
 #include "grading/ledger/ticket.h"
@@ -15,20 +15,6 @@
 namespace cavum::ui {
 
 using nlohmann::json;
-
-namespace {
-
-/// Tickets of before format 5 bear accommodations in texts that nothing can take out.
-std::size_t old_tickets_with_grants(const ledger::LedgerContent& c, const std::string& pseudonym) {
-  std::size_t n = 0;
-  for (const auto& e : c.entries) {
-    const json& ticket = member_of(e.body, "ticket");
-    if (e.kind == "ticket" && text_in(ticket, "candidate") == pseudonym && !member_of(ticket, "grant").empty()) ++n;
-  }
-  return n;
-}
-
-}  // namespace
 
 void ledger_forget(const LedgerOptions& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
@@ -41,16 +27,12 @@ void ledger_forget(const LedgerOptions& o) {
   if (pseudonyms.empty())
     throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
   ledger::forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
-  std::size_t bound = 0;
   for (const auto& p : pseudonyms) {
     identities.forget(p);
-    bound += old_tickets_with_grants(ledger.content(), p);
     std::cout << one_line(p) << ": the identity is removed\n";
   }
   const auto said = [](bool kept) { return kept ? "kept, with what they tell of accommodations, under pseudonyms that lead to nobody" : "erased"; };
   std::cout << "recordings are " << said(o.keep_motion) << "; results are " << said(o.keep_results) << "; all proofs stay valid\n";
-  if (bound > 0)
-    std::cout << bound << " tickets were entered before format 5: their accommodations stand in signed entries and stay there, under the pseudonym\n";
   std::cout << "not reached from here: backups, exports, receipts and tickets that were given out, and recordings left on stations\n";
 }
 
@@ -72,14 +54,18 @@ void ledger_erase(const LedgerOptions& o) {
   if (!o.erase_motion && !o.erase_results) throw Error("ledger erase", "needs to know what", "give --motion, --results or both");
   ledger::ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
   if (!o.before.empty()) wish.received_before = ledger::parse_utc(o.before, "--before");
-  const json erased = ledger::erase(ledger, wish, o.reason);
-  if (o.as_json) return print_json(json{{"erased", erased}});
+  const auto erased = ledger::erase(ledger, wish, o.reason);
+  if (o.as_json) {
+    json list = json::array();
+    for (const auto& one : erased) list.push_back({{"entry", one.entry}, {"what", ledger::word_of(one.what)}});
+    return print_json(json{{"erased", list}});
+  }
   if (erased.empty()) {
     std::cout << "nothing is left to erase of these sessions\n";
     return;
   }
   std::cout << "entry " << ledger.content().entries.back().seq << ": erased\n";
-  for (const auto& one : erased) std::cout << "  entry " << one.at("entry").dump() << ": " << text_in(one, "what") << "\n";
+  for (const auto& one : erased) std::cout << "  entry " << one.entry << ": " << ledger::word_of(one.what) << "\n";
 }
 
 void ledger_key(const LedgerOptions& o) {

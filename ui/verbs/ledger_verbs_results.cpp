@@ -12,6 +12,7 @@
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/class_regrade.h"
 #include "grading/ledger/decision.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
@@ -35,7 +36,7 @@ void ledger_release(const LedgerOptions& o) {
   ledger::Identities identities = sound_identities(ledger);
   ledger::ReleaseWish wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
   wish.candidates.clear();
-  const ledger::Registry filed = ledger::read_registry(ledger.content());
+  const ledger::Registry& filed = ledger.registry();
   for (const auto& who : o.chosen) {  // of a person all exams that are filed
     ledger::require_candidate_id("--candidate", who);
     const std::size_t before = wish.candidates.size();
@@ -72,9 +73,8 @@ std::string in_words(const json& result) {
 void regrade_session(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
   const ledger::Registry registry = ledger::read_registry(ledger.content());
-  const auto found = std::find_if(registry.sessions.begin(), registry.sessions.end(),
-                                  [&](const ledger::FiledSession& s) { return static_cast<std::int64_t>(s.seq) == o.session_seq; });
-  if (found == registry.sessions.end())
+  const ledger::FiledSession* found = registry.session(static_cast<std::uint64_t>(o.session_seq));
+  if (found == nullptr)
     throw Error(fmt::format("--session {}", o.session_seq), "is no session's entry", fmt::format("see `cavum ledger show {}`", o.folder));
   const ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
   const auto graded = grading::load_for_grading(ledger::recording_of(ledger.places(), *found));
@@ -168,7 +168,8 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.verdict.empty() || o.person.empty() || o.reason.empty())
     throw Error("ledger decide --session", "needs verdict, person and reason", "give --verdict pass or fail, --person and --reason");
   ledger::Ledger ledger(o.folder, key_of(o));
-  const auto& entry = ledger::enter_decision(ledger, static_cast<std::uint64_t>(o.session_seq), {o.verdict, o.person, o.reason});
+  const auto& entry =
+      ledger::enter_decision(ledger, static_cast<std::uint64_t>(o.session_seq), {ledger::decided_verdict(o.verdict), o.person, o.reason});
   if (o.as_json)
     print_json(json{{"seq", entry.seq}, {"session", o.session_seq}, {"verdict", o.verdict}, {"person", o.person}});
   else
@@ -202,11 +203,12 @@ void print_appeals(const LedgerOptions& o) {
                       {"session", s.seq},
                       {"candidate", s.candidate},
                       {"reason", a.reason},
-                      {"outcome", a.closed_by ? json(a.outcome) : json()},
+                      {"outcome", a.closed_by ? json(ledger::word_of(a.outcome)) : json()},
                       {"answer", a.closed_by ? json(a.answer) : json()}});
       if (o.as_json) continue;
       std::cout << fmt::format("{:>6}  {:<16} {}\n", s.seq, one_line(s.candidate), one_line(a.reason));
-      std::cout << "          " << (a.closed_by ? fmt::format("{}: {}", one_line(a.outcome), one_line(a.answer)) : std::string("open")) << "\n";
+      std::cout << "          " << (a.closed_by ? fmt::format("{}: {}", ledger::word_of(a.outcome), one_line(a.answer)) : std::string("open"))
+                << "\n";
     }
   if (o.as_json)
     print_json(json{{"appeals", list}});
@@ -221,8 +223,8 @@ void ledger_appeal(const LedgerOptions& o) {
   if (o.reason.empty()) throw Error("ledger appeal --session", "needs a reason", "give --reason");
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto session = static_cast<std::uint64_t>(o.session_seq);
-  const auto& entry =
-      o.outcome.empty() ? ledger::open_appeal(ledger, session, o.reason) : ledger::answer_appeal(ledger, session, o.outcome, o.reason);
+  const auto& entry = o.outcome.empty() ? ledger::open_appeal(ledger, session, o.reason)
+                                        : ledger::answer_appeal(ledger, session, ledger::of_word<ledger::Outcome>(o.outcome, "--outcome"), o.reason);
   if (o.as_json)
     print_json(json{{"seq", entry.seq}, {"session", session}, {"outcome", o.outcome.empty() ? json() : json(o.outcome)}});
   else

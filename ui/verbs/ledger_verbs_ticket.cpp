@@ -44,37 +44,32 @@ int ledger_ticket(const LedgerOptions& o) {
   const bool folder = !o.candidates.empty();
   if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
   if (folder) make_private_folder(o.out);
+  const auto file_for = [&](const std::string& candidate) { return folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out; };
+  for (const auto& p : people) require_new(o, file_for(identities.enrol(p.id, p.name, ticket.exam, ledger.key())));
   json printed = json::array();
   int refused = 0;
-  const auto stations =
-      ledger::stations_of(ledger.registry(), identities, people, std::vector(people.size(), ledger::TimeSpan{from, until}), o.candidates);
-  std::vector<ledger::Seat> seats;
-  for (std::size_t i = 0; i < people.size(); ++i) {
-    const auto& p = people[i];
-    const std::string candidate = identities.enrol(p.id, p.name, ticket.exam, ledger.key()),
-                      file = folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out;
-    require_new(o, file);
-    const scenarios::Grant grant = ledger::together(o.grant, p.grant);
-    ticket.grant = scenarios::notes_of(grant);
-    std::sort(ticket.grant.begin(), ticket.grant.end());
-    const std::string granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, ticket.grant, "the ticket"));
-    try {
-      write_school_file(o, file, ledger::issue(ledger, ticket, candidate, o.another ? ledger::Another::allow : ledger::Another::refuse) + "\n");
-    } catch (const ledger::AnotherTicket& live) {  // of a class the others get theirs
-      if (!folder) throw;
-      std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(live.what()).c_str());
+  const ledger::ListWish wish{ticket,        people,  std::vector(people.size(), ledger::TimeSpan{from, until}),   o.candidates, 0,
+                              people.size(), o.grant, o.another ? ledger::Another::allow : ledger::Another::refuse};
+  const auto issued = ledger::issue_list(ledger, identities, wish, [&](const ledger::Issued& one, const std::string& text) {
+    write_school_file(o, file_for(one.candidate), text + "\n");
+  });
+  for (const auto& one : issued) {
+    const auto& p = one.person;
+    if (one.refused) {
+      if (!folder) throw *one.refused;
+      std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(one.refused->what()).c_str());
       ++refused;
       continue;
     }
-    if (!stations[i].empty()) seats.push_back({ledger.content().entries.size() - 1, stations[i]});
+    const std::string file = file_for(one.candidate),
+                      granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, "the ticket"));
     printed.push_back(
-        {{"candidate", candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
+        {{"candidate", one.candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
     if (!o.as_json)
-      std::cout << one_line(fmt::format("{}  {}  {}{}{}", candidate, file, p.id, p.name.empty() ? "" : ", " + p.name,
+      std::cout << one_line(fmt::format("{}  {}  {}{}{}", one.candidate, file, p.id, p.name.empty() ? "" : ", " + p.name,
                                         granted.empty() ? "" : "; " + granted))
                 << "\n";
   }
-  if (!seats.empty()) static_cast<void>(ledger::seat_candidates(ledger, seats));
   if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
   return refused == 0 ? 0 : 1;
 }

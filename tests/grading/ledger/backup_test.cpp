@@ -38,7 +38,7 @@ class BackedUp : public testing::Test {
   LedgerPlaces restored() const { return {school_.file("restored")}; }
   void add(int entries) const {
     Ledger ledger = school_.ledger();
-    for (int i = 0; i < entries; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(4)}}; });
+    for (int i = 0; i < entries; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
   }
   json file_later() const {
     Ledger ledger = school_.ledger();
@@ -87,7 +87,7 @@ int add_until_enough(const School& school, Growth& growth) {
   try {
     Ledger ledger = school.ledger();
     while (!growth.enough) try {
-        ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(200)}}; });
+        ledger.append([&](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(200), {}}; });
         ++growth.added;
       } catch (const DatabaseError& e) {  // another one has it at the moment
         if (e.code() != SQLITE_BUSY) return 2;
@@ -172,7 +172,7 @@ TEST_F(BackedUp, ASessionThatIsGoneIsNamed) {
   EXPECT_EQ(plan.missing_sessions, std::vector<std::string>{filed.file_sha256});
   restore(backup(), restored().folder, plan, "", School::key());
   const LedgerContent c = read_ledger(restored());
-  EXPECT_EQ(c.entries.back().body["missing_sessions"], json{filed.file_sha256});
+  EXPECT_EQ(c.entries.back().as<RestoreEntry>()->missing_sessions, std::vector<std::string>{filed.file_sha256});
   expect_finding(check_ledger(restored(), false).findings, {"its file is gone"});
 }
 
@@ -210,10 +210,12 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   const LedgerContent c = read_ledger(restored());
   ASSERT_TRUE(c.findings.empty()) << c.findings[0];
   const LedgerEntry& e = c.entries.at(6);
-  EXPECT_EQ(e.kind, "restore");
-  ASSERT_EQ(e.body["lost"].size(), 4u) << "each that the witness saw";
-  EXPECT_EQ(e.body["lost"][3], (json{{"size", 10}, {"root", to_hex(lost.root)}}));
-  EXPECT_EQ(e.body["backup"]["size"], 6);
+  const auto* said = e.as<RestoreEntry>();
+  ASSERT_NE(said, nullptr);
+  ASSERT_EQ(said->lost.size(), 4u) << "each that the witness saw";
+  EXPECT_EQ(said->lost[3].size, 10u);
+  EXPECT_EQ(said->lost[3].root, lost.root);
+  EXPECT_EQ(said->backup.size, 6u);
   EXPECT_TRUE(read_registry(c).findings.empty());
   expect_finding(check_ledger(restored(), false).remarks, {"4 later entries were lost", "the disk died"});
 
@@ -276,7 +278,7 @@ TEST_F(BackedUp, IsRestoredAgainAfterTheRestoredOneWasLost) {
   restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "first", School::key());
   {
     Ledger ledger(restored().folder, School::key());
-    for (int i = 0; i < 5; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
+    for (int i = 0; i < 5; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
   }
   const RestorePlan plan = plan_restore(backup(), {}, {});
   ASSERT_TRUE(plan.last_seen);
@@ -315,7 +317,7 @@ TEST_F(BackedUp, WhoWasForgottenBeforeStaysForgotten) {
   Identities(school_.places().identities()).forget(candidate);
   {
     Ledger ledger = school_.ledger();
-    ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", candidate}}; });
+    ledger.append([&](const LedgerContent&) { return ForgetEntry{candidate, {}}; });
   }
   write_file(school_.places().identities(), names);  // somebody restored an old copy of these alone
   back_up(true);
@@ -332,7 +334,7 @@ TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers
   restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
   Ledger ledger(restored().folder, School::key());
   expect_finding(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings, {"older copy"});
-  for (int i = 0; i < 3; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-a"}}; });
+  for (int i = 0; i < 3; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
   expect_finding(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings, {"history was rewritten"});
   fs::rename(school_.file("memory/" + id), school_.file("kept"));
   EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());

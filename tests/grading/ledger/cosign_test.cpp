@@ -5,7 +5,7 @@
 #include <random>
 
 #include "grading/ledger/exports.h"
-#include "tests/grading/ledger/old_ledger.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {
 namespace {
@@ -21,7 +21,7 @@ class Cosigning : public testing::Test {
  protected:
   void add(int entries) {
     Ledger ledger = school_.ledger();
-    for (int i = 0; i < entries; ++i) ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "C-" + random_hex(4)}}; });
+    for (int i = 0; i < entries; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(4), {}}; });
   }
   LedgerContent content() const { return read_ledger(school_.places()); }
   Cosigned sign(const std::string& request, const std::string& school_key = "") const {
@@ -49,7 +49,6 @@ TEST_F(Cosigning, ACheckpointIsANoteOfFourLines) {
   const LedgerContent c = content();
   ASSERT_EQ(c.checkpoints.size(), 1u);
   const Checkpoint& p = c.checkpoints[0];
-  EXPECT_TRUE(p.is_note);
   const std::string note = checkpoint_note(c.id, c.public_key, p);
   EXPECT_TRUE(note.starts_with("cavum.ledger/" + c.id + "\n1\n" + to_base64(p.root) + "\nutc_ns " + std::to_string(p.utc_ns) + "\n\n— cavum.ledger/" +
                                c.id + " "))
@@ -279,36 +278,6 @@ TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
   Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(7, check.cosignatures);
   check_cosignatures(content(), known(), findings, not_checked);
   expect_finding(findings, {"under 7 entries: there is no such checkpoint"});
-}
-
-TEST_F(Cosigning, AnOlderLedgerGoesOnWithNotesAndItsProofsStay) {
-  add(4);
-  make_old(school_, 3);
-  const LedgerContent before = content();
-  ASSERT_TRUE(before.findings.empty()) << before.findings[0];
-  ASSERT_FALSE(before.checkpoints.back().is_note);
-  const json receipt = make_receipt(before, 3), with_proof = make_receipt(before, 3, 2);
-  ASSERT_TRUE(receipt.at("checkpoint").is_object());
-  for (const json& r : {receipt, with_proof}) EXPECT_TRUE(check_receipt(r, school_key(), &before).empty());
-  {
-    const Ledger opened = school_.ledger();  // nothing is added, and yet there is something to cosign
-    EXPECT_TRUE(sign(cosign_request(opened.content(), 0), school_key()).findings.empty());
-  }
-  add(2);
-  const LedgerContent after = content();
-  ASSERT_TRUE(after.findings.empty()) << after.findings[0];
-  EXPECT_EQ(after.checkpoints.size(), 8u) << "five of before, the last of them again as a note, two new";
-  for (const json& r : {receipt, with_proof, make_receipt(after, 6), make_receipt(after, 6, 3), make_receipt(after, 0, 5), make_receipt(after, 0, 7)})
-    EXPECT_TRUE(check_receipt(r, school_key(), &after).empty()) << r.dump(2);
-  EXPECT_TRUE(sign(cosign_request(after, 5)).findings.empty());
-  json other = receipt;
-  other["checkpoint"]["utc_ns"] = 1;
-  expect_finding(check_receipt(other, school_key(), nullptr), {"signature on the receipt does not hold"});
-  // an older checkpoint that is edited, and a note that is taken out
-  test::tamper(school_.places().database(), "DROP TRIGGER checkpoint_stays; UPDATE checkpoint SET utc_ns = 1 WHERE size = 2");
-  expect_finding(content().findings, {"checkpoint 2", "signature does not hold"});
-  test::tamper(school_.places().database(), "DROP TRIGGER note_is_kept; DELETE FROM note WHERE size = 6");
-  expect_finding(content().findings, {"checkpoint 6", "is missing"});
 }
 
 TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {

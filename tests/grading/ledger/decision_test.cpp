@@ -58,7 +58,7 @@ TEST_F(LeftToAPerson, WaitsAndGoesOutAsHeDecides) {
   EXPECT_EQ(waits.results.size(), 0u);
   EXPECT_EQ(waits.to_decide, 1u);
 
-  enter_decision(ledger, entry_, {"fail", "Dr. Examiner", "the floor is cut through at the distal canal"});
+  enter_decision(ledger, entry_, {grading::Verdict::fail, "Dr. Examiner", "the floor is cut through at the distal canal"});
   const FiledSession s = session();
   EXPECT_EQ(s.result->at("verdict"), "fail");
   EXPECT_EQ(s.result->at("decision"), (json{{"verdict_before", "review"}, {"person", "Dr. Examiner"}}));
@@ -83,17 +83,17 @@ TEST_F(LeftToAPerson, IsDecidedOnceAndOnlyWhereThereIsSomethingToDecide) {
       EXPECT_NE(std::string(e.what()).find(why), std::string::npos) << e.what();
     }
   };
-  refused({"review", "Dr. Examiner", "x"}, "say pass or fail");
-  refused({"pass", "", "x"}, "--person");
-  refused({"pass", "Dr. Examiner", "two\nlines"}, "--reason");
-  refused({"pass", std::string(k_longest_person + 1, 'x'), "x"}, "is longer than");
-  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
-  refused({"fail", "Dr. Other", "x"}, "was decided by Dr. Examiner");
+  refused({grading::Verdict::review, "Dr. Examiner", "x"}, "say pass or fail");
+  refused({grading::Verdict::pass, "", "x"}, "--person");
+  refused({grading::Verdict::pass, "Dr. Examiner", "two\nlines"}, "the reason");
+  refused({grading::Verdict::pass, std::string(k_longest_person + 1, 'x'), "x"}, "is longer than");
+  enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
+  refused({grading::Verdict::fail, "Dr. Other", "x"}, "was decided by Dr. Examiner");
   json again = *session().filed;
   again["verdict"] = "pass";
   enter_regrade(ledger, entry_, again, {}, "marked anew");
-  refused({"fail", "Dr. Other", "x"}, "leaves nothing to a person");
-  EXPECT_THROW(enter_decision(ledger, 999, {"pass", "x", "x"}), Error);
+  refused({grading::Verdict::fail, "Dr. Other", "x"}, "leaves nothing to a person");
+  EXPECT_THROW(enter_decision(ledger, 999, {grading::Verdict::pass, "x", "x"}), Error);
 }
 
 TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
@@ -104,7 +104,7 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
   EXPECT_NE(moodle().find("No grade before a person has decided"), std::string::npos);
   EXPECT_EQ(lti()["gradingProgress"], "PendingManual");
   EXPECT_FALSE(lti().contains("scoreGiven"));
-  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
+  enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
   EXPECT_NE(moodle().find(",review,"), std::string::npos) << "the old one stands until the new one is released";
   release_results(ledger, {.all = true});
   EXPECT_NE(moodle().find(",pass,"), std::string::npos);
@@ -114,7 +114,7 @@ TEST_F(LeftToAPerson, GoesOutUndecidedWhereThatIsAskedFor) {
 
 TEST_F(LeftToAPerson, ItsDecisionIsErasedWithItsResults) {
   Ledger ledger = school_.ledger();
-  enter_decision(ledger, entry_, {"pass", "Dr. Examiner", "looked at the tooth"});
+  enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Examiner", "looked at the tooth"});
   EXPECT_EQ(erase(ledger, {.sessions = {entry_}, .results = true}, "asked for").size(), 3u) << "mark, regrade, decision";
   EXPECT_TRUE(session().result->is_null());
   EXPECT_TRUE(review_queue(read_registry(ledger.content())).empty());
@@ -134,24 +134,24 @@ bool holds_text(const std::string& text, const std::string& part) { return text.
 
 TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
   Ledger ledger = school_.ledger();
-  enter_decision(ledger, entry_, {"fail", "Dr. One", "the floor"});
-  const auto again = [&] { enter_decision(ledger, entry_, {"pass", "Dr. Two", "the probe slipped"}); };
+  enter_decision(ledger, entry_, {grading::Verdict::fail, "Dr. One", "the floor"});
+  const auto again = [&] { enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. Two", "the probe slipped"}); };
   EXPECT_TRUE(holds_text(refusal(again), "was decided by Dr. One"));
-  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_stands, "no"); }), "no appeal is open"));
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }), "no appeal is open"));
   open_appeal(ledger, entry_, "the floor was probed twice");
   EXPECT_TRUE(holds_text(refusal([&] { open_appeal(ledger, entry_, "again"); }), "an appeal is open"));
-  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }), "no other result was entered"));
   enter_regrade(ledger, entry_, *session().result, {}, "measured once more, and the same came out");
-  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_changed, "yes"); }), "no other result was entered"));
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, Outcome::changed, "yes"); }), "no other result was entered"));
   EXPECT_EQ(refusal(again), "");
-  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, k_stands, "no"); }), "another result was entered"))
+  EXPECT_TRUE(holds_text(refusal([&] { answer_appeal(ledger, entry_, Outcome::stands, "no"); }), "another result was entered"))
       << "its trail would say that it stands, and the next release would give out another verdict";
-  answer_appeal(ledger, entry_, k_changed, "a second examiner measured");
+  answer_appeal(ledger, entry_, Outcome::changed, "a second examiner measured");
   EXPECT_TRUE(holds_text(refusal(again), "was decided by Dr. Two")) << "the appeal is answered";
   const FiledSession s = session();
   ASSERT_EQ(s.appeals.size(), 1u);
   EXPECT_EQ(s.appeals[0].reason, "the floor was probed twice");
-  EXPECT_EQ(s.appeals[0].outcome, "changed");
+  EXPECT_EQ(s.appeals[0].outcome, Outcome::changed);
   EXPECT_EQ(s.appeals[0].answer, "a second examiner measured");
   EXPECT_EQ(s.open_appeal(), nullptr);
   EXPECT_EQ(s.result->at("verdict"), "pass");
@@ -161,10 +161,10 @@ TEST_F(LeftToAPerson, AnAppealIsAnsweredOnceAndLetsAPersonDecide) {
 TEST_F(LeftToAPerson, WhatIsTakenBackStandsInNoExportUntilItIsReleasedAgain) {
   Ledger ledger = school_.ledger();
   EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, "too early"); }), "has no released result"));
-  enter_decision(ledger, entry_, {"pass", "Dr. One", "good"});
+  enter_decision(ledger, entry_, {grading::Verdict::pass, "Dr. One", "good"});
   ASSERT_EQ(release_results(ledger, {.all = true}).results.size(), 1u);
   ASSERT_TRUE(holds_text(moodle(), "4711,")) << moodle();
-  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, ""); }), "--reason"));
+  EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {entry_}, ""); }), "the reason"));
   EXPECT_TRUE(holds_text(refusal([&] { retract_results(ledger, {}, "x"); }), "is missing"));
   retract_results(ledger, {entry_}, "the wrong tooth was mounted");
   EXPECT_FALSE(holds_text(moodle(), "4711,")) << moodle();

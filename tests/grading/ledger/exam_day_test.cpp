@@ -122,7 +122,7 @@ TEST(ExamDay, ARecordingWhoseClockStoodStillByItselfIsNotFiledAsSound) {
   const Filing filed = file_session(ledger, second, {}, grounds);
   EXPECT_TRUE(filed.findings.empty()) << filed.findings.front();
   ASSERT_TRUE(filed.seq);
-  const nlohmann::json& result = *ledger.content().entries.at(*filed.seq).opened.at("result");
+  const nlohmann::json& result = *ledger.content().entries.at(*filed.seq).as<SessionEntry>()->result.value;
   EXPECT_EQ(result.at("pauses").at("ticks"), 50);
   EXPECT_EQ(result.at("pauses").at("list").at(0), (nlohmann::json{{"from_tick", 50}, {"to_tick", 100}, {"by_office", true}}));
 }

@@ -8,7 +8,8 @@
 #include "grading/ledger/exports.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
-#include "tests/grading/ledger/old_ledger.h"
+#include "grading/ledger/ledger_file.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {
 namespace {
@@ -43,7 +44,7 @@ class Kept : public testing::Test {
   static void TearDownTestSuite() { delete shared_; }
 
   [[nodiscard]] LedgerContent content() const { return read_ledger(school_.places()); }
-  [[nodiscard]] std::string recording() const { return school_.places().session(text_in(content().entries.at(session_).body, "file_sha256")); }
+  [[nodiscard]] std::string recording() const { return school_.places().session(content().entries.at(session_).as<SessionEntry>()->file_sha256); }
   /// Everything that proves: entries, tree, signatures, witness, a receipt from before.
   void expect_proofs_hold(const json& receipt) {
     const LedgerCheck check = check_ledger(school_.places(), true);
@@ -71,7 +72,7 @@ TEST_F(Kept, AccommodationsStandInTheRecordingAloneAndNeverInTheLedger) {
 }
 
 TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
-  const std::string names = school_.places().identities(), candidate = text_in(content().entries.at(session_).body, "candidate");
+  const std::string names = school_.places().identities(), candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
   const Bytes old = read_file(names);
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -89,7 +90,7 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
 }
 
 TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
-  const std::string names = school_.places().identities(), candidate = text_in(content().entries.at(session_).body, "candidate");
+  const std::string names = school_.places().identities(), candidate = content().entries.at(session_).as<SessionEntry>()->candidate;
   const auto findings = [&] {
     LedgerCheck check = check_ledger(school_.places(), false);
     check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
@@ -105,7 +106,7 @@ TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
 }
 
 TEST_F(Kept, ABackupThatIsBroughtUpToDateWithoutIdentitiesForgetsInThoseThatItHas) {
-  const std::string candidate = text_in(content().entries.at(session_).body, "candidate"), backup = school_.file("backup");
+  const std::string candidate = content().entries.at(session_).as<SessionEntry>()->candidate, backup = school_.file("backup");
   static_cast<void>(back_up(school_.places(), backup, true));
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -243,7 +244,7 @@ TEST_F(Kept, ForgettingErasesIdentityAndRecordingOfEveryExamAndTellsNobodyWhoItW
   expect_proofs_hold(receipt);
   std::size_t forgotten = 0;
   for (const auto& e : content().entries)
-    if (e.kind == "forget") {
+    if (e.as<ForgetEntry>() != nullptr) {
       ++forgotten;
       EXPECT_FALSE(e.text.find(pseudonyms[0]) != std::string::npos && e.text.find(pseudonyms[1]) != std::string::npos)
           << "no entry says that both are one person's";
@@ -262,7 +263,7 @@ TEST_F(Kept, MotionStaysWhenItIsAskedFor) {
 TEST_F(Kept, ABackupForgetsWhatTheLedgerHasErased) {
   const std::string folder = school_.file("backup");
   static_cast<void>(back_up(school_.places(), folder, false));
-  const std::string copy = LedgerPlaces{folder}.session(text_in(content().entries.at(session_).body, "file_sha256"));
+  const std::string copy = LedgerPlaces{folder}.session(content().entries.at(session_).as<SessionEntry>()->file_sha256);
   ASSERT_TRUE(std::filesystem::exists(copy));
   {
     Ledger ledger = school_.ledger();
@@ -280,23 +281,8 @@ TEST_F(Kept, AnEntryErasesOnlyWhatIsThereBeforeIt) {
   EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {1}, .motion = true}, "x")), Error) << "no session's entry";
   EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")), Error) << "no reason";
   EXPECT_TRUE(std::filesystem::exists(recording()));
-  EXPECT_THROW(ledger.append("erase",
-                             [&](const LedgerContent& now) {
-                               return json{{"erased", {{{"entry", now.entries.size() + 3}, {"what", "motion"}}}}, {"reason", "forged"}};
-                             }),
-               Error);
+  EXPECT_THROW(ledger.append([](const LedgerContent& now) { return EraseEntry{{{now.entries.size() + 3, Part::motion}}}; }, "forged"), Error);
   expect_finding(content().findings, {"erases what is not there"});
-}
-
-TEST_F(Kept, ResultsOfOlderEntriesCanBeErasedToo) {
-  make_old(school_, 3);
-  {
-    Ledger ledger = school_.ledger();
-    ASSERT_FALSE(ledger.content().entries.at(session_).attachment.empty());
-    EXPECT_EQ(erase(ledger, {.sessions = {session_}, .results = true}, "asked for").size(), 1u);
-  }
-  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  EXPECT_TRUE(read_registry(content()).sessions.at(0).result->is_null());
 }
 
 TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {
@@ -323,28 +309,6 @@ TEST(Pseudonyms, AFileOfThemThatKeepsWhoIsForgottenIsRefused) {
                "CREATE TABLE kept (id TEXT); CREATE TRIGGER keep BEFORE DELETE ON identity BEGIN INSERT INTO kept VALUES (OLD.id); END; "
                "UPDATE identity SET id = id");
   EXPECT_THROW(Identities(school.places().identities()), Error);
-}
-
-TEST(Pseudonyms, OfBeforeEachExamHadItsOwnAreKeptAndCheckedAsTheyWereMade) {
-  const School school;
-  const std::string path = school.file("old.db");
-  const Bytes salt(16, 7);
-  const std::string pseudonym = old_pseudonym_of(School::key(), salt, "Matr-4711");
-  {
-    Database db = Database::open(path, true);
-    db.run("PRAGMA application_id = 1130460745");
-    db.run("CREATE TABLE identity (pseudonym TEXT PRIMARY KEY, id TEXT NOT NULL UNIQUE, name TEXT NOT NULL, salt BLOB NOT NULL) STRICT");
-    db.prepare("INSERT INTO identity VALUES (?, 'Matr-4711', 'Ada', ?)").bind(1, pseudonym).bind(2, salt).run();
-  }
-  Identities identities(path);
-  EXPECT_EQ(identities.of_pseudonym(pseudonym)->id, "Matr-4711");
-  EXPECT_TRUE(identities.check(School::key()).empty());
-  EXPECT_NE(identities.enrol("Matr-4711", "Ada", "exam", School::key()), pseudonym) << "a new exam has one of its own";
-  EXPECT_EQ(identities.of_person(pseudonym).size(), 2u);
-  SigningKey next = load_signing_key(school.file("next.key"), "school");
-  identities.seal_again(School::key(), next);
-  EXPECT_TRUE(identities.check(next).empty());
-  EXPECT_EQ(identities.check(School::key()).size(), 2u);
 }
 
 }  // namespace

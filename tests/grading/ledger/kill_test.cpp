@@ -23,12 +23,10 @@ using nlohmann::json;
 void enter_three(const School& school, std::vector<std::string>& acknowledged) {
   Ledger ledger = school.ledger();
   for (int i = 0; i < 3; ++i)
-    acknowledged.push_back(
-        ledger.append("forget",
-                      [&](const LedgerContent&) {
-                        return json{{"candidate", "C-" + std::string(300, static_cast<char>('a' + i))}};
-                      })
-            .text);
+    acknowledged.push_back(ledger.append([&](const LedgerContent&) {
+                                   return ForgetEntry{"C-" + std::string(300, static_cast<char>('a' + i)), {}};
+                                 })
+                               .text);
 }
 
 void expect_nothing_lost(const School& school, const std::vector<std::string>& acknowledged, const std::string& when) {
@@ -90,8 +88,8 @@ void try_together(DiskFault fault, const char* name) {
       const FaultyDisk disk(fault, n, seed + static_cast<std::uint64_t>(n));
       try {
         Ledger ledger = school.ledger();
-        const auto bodies = [](const LedgerContent&) { return std::vector<json>(3, {{"candidate", "C-" + std::string(300, 'a')}}); };
-        acknowledged = ledger.append_all("forget", bodies) == 3;
+        const auto three = [](const LedgerContent&) { return std::vector<Entry>(3, ForgetEntry{"C-" + std::string(300, 'a'), {}}); };
+        acknowledged = ledger.append_all(three) == 3;
       } catch (const Error&) {
       }
       happened = FaultyDisk::happened();

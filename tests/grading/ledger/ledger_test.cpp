@@ -11,7 +11,7 @@
 #include "grading/ledger/exports.h"
 #include "grading/ledger/ledger_schema.h"
 #include "tests/engine/support/basics.h"
-#include "tests/grading/ledger/old_ledger.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {
 namespace {
@@ -24,7 +24,7 @@ TEST(Ledger, EveryReceiptHoldsForEveryLaterLedger) {
   Ledger ledger = school.ledger();
   std::vector<json> receipts;
   for (int i = 0; i < 20; ++i) {
-    const auto seq = ledger.append("forget", [&](const LedgerContent&) { return json{{"candidate", "C-" + std::to_string(i)}}; }).seq;
+    const auto seq = ledger.append([&](const LedgerContent&) { return ForgetEntry{"C-" + std::to_string(i), {}}; }).seq;
     receipts.push_back(ledger.receipt(seq));
   }
   const LedgerContent content = read_ledger(school.places());
@@ -41,8 +41,8 @@ TEST(Ledger, TwoProgramsAddToOneLedger) {
   const School school;
   Ledger first = school.ledger(), second = school.ledger();
   for (int i = 0; i < 5; ++i) {
-    first.append("forget", [](const LedgerContent&) { return json{{"candidate", "a"}}; });
-    second.append("forget", [](const LedgerContent&) { return json{{"candidate", "b"}}; });
+    first.append([](const LedgerContent&) { return ForgetEntry{"a", {}}; });
+    second.append([](const LedgerContent&) { return ForgetEntry{"b", {}}; });
   }
   const LedgerContent content = read_ledger(school.places());
   EXPECT_TRUE(content.findings.empty());
@@ -52,8 +52,8 @@ TEST(Ledger, TwoProgramsAddToOneLedger) {
 TEST(Ledger, WhatThrowsWhileEnteringLeavesNothing) {
   const School school;
   Ledger ledger = school.ledger();
-  EXPECT_THROW(ledger.append("session", [](const LedgerContent&) -> json { throw Error("a", "b", "c"); }), Error);
-  ledger.append("forget", [](const LedgerContent&) { return json{{"candidate", "a"}}; });
+  EXPECT_THROW(ledger.append([](const LedgerContent&) -> Entry { throw Error("a", "b", "c"); }), Error);
+  ledger.append([](const LedgerContent&) { return ForgetEntry{"a", {}}; });
   EXPECT_EQ(read_ledger(school.places()).entries.size(), 1u + k_first_entries);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
 }
@@ -64,20 +64,13 @@ TEST(Ledger, AnotherSchoolsKeyIsRefused) {
   EXPECT_THROW(static_cast<void>(load_signing_key(school_key_path(), "station")), Error) << "a school's key is no station's";
 }
 
-TEST(Ledger, AnOlderFormatIsBroughtUpToDate) {
+TEST(Ledger, OfAnotherFormatIsRefused) {
   const School school;
-  make_old(school, 1);
-  school.ticket("1");
-  EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
   Database db = Database::open(school.places().database(), false);
-  EXPECT_EQ(db.integer("PRAGMA user_version"), k_ledger_format);
-  EXPECT_EQ(db.integer("SELECT count(*) FROM sqlite_schema WHERE type = 'view'"), 2);
-  db.close();
-  db = Database::open(school.places().database(), false);
   db.run("PRAGMA user_version = 99");
   db.close();
   EXPECT_THROW(school.ledger(), Error);
-  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(read_ledger(school.places())); }).find("newer version"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(read_ledger(school.places())), Error);
 }
 
 TEST(Ledger, TheTablesRefuseChanges) {
@@ -133,7 +126,7 @@ class Released : public testing::Test {
     for (const char* who : {"4711", "4712"})
       ASSERT_TRUE(file_session(ledger, shared_->sit(shared_->ticket(who), who[3] == '1' ? "expert" : "novice")).seq);
     ASSERT_EQ(read_registry(ledger.content()).sessions.at(0).seq, k_first_entries + 1);
-    ledger.append("release", [](const LedgerContent&) { return json{{"results", {k_first_entries + 1}}}; });
+    ledger.append([](const LedgerContent&) { return ReleaseEntry{{k_first_entries + 1}}; });
   }
   static void TearDownTestSuite() { delete shared_; }
   School school_{*shared_};
@@ -343,9 +336,7 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   Ledger ledger = school_.ledger();
   json better = *registry_.sessions.at(0).result;
   better["score"]["points"] = 12.5;
-  ledger.append("regrade", [&](const LedgerContent&) {
-    return json{{"session", k_first_entries + 1}, {"result", better}, {"by", json::object()}, {"reason", "appeal"}};
-  });
+  ledger.append([&](const LedgerContent&) { return RegradeEntry{k_first_entries + 1, make_opening(better), {}, ""}; }, "appeal");
   auto registry = read_registry(ledger.content());
   EXPECT_FALSE(registry.sessions.at(0).released);
   EXPECT_EQ(registry.sessions.at(0).result->at("score").at("points"), 12.5);
@@ -354,10 +345,11 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   int left_out = 0;
   EXPECT_NE(moodle_csv(registry, identities, left_out).find("\n4711," + registry_.sessions.at(0).result->at("score").at("points").dump()),
             std::string::npos);
-  EXPECT_EQ(ledger.content().entries.at(k_first_entries + 1).opened.at(k_result), registry_.sessions.at(0).result) << "the sealed result stays";
-  ledger.append("release", [&](const LedgerContent&) { return json{{"results", {registry.sessions.at(0).result_seq}}}; });
+  EXPECT_EQ(ledger.content().entries.at(k_first_entries + 1).as<SessionEntry>()->result.value, registry_.sessions.at(0).result)
+      << "the sealed result stays";
+  ledger.append([&](const LedgerContent&) { return ReleaseEntry{{registry.sessions.at(0).result_seq}}; });
   EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
-  ledger.append("release", [&](const LedgerContent&) { return json{{"results", {99}}}; });
+  ledger.append([&](const LedgerContent&) { return ReleaseEntry{{99}}; });
   expect_finding(check_ledger(school_.places(), false).findings, {"releases a result that does not count"});
 }
 
@@ -398,7 +390,7 @@ TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
 }
 
 TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
-  for (const std::string table : {"document", "checkpoint", "entry"}) {
+  for (const std::string table : {"document", "note", "entry"}) {
     const School school;
     school.ticket("4711");
     write_text_file(school.places().session("stray"), "x");

@@ -28,13 +28,13 @@ class MakeupSitting : public testing::Test {
   std::string past_ticket(const std::string& candidate) const {
     return school_.ticket(candidate, [](Ticket& t) { t.not_before_utc_ns -= 3 * k_hour_ns, t.not_after_utc_ns -= 2 * k_hour_ns; });
   }
-  std::string make_up(std::uint64_t first, const std::string& became, const std::string& reason = "the lift stood still") const {
+  std::string make_up(std::uint64_t first, FirstSitting became, const std::string& reason = "the lift stood still") const {
     Ledger ledger = school_.ledger();
     const std::int64_t now = read_clocks().utc_ns;
     return issue_makeup(ledger, promise(*scenarios::prepare_exam(k_scenario, {}), ledger.content(), now - k_hour_ns, now + k_hour_ns),
                         {first, became, reason});
   }
-  std::string why_not(std::uint64_t first, const std::string& became, const std::string& reason = "x") const {
+  std::string why_not(std::uint64_t first, FirstSitting became, const std::string& reason = "x") const {
     const std::size_t before = last_entry();
     try {
       static_cast<void>(make_up(first, became, reason));
@@ -72,12 +72,12 @@ class MakeupSitting : public testing::Test {
 TEST_F(MakeupSitting, TakesThePlaceOfAMissedOneAndTheGradebookSaysSo) {
   const std::string first = past_ticket("4711");
   const std::uint64_t entry = last_entry();
-  const std::string makeup = make_up(entry, k_missed);
+  const std::string makeup = make_up(entry, FirstSitting::missed);
   EXPECT_EQ(parse_ticket(makeup, "", "t").candidate, parse_ticket(first, "", "t").candidate);
   EXPECT_NE(parse_ticket(makeup, "", "t").nonce, parse_ticket(first, "", "t").nonce);
   EXPECT_EQ(ticket_of(entry).made_up_by, last_entry());
-  EXPECT_EQ(ticket_of(last_entry()).first_became, k_missed);
-  EXPECT_EQ(read_ledger(school_.places()).entries.back().body["reason"], "the lift stood still");
+  EXPECT_EQ(ticket_of(last_entry()).makes_up->became, FirstSitting::missed);
+  EXPECT_EQ(read_ledger(school_.places()).entries.back().by.reason, "the lift stood still");
   const Filing filed = file(school_.sit(makeup));
   ASSERT_TRUE(filed.seq) << filed.findings.front();
   EXPECT_EQ(release_all(), 1u);
@@ -90,7 +90,7 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
   const std::uint64_t entry = last_entry();
   const auto good = file(school_.sit(first));  // the better of the two
   ASSERT_TRUE(good.seq);
-  const std::string makeup = make_up(entry, k_interrupted);
+  const std::string makeup = make_up(entry, FirstSitting::interrupted);
   EXPECT_EQ(registry().sessions[0].made_up_by, last_entry());
   EXPECT_EQ(release_all(), 0u) << "the first does not count";
   {
@@ -100,7 +100,7 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
     enter_regrade(ledger, *good.seq, review, {}, "as if the program had left it to a person");
     const std::size_t before = last_entry();
     try {
-      enter_decision(ledger, *good.seq, {"pass", "Dr. Examiner", "x"});
+      enter_decision(ledger, *good.seq, {grading::Verdict::pass, "Dr. Examiner", "x"});
       ADD_FAILURE() << "was decided";
     } catch (const Error& e) {
       EXPECT_NE(std::string(e.what()).find("does not count: the makeup sitting of entry"), std::string::npos) << e.what();
@@ -129,7 +129,7 @@ TEST_F(MakeupSitting, LetsNothingBeBegunOrFiledWithTheFirstTicketAnyMore) {
   const std::string first = school_.ticket("4711", [](Ticket& t) { t.begun_at_ledger = false; });
   const std::uint64_t entry = last_entry();
   const std::string path = school_.sit(first);  // the candidate kept it back
-  const std::string makeup = make_up(entry, k_interrupted);
+  const std::string makeup = make_up(entry, FirstSitting::interrupted);
   Ledger ledger = school_.ledger();
   EXPECT_THROW(static_cast<void>(let_begin(ledger, parse_ticket(first, "", "t").nonce, "")), Error);
   const Filing refused = file(path);
@@ -150,53 +150,52 @@ TEST_F(MakeupSitting, IsNotGivenBesideAReleasedResult) {
   const std::uint64_t entry = last_entry();
   const auto filed = file(school_.sit(first));
   ASSERT_EQ(release_all(), 1u);
-  EXPECT_NE(why_not(entry, k_interrupted).find("take it back first"), std::string::npos);
+  EXPECT_NE(why_not(entry, FirstSitting::interrupted).find("take it back first"), std::string::npos);
   Ledger ledger = school_.ledger();
   retract_results(ledger, {*filed.seq}, "the power failed");
-  EXPECT_FALSE(make_up(entry, k_interrupted).empty());
+  EXPECT_FALSE(make_up(entry, FirstSitting::interrupted).empty());
 }
 
 TEST_F(MakeupSitting, IsGivenOnceWithAReasonAndToWhomItIsDue) {
   static_cast<void>(school_.ticket("4711", [](Ticket& t) { t.not_before_utc_ns += 2 * k_hour_ns, t.not_after_utc_ns += 2 * k_hour_ns; }));
-  EXPECT_NE(why_not(last_entry(), k_missed).find("still to come"), std::string::npos);
+  EXPECT_NE(why_not(last_entry(), FirstSitting::missed).find("still to come"), std::string::npos);
   static_cast<void>(school_.ticket("4712"));
   const std::uint64_t running = last_entry();
-  EXPECT_NE(why_not(running, k_missed).find("was not missed"), std::string::npos) << "its time is not over";
-  EXPECT_NE(why_not(running, "ill").find("was not missed"), std::string::npos);
-  EXPECT_NE(why_not(running, k_interrupted, "").find("--reason"), std::string::npos);
-  EXPECT_NE(why_not(0, k_missed).find("is none"), std::string::npos);
+  EXPECT_NE(why_not(running, FirstSitting::missed).find("was not missed"), std::string::npos) << "its time is not over";
+  EXPECT_NE(why_not(running, FirstSitting::interrupted, "").find("the reason"), std::string::npos);
+  EXPECT_NE(why_not(0, FirstSitting::missed).find("is none"), std::string::npos);
   static_cast<void>(past_ticket("4713"));
   const std::uint64_t past = last_entry();
-  static_cast<void>(make_up(past, k_missed));
-  EXPECT_NE(why_not(past, k_missed).find("has a makeup already"), std::string::npos);
+  static_cast<void>(make_up(past, FirstSitting::missed));
+  EXPECT_NE(why_not(past, FirstSitting::missed).find("has a makeup already"), std::string::npos);
   static_cast<void>(past_ticket("4714"));
   const std::uint64_t cancelled = last_entry();
   Ledger ledger = school_.ledger();
   cancel_ticket(ledger, cancelled, "ill");
-  EXPECT_NE(why_not(cancelled, k_missed).find("was cancelled"), std::string::npos);
+  EXPECT_NE(why_not(cancelled, FirstSitting::missed).find("was cancelled"), std::string::npos);
   static_cast<void>(past_ticket("4715"));
   const std::uint64_t beside = last_entry();
   static_cast<void>(school_.ticket("4715"));
-  EXPECT_NE(why_not(beside, k_missed).find("has another ticket"), std::string::npos);
+  EXPECT_NE(why_not(beside, FirstSitting::missed).find("has another ticket"), std::string::npos);
 }
 
 TEST_F(MakeupSitting, ThatWasCancelledBeforeItBeganGivesTheFirstBackAndOneThatWasBegunDoesNot) {
   static_cast<void>(school_.ticket("4711"));
   const std::uint64_t a = last_entry();
-  static_cast<void>(make_up(a, k_interrupted));
+  static_cast<void>(make_up(a, FirstSitting::interrupted));
   {
     Ledger ledger = school_.ledger();
     EXPECT_THROW(cancel_ticket(ledger, a, "x"), Error) << "it is made up";
     cancel_ticket(ledger, last_entry(), "given to the wrong one");
   }
   EXPECT_FALSE(ticket_of(a).made_up_by);
-  const std::string b = make_up(a, k_interrupted);
+  const std::string b = make_up(a, FirstSitting::interrupted);
   const std::uint64_t begun = last_entry();
   Ledger ledger = school_.ledger();
   static_cast<void>(let_begin(ledger, parse_ticket(b, "", "t").nonce, ""));
   cancel_ticket(ledger, begun, "the station died");
   EXPECT_EQ(ticket_of(a).made_up_by, begun) << "who has begun a makeup does not go back to the first";
-  static_cast<void>(make_up(begun, k_interrupted));
+  static_cast<void>(make_up(begun, FirstSitting::interrupted));
   EXPECT_EQ(ticket_of(last_entry()).first_sitting, a);
   EXPECT_TRUE(registry().findings.empty());
 }
@@ -205,13 +204,11 @@ TEST_F(MakeupSitting, OfTwoSittingsOneIsShownAlsoWhereAnEntryNamesBoth) {
   const std::string first = school_.ticket("4711");
   const std::uint64_t entry = last_entry();
   const auto a = file(school_.sit(first));
-  const std::string makeup = make_up(entry, k_interrupted);
+  const std::string makeup = make_up(entry, FirstSitting::interrupted);
   const auto b = file_short(makeup);
   ASSERT_TRUE(a.seq && b.seq);
   Ledger ledger = school_.ledger();
-  ledger.append("release", [&](const LedgerContent&) {  // as another program might write it
-    return json{{"results", {*a.seq, *b.seq}}};
-  });
+  ledger.append([&](const LedgerContent&) { return ReleaseEntry{{*a.seq, *b.seq}}; });  // as another program might write it
   const Registry r = registry();
   EXPECT_EQ(r.sessions[0].shown_seq, 0u);
   EXPECT_EQ(r.sessions[1].shown_seq, *b.seq);

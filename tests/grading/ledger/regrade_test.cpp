@@ -1,8 +1,8 @@
-// What a filed exam was marked anew by stays in the ledger, bound by the tree; ledgers from before that are brought up to date.
+// What a filed exam was marked anew by stays in the ledger, bound by the tree.
 #include "grading/ledger/regrade.h"
 
-#include "grading/ledger/ledger_file.h"
-#include "tests/grading/ledger/old_ledger.h"
+#include "grading/ledger/reason.h"
+#include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {
 namespace {
@@ -106,34 +106,6 @@ TEST_F(KeptRegrade, AReasonIsALineOfText) {
   for (const std::string& reason : {std::string(), std::string("two\nlines"), std::string("\xff"), std::string(k_longest_reason + 1, 'a')})
     EXPECT_THROW(enter_regrade(ledger, session_, sealed_, basis_, reason), Error) << reason;
   EXPECT_EQ(ledger.content().documents.size(), 0u);
-}
-
-TEST_F(KeptRegrade, ALedgerOfFormat2IsBroughtUpToDateAndKeepsItsProofs) {
-  {
-    Ledger ledger = school_.ledger();
-    ledger.append("regrade", [&](const LedgerContent&) {  // as that version entered it: by a file that was not kept
-      return json{{"session", session_}, {"result", better()}, {"by", {{"rubric_sha256", to_hex(sha256(k_rubric))}}}, {"reason", "old"}};
-    });
-  }
-  make_old(school_, 2);
-  const LedgerContent before = read_ledger(school_.places());
-  const json receipt = make_receipt(before, session_);
-  EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "it is read as it is";
-  {
-    Ledger ledger = school_.ledger();
-    const FiledSession s = read_registry(ledger.content()).sessions.at(0);
-    EXPECT_EQ(s.result->at("score")["points"], 12.5);
-    EXPECT_FALSE(kept_basis(ledger.content(), s.regrades.at(0))) << "nothing was kept then";
-    enter_regrade(ledger, session_, better(), basis_, "entered again, to be kept");
-    EXPECT_TRUE(check_receipt(receipt, ledger.content().public_key, &ledger.content()).empty());
-  }
-  const auto check = check_ledger(school_.places(), true);
-  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
-  const LedgerContent after = read_ledger(school_.places());
-  for (std::size_t i = 0; i < before.entries.size(); ++i) EXPECT_EQ(after.entries.at(i).text, before.entries[i].text);
-  EXPECT_TRUE(kept_basis(after, read_registry(after).sessions.at(0).regrades.at(1)));
-  Database db = Database::open(school_.places().database(), false);
-  EXPECT_EQ(db.integer("PRAGMA user_version"), k_ledger_format);
 }
 
 }  // namespace

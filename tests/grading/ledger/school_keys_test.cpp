@@ -96,7 +96,7 @@ TEST_F(SchoolKeys, TheOldKeySignsNothingMore) {
 TEST_F(SchoolKeys, AKeyThatNoKeyBeforeItHasSignedIsFound) {
   const SigningKey stranger = load_signing_key(school_.file("stranger.key"), "school");
   Ledger ledger = school_.ledger();
-  ledger.append("key", [&](const LedgerContent& now) { return school_key_body(now, stranger, stranger, 0, "mine now"); });
+  ledger.append([&](const LedgerContent& now) { return school_key_entry(now, stranger, stranger, 0); }, "mine now");
   expect_finding(check_ledger(school_.places(), false).findings, {"names a key that the school's key before it has not signed"});
   EXPECT_EQ(read_ledger(school_.places()).public_key, to_hex(School::key().public_key));
 }
@@ -104,13 +104,13 @@ TEST_F(SchoolKeys, AKeyThatNoKeyBeforeItHasSignedIsFound) {
 TEST_F(SchoolKeys, AWordOfAnotherLedgerIntroducesNoKey) {
   const SigningKey key = School::key(), next = load_signing_key(school_.file("next.key"), "school");
   Ledger::create(school_.file("other"), "the same school", key);
-  nlohmann::json word;
+  KeyEntry word;
   {
     Ledger other(school_.file("other"), key);
-    word = school_key_body(other.content(), key, next, 0, "yearly");
+    word = school_key_entry(other.content(), key, next, 0);
   }
   Ledger ledger = school_.ledger();
-  ledger.append("key", [&](const LedgerContent&) { return word; });
+  ledger.append([&](const LedgerContent&) { return word; });
   expect_finding(check_ledger(school_.places(), false).findings, {"has not signed"});
 }
 
@@ -122,7 +122,7 @@ TEST_F(SchoolKeys, OneThatRanOutEntersNothingUntilItIsReplaced) {
   expect_holds();
   Ledger ledger = school_.ledger();
   try {
-    ledger.append("forget", [](const LedgerContent&) { return nlohmann::json{{"candidate", "C-a"}}; });
+    ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
     ADD_FAILURE() << "entered";
   } catch (const Error& e) {
     EXPECT_NE(std::string(e.what()).find("ran out on"), std::string::npos) << e.what();

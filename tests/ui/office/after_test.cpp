@@ -1,5 +1,6 @@
 // What becomes of results at the office: an appeal with its trail, a result that is taken back, and the report of an exam as a page of no site.
 #include "engine/base/hash.h"
+#include "grading/ledger/entry_text.h"
 #include "grading/ledger/issue.h"
 #include "grading/ledger/signed_note.h"
 #include "tests/ui/office/opened.h"
@@ -43,8 +44,8 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   EXPECT_EQ(told.find("cavum"), std::string::npos) << "no word of the command line: " << told;
   EXPECT_EQ(told.find("--"), std::string::npos) << told;
   ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
-  EXPECT_EQ(last().kind, "appeal");
-  EXPECT_EQ(last().body["account"], "The officer");
+  EXPECT_NE(last().as<ledger::AppealEntry>(), nullptr);
+  EXPECT_EQ(last().by.account, "The officer");
   EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "again"}}).status, 400);
   EXPECT_EQ(appeal()["open"], true);
   EXPECT_FALSE(appeal().contains("name")) << "an examiner sees no name";
@@ -52,7 +53,7 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "x"}}).status, 400) << "nothing changed";
   ASSERT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "a wall is thin"}}).status, 200);
   ASSERT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "changed"}, {"reason", "measured again"}}).status, 200);
-  EXPECT_EQ(last().body["account"], "The examiner");
+  EXPECT_EQ(last().by.account, "The examiner");
   EXPECT_EQ(appeal()["open"], false);
   EXPECT_EQ(appeal()["answer"], "measured again");
   EXPECT_EQ(appeal()["verdict"], "fail");
@@ -66,8 +67,8 @@ TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
   EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", "000000"}}).status, 400);
   EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"code", opened_.code()}}).status, 400) << "without a reason";
   ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code(1)}}).status, 200);
-  EXPECT_EQ(last().kind, "retract");
-  EXPECT_EQ(last().body["reason"], "wrong tooth");
+  EXPECT_NE(last().as<ledger::RetractEntry>(), nullptr);
+  EXPECT_EQ(last().by.reason, "wrong tooth");
   EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
   EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "taken back");
   EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
@@ -146,7 +147,7 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
     const auto& e = entries[entries.size() - 1 - i];
     EXPECT_EQ(row["entry"], e.seq);
     EXPECT_EQ(row["utc"], utc_text(e.utc_ns));
-    EXPECT_TRUE(row["what"].get<std::string>().starts_with(e.kind)) << row;
+    EXPECT_TRUE(row["what"].get<std::string>().starts_with(ledger::kind_name(*e.what))) << row;
   }
   EXPECT_EQ(all["entries"][0]["what"], "hold");
   EXPECT_EQ(all["entries"][0]["why"], "alarm");

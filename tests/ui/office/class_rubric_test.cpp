@@ -81,9 +81,9 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   const auto content = opened_.content();
   ASSERT_EQ(content.entries.size(), before + 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_EQ(content.entries[before + i].kind, "regrade");
-    EXPECT_EQ(content.entries[before + i].body["account"], k_eva);
-    EXPECT_EQ(content.entries[before + i].body["reason"], "question 3 was misprinted");
+    EXPECT_NE(content.entries[before + i].as<ledger::RegradeEntry>(), nullptr);
+    EXPECT_EQ(content.entries[before + i].by.account, k_eva);
+    EXPECT_EQ(content.entries[before + i].by.reason, "question 3 was misprinted");
   }
   EXPECT_EQ(eva_.get("/api/regrade").json()["first_entry"], before);
   EXPECT_EQ(ledger::read_registry(content).sessions[0].result->at("score")["points"], state["sessions"][0]["points"]);

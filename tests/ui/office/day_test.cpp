@@ -45,9 +45,9 @@ TEST_F(ADay, AnAnnouncementReachesItsStationsUntilTheyHaveReadIt) {
   const std::string seat2 = to_hex(key_.public_key);
   const Visitor invigilator = opened_.signed_in(Role::invigilator);
   const json to_one = invigilator.post("/api/announce", {{"text", "Your time is 25 % longer."}, {"to", {{"station", seat2}}}}).json();
-  EXPECT_EQ(last().kind, "announce");
-  EXPECT_EQ(last().body["account"], "The invigilator");
-  EXPECT_EQ(last().body["stations"], json{seat2});
+  EXPECT_NE(last().as<ledger::AnnounceEntry>(), nullptr);
+  EXPECT_EQ(last().by.account, "The invigilator");
+  EXPECT_EQ(last().as<ledger::AnnounceEntry>()->audience.stations, std::vector<std::string>{seat2});
   EXPECT_TRUE(first_->report(free())["announcements"].empty());
   EXPECT_EQ(second_->report(free())["announcements"].size(), 1u) << "just made: who comes in now sees it";
   EXPECT_EQ(row("Seat 2")["unread"], 0) << "nobody is there to read it";
@@ -134,8 +134,8 @@ TEST_F(ADay, APauseForAllHoldsEveryStationUntilItGoesOn) {
   EXPECT_EQ(officer_.get("/api/board").json()["holds"].size(), 1u);
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}}).status, 400) << "without a reason";
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}, {"reason", "all clear"}}).status, 200);
-  EXPECT_EQ(last().kind, "go_on");
-  EXPECT_EQ(last().body["account"], "The invigilator");
+  EXPECT_NE(last().as<ledger::GoOnEntry>(), nullptr);
+  EXPECT_EQ(last().by.account, "The invigilator");
   EXPECT_TRUE(first_->report(free())["hold"].is_null());
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}, {"reason", "again"}}).status, 400);
 }
@@ -147,7 +147,7 @@ TEST_F(ADay, AnIncidentIsAnEntryWithStationCandidateTimeAndWords) {
   const json noted =
       invigilator.post("/api/incidents", {{"station", to_hex(key_.public_key)}, {"candidate", candidate}, {"words", "spilt water"}}).json();
   EXPECT_EQ(last().seq, noted["entry"]);
-  EXPECT_EQ(last().kind, "incident");
+  EXPECT_NE(last().as<ledger::IncidentEntry>(), nullptr);
   const json shown = invigilator.get("/api/incidents").json()["incidents"];
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_EQ(shown[0]["station"], "Seat 2");
@@ -209,7 +209,7 @@ TEST_F(ADay, ASittingIsSeatedWithoutGivingAStationTwice) {
   const json done = officer_.post("/api/seats", {{"sitting", sitting}}).json();
   EXPECT_EQ(done["seated"], 2);
   EXPECT_EQ(done["left"], 1);
-  EXPECT_EQ(last().kind, "seats");
+  EXPECT_NE(last().as<ledger::SeatsEntry>(), nullptr);
   const json after = tickets();
   EXPECT_NE(after[0]["seat"], "");
   EXPECT_NE(after[1]["seat"], "");

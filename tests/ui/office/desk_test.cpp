@@ -18,9 +18,9 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   const Heard issued = opened.issue(officer, "4711\n4712\n");
   ASSERT_EQ(issued.status, 200) << issued.body;
   EXPECT_EQ(issued.json()["issued"].size(), 2u);
-  EXPECT_EQ(last().kind, "ticket");
-  EXPECT_EQ(last().body["account"], "The officer");
-  EXPECT_EQ(last().body["reason"], "the class of this year");
+  EXPECT_NE(last().as<ledger::TicketEntry>(), nullptr);
+  EXPECT_EQ(last().by.account, "The officer");
+  EXPECT_EQ(last().by.reason, "the class of this year");
   const json again = opened.issue(officer, "4711\n").json();
   EXPECT_EQ(again["issued"].size(), 0u);
   EXPECT_EQ(again["refused"][0]["id"], "4711");
@@ -36,7 +36,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
     review["verdict"] = "review";
     review["verdict_reasons"] = {"force and tissue differ"};
     ledger::enter_regrade(ledger, filed["entry"], review, {}, "as if");
-    EXPECT_FALSE(ledger.content().entries.back().body.contains("account")) << "nobody signed in for that";
+    EXPECT_TRUE(ledger.content().entries.back().by.account.empty()) << "nobody signed in for that";
   }
   const json queue = examiner.get("/api/queue").json()["queue"];
   ASSERT_EQ(queue.size(), 1u);
@@ -50,9 +50,9 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}, {"reason", "looked at it"}, {"person", "Somebody Else"}})
                 .status,
             200);
-  EXPECT_EQ(last().body["person"], "The examiner") << "whoever signed in, whatever the request says";
-  EXPECT_EQ(last().body["account"], "The examiner");
-  EXPECT_EQ(last().body["reason"], "looked at it");
+  EXPECT_EQ(last().as<ledger::RegradeEntry>()->person, "The examiner") << "whoever signed in, whatever the request says";
+  EXPECT_EQ(last().by.account, "The examiner");
+  EXPECT_EQ(last().by.reason, "looked at it");
 
   const auto entries = opened.content().entries.size();
   const auto wrong = officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", "000000"}});
@@ -67,7 +67,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   const auto secret = from_base32(opened.accounts().of("The officer")->code_secret);
   const std::string next = one_time_code(*secret, static_cast<std::uint64_t>(read_clocks().utc_ns / 1'000'000'000 / k_code_step_s) + 1);
   EXPECT_EQ(officer.post("/api/release", {{"all", true}, {"reason", "board of May"}, {"code", next}}).json()["released"], 1);
-  EXPECT_EQ(last().body["reason"], "board of May");
+  EXPECT_EQ(last().by.reason, "board of May");
   EXPECT_NE(officer.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
   const Heard criteria = reader.get("/api/criteria.csv");
   EXPECT_EQ(criteria.body.find("4711"), std::string::npos) << "pseudonyms alone";

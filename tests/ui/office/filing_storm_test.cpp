@@ -51,7 +51,7 @@ std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, c
     if (!outcome->filed) continue;
     EXPECT_LT(outcome->entry, content.entries.size()) << when;
     if (outcome->entry < content.entries.size()) {
-      EXPECT_EQ(content.entries[outcome->entry].body["file_sha256"], seat.sha256) << when;
+      EXPECT_EQ(content.entries[outcome->entry].as<ledger::SessionEntry>()->file_sha256, seat.sha256) << when;
     }
     ++n;
   }
@@ -104,7 +104,7 @@ TEST(FilingStorm, NothingAcknowledgedIsLostAndEveryExamIsFiledOnce) {
   EXPECT_EQ(filed, seats.size()) << "seed " << seed;
   std::multiset<std::string> entries;
   for (const auto& e : ledger::read_ledger(school.places()).entries)
-    if (e.kind == "session") entries.insert(e.body["file_sha256"]);
+    if (const auto* s = e.as<ledger::SessionEntry>()) entries.insert(s->file_sha256);
   for (const Seat& seat : seats) EXPECT_EQ(entries.count(seat.sha256), 1U) << "seed " << seed;
   EXPECT_LE(most_kb, k_most_kb);
   std::printf(

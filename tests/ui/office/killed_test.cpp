@@ -53,7 +53,8 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
     killer.join();
     const auto content = ledger::read_ledger(school.places());
     EXPECT_TRUE(content.findings.empty()) << "seed " << seed;
-    for (const auto& [hash, entry] : acknowledged) EXPECT_EQ(content.entries.at(entry).body["file_sha256"], hash) << "seed " << seed;
+    for (const auto& [hash, entry] : acknowledged)
+      EXPECT_EQ(content.entries.at(entry).as<ledger::SessionEntry>()->file_sha256, hash) << "seed " << seed;
   }
   {
     const Served served(school);
@@ -65,7 +66,7 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
   EXPECT_TRUE(content.findings.empty());
   std::multiset<std::string> filed;
   for (const auto& e : content.entries)
-    if (e.kind == "session") filed.insert(e.body["file_sha256"]);
+    if (const auto* s = e.as<ledger::SessionEntry>()) filed.insert(s->file_sha256);
   for (const Bytes& image : exams) EXPECT_EQ(filed.count(to_hex(sha256(image))), 1u) << "each once; seed " << seed;
 }
 

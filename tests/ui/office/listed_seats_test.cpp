@@ -41,8 +41,8 @@ class ListedSeats : public testing::Test {
 TEST_F(ListedSeats, AreEnteredAndStandOnCardAndSheet) {
   ASSERT_EQ(issue("id,Station\n4711,Seat 2\n4712,\n4713,Seat 1\n").status, 200);
   const auto content = opened_.content();
-  EXPECT_EQ(content.entries.back().kind, "seats");
-  EXPECT_EQ(content.entries.back().body["account"], "The officer");
+  EXPECT_NE(content.entries.back().as<ledger::SeatsEntry>(), nullptr);
+  EXPECT_EQ(content.entries.back().by.account, "The officer");
   ledger::Ledger ledger = opened_.school().ledger();
   std::map<std::string, std::string> places;
   for (const auto& i : invited(ledger, read_clocks().utc_ns)) places[i.id] = i.station;

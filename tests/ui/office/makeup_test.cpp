@@ -46,10 +46,10 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   const Heard given = make_up(first, {{"accommodations", "as before"}});
   ASSERT_EQ(given.status, 200) << given.body;
   const auto last = opened_.content().entries.back();
-  EXPECT_EQ(last.kind, "ticket");
-  EXPECT_EQ(last.body["makes_up"], first["entry"]);
-  EXPECT_EQ(last.body["account"], "The officer");
-  EXPECT_EQ(last.body["reason"], "the power failed");
+  ASSERT_NE(last.as<ledger::TicketEntry>(), nullptr);
+  EXPECT_EQ(last.as<ledger::TicketEntry>()->makes_up->ticket, first["entry"]);
+  EXPECT_EQ(last.by.account, "The officer");
+  EXPECT_EQ(last.by.reason, "the power failed");
   const json tickets = station.tickets();
   ASSERT_EQ(tickets.size(), 1u);
   const auto a = ledger::parse_ticket(before, "", "a"), b = ledger::parse_ticket(tickets[0]["text"], "", "b");

@@ -98,8 +98,8 @@ TEST_F(OverTheNetwork, AKeyThatWasRevokedIsShutOutAtOnce) {
   EXPECT_EQ(station.ask("GET", "/station/tickets", "", line).status, 401);
   EXPECT_THROW(station.report({{"state", "free"}}), Error);
   const auto last = opened_->content().entries.back();
-  EXPECT_EQ(last.body["account"], "The officer");
-  EXPECT_EQ(last.body["reason"], "stolen");
+  EXPECT_EQ(last.by.account, "The officer");
+  EXPECT_EQ(last.by.reason, "stolen");
 }
 
 TEST_F(OverTheNetwork, AnotherSchoolsOfficeAndAnotherCertificateAreNotSpokenWith) {
@@ -137,8 +137,8 @@ TEST_F(OverTheNetwork, BeginOnceAndASecondStationIsNoticedAtOnce) {
   const std::string word = station.begin(t["nonce"]);
   EXPECT_EQ(ledger::parse_begin(word, opened_->content().public_key, "word").ticket, t["nonce"]);
   const auto entry = opened_->content().entries.back();
-  EXPECT_EQ(entry.kind, "begin");
-  EXPECT_EQ(entry.body["station"], to_hex(load_station_key(station_key_path()).public_key));
+  EXPECT_NE(entry.as<ledger::BeginEntry>(), nullptr);
+  EXPECT_EQ(entry.by.station, to_hex(load_station_key(station_key_path()).public_key));
   EXPECT_EQ(station.begin(t["nonce"]), word) << "its answer may have been lost: the same word, and no other entry";
   EXPECT_EQ(opened_->content().entries.size(), entry.seq + 1);
   const SigningKey other = load_signing_key(opened_->school().file("seat10.key"), "station");
@@ -164,8 +164,8 @@ TEST_F(OverTheNetwork, ACancelledTicketLeavesTheStationsAndTheFolder) {
   auto station = opened_->station();
   for (const auto& one : station.tickets()) EXPECT_NE(one["nonce"], t["nonce"]);
   const auto last = opened_->content().entries.back();
-  EXPECT_EQ(last.body["account"], "The officer");
-  EXPECT_EQ(last.body["reason"], "ill");
+  EXPECT_EQ(last.by.account, "The officer");
+  EXPECT_EQ(last.by.reason, "ill");
 }
 
 TEST_F(OverTheNetwork, AnExamIsFiledAndItsReceiptHolds) {
@@ -178,7 +178,7 @@ TEST_F(OverTheNetwork, AnExamIsFiledAndItsReceiptHolds) {
   const json filed = Opened::outcome(station, hash);
   ASSERT_EQ(filed["state"], "filed") << filed;
   const auto content = opened_->content();
-  EXPECT_EQ(content.entries.at(filed["entry"]).body["file_sha256"], hash);
+  EXPECT_EQ(content.entries.at(filed["entry"]).as<ledger::SessionEntry>()->file_sha256, hash);
   EXPECT_TRUE(ledger::check_receipt(filed["receipt"], content.public_key, &content).empty());
   EXPECT_EQ(read_file(opened_->school().places().session(hash)), image);
   EXPECT_EQ(station.hand_in(image)["state"], "waiting") << "sent twice";

@@ -58,7 +58,7 @@ class Grades : public testing::Test {
     }
     return progress.empty() ? json::object() : progress[0];
   }
-  [[nodiscard]] std::vector<ledger::Passback> entries() const { return ledger::read_registry(opened_.content()).passbacks; }
+  [[nodiscard]] std::vector<ledger::PassbackEntry> entries() const { return ledger::read_registry(opened_.content()).passbacks; }
   Heard come(const std::string& who) { return Browser{opened_.port(), &platform_}.launch(who); }
 
   Opened opened_;

@@ -11,7 +11,7 @@ const whats = (): { [what: string]: string } => ({
   session: tr("Exam filed"), "session with findings": tr("Exam filed, with findings"), regrade: tr("Marked anew"), decision: tr("Decided"), release: tr("Released"), retract: tr("Taken back"),
   appeal: tr("Appeal entered"), answer: tr("Appeal answered"), announce: tr("Announcement"), hold: tr("Exams paused"), go_on: tr("Pause ended"), incident: tr("Incident noted"),
   seats: tr("Seats given"), passback: tr("Score sent to a learning platform, its answer"), forget: tr("Candidate forgotten"), erase: tr("Erased"), key: tr("Key of the school changed"), restore: tr("Restored from a backup"),
-  "station invite": tr("Station invited"), "station enrol": tr("Station enrolled"), "station revoke": tr("Station revoked"), "station room": tr("Room of a station"),
+  invite: tr("Station invited"), enrol: tr("Station enrolled"), revoke: tr("Station revoked"), room: tr("Room of a station"),
 });
 
 function who(e: Entry): string {
