@@ -28,15 +28,28 @@ class Trail {
     }
   }
 
-  /// {"entry","utc","what","by","why","number","people"}: `people` are pseudonyms; `number`: of results, seats or erased parts. Of incidents what
-  /// happened only with `words`.
-  [[nodiscard]] json row(const ledger::LedgerEntry& e, bool words) const {
+  /// Without its people. Of incidents what happened only with `words`.
+  [[nodiscard]] TrailEntry row(const ledger::LedgerEntry& e, bool words) const {
     const std::string account = text_in(e.body, "account");
     const std::string station = text_in(e.body, e.kind == "session" ? "station_key" : "station");
-    return {{"entry", e.seq},       {"utc", utc_text(e.utc_ns)},
-            {"what", what(e)},      {"by", account.empty() ? station_name(registry_, station) : account},
-            {"why", why(e, words)}, {"number", number(e)},
-            {"people", people(e)}};
+    return {e.seq, utc_text(e.utc_ns), what(e), account.empty() ? station_name(registry_, station) : account, why(e, words), number(e)};
+  }
+
+  /// Pseudonyms.
+  [[nodiscard]] std::vector<std::string> people(const ledger::LedgerEntry& e) const {
+    std::vector<std::string> out;
+    const auto add = [&](const std::map<std::uint64_t, std::string>& known, std::int64_t seq) {
+      const auto found = seq < 0 ? known.end() : known.find(static_cast<std::uint64_t>(seq));
+      if (found != known.end() && std::find(out.begin(), out.end(), found->second) == out.end()) out.push_back(found->second);
+    };
+    if (const std::string who = text_in(e.body, "candidate"); !who.empty()) out.push_back(who);
+    add(tickets_, static_cast<std::int64_t>(e.seq));
+    if (e.kind == "cancel") add(tickets_, whole_in(e.body, "ticket"));
+    if (e.kind == "regrade" || e.kind == "appeal" || e.kind == "passback") add(sessions_, whole_in(e.body, "session"));
+    for (const json& result : member_of(e.body, "results")) add(sessions_, result.is_number_integer() ? result.get<std::int64_t>() : -1);
+    for (const json& seat : member_of(e.body, "seats")) add(tickets_, whole_in(seat, "ticket"));
+    for (const json& erased : member_of(e.body, "erased")) add(sessions_, whole_in(erased, "entry"));
+    return out;
   }
 
  private:
@@ -73,56 +86,38 @@ class Trail {
     return 0;
   }
 
-  [[nodiscard]] std::vector<std::string> people(const ledger::LedgerEntry& e) const {
-    std::vector<std::string> out;
-    const auto add = [&](const std::map<std::uint64_t, std::string>& known, std::int64_t seq) {
-      const auto found = seq < 0 ? known.end() : known.find(static_cast<std::uint64_t>(seq));
-      if (found != known.end() && std::find(out.begin(), out.end(), found->second) == out.end()) out.push_back(found->second);
-    };
-    if (const std::string who = text_in(e.body, "candidate"); !who.empty()) out.push_back(who);
-    add(tickets_, static_cast<std::int64_t>(e.seq));
-    if (e.kind == "cancel") add(tickets_, whole_in(e.body, "ticket"));
-    if (e.kind == "regrade" || e.kind == "appeal" || e.kind == "passback") add(sessions_, whole_in(e.body, "session"));
-    for (const json& result : member_of(e.body, "results")) add(sessions_, result.is_number_integer() ? result.get<std::int64_t>() : -1);
-    for (const json& seat : member_of(e.body, "seats")) add(tickets_, whole_in(seat, "ticket"));
-    for (const json& erased : member_of(e.body, "erased")) add(sessions_, whole_in(erased, "entry"));
-    return out;
-  }
-
   const ledger::Registry& registry_;
   std::map<std::uint64_t, std::string> tickets_, sessions_;  // pseudonyms by entries: of tickets and begins; of sessions and regrades
 };
 
 }  // namespace
 
-json Desk::trail(const json& asked, bool names) {
+TrailPage Desk::trail(const AskTrail& asked, bool names) {
   constexpr std::size_t k_page = 200;
-  const std::string about = text_in(asked, "about");
-  const json& before = member_of(asked, "before");
   Turn turn(*this);
   const auto people = people_of(turn.book);
-  const auto is_asked = [&](const json& who) {
-    const auto known = people.find(who.get<std::string>());
-    return who == about || (names && known != people.end() && known->second.id == about);
+  const auto is_asked = [&](const std::string& who) {
+    const auto known = people.find(who);
+    return who == asked.about || (names && known != people.end() && known->second.id == asked.about);
   };
   const Trail trail(turn.book.registry());
   const auto& entries = turn.book.content().entries;
-  json out = json::array();
-  std::size_t seq = before.is_number_unsigned() ? std::min<std::size_t>(before.get<std::size_t>(), entries.size()) : entries.size();
-  while (seq > 0 && out.size() < k_page) {
-    json row = trail.row(entries[--seq], names);
-    const json everybody = row["people"];
+  TrailPage out;
+  std::size_t seq = std::min<std::size_t>(asked.before.value_or(entries.size()), entries.size());
+  while (seq > 0 && out.entries.size() < k_page) {
+    TrailEntry row = trail.row(entries[--seq], names);
+    const auto everybody = trail.people(entries[seq]);
     const auto asked_for = std::find_if(everybody.begin(), everybody.end(), is_asked);
-    if (!about.empty() && asked_for == everybody.end()) continue;
-    json& shown = row["people"] = json::array();  // who is asked for, or the only one: of many the number is told
-    if (!about.empty() || everybody.size() == 1) {
-      shown.push_back({{"candidate", about.empty() ? everybody.front() : *asked_for}});
-      if (names) put_name(shown.back(), people, shown.back()["candidate"]);
+    if (!asked.about.empty() && asked_for == everybody.end()) continue;
+    if (!asked.about.empty() || everybody.size() == 1) {  // who is asked for, or the only one: of many the number is told
+      row.people.push_back({asked.about.empty() ? everybody.front() : *asked_for, {}, {}});
+      if (names) put_name(row.people.back(), people);
     }
-    row["count"] = everybody.size();
-    out.push_back(std::move(row));
+    row.count = everybody.size();
+    out.entries.push_back(std::move(row));
   }
-  return {{"entries", out}, {"earlier", seq > 0 ? json(seq) : json()}};
+  if (seq > 0) out.earlier = seq;
+  return out;
 }
 
 }  // namespace cavum::office
