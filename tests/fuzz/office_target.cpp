@@ -1,6 +1,6 @@
 // What comes over a connection to the exam office's server. The first byte says who asks (0 nobody, 1 to 4 a person of each role, 5 an enrolled
 // station) and what is put right before it is sent (8 = the body's length, 16 = the page's token); the rest are the bytes of the connection. Whoever
-// asks gets his cookie, or his signature, into the first request. No door may open to somebody that the table of doors keeps out.
+// asks gets his cookie, or his signature, into the first request. No route may open to somebody that the table of routes keeps out.
 #include <array>
 #include <boost/asio/buffer.hpp>
 #include <boost/asio/error.hpp>
@@ -16,9 +16,9 @@
 #include "grading/ledger/stations.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
-#include "ui/office/doors.h"
 #include "ui/office/http_talk.h"
 #include "ui/office/office.h"
+#include "ui/office/routes.h"
 #include "ui/office/site.h"
 
 namespace cavum::fuzz {
@@ -202,16 +202,16 @@ void fuzz_office(Data data) {
   const std::string text = text_of(data.subspan(1));
   const std::string said = office.say(sent(office, how, text));
   if (!said.starts_with("HTTP/1.1 2")) return;
-  // it was let in: the table of doors has to say so, too
+  // it was let in: the table of routes has to say so, too
   const Asked a = first_request(text);
-  const office::Door* door = office::door_for(a.method, a.path);
-  if (door == nullptr) return;  // a method in small letters, a line of other blanks: Beast reads it in its own way
+  const office::Route* route = office::route_for(a.method, a.path);
+  if (route == nullptr) return;  // a method in small letters, a line of other blanks: Beast reads it in its own way
   const std::size_t who = how % 8;
   const bool person = who >= 1 && who <= 4;
-  if (door->asks == office::Asks::person && (!person || !door->lets(office::all_roles()[who - 1]))) std::abort();
-  if (door->asks == office::Asks::station && who != k_station_asks) std::abort();
-  if (door->asks == office::Asks::person && door->changes() && (how & 16U) == 0) std::abort();
-  if (door->changes()) static_cast<void>(open_office(true));
+  if (route->asks == office::Asks::person && (!person || !route->lets(office::all_roles()[who - 1]))) std::abort();
+  if (route->asks == office::Asks::station && who != k_station_asks) std::abort();
+  if (route->asks == office::Asks::person && route->changes() && (how & 16U) == 0) std::abort();
+  if (route->changes()) static_cast<void>(open_office(true));
 }
 
 std::vector<Bytes> office_seeds() {
@@ -245,19 +245,19 @@ std::vector<Bytes> office_seeds() {
                  {"heard", 0}};
   std::vector<Bytes> seeds;
   const std::string hash(64, 'a');
-  for (const office::Door& door : office::doors()) {
-    std::string path(door.path);
+  for (const office::Route& route : office::routes()) {
+    std::string path(route.path);
     if (path.ends_with('*')) path = path.substr(0, path.size() - 1) + hash;
-    char who = door.asks == office::Asks::station ? 5 : 0;
-    for (std::size_t i = 0; door.asks == office::Asks::person && i < office::all_roles().size() && who == 0; ++i)
-      if (door.lets(office::all_roles()[i])) who = static_cast<char>(i + 1);
-    std::string text = std::string(door.method) + " " + path + " HTTP/1.1\r\nHost: office\r\n";
-    if (door.changes()) text += "Content-Type: application/json\r\n";
+    char who = route.asks == office::Asks::station ? 5 : 0;
+    for (std::size_t i = 0; route.asks == office::Asks::person && i < office::all_roles().size() && who == 0; ++i)
+      if (route.lets(office::all_roles()[i])) who = static_cast<char>(i + 1);
+    std::string text = std::string(route.method) + " " + path + " HTTP/1.1\r\nHost: office\r\n";
+    if (route.changes()) text += "Content-Type: application/json\r\n";
     text += "\r\n";
-    if (door.method == "POST") text += all.dump();
-    if (door.method == "PUT") text += text_of(std::span(small_session()).first(2000));
-    seeds.push_back(bytes_of(static_cast<char>(who + (door.changes() ? 24 : 0)) + text));
-    if (door.asks != office::Asks::nobody) seeds.push_back(bytes_of(static_cast<char>(door.changes() ? 8 : 0) + text));  // by nobody
+    if (route.method == "POST") text += all.dump();
+    if (route.method == "PUT") text += text_of(std::span(small_session()).first(2000));
+    seeds.push_back(bytes_of(static_cast<char>(who + (route.changes() ? 24 : 0)) + text));
+    if (route.asks != office::Asks::nobody) seeds.push_back(bytes_of(static_cast<char>(route.changes() ? 8 : 0) + text));  // by nobody
   }
   seeds.push_back(bytes_of('\0' + std::string("GET / HTTP/1.1\r\nTransfer-Encoding: chunked\r\nContent-Length: 4\r\n\r\n0\r\n\r\n")));
   seeds.push_back(bytes_of('\0' + std::string("GET /api/../api/tickets?x=%2e%2e HTTP/1.1\r\nCookie: a\r\ncookie: b\r\n\r\nGET / HTTP/1.0\r\n\r\n")));

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "ui/office/doors.h"
+#include "ui/office/routes.h"
 
 namespace cavum::office {
 

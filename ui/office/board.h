@@ -5,26 +5,12 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
-#include <nlohmann/json.hpp>
 #include <set>
 #include <string>
 
-namespace cavum::office {
+#include "ui/office/wire.h"
 
-/// One report of a station.
-struct StationReport {
-  std::string state;         ///< one of k_station_states
-  std::string candidate;     ///< pseudonym; empty: nobody sits
-  std::string step;          ///< of the exam, for people
-  std::string alarm;         ///< what an invigilator should see to; empty: nothing
-  std::int64_t left_s = -1;  ///< on the exam's clock; -1: no clock runs
-  bool held = false;         ///< the exam stands still because the office paused it
-  std::uint64_t heard = 0;   ///< entry of the last announcement that was read
-  std::int64_t here_s = -1;  ///< since the candidate signed in; -1: not said (stations of before), or nobody did
-};
-inline constexpr const char* k_station_states[] = {"free", "check", "briefing", "exam", "paused", "ended"};
-/// Throws Error for a state of another name, a text too long or no plain line, or a time beyond a day.
-[[nodiscard]] StationReport parse_report(const std::string& text);
+namespace cavum::office {
 
 class Board {
  public:
@@ -35,9 +21,8 @@ class Board {
   void refused(const std::string& public_key, const std::string& candidate);
   /// Candidates that some station has said it has, since this program began.
   [[nodiscard]] std::set<std::string> candidates() const;
-  /// By key: {"state","candidate","step","alarm","left_s","held","heard","seen_utc_ns","since_utc_ns","refused"}; `since_utc_ns`: when the candidate
-  /// signed in, 0: nobody did; `refused`: the candidate whom it may not begin.
-  [[nodiscard]] std::map<std::string, nlohmann::json> stations() const;
+  /// By key.
+  [[nodiscard]] std::map<std::string, StationSaid> stations() const;
   /// When the candidate who is at this station signed in there; 0: nobody is.
   [[nodiscard]] std::int64_t since_utc_ns(const std::string& public_key) const;
   [[nodiscard]] std::uint64_t version() const;
@@ -45,14 +30,9 @@ class Board {
   [[nodiscard]] std::uint64_t wait(std::uint64_t seen, int patience_ms) const;
 
  private:
-  struct Seen {
-    StationReport report;
-    std::int64_t utc_ns = 0, since_utc_ns = 0;
-  };
   mutable std::mutex lock_;
   mutable std::condition_variable changed_;
-  std::map<std::string, Seen> seen_;
-  std::map<std::string, std::string> refused_;  // candidate, by station
+  std::map<std::string, StationSaid> seen_;
   std::set<std::string> candidates_;
   std::uint64_t version_ = 1;
 };

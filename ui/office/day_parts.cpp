@@ -8,8 +8,6 @@
 
 namespace cavum::office {
 
-using nlohmann::json;
-
 std::map<std::string, std::string> begun_at(const ledger::LedgerContent& content, const ledger::Registry& registry) {
   std::map<std::string, std::string> out;
   for (const auto& t : registry.tickets)
@@ -21,9 +19,10 @@ std::vector<std::string> twins_of(const ledger::StationRegister& stations, const
                                   const Said& said, std::int64_t now) {
   const auto candidate_at = [&](const std::string& station) -> std::string {
     const auto found = said.find(station);
-    if (found == said.end() || now - whole_in(found->second, "seen_utc_ns") > k_silent_ns) return {};
-    if (std::string asked_for = text_in(found->second, "refused"); !asked_for.empty()) return asked_for;
-    return text_in(found->second, "state") == "ended" ? "" : text_in(found->second, "candidate");
+    if (found == said.end() || now - found->second.seen_utc_ns > k_silent_ns) return {};
+    if (!found->second.refused.empty()) return found->second.refused;
+    if (found->second.state == AtStation::ended) return {};
+    return found->second.candidate;
   };
   std::vector<std::string> twins;
   const std::string candidate = candidate_at(key);
@@ -45,33 +44,29 @@ std::vector<const ledger::Announcement*> announced_to(const ledger::ExamDay& day
 
 std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now) {
   const auto found = said.find(key);
-  if (found == said.end() || whole_in(found->second, "since_utc_ns") == 0 || text_in(found->second, "state") == "ended") return 0;
-  const auto all = announced_to(day, key, whole_in(found->second, "since_utc_ns"), now);
-  return static_cast<std::size_t>(std::count_if(
-      all.begin(), all.end(), [&](const ledger::Announcement* a) { return static_cast<std::int64_t>(a->seq) > whole_in(found->second, "heard"); }));
+  if (found == said.end() || found->second.since_utc_ns == 0 || found->second.state == AtStation::ended) return 0;
+  const auto all = announced_to(day, key, found->second.since_utc_ns, now);
+  return static_cast<std::size_t>(std::count_if(all.begin(), all.end(), [&](const ledger::Announcement* a) { return a->seq > found->second.heard; }));
 }
 
-json shown_holds(const ledger::ExamDay& day) {
-  json out = json::array();
+std::vector<Notice> shown_holds(const ledger::ExamDay& day) {
+  std::vector<Notice> out;
   for (const auto& h : day.holds)
-    if (!h.ended_by)
-      out.push_back({{"entry", h.seq}, {"utc_ns", h.utc_ns}, {"reason", h.reason}, {"room", h.audience.room}, {"stations", h.audience.stations}});
+    if (!h.ended_by) out.push_back({{h.seq, h.utc_ns, h.reason}, h.audience.room, h.audience.stations});
   return out;
 }
 
-json shown_announcements(const ledger::ExamDay& day, std::int64_t now) {
-  json out = json::array();
+std::vector<Notice> shown_announcements(const ledger::ExamDay& day, std::int64_t now) {
+  std::vector<Notice> out;
   for (auto a = day.announcements.rbegin(); a != day.announcements.rend(); ++a)
-    if (now - a->utc_ns < k_announced_ns)
-      out.push_back({{"entry", a->seq}, {"utc_ns", a->utc_ns}, {"text", a->words}, {"room", a->audience.room}, {"stations", a->audience.stations}});
+    if (now - a->utc_ns < k_announced_ns) out.push_back({{a->seq, a->utc_ns, a->words}, a->audience.room, a->audience.stations});
   return out;
 }
 
-ledger::Audience audience_of(const json& asked, const ledger::StationRegister& stations) {
-  const json& to = member_of(asked, "to");
-  if (member_of(to, "all") == true) return {};
-  if (const std::string key = text_in(to, "station"); !key.empty()) return {"", {key}};
-  ledger::Audience a{text_in(to, "room"), {}};
+ledger::Audience audience_of(const ForWhom& to, const ledger::StationRegister& stations) {
+  if (to.all) return {};
+  if (!to.station.empty()) return {"", {to.station}};
+  ledger::Audience a{to.room, {}};
   for (const auto& s : stations.stations)
     if (!a.room.empty() && s.room == a.room && !s.revoked_utc_ns && s.replaced_by.empty()) a.stations.push_back(s.public_key);
   if (a.stations.empty()) throw Error("for whom", "names no station that is enrolled", "choose all, a room, or a station");

@@ -3,11 +3,11 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <string>
 #include <vector>
 
 #include "grading/ledger/registry.h"
+#include "ui/office/wire.h"
 
 namespace cavum::office {
 
@@ -19,7 +19,7 @@ inline constexpr std::int64_t k_before_sign_in_ns = 120'000'000'000;
 inline constexpr std::int64_t k_silent_ns = 15'000'000'000;
 
 /// What stations said, by key (Board::stations()).
-using Said = std::map<std::string, nlohmann::json>;
+using Said = std::map<std::string, StationSaid>;
 
 /// The station that has the office's word to begin the exam of each candidate, by pseudonym: while its ticket is good.
 [[nodiscard]] std::map<std::string, std::string> begun_at(const ledger::LedgerContent& content, const ledger::Registry& registry);
@@ -31,11 +31,11 @@ using Said = std::map<std::string, nlohmann::json>;
                                                                     std::int64_t now_utc_ns);
 /// How many of them he has not read; 0 where nobody is to read any: nobody has signed in, or his exam is over.
 [[nodiscard]] std::size_t unread_by(const ledger::ExamDay& day, const std::string& key, const Said& said, std::int64_t now_utc_ns);
-/// {"entry","reason","room","stations"} of each that lasts; `stations`: keys, none for all.
-[[nodiscard]] nlohmann::json shown_holds(const ledger::ExamDay& day);
-/// {"entry","utc_ns","text","room","stations"} of each that is still shown, the newest first.
-[[nodiscard]] nlohmann::json shown_announcements(const ledger::ExamDay& day, std::int64_t now_utc_ns);
-/// {"all":true}, {"room":NAME} or {"station":KEY} under `to`. Throws Error when it names nobody.
-[[nodiscard]] ledger::Audience audience_of(const nlohmann::json& asked, const ledger::StationRegister& stations);
+/// Each that lasts.
+[[nodiscard]] std::vector<Notice> shown_holds(const ledger::ExamDay& day);
+/// Each that is still shown, the newest first.
+[[nodiscard]] std::vector<Notice> shown_announcements(const ledger::ExamDay& day, std::int64_t now_utc_ns);
+/// Throws Error when it names nobody.
+[[nodiscard]] ledger::Audience audience_of(const ForWhom& to, const ledger::StationRegister& stations);
 
 }  // namespace cavum::office

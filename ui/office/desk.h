@@ -18,6 +18,7 @@
 #include "ui/office/board.h"
 #include "ui/office/inbox.h"
 #include "ui/office/papers.h"
+#include "ui/office/wire.h"
 
 namespace cavum::office {
 
@@ -35,6 +36,15 @@ struct Recording {
   std::size_t entries = 0;
 };
 
+/// What a candidate sees of a result of his, as it was released.
+struct OwnResult {
+  std::string exam, verdict;
+  double points = 0, max = 0;
+  std::string released;  ///< when, in this computer's time zone
+  bool counts = false, simulated = false;
+  std::string sha256;  ///< empty: erased
+};
+
 class Desk {
  public:
   /// `exams`: scenario files that tickets may be issued for.
@@ -44,46 +54,42 @@ class Desk {
   [[nodiscard]] const std::string& school() const noexcept { return school_; }
   [[nodiscard]] const std::string& public_key() const noexcept { return public_key_; }
 
-  // Each takes and gives JSON (docs/office.md), and throws Error in the words of what is wrong.
-  [[nodiscard]] nlohmann::json exams() const;
-  [[nodiscard]] nlohmann::json preview(const nlohmann::json& asked);
-  /// Of "most" from the place "first" of the list on; without them of all. A portion at a time, so that stations are heard in between.
-  [[nodiscard]] nlohmann::json issue(const nlohmann::json& asked, const Account& by);
-  /// `grants`: with what each candidate is granted, as long as the ticket's file is kept; it may tell of health.
-  /// `seen`: candidates whom a station has said it has.
-  [[nodiscard]] nlohmann::json tickets(bool grants, const std::set<std::string>& seen);
-  /// A makeup sitting of a ticket: when, what became of the first and why, and what the candidate is granted.
-  [[nodiscard]] nlohmann::json make_up(const nlohmann::json& asked, const Account& by);
-  /// Of who has begun (`seen`, too) only with "begun": true.
-  [[nodiscard]] nlohmann::json cancel(const nlohmann::json& asked, const Account& by, const std::set<std::string>& seen);
-  [[nodiscard]] nlohmann::json board(const Board& board, const Inbox& inbox);
-  [[nodiscard]] nlohmann::json invite(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json revoke(const nlohmann::json& asked, const Account& by);
+  // Each throws Error in the words of what is wrong.
+  [[nodiscard]] Exams exams() const;
+  [[nodiscard]] Preview preview(const ClassList& asked);
+  [[nodiscard]] Issued issue(const Issue& asked, const Account& by);
+  /// `grants`: with what each candidate is granted, which may tell of health. `seen`: candidates whom a station has said it has.
+  [[nodiscard]] Tickets tickets(bool grants, const std::set<std::string>& seen);
+  [[nodiscard]] MadeUp make_up(const MakeUp& asked, const Account& by);
+  /// Of who has begun (`seen`, too) only with `begun`.
+  [[nodiscard]] Entered cancel(const CancelTicket& asked, const Account& by, const std::set<std::string>& seen);
+  [[nodiscard]] BoardShown board(const Board& board, const Inbox& inbox);
+  [[nodiscard]] InviteCode invite(const Invite& asked, const Account& by);
+  [[nodiscard]] Entered revoke(const RevokeStation& asked, const Account& by);
   // The day: what candidates are told, pauses, incidents, who is not here, rooms and seats (desk_day.cpp).
-  [[nodiscard]] nlohmann::json announce(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json hold(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json go_on(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json note_incident(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json incidents();
+  [[nodiscard]] Entered announce(const Announce& asked, const Account& by);
+  [[nodiscard]] Entered hold(const Hold& asked, const Account& by);
+  [[nodiscard]] Entered go_on(const GoOn& asked, const Account& by);
+  [[nodiscard]] Entered note_incident(const NoteIncident& asked, const Account& by);
+  [[nodiscard]] Incidents incidents();
   /// Who has a ticket whose time has come, and no station has seen.
-  [[nodiscard]] nlohmann::json attendance(const Board& board);
-  [[nodiscard]] nlohmann::json place(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json seat(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] Attendance attendance(const Board& board);
+  [[nodiscard]] Entered place(const PlaceStation& asked, const Account& by);
+  [[nodiscard]] Seated seat(const SeatThem& asked, const Account& by);
   /// Candidate cards, or the sign-in sheet: PDF of all tickets that are good.
   [[nodiscard]] std::string cards();
   [[nodiscard]] std::string sign_in_sheet();
-  [[nodiscard]] nlohmann::json queue();
-  [[nodiscard]] nlohmann::json decide(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] Queue queue();
+  [[nodiscard]] Entered decide(const Decide& asked, const Account& by);
   /// With names where `names`.
-  [[nodiscard]] nlohmann::json results(bool names);
-  [[nodiscard]] nlohmann::json release(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json retract(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json appeals();
-  /// The ledger's entries in words, the newest first, up to 200: {"about","before"} asks for those of a pseudonym (or number, with `names`) and
-  /// before an entry. `earlier` of the answer is the next `before`, null at the beginning. Names, and what was said of incidents, where `names`.
-  [[nodiscard]] nlohmann::json trail(const nlohmann::json& asked, bool names);
-  [[nodiscard]] nlohmann::json open_appeal(const nlohmann::json& asked, const Account& by);
-  [[nodiscard]] nlohmann::json answer_appeal(const nlohmann::json& asked, const Account& by);
+  [[nodiscard]] Results results(bool names);
+  [[nodiscard]] Released release(const ReleaseResults& asked, const Account& by);
+  [[nodiscard]] Entered retract(const Retract& asked, const Account& by);
+  [[nodiscard]] Appeals appeals();
+  /// The ledger's entries in words, the newest first, up to 200. Names, and what was said of incidents, where `names`.
+  [[nodiscard]] TrailPage trail(const AskTrail& asked, bool names);
+  [[nodiscard]] Entered open_appeal(const OpenAppeal& asked, const Account& by);
+  [[nodiscard]] Entered answer_appeal(const AnswerAppeal& asked, const Account& by);
   /// Who would be marked anew by `basis`; `entries`: of the ledger then.
   [[nodiscard]] ledger::ClassRegrade plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries);
   /// All of it counts from now on. Returns how many were entered, from entry `first` on.
@@ -91,8 +97,8 @@ class Desk {
   /// How many results of an exam this person has entered by this rubric since the ledger had so many entries; `first`: the first of them.
   [[nodiscard]] std::uint64_t counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by,
                                                std::uint64_t entries, std::uint64_t& first);
-  /// {"id","sessions"} of each exam that has something filed.
-  [[nodiscard]] nlohmann::json filed_exams();
+  /// Each exam that has something filed.
+  [[nodiscard]] std::vector<FiledExam> filed_exams();
   /// A filed recording. Throws Error when there is none, or it was erased.
   [[nodiscard]] Recording recording(const std::string& file_sha256);
   /// What is released, for Moodle; in a `rehearsal` also what no hand moved, marked, under no number of a candidate.
@@ -108,19 +114,19 @@ class Desk {
   void enter_passback(const ledger::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status, const std::string& answer);
   /// Sessions whose last score in this column was accepted, and refused.
   [[nodiscard]] std::pair<int, int> passbacks(const std::string& line_item);
-  /// Released results of the candidate of that number, of one exam or all: {exam, verdict, points, max, released, sha256}.
-  [[nodiscard]] nlohmann::json own_results(const std::string& number, const std::string& exam);
+  /// Released results of the candidate of that number, of one exam or all.
+  [[nodiscard]] std::vector<OwnResult> own_results(const std::string& number, const std::string& exam);
   /// A recording of his whose result is released. Throws Error when there is none.
   [[nodiscard]] Recording own_recording(const std::string& number, const std::string& file_sha256);
 
   /// Why requests of this key are not taken, in words; empty: it is an enrolled station's.
   [[nodiscard]] std::string station_problem(const std::string& public_key);
-  [[nodiscard]] nlohmann::json enrol(const std::string& request);
-  [[nodiscard]] nlohmann::json station_tickets();
-  [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const std::string& station);
+  [[nodiscard]] Enrolled enrol(const std::string& request);
+  [[nodiscard]] StationTickets station_tickets();
+  [[nodiscard]] WordToBegin begin(const AskBegin& asked, const std::string& station);
   /// What the office has to say to a station that has read announcements up to entry `heard`.
   /// `since_utc_ns`: when its candidate signed in there, 0: nobody did.
-  [[nodiscard]] nlohmann::json word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns);
+  [[nodiscard]] OfficeWord word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns);
   /// Whose ticket it is; empty: nobody's.
   [[nodiscard]] std::string candidate_of(const std::string& ticket_nonce);
   /// Entry of a recording; none when it is not filed.

@@ -26,20 +26,11 @@ namespace {
 /// By which its report is asked for; empty where the recording was erased.
 std::string recording_sha256(const ledger::FiledSession& s) { return s.motion_erased_by ? "" : s.file_sha256; }
 
-std::vector<std::uint64_t> sessions_in(const json& asked) {
-  std::vector<std::uint64_t> out;
-  if (const json& sessions = member_of(asked, "sessions"); sessions.is_array())
-    for (const json& s : sessions)
-      if (s.is_number_unsigned()) out.push_back(s);
-  return out;
-}
-
-/// The last decision of a person on it: {"entry","by","verdict","reason","counts"}; null without one.
-json decided(const ledger::FiledSession& s) {
+/// The last decision of a person on it.
+std::optional<Decided> decided(const ledger::FiledSession& s) {
   const ledger::Regrade* r = s.last_decision();
-  if (r == nullptr) return {};
-  return {
-      {"entry", r->seq}, {"by", r->person}, {"verdict", text_in(*r->result, "verdict")}, {"reason", r->reason}, {"counts", r->seq == s.result_seq}};
+  if (r == nullptr) return std::nullopt;
+  return Decided{r->seq, r->person, text_in(*r->result, "verdict"), r->reason, r->seq == s.result_seq};
 }
 
 /// The station that a ticket was to be sat at; empty: any.
@@ -49,19 +40,18 @@ std::string planned_seat(const ledger::Registry& registry, const std::string& no
   return nonce.empty() || t == registry.tickets.end() ? "" : station_name(registry, t->seat);
 }
 
-/// What was noted of its candidate on the day: [{"utc","station","words"}].
-json noted(const ledger::Registry& registry, const std::string& candidate) {
-  json out = json::array();
+/// What was noted of its candidate on the day.
+std::vector<Noted> noted(const ledger::Registry& registry, const std::string& candidate) {
+  std::vector<Noted> out;
   for (const auto& i : registry.day.incidents)
-    if (i.candidate == candidate && !i.erased_by)
-      out.push_back({{"utc", utc_text(i.utc_ns)}, {"station", station_name(registry, i.station)}, {"words", i.words}});
+    if (i.candidate == candidate && !i.erased_by) out.push_back({utc_text(i.utc_ns), station_name(registry, i.station), i.words});
   return out;
 }
 
 /// Sessions by the entries of their results, as a page showed them. Throws Error when one is another by now.
-std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry, const json& results) {
+std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry, const Entries& results) {
   std::vector<std::uint64_t> out;
-  for (const json& entry : results) {
+  for (const std::uint64_t entry : results) {
     const auto found =
         std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return entry == s.result_seq; });
     if (found == registry.sessions.end() || found->released)
@@ -73,78 +63,69 @@ std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry,
 
 }  // namespace
 
-json Desk::queue() {
+Queue Desk::queue() {
   Turn turn(*this);
-  json out = json::array();
-  for (const auto& d : ledger::review_queue(turn.book.registry()))
-    out.push_back({{"session", d.session},
-                   {"candidate", d.candidate},
-                   {"exam", d.scenario_id},
-                   {"points", d.points},
-                   {"max", d.max},
-                   {"reasons", shown_each(d.reasons)},
-                   {"decided", decided(*turn.book.registry().session(d.session))},
-                   {"noted", noted(turn.book.registry(), d.candidate)},
-                   {"sha256", recording_sha256(*turn.book.registry().session(d.session))}});
-  return {{"queue", out}};
+  const ledger::Registry& registry = turn.book.registry();
+  Queue out;
+  for (const auto& d : ledger::review_queue(registry)) {
+    const ledger::FiledSession& s = *registry.session(d.session);
+    out.value.push_back({d.session, d.candidate, d.scenario_id, d.points, d.max, shown_each(d.reasons), decided(s), noted(registry, d.candidate),
+                         recording_sha256(s)});
+  }
+  return out;
 }
 
-json Desk::decide(const json& asked, const Account& by) {
-  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+Entered Desk::decide(const Decide& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  const ledger::Decision decision{ledger::decided_verdict(text_in(asked, "verdict")), by.name, reason_in(asked)};
-  return {{"entry", ledger::enter_decision(turn.book, session, decision).seq}};
+  const ledger::Decision decision{ledger::decided_verdict(asked.verdict), by.name, asked.reason};
+  return {ledger::enter_decision(turn.book, asked.session, decision).seq};
 }
 
-json Desk::results(bool names) {
+Results Desk::results(bool names) {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
   const auto counting = registry.counting();
   const auto otherwise = registry.marked_otherwise();
   const auto scales = ledger::own_scales(registry);
-  json out = json::array();
+  Results out;
   for (const auto& s : registry.sessions) {
-    json row = {{"session", s.seq},
-                {"candidate", s.candidate},
-                {"exam", s.scenario_id},
-                {"result", s.result_seq},
-                {"state", state_of(registry, s, otherwise)},
-                {"station", station_name(registry, s.station_key)},
-                {"seat", planned_seat(registry, s.nonce)},
-                {"why_back", s.taken_back() ? s.retracted_why : ""},
-                {"decided", decided(s)},
-                {"grade", s.shown->is_object() ? ledger::exported_grade(s, scales).grade : json()},
-                {"findings", shown_each(s.findings)},
-                {"simulated", s.simulated},
-                {"verdict", text_in(*s.result, "verdict")},
-                {"sha256", recording_sha256(s)},
-                {"shown", s.shown_seq != 0},
-                {"makes_up", s.makes_up ? json(s.makes_up->ticket) : json()},
-                {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
-                {"appeal", s.open_appeal() != nullptr}};
+    ResultRow row{.session = s.seq, .result = s.result_seq, .candidate = s.candidate, .exam = s.scenario_id, .simulated = s.simulated};
+    row.state = state_of(registry, s, otherwise);
+    row.verdict = text_in(*s.result, "verdict");
+    row.station = station_name(registry, s.station_key);
+    row.seat = planned_seat(registry, s.nonce);
+    if (s.taken_back()) row.why_back = s.retracted_why;
+    row.sha256 = recording_sha256(s);
     const json& score = member_of(*s.result, "score");
-    row["points"] = member_of(score, "points");
-    row["max"] = member_of(score, "max");
+    row.points = number_in(member_of(score, "points"));
+    row.max = number_in(member_of(score, "max"));
+    if (s.shown->is_object()) row.grade = number_in(ledger::exported_grade(s, scales).grade);
+    row.findings = shown_each(s.findings);
+    row.decided = decided(s);
+    row.shown = s.shown_seq != 0;
+    row.appeal = s.open_appeal() != nullptr;
+    row.makes_up = s.makes_up;
+    row.made_up_by = s.made_up_by;
     if (s.shown->is_object() && s.shown_seq != s.result_seq)  // what is out is not what will be
-      row["out"] = {{"verdict", text_in(*s.shown, "verdict")}, {"points", member_of(member_of(*s.shown, "score"), "points")}};
-    if (const auto last = counting.find({s.candidate, s.scenario_id}); s.shown->is_object() && last->second != s.seq) row["later"] = last->second;
-    if (names) put_name(row, people, s.candidate);
-    out.push_back(std::move(row));
+      row.out = {text_in(*s.shown, "verdict"), number_in(member_of(member_of(*s.shown, "score"), "points"))};
+    if (const auto last = counting.find({s.candidate, s.scenario_id}); s.shown->is_object() && last->second != s.seq) row.later = last->second;
+    if (names) put_name(row, people);
+    out.value.push_back(std::move(row));
   }
-  return {{"results", out}};
+  return out;
 }
 
-json Desk::release(const json& asked, const Account& by) {
+Released Desk::release(const ReleaseResults& asked, const Account& by) {
   ledger::ReleaseWish wish;
-  wish.all = member_of(asked, "all") == true;
-  wish.sessions = sessions_in(asked);
-  wish.with_findings = member_of(asked, "with_findings") == true;
-  Turn turn(*this, {by.name, reason_in(asked), ""});
-  if (const json& results = member_of(asked, "results"); results.is_array()) wish.sessions = sessions_of_results(turn.book.registry(), results);
+  wish.all = asked.all;
+  wish.sessions = asked.sessions;
+  wish.with_findings = asked.with_findings;
+  Turn turn(*this, {by.name, asked.reason, ""});
+  if (asked.results) wish.sessions = sessions_of_results(turn.book.registry(), *asked.results);
   if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or results as they were shown");
   const ledger::Release done = ledger::release_results(turn.book, wish);
-  return {{"released", done.results.size()}, {"kept_back", done.kept_back}, {"to_decide", done.to_decide}};
+  return {done.results.size(), done.kept_back, done.to_decide};
 }
 
 std::string Desk::gradebook(bool rehearsal) {
@@ -159,49 +140,48 @@ std::string Desk::criteria() {
   return ledger::tidy_csv(turn.book.registry());
 }
 
-json Desk::retract(const json& asked, const Account& by) {
+Entered Desk::retract(const Retract& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::retract_results(turn.book, sessions_in(asked), reason_in(asked)).seq}};
+  return {ledger::retract_results(turn.book, asked.sessions, asked.reason).seq};
 }
 
-json Desk::appeals() {
+Appeals Desk::appeals() {
   Turn turn(*this);
-  json out = json::array();
-  for (const auto& s : turn.book.registry().sessions)
+  const ledger::Registry& registry = turn.book.registry();
+  Appeals out;
+  for (const auto& s : registry.sessions)
     for (const auto& a : s.appeals) {
       const json& score = member_of(*s.result, "score");
-      out.push_back({{"entry", a.seq},
-                     {"utc", utc_text(a.utc_ns)},
-                     {"session", s.seq},
-                     {"candidate", s.candidate},
-                     {"exam", s.scenario_id},
-                     {"verdict", text_in(*s.result, "verdict")},
-                     {"points", member_of(score, "points")},
-                     {"max", member_of(score, "max")},
-                     {"sha256", recording_sha256(s)},
-                     {"decided", decided(s)},
-                     {"noted", noted(turn.book.registry(), s.candidate)},
-                     {"reason", a.reason},
-                     {"made_up_by", s.made_up_by ? json(*s.made_up_by) : json()},
-                     {"open", !a.closed_by.has_value()},
-                     {"changed", ledger::changed_since(s, a)},
-                     {"outcome", a.closed_by ? ledger::word_of(a.outcome) : ""},
-                     {"answer", a.answer}});
+      AppealRow row{a.seq,
+                    s.seq,
+                    utc_text(a.utc_ns),
+                    s.candidate,
+                    s.scenario_id,
+                    text_in(*s.result, "verdict"),
+                    recording_sha256(s),
+                    a.reason,
+                    a.closed_by ? ledger::word_of(a.outcome) : "",
+                    a.answer,
+                    number_in(member_of(score, "points")),
+                    number_in(member_of(score, "max")),
+                    decided(s),
+                    noted(registry, s.candidate),
+                    s.made_up_by,
+                    !a.closed_by.has_value(),
+                    ledger::changed_since(s, a)};
+      out.value.push_back(std::move(row));
     }
-  return {{"appeals", out}};
+  return out;
 }
 
-json Desk::open_appeal(const json& asked, const Account& by) {
-  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
+Entered Desk::open_appeal(const OpenAppeal& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::open_appeal(turn.book, session, reason_in(asked)).seq}};
+  return {ledger::open_appeal(turn.book, asked.session, asked.reason).seq};
 }
 
-json Desk::answer_appeal(const json& asked, const Account& by) {
-  const auto session = require_whole<std::uint64_t>(asked, "session", "the session");
-  const auto outcome = ledger::of_word<ledger::Outcome>(text_in(asked, "outcome"), "the outcome");
+Entered Desk::answer_appeal(const AnswerAppeal& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::answer_appeal(turn.book, session, outcome, reason_in(asked)).seq}};
+  return {ledger::answer_appeal(turn.book, asked.session, ledger::of_word<ledger::Outcome>(asked.outcome, "the outcome"), asked.reason).seq};
 }
 
 ledger::ClassRegrade Desk::plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries) {
@@ -233,13 +213,13 @@ std::uint64_t Desk::counted_regrades(const std::string& exam, const std::string&
   return counted;
 }
 
-json Desk::filed_exams() {
+std::vector<FiledExam> Desk::filed_exams() {
   Turn turn(*this);
   std::map<std::string, std::size_t> exams;
   for (const auto& s : turn.book.registry().sessions) exams[s.scenario_id] += !s.motion_erased_by && s.result->is_object() ? 1 : 0;
-  json out = json::array();
+  std::vector<FiledExam> out;
   for (const auto& [id, sessions] : exams)
-    if (sessions > 0) out.push_back({{"id", id}, {"sessions", sessions}});
+    if (sessions > 0) out.push_back({id, sessions});
   return out;
 }
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/issue.h"
@@ -14,8 +13,6 @@
 #include "ui/office/papers.h"
 
 namespace cavum::office {
-
-using nlohmann::json;
 
 namespace {
 
@@ -41,84 +38,72 @@ std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std
 
 }  // namespace
 
-json Desk::announce(const json& asked, const Account& by) {
+Entered Desk::announce(const Announce& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::announce(turn.book, text_in(asked, "text"), audience_of(asked, turn.book.registry().stations)).seq}};
+  return {ledger::announce(turn.book, asked.text, audience_of(asked.to, turn.book.registry().stations)).seq};
 }
 
-json Desk::hold(const json& asked, const Account& by) {
+Entered Desk::hold(const Hold& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::hold_exams(turn.book, text_in(asked, "reason"), audience_of(asked, turn.book.registry().stations)).seq}};
+  return {ledger::hold_exams(turn.book, asked.reason, audience_of(asked.to, turn.book.registry().stations)).seq};
 }
 
-json Desk::go_on(const json& asked, const Account& by) {
-  const auto hold = require_whole<std::uint64_t>(asked, "hold", "the pause");
+Entered Desk::go_on(const GoOn& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::let_go_on(turn.book, hold, text_in(asked, "reason")).seq}};
+  return {ledger::let_go_on(turn.book, asked.hold, asked.reason).seq};
 }
 
-json Desk::note_incident(const json& asked, const Account& by) {
+Entered Desk::note_incident(const NoteIncident& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::note_incident(turn.book, text_in(asked, "station"), text_in(asked, "candidate"), text_in(asked, "words")).seq}};
+  return {ledger::note_incident(turn.book, asked.station, asked.candidate, asked.words).seq};
 }
 
-json Desk::incidents() {
+Incidents Desk::incidents() {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const auto people = people_of(turn.book);
-  json out = json::array();
+  Incidents out;
   for (auto i = registry.day.incidents.rbegin(); i != registry.day.incidents.rend(); ++i) {
-    json row = {{"entry", i->seq},
-                {"utc", utc_text(i->utc_ns)},
-                {"by", i->account},
-                {"station", station_name(registry, i->station)},
-                {"candidate", i->candidate},
-                {"words", i->words},
-                {"erased", i->erased_by.has_value()}};
-    put_name(row, people, i->candidate);
-    out.push_back(std::move(row));
+    out.value.push_back(
+        {i->seq, utc_text(i->utc_ns), i->account, station_name(registry, i->station), i->candidate, "", "", i->words, i->erased_by.has_value()});
+    put_name(out.value.back(), people);
   }
-  return {{"incidents", out}};
+  return out;
 }
 
-json Desk::attendance(const Board& board) {
+Attendance Desk::attendance(const Board& board) {
   constexpr std::int64_t k_day_ns = 86'400'000'000'000;
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const auto people = people_of(turn.book);
   const auto seen = board.candidates();
   const std::int64_t now = read_clocks().utc_ns;
-  json out = json::array();
+  Attendance out;
   for (const auto& t : registry.tickets) {
     if (t.used_by || t.cancelled_by || t.made_up_by || !t.begins.empty() || seen.contains(t.ticket.candidate)) continue;
     if (now < t.ticket.not_before_utc_ns || now > t.ticket.not_after_utc_ns + k_day_ns) continue;
-    json row = {{"candidate", t.ticket.candidate},
-                {"exam", t.ticket.exam},
-                {"not_before", utc_text(t.ticket.not_before_utc_ns)},
-                {"not_after", utc_text(t.ticket.not_after_utc_ns)},
-                {"seat", station_name(registry, t.seat)},
-                {"no_show", now > t.ticket.not_after_utc_ns}};
-    put_name(row, people, t.ticket.candidate);
-    out.push_back(std::move(row));
+    out.value.push_back({t.ticket.candidate, "", "", t.ticket.exam, utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns),
+                         station_name(registry, t.seat), now > t.ticket.not_after_utc_ns});
+    put_name(out.value.back(), people);
   }
-  return {{"missing", out}};
+  return out;
 }
 
-json Desk::place(const json& asked, const Account& by) {
+Entered Desk::place(const PlaceStation& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {{"entry", ledger::place_station(turn.book, text_in(asked, "public_key"), text_in(asked, "room")).seq}};
+  return {ledger::place_station(turn.book, asked.public_key, asked.room).seq};
 }
 
-json Desk::seat(const json& asked, const Account& by) {
+Seated Desk::seat(const SeatThem& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
   const ledger::Registry& registry = turn.book.registry();
   std::vector<ledger::Seat> seats;
   std::size_t left = 0;
-  if (const json& sitting = member_of(asked, "sitting"); sitting.is_object()) {
-    const std::string exam = text_in(sitting, "exam");
-    const std::int64_t from = ledger::parse_utc(text_in(sitting, "not_before"), "the first moment"),
-                       until = ledger::parse_utc(text_in(sitting, "not_after"), "the last moment"), now = read_clocks().utc_ns;
-    seats = free_seats(registry, exam, from, until, text_in(asked, "room"), now);
+  if (asked.sitting) {
+    const std::string& exam = asked.sitting->exam;
+    const std::int64_t from = ledger::parse_utc(asked.sitting->not_before, "the first moment"),
+                       until = ledger::parse_utc(asked.sitting->not_after, "the last moment"), now = read_clocks().utc_ns;
+    seats = free_seats(registry, exam, from, until, asked.room, now);
     for (const auto& t : registry.tickets)
       left +=
           t.ticket.exam == exam && t.ticket.not_before_utc_ns == from && t.ticket.not_after_utc_ns == until && t.seat.empty() && state_of(t, now).live
@@ -127,19 +112,20 @@ json Desk::seat(const json& asked, const Account& by) {
     left -= seats.size();
     if (seats.empty()) throw Error("the sitting", "has nobody without a seat, or no station is free", "take another room or time");
   } else {
-    seats.push_back({require_whole<std::uint64_t>(asked, "ticket", "the seat"), text_in(asked, "station")});
+    if (!asked.ticket) throw Error("'ticket'", "is missing", "name a sitting or a ticket");
+    seats.push_back({*asked.ticket, asked.station});
   }
-  return {{"entry", ledger::seat_candidates(turn.book, seats).seq}, {"seated", seats.size()}, {"left", left}};
+  return {ledger::seat_candidates(turn.book, seats).seq, seats.size(), left};
 }
 
 std::vector<Invited> Desk::invited_now() {
   Turn turn(*this);
   auto people = invited(turn.book, read_clocks().utc_ns);
-  const json offered = exams().at("exams");
+  const Exams offered = exams();
   for (auto& i : people) {
     i.accommodations = granted_on(i.nonce);
-    for (const json& e : offered)
-      if (e["id"] == i.exam) i.title = e["title"];
+    for (const ExamFacts& e : offered.value)
+      if (e.id == i.exam) i.title = e.title;
   }
   return people;
 }
@@ -156,20 +142,16 @@ std::string Desk::sign_in_sheet() {
   return sheet_to_sign(school_, people);
 }
 
-json Desk::word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns) {
+OfficeWord Desk::word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns) {
   Turn turn(*this);
   const ledger::Registry& registry = turn.book.registry();
   const std::int64_t now = read_clocks().utc_ns;
-  json announcements = json::array();
+  OfficeWord word{now, registry.tickets.size(), {}, {}};
   for (const auto* a : announced_to(registry.day, station, since_utc_ns, now))
-    if (a->seq > heard) announcements.push_back({{"entry", a->seq}, {"utc_ns", a->utc_ns}, {"text", a->words}});
-  const ledger::Hold* hold = registry.day.hold_of(station);
-  std::size_t changes = registry.tickets.size();
-  for (const auto& t : registry.tickets) changes += !state_of(t, now).live ? 1 : 0;
-  return {{"utc_ns", now},
-          {"tickets", changes},
-          {"hold", hold == nullptr ? json() : json{{"entry", hold->seq}, {"reason", hold->reason}}},
-          {"announcements", announcements}};
+    if (a->seq > heard) word.announcements.push_back({a->seq, a->utc_ns, a->words});
+  for (const auto& t : registry.tickets) word.tickets += !state_of(t, now).live ? 1 : 0;
+  if (const ledger::Hold* hold = registry.day.hold_of(station); hold != nullptr) word.hold = {hold->seq, hold->reason};
+  return word;
 }
 
 }  // namespace cavum::office

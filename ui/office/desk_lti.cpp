@@ -9,8 +9,6 @@
 
 namespace cavum::office {
 
-using nlohmann::json;
-
 namespace {
 
 bool is_own(ledger::Identities& identities, const ledger::FiledSession& s, const std::string& number) {
@@ -54,23 +52,18 @@ std::pair<int, int> Desk::passbacks(const std::string& line_item) {
   return out;
 }
 
-json Desk::own_results(const std::string& number, const std::string& exam) {
+std::vector<OwnResult> Desk::own_results(const std::string& number, const std::string& exam) {
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
   const auto scales = ledger::own_scales(turn.book.registry());
   const auto counting = turn.book.registry().counting();
-  json out = json::array();
+  std::vector<OwnResult> out;
   for (const auto& s : turn.book.registry().sessions) {
     if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
     const ledger::ExportedGrade grade = ledger::exported_grade(s, scales);
-    out.push_back({{"exam", s.scenario_id},
-                   {"verdict", text_in(*s.shown, "verdict")},
-                   {"points", grade.points},
-                   {"max", grade.max},
-                   {"released", local_text(s.released_utc_ns)},
-                   {"counts", counting.at({s.candidate, s.scenario_id}) == s.seq},
-                   {"simulated", !s.simulated.empty()},
-                   {"sha256", s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256}});
+    out.push_back({s.scenario_id, text_in(*s.shown, "verdict"), number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
+                   local_text(s.released_utc_ns), counting.at({s.candidate, s.scenario_id}) == s.seq, !s.simulated.empty(),
+                   s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256});
   }
   return out;
 }

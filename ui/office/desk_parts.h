@@ -3,7 +3,6 @@
 
 #include <cstdint>
 #include <map>
-#include <nlohmann/json.hpp>
 #include <optional>
 #include <set>
 #include <string>
@@ -13,23 +12,34 @@
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 #include "ui/office/roster.h"
+#include "ui/office/wire.h"
 
 namespace cavum::office {
 
 /// Names by pseudonym.
 [[nodiscard]] std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger);
-/// {"id","name"} of a pseudonym, empty when nobody is behind it any more.
-void put_name(nlohmann::json& row, const std::map<std::string, ledger::Identity>& people, const std::string& pseudonym);
+/// `id` and `name` of a row's candidate, empty when nobody is behind it any more.
+template <class Row>
+void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
+  const auto found = people.find(row.candidate);
+  row.id = found == people.end() ? "" : found->second.id;
+  row.name = found == people.end() ? "" : found->second.name;
+}
+
+/// Points and the like; none where it is no number.
+[[nodiscard]] inline std::optional<double> number_in(const nlohmann::json& value) {
+  return value.is_number() ? std::optional(value.get<double>()) : std::nullopt;
+}
 
 /// The same in the office's language.
 [[nodiscard]] std::vector<std::string> shown_each(std::vector<std::string> english);
 
-/// The list of a request: {"base64","answers"}. Throws Error when it is none.
-[[nodiscard]] Roster roster_of(const nlohmann::json& asked);
-[[nodiscard]] nlohmann::json shown_roster(const Roster& roster);
+/// The list of a request. Throws Error when it is none.
+[[nodiscard]] Roster roster_of(const ClassList& asked);
+[[nodiscard]] Preview shown_roster(const Roster& roster);
 
-/// {"id","title","file","time_limit_s"} of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
-[[nodiscard]] nlohmann::json exam_facts(const std::string& scenario_file);
+/// Of a scenario, its title in the office's language where the file has it. Throws Error when it cannot be read.
+[[nodiscard]] ExamFacts exam_facts(const std::string& scenario_file);
 
 /// Notes of sessions, of each what one candidate is granted.
 using Grants = std::vector<std::vector<std::pair<std::string, std::string>>>;
@@ -40,23 +50,12 @@ using Grants = std::vector<std::vector<std::pair<std::string, std::string>>>;
 struct IssueWish {
   std::string scenario;  ///< file
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
-  bool begun_at_ledger = false;
-  bool another = false;  ///< also to those who have a ticket that is good, or have sat the exam
-  std::string reason;
-  std::size_t at_once = 0;    ///< candidates of a sitting, in the list's order; 0: all in one
-  std::int64_t apart_ns = 0;  ///< from the beginning of a sitting to the next one's
-  bool overlap = false;       ///< one may begin while the last is still sat
 };
-/// {"exam","from","until","begin_at_office","another","reason"}: the exam by its id, one of `exams`. With "at_once" (1 to 10,000) sittings follow
-/// each other "minutes_apart" (1 to 10,080), and "overlap" says that one may begin while the last is still sat. Throws Error.
-[[nodiscard]] IssueWish issue_wish(const nlohmann::json& asked, const std::vector<std::string>& exams);
+/// The exam by its id, one of `exams`. Throws Error.
+[[nodiscard]] IssueWish issue_wish(const std::string& exam, const std::string& from, const std::string& until, const std::vector<std::string>& exams);
 
-/// What a request grants, as notes of a session: `accommodations` is "none", "these" (with extra_time_percent, extra_time_s, left_handed,
-/// high_contrast, each where it is granted) or "as before": nothing is returned then. Throws Error for another word, or a value that is none.
-[[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const nlohmann::json& asked);
-
-/// Why: one line, kept for ever. Throws Error when it is none.
-[[nodiscard]] std::string reason_in(const nlohmann::json& asked);
+/// What a request grants, as notes of a session; none: as before. Throws Error for a value that is none.
+[[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const MakeUp& asked);
 
 /// A station's name by its key; empty where the ledger knows none.
 [[nodiscard]] std::string station_name(const ledger::Registry& registry, const std::string& key);

@@ -38,23 +38,24 @@ class Trail {
     }
   }
 
-  /// {"entry","utc","what","by","why","number","people"}: `people` are pseudonyms; `number`: of results, seats or erased parts. Of incidents what
-  /// happened only with `words`.
-  [[nodiscard]] json row(const ledger::LedgerEntry& e, bool words) const {
+  /// Without its people. Of incidents what happened only with `words`.
+  [[nodiscard]] TrailEntry row(const ledger::LedgerEntry& e, bool words) const {
     const auto* session = e.as<ledger::SessionEntry>();
     const Told told = told_of(e, words);
-    std::vector<std::string> people;
-    if (!told.candidate.empty()) people.push_back(told.candidate);
+    return {e.seq, utc_text(e.utc_ns), told.what,
+            e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account, told.why,
+            told.number};
+  }
+
+  /// Pseudonyms.
+  [[nodiscard]] std::vector<std::string> people(const ledger::LedgerEntry& e) const {
+    const Told told = told_of(e, false);
+    std::vector<std::string> out;
+    if (!told.candidate.empty()) out.push_back(told.candidate);
     for (const auto seq : told.about)
-      if (const auto who = people_.find(seq); who != people_.end() && std::find(people.begin(), people.end(), who->second) == people.end())
-        people.push_back(who->second);
-    return {{"entry", e.seq},
-            {"utc", utc_text(e.utc_ns)},
-            {"what", told.what},
-            {"by", e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account},
-            {"why", told.why},
-            {"number", told.number},
-            {"people", people}};
+      if (const auto who = people_.find(seq); who != people_.end() && std::find(out.begin(), out.end(), who->second) == out.end())
+        out.push_back(who->second);
+    return out;
   }
 
  private:
@@ -114,34 +115,32 @@ class Trail {
 
 }  // namespace
 
-json Desk::trail(const json& asked, bool names) {
+TrailPage Desk::trail(const AskTrail& asked, bool names) {
   constexpr std::size_t k_page = 200;
-  const std::string about = text_in(asked, "about");
-  const json& before = member_of(asked, "before");
   Turn turn(*this);
   const auto people = people_of(turn.book);
-  const auto is_asked = [&](const json& who) {
-    const auto known = people.find(who.get<std::string>());
-    return who == about || (names && known != people.end() && known->second.id == about);
+  const auto is_asked = [&](const std::string& who) {
+    const auto known = people.find(who);
+    return who == asked.about || (names && known != people.end() && known->second.id == asked.about);
   };
   const Trail trail(turn.book.registry());
   const auto& entries = turn.book.content().entries;
-  json out = json::array();
-  std::size_t seq = before.is_number_unsigned() ? std::min<std::size_t>(before.get<std::size_t>(), entries.size()) : entries.size();
-  while (seq > 0 && out.size() < k_page) {
-    json row = trail.row(entries[--seq], names);
-    const json everybody = row["people"];
+  TrailPage out;
+  std::size_t seq = std::min<std::size_t>(asked.before.value_or(entries.size()), entries.size());
+  while (seq > 0 && out.entries.size() < k_page) {
+    TrailEntry row = trail.row(entries[--seq], names);
+    const auto everybody = trail.people(entries[seq]);
     const auto asked_for = std::find_if(everybody.begin(), everybody.end(), is_asked);
-    if (!about.empty() && asked_for == everybody.end()) continue;
-    json& shown = row["people"] = json::array();  // who is asked for, or the only one: of many the number is told
-    if (!about.empty() || everybody.size() == 1) {
-      shown.push_back({{"candidate", about.empty() ? everybody.front() : *asked_for}});
-      if (names) put_name(shown.back(), people, shown.back()["candidate"]);
+    if (!asked.about.empty() && asked_for == everybody.end()) continue;
+    if (!asked.about.empty() || everybody.size() == 1) {  // who is asked for, or the only one: of many the number is told
+      row.people.push_back({asked.about.empty() ? everybody.front() : *asked_for, {}, {}});
+      if (names) put_name(row.people.back(), people);
     }
-    row["count"] = everybody.size();
-    out.push_back(std::move(row));
+    row.count = everybody.size();
+    out.entries.push_back(std::move(row));
   }
-  return {{"entries", out}, {"earlier", seq > 0 ? json(seq) : json()}};
+  if (seq > 0) out.earlier = seq;
+  return out;
 }
 
 }  // namespace cavum::office

@@ -84,7 +84,7 @@ class Talk {
       needs_.allow(needs_.limits.head_s);
       http::request_parser<http::buffer_body> parser;
       parser.header_limit(needs_.limits.head_bytes);
-      parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // its door says, once the head was read
+      parser.body_limit(std::numeric_limits<std::uint64_t>::max());  // its route says, once the head was read
       error_code wrong;
       http::read_header(stream_, buffer_, parser, wrong);
       if (wrong == http::error::header_limit)

@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "grading/ledger/filing.h"
+#include "ui/office/wire.h"
 
 namespace cavum::office {
 
@@ -45,7 +46,8 @@ class Arriving {
 
 /// What became of an exam that was handed in.
 struct Handed {
-  enum class State { unknown, waiting, filed, refused } state = State::unknown;
+  using State = HandedState;
+  State state = State::unknown;
   std::uint64_t entry = 0;                 ///< of the ledger, when it is filed
   std::vector<std::string> findings = {};  ///< why it was refused
   std::string station = {};                ///< key of who handed it in, or of who sealed it; empty: neither is known

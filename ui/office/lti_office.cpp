@@ -17,8 +17,6 @@
 namespace cavum::office {
 namespace {
 
-using nlohmann::json;
-
 constexpr std::int64_t k_visit_s = 3600;
 constexpr std::size_t k_most_visits = 5000, k_cookie_bytes = 32;
 constexpr char k_login_cookie[] = "__Host-cavum-login";
@@ -29,16 +27,16 @@ std::int64_t utc_s() { return read_clocks().utc_ns / 1'000'000'000; }
 std::string lti_page(const std::string& title, const std::string& body) {
   return fmt::format(
       "<!DOCTYPE html>\n<html lang=\"{}\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" content=\"width=device-width\">"
-      "<title>{}</title><link rel=\"stylesheet\" href=\"/office.css\"></head><body><main><h1>{}</h1>{}</main></body></html>\n",
-      language(), xml_text(title), xml_text(title), body);
+      "<title>{}</title><link rel=\"stylesheet\" href=\"{}\"></head><body><main><h1>{}</h1>{}</main></body></html>\n",
+      language(), xml_text(title), route::page_style::row.path, xml_text(title), body);
 }
 std::string paragraph(const std::string& text) { return "<p>" + xml_text(text) + "</p>"; }
 
 /// It opens in a window of its own, where cookies of this office are no third party's.
 std::string in_a_window(const std::string& fields) {
   return paragraph(tr("Cavum opens in a window of its own: inside the platform's page, browsers keep no sign-in.")) +
-         "<p><a target=\"_blank\" rel=\"noopener\" href=\"/lti/login?" + xml_text(fields) + "\">" + xml_text(tr("Open Cavum in a new window")) +
-         "</a></p>";
+         "<p><a target=\"_blank\" rel=\"noopener\" href=\"" + std::string(k_lti_login) + "?" + xml_text(fields) + "\">" +
+         xml_text(tr("Open Cavum in a new window")) + "</a></p>";
 }
 
 bool is_framed(const Head& head) {
@@ -62,61 +60,71 @@ std::string verdict_in_words(const std::string& verdict) {
 
 }  // namespace
 
-LtiOffice::LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account)
+LtiOffice::LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account,
+                     std::function<std::string(const Account&)> begin_sign_in)
     : desk_(desk),
       platforms_(home + "/platforms.json"),
       courses_(home + "/" + desk.ledger_id() + "/courses.json"),
       reports_(std::move(report)),
       account_(std::move(account)),
+      begin_sign_in_(std::move(begin_sign_in)),
       sender_(desk, platforms_, courses_) {}
 
-void LtiOffice::serve(Site& site, std::function<void(const std::string& code, const Account& by)> require_code,
-                      std::function<std::string(const Account&)> begin_sign_in) {
-  begin_sign_in_ = std::move(begin_sign_in);
-  /// What is wrong, as a page.
-  const auto as_page = [this](auto say) {
-    return [this, say](const Call& call) {
-      try {
-        return say(call);
-      } catch (const Error& wrong) {
-        return framed(400, lti_page(tr("Cavum cannot be opened"), paragraph(shown(one_line(wrong.what())))));
-      }
-    };
-  };
-  site.on("GET", "/lti/jwks", [this](const Call&) { return json_reply(public_key_set(platforms_.keys())); });
-  site.on("GET", "/lti/login", as_page([this](const Call& c) { return login(c, c.head.query); }));
-  site.on("POST", "/lti/login", as_page([this](const Call& c) { return login(c, c.body); }));
-  site.on("POST", "/lti/launch", as_page([this](const Call& c) { return launch(c); }));
-  site.on("GET", "/lti/result", as_page([this](const Call& c) { return own_results(c); }));
-  site.on("GET", "/lti/report/*", as_page([this](const Call& c) {
-            const auto visit = visit_of(c.cookie);
-            return reports_.of(desk_.own_recording(visit ? visit->id : "", c.tail));
-          }));
-  site.on("GET", "/api/lti", [this](const Call&) { return json_reply(shown_set_up()); });
-  const auto change = [&](const char* path, auto act) {
-    site.on("POST", path, [this, act, require_code](const Call& c) {
-      const json asked = c.json();
-      require_code(text_in(asked, "code"), c.by->account);
-      act(asked);
-      sender_.nudge();
-      return json_reply(shown_set_up());
-    });
-  };
-  change("/api/lti/set", [this](const json& asked) { platforms_.set(platform_in(member_of(asked, "platform"))); });
-  change("/api/lti/remove", [this](const json& asked) {
-    platforms_.remove(text_in(asked, "issuer"), text_in(asked, "client_id"));
-    courses_.remove(text_in(asked, "issuer"), text_in(asked, "client_id"));
+template <class Say>
+Reply LtiOffice::as_page(const Say& say) const {
+  try {
+    return say();
+  } catch (const Error& wrong) {
+    return framed(400, lti_page(tr("Cavum cannot be opened"), paragraph(shown(one_line(wrong.what())))));
+  }
+}
+
+Reply LtiOffice::answer(route::lti_keys, const Call&) { return json_reply(public_key_set(platforms_.keys())); }
+Reply LtiOffice::answer(route::lti_login, const Call& c) {
+  return as_page([&] { return login(c, c.head.query); });
+}
+Reply LtiOffice::answer(route::lti_login_form, const Call& c) {
+  return as_page([&] { return login(c, c.body); });
+}
+Reply LtiOffice::answer(route::lti_launch, const Call& c) {
+  return as_page([&] { return launch(c); });
+}
+Reply LtiOffice::answer(route::own_results, const Call& c) {
+  return as_page([&] { return own_results(c); });
+}
+Reply LtiOffice::answer(route::own_report, const Call& c) {
+  return as_page([&] {
+    const auto visit = visit_of(c.cookie);
+    return reports_.of(desk_.own_recording(visit ? visit->id : "", c.tail));
   });
-  change("/api/lti/link", [this](const json& asked) {
-    const std::string account = text_in(asked, "account");
-    if (!account.empty() && !account_(account)) throw Error("account " + one_line(account), "is not there", "see `cavum serve --accounts`");
-    platforms_.link(text_in(asked, "issuer"), text_in(asked, "client_id"), text_in(asked, "sub"), account);
-  });
-  change("/api/lti/new-key", [this](const json&) { platforms_.rotate(); });
-  site.on("POST", "/api/lti/send", [this](const Call&) {
-    sender_.send_again();
-    return json_reply(json::object());
-  });
+}
+
+LtiSetUp LtiOffice::answer(route::set_platform, const SetPlatform& asked, const Call& c) {
+  platforms_.set(sound_platform(asked.platform));
+  return answer(route::lti(), c);
+}
+
+LtiSetUp LtiOffice::answer(route::remove_platform, const RemovePlatform& asked, const Call& c) {
+  platforms_.remove(asked.issuer, asked.client_id);
+  courses_.remove(asked.issuer, asked.client_id);
+  return answer(route::lti(), c);
+}
+
+LtiSetUp LtiOffice::answer(route::link_person, const LinkPerson& asked, const Call& c) {
+  if (!asked.account.empty() && !account_(asked.account))
+    throw Error("account " + one_line(asked.account), "is not there", "see `cavum serve --accounts`");
+  platforms_.link(asked.issuer, asked.client_id, asked.sub, asked.account);
+  return answer(route::lti(), c);
+}
+
+LtiSetUp LtiOffice::answer(route::new_key, const WithCode&, const Call& c) {
+  platforms_.rotate();
+  return answer(route::lti(), c);
+}
+
+Nothing LtiOffice::answer(route::send_scores, const Call&) {
+  sender_.send_again();
+  return {};
 }
 
 Reply LtiOffice::framed(int status, const std::string& html) const {
@@ -156,7 +164,7 @@ Reply LtiOffice::launch(const Call& call) {
       if (teaching_.size() >= k_most_visits) teaching_.clear();
       teaching_[account->name] = {*account, come.platform.issuer, come.platform.client_id};
     }
-    Reply reply = go_to(303, "/");
+    Reply reply = go_to(303, route::page::row.path_of());
     reply.fields.emplace_back("Set-Cookie", begin_sign_in_(*account));
     return reply;
   }
@@ -170,7 +178,7 @@ Reply LtiOffice::launch(const Call& call) {
           std::min_element(visits_.begin(), visits_.end(), [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
     visits_[to_hex(sha256(cookie))] = {come.id, come.name, come.exam, come.platform.issuer, come.platform.client_id, now};
   }
-  Reply reply = go_to(303, "/lti/result");
+  Reply reply = go_to(303, route::own_results::row.path_of());
   reply.fields.emplace_back("Set-Cookie", cookie_to_keep(k_visit_cookie, cookie, k_visit_s, "Lax"));
   return reply;
 }
@@ -203,18 +211,17 @@ Reply LtiOffice::own_results(const Call& call) {
   std::string body = visit->name.empty() ? "" : paragraph(visit->name);
   if (visit->id.empty()) {
     body += paragraph(tr("The platform does not tell this office who you are. Ask your school."));
-  } else if (const json results = desk_.own_results(visit->id, visit->exam); results.empty()) {
+  } else if (const auto results = desk_.own_results(visit->id, visit->exam); results.empty()) {
     body += paragraph(tr("There is no result of yours that was released."));
   } else {
     body += "<ul>";
-    for (const json& r : results) {
-      const std::string text = tr("{0}: {1}, {2} of {3} points, released {4}", as_is(text_in(r, "exam")), verdict_in_words(text_in(r, "verdict")),
-                                  fixed(r["points"].get<double>(), 1), plain_number(r["max"].get<double>()), as_is(text_in(r, "released")));
+    for (const OwnResult& r : results) {
+      const std::string text = tr("{0}: {1}, {2} of {3} points, released {4}", as_is(r.exam), verdict_in_words(r.verdict), fixed(r.points, 1),
+                                  plain_number(r.max), as_is(r.released));
       body += "<li>" + xml_text(text);
-      if (r["simulated"] == true) body += ". " + xml_text(tr("A rehearsal: no student sat this."));
-      if (r["counts"] == false) body += ". " + xml_text(tr("A later attempt counts."));
-      if (const std::string hash = text_in(r, "sha256"); !hash.empty())
-        body += " <a href=\"/lti/report/" + hash + "\">" + xml_text(tr("Report")) + "</a>";
+      if (r.simulated) body += ". " + xml_text(tr("A rehearsal: no student sat this."));
+      if (!r.counts) body += ". " + xml_text(tr("A later attempt counts."));
+      if (!r.sha256.empty()) body += " <a href=\"" + route::own_report::row.path_of(r.sha256) + "\">" + xml_text(tr("Report")) + "</a>";
       body += "</li>";
     }
     body += "</ul>";
@@ -222,15 +229,11 @@ Reply LtiOffice::own_results(const Call& call) {
   return {200, "text/html; charset=utf-8", lti_page(tr("Your results"), body)};
 }
 
-json LtiOffice::shown_set_up() {
-  json platforms = json::array(), keys = json::array();
-  for (const auto& p : platforms_.all()) {
-    json one = json_of(p);
-    one["addresses"] = shown_addresses(p);
-    platforms.push_back(std::move(one));
-  }
-  for (const auto& k : platforms_.keys()) keys.push_back({{"kid", k.kid}, {"made", utc_text(k.made_utc_ns)}});
-  return {{"platforms", platforms}, {"keys", keys}, {"progress", sender_.progress()}};
+LtiSetUp LtiOffice::answer(route::lti, const Call&) {
+  LtiSetUp out{{}, {}, sender_.progress()};
+  for (const auto& p : platforms_.all()) out.platforms.push_back({p, addresses_for(p)});
+  for (const auto& k : platforms_.keys()) out.keys.push_back({k.kid, utc_text(k.made_utc_ns)});
+  return out;
 }
 
 }  // namespace cavum::office

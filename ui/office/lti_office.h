@@ -24,13 +24,23 @@ struct LtiVisit {
 
 class LtiOffice {
  public:
-  /// `home`: the office's folder. `report`: the student's report of a recording. `sign_in`: begins a sign-in for an account, and gives its cookie
-  /// field.
-  LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account);
+  /// `home`: the office's folder. `report`: the student's report of a recording. `begin_sign_in`: for an account, gives its cookie field.
+  LtiOffice(Desk& desk, const std::string& home, Reports::Make report, std::function<std::optional<Account>(const std::string&)> account,
+            std::function<std::string(const Account&)> begin_sign_in);
 
-  /// Puts handlers behind the doors of LTI. `require_code` throws where the second factor's code in a request is not good.
-  void serve(Site& site, std::function<void(const std::string& code, const Account& by)> require_code,
-             std::function<std::string(const Account&)> begin_sign_in);
+  // Handlers of its routes.
+  [[nodiscard]] Reply answer(route::lti_keys, const Call& call);
+  [[nodiscard]] Reply answer(route::lti_login, const Call& call);
+  [[nodiscard]] Reply answer(route::lti_login_form, const Call& call);
+  [[nodiscard]] Reply answer(route::lti_launch, const Call& call);
+  [[nodiscard]] Reply answer(route::own_results, const Call& call);
+  [[nodiscard]] Reply answer(route::own_report, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::lti, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::set_platform, const SetPlatform& asked, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::remove_platform, const RemovePlatform& asked, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::link_person, const LinkPerson& asked, const Call& call);
+  [[nodiscard]] LtiSetUp answer(route::new_key, const WithCode& asked, const Call& call);
+  [[nodiscard]] Nothing answer(route::send_scores, const Call& call);
   /// An instructor who came from a platform that is still set up, and whom no account is linked to.
   [[nodiscard]] std::optional<Account> reader(const std::string& name);
   /// Whether the cookie is that of a learner who has come.
@@ -42,7 +52,9 @@ class LtiOffice {
   [[nodiscard]] Reply launch(const Call& call);
   [[nodiscard]] Reply own_results(const Call& call);
   [[nodiscard]] std::optional<LtiVisit> visit_of(const std::string& cookie);
-  [[nodiscard]] nlohmann::json shown_set_up();
+  /// What `say` says, or what is wrong, as a page.
+  template <class Say>
+  [[nodiscard]] Reply as_page(const Say& say) const;
   /// A page for whoever comes from a platform, which may stand in its frames: it holds no secret.
   [[nodiscard]] Reply framed(int status, const std::string& html) const;
 

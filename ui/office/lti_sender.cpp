@@ -248,8 +248,8 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   return id;
 }
 
-json LtiSender::progress() {
-  json out = json::array();
+std::vector<ScoresOfCourse> LtiSender::progress() {
+  std::vector<ScoresOfCourse> out;
   const std::vector<LtiPlatform> platforms = platforms_.all();
   const std::vector<LtiCourse> courses = courses_.all();
   for (const LtiCourse& c : courses) {
@@ -263,15 +263,7 @@ json LtiSender::progress() {
       const std::lock_guard guard(lock_);
       if (const auto found = troubles_.find(key_of(*p, c)); found != troubles_.end()) trouble = shown(one_line(found->second.words));
     }
-    out.push_back({{"platform", p->name},
-                   {"title", c.title},
-                   {"exam", c.exam},
-                   {"item", c.item},
-                   {"sent", sent},
-                   {"refused", refused},
-                   {"waiting", waiting},
-                   {"unknown", unknown},
-                   {"trouble", trouble}});
+    out.push_back({p->name, c.title, c.exam, c.item, sent, refused, waiting, unknown, trouble});
   }
   return out;
 }

@@ -27,8 +27,8 @@ class LtiSender {
   void nudge();
   /// Look at once, also at platforms that were down, and send again what was refused.
   void send_again();
-  /// For each course {platform, title, exam, item, sent, refused, waiting, unknown, trouble}: numbers of scores, and what keeps them back, in words.
-  [[nodiscard]] nlohmann::json progress();
+  /// Of each course.
+  [[nodiscard]] std::vector<ScoresOfCourse> progress();
 
  private:
   void run();

@@ -40,12 +40,13 @@ std::string cookie_field(const std::string& value, std::int64_t seconds) {
   return fmt::format("{}={}; Path=/; Max-Age={}; Secure; HttpOnly; SameSite=Strict", k_cookie, value, seconds);
 }
 
-json words_of_the_page(bool proxied) {
-  json words = json::object();
-  if (language() != "en")
-    for (const auto& m : page_messages()) words[m] = shown(m);
-  return {{"language", language()}, {"decimal_sign", std::string(1, decimal_sign())}, {"words", words}, {"proxy", proxied}};
+Reply page_of(const char* type, std::string_view text) { return {200, type, std::string(text)}; }
+Reply file_of(const char* type, const std::string& name, std::string text) {
+  Reply reply{200, type, std::move(text)};
+  reply.fields.emplace_back("Content-Disposition", fmt::format("attachment; filename=\"{}\"", name));
+  return reply;
 }
+constexpr char k_csv[] = "text/csv; charset=utf-8", k_pdf[] = "application/pdf";
 
 /// "at=0&of=1000", to the letter; none: it is something else.
 std::optional<std::pair<std::uint64_t, std::uint64_t>> place_in(const std::string& query) {
@@ -64,7 +65,7 @@ class TakesSession : public Taker {
   Reply done() override {
     file_->keep();
     inbox_.add(sha256_, station_);
-    return json_reply({{"state", "waiting"}}, 202);
+    return json_reply(to_json_value(HandInState{HandedState::waiting}), 202);
   }
 
  private:
@@ -84,7 +85,9 @@ struct Office::Parts {
             o.home + "/" + desk.ledger_id() + "/pieces",
             [this](const std::string& path, const std::string& sha256, const std::string& station) { inbox.adopt(path, sha256, station); },
             [] { return utc_now_ns() / 1'000'000'000; }),
-        lti(desk, o.home, o.student_report, [this](const std::string& name) { return accounts.of(name); }),
+        lti(
+            desk, o.home, o.student_report, [this](const std::string& name) { return accounts.of(name); },
+            [this](const Account& account) { return cookie_field(site.sign_ins().begin(account, steady_s()), k_absolute_end_s); }),
         site({[this](const std::string& name) {
                 auto account = accounts.of(name);
                 return account ? account : lti.reader(name);
@@ -96,175 +99,163 @@ struct Office::Parts {
         reports(o.report),
         regrades(desk, o.ledger_folder, o.home + "/" + desk.ledger_id() + "/regrade.json"),
         used_codes(o.home + "/" + desk.ledger_id() + "/used_codes.json") {
-    serve_pages();
-    serve_people();
-    serve_desk();
-    serve_stations();
-    lti.serve(
-        site, [this](const std::string& code, const Account& by) { require_code(code, by); },
-        [this](const Account& account) { return cookie_field(site.sign_ins().begin(account, steady_s()), k_absolute_end_s); });
-    site.require_complete();
+    each_route([this]<class Served>(Served) {
+      if constexpr (std::same_as<typename Served::Request, InParts>)
+        site.on_parts(Served::row, [this](const Call& c) { return answer(Served(), c); });
+      else
+        site.on(Served::row, [this](const Call& c) { return serve<Served>(c); });
+    });
     server = std::make_unique<HttpServer>(
         o.address, o.port, o.certificate, [this](const Head& head) { return site.welcome(head); }, o.limits);
   }
 
-  void serve_pages() {
-    const auto page = [this](const char* path, const char* type, std::string_view text) {
-      site.on("GET", path, [type, text](const Call&) { return Reply{200, type, std::string(text)}; });
-    };
-    page("/", "text/html; charset=utf-8", page_html());
-    page("/office.js", "text/javascript; charset=utf-8", page_script());
-    page("/office.css", "text/css; charset=utf-8", page_style());
-    site.on("GET", "/api/words", [this](const Call&) { return json_reply(words_of_the_page(proxied)); });
+  /// From what was asked to what is answered, with what the row of the route says.
+  template <class Served>
+  [[nodiscard]] Reply serve(const Call& call) {
+    if constexpr (JsonStruct<typename Served::Request>) {
+      typename Served::Request asked;
+      read_json_value(call.json(), "", asked);
+      if constexpr (std::same_as<Served, route::count_regrade>)
+        regrades.require_ready(asked.id, call.by->account);  // or a code is used up for nothing
+      if constexpr (Served::row.needs_code()) require_code(asked.code, call.by->account);
+      return answered<Served>(call, asked);
+    } else {
+      return answered<Served>(call);
+    }
   }
 
-  void serve_people() {
-    site.on("POST", "/api/sign-in", [this](const Call& c) { return sign_in(c); });
-    site.on("POST", "/api/sign-in/proxy", [this](const Call& c) { return sign_in_by_proxy(c); });
-    site.on("POST", "/api/sign-out", [this](const Call& c) {
-      site.sign_ins().end(c.cookie);
-      Reply reply = json_reply(json::object());
-      reply.fields.emplace_back("Set-Cookie", cookie_field("", 0));
+  template <class Served>
+  [[nodiscard]] Reply answered(const Call& call, const auto&... asked) {
+    Reply reply = [&] {
+      if constexpr (requires { answer(Served(), asked..., call); })
+        return reply_of<typename Served::Answer>(answer(Served(), asked..., call));
+      else
+        return reply_of<typename Served::Answer>(lti.answer(Served(), asked..., call));
+    }();
+    if (Served::row.asks == Asks::person && Served::row.changes()) {
+      board.touch();
+      lti.nudge();
+    }
+    return reply;
+  }
+
+  template <class Answer, class Given>
+  [[nodiscard]] static Reply reply_of(Given given) {
+    if constexpr (std::same_as<Answer, Raw>) {
+      return given;
+    } else if constexpr (requires { given.stream; }) {
+      static_assert(std::same_as<Answer, typename Given::Answer>);
+      return std::move(given.stream);
+    } else {
+      Told<Answer> told(std::move(given));
+      Reply reply = json_reply(to_json_value(told.body), told.status);
+      reply.fields = std::move(told.fields);
       return reply;
-    });
-    site.on("GET", "/api/me", [this](const Call& c) { return me(*c.by); });
+    }
   }
 
-  Reply me(const SignedIn& who) const {
-    json may = json::array();
-    for (const Door& d : doors())
-      if (d.asks == Asks::person && d.lets(who.account.role)) may.push_back(fmt::format("{} {}", d.method, d.path));
-    return json_reply({{"name", who.account.name},
-                       {"role", name_of(who.account.role)},
-                       {"token", who.token},
-                       {"may", may},
-                       {"school", desk.school()},
-                       {"rehearsal", rehearsal},
-                       {"second_factor", !who.account.code_secret.empty()}});
+  Reply answer(route::page, const Call&) { return page_of("text/html; charset=utf-8", page_html()); }
+  Reply answer(route::page_script, const Call&) { return page_of("text/javascript; charset=utf-8", page_script()); }
+  Reply answer(route::page_style, const Call&) { return page_of("text/css; charset=utf-8", page_style()); }
+  Words answer(route::words, const Call&) {
+    Words out{language(), std::string(1, decimal_sign()), {}, proxied};
+    if (language() != "en")
+      for (const auto& m : page_messages()) out.words[m] = shown(m);
+    return out;
   }
 
-  Reply sign_in(const Call& call) {
-    const json asked = call.json();
-    const std::string name = text_in(asked, "name"), key = call.head.address + " " + name;
+  Told<Nothing> answer(route::sign_out, const Call& c) {
+    site.sign_ins().end(c.cookie);
+    return {Nothing(), cookie_field("", 0)};
+  }
+  Me answer(route::me, const Call& c) { return me(*c.by); }
+
+  [[nodiscard]] Me me(const SignedIn& who) const {
+    Me out{who.account.name, who.account.role, who.token, {}, desk.school(), rehearsal, !who.account.code_secret.empty()};
+    for (const Route& r : routes())
+      if (r.asks == Asks::person && r.lets(who.account.role)) out.may.push_back(fmt::format("{} {}", r.method, r.path));
+    return out;
+  }
+
+  Told<Me> answer(route::sign_in, const SignIn& asked, const Call& call) {
+    const std::string key = call.head.address + " " + asked.name;
     const std::int64_t now = steady_s();
     if (!tries.allow(call.head.address, k_tries_of_an_address, now) || !tries.allow(key, k_tries_of_a_name, now))
-      return error_reply(429, "too many tries: wait a minute");
-    const auto account = accounts.sign_in(name, text_in(asked, "password"));
-    if (!account) return error_reply(401, "name and password do not belong together");
+      throw Refused{429, "too many tries: wait a minute"};
+    const auto account = accounts.sign_in(asked.name, asked.password);
+    if (!account) throw Refused{401, "name and password do not belong together"};
     tries.forget(key);
     return signed_in(*account, now, "");
   }
 
   /// Who the proxy says it is, where that is an account here: its role is the account's.
-  Reply sign_in_by_proxy(const Call& call) {
-    if (!proxied) return error_reply(404, "there is nothing here");
-    if (call.proxied_as.empty()) return error_reply(401, "the school's sign-on says nobody: come by its address");
+  Told<Me> answer(route::sign_in_by_proxy, const Call& call) {
+    if (!proxied) throw Refused{404, "there is nothing here"};
+    if (call.proxied_as.empty()) throw Refused{401, "the school's sign-on says nobody: come by its address"};
     const std::int64_t now = steady_s();
-    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) return error_reply(429, "too many tries: wait a minute");
+    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) throw Refused{429, "too many tries: wait a minute"};
     const auto account = accounts.called(call.proxied_as);
-    if (!account) return error_reply(403, "the school's sign-on knows you, and this office has no account for you: ask who runs it");
+    if (!account) throw Refused{403, "the school's sign-on knows you, and this office has no account for you: ask who runs it"};
     return signed_in(*account, now, call.proxied_as);
   }
 
-  Reply signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
+  Told<Me> signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
     const std::string cookie = site.sign_ins().begin(account, now, proxied_as);
-    Reply reply = me(*site.sign_ins().of(cookie, now));
-    reply.fields.emplace_back("Set-Cookie", cookie_field(cookie, k_absolute_end_s));
-    return reply;
+    return {me(*site.sign_ins().of(cookie, now)), cookie_field(cookie, k_absolute_end_s)};
   }
 
-  void serve_desk() {
-    const auto get = [this](const char* path, auto say) { site.on("GET", path, [say](const Call& c) { return json_reply(say(c)); }); };
-    const auto post = [this](const char* path, auto act) {
-      site.on("POST", path, [this, act](const Call& c) {
-        Reply reply = json_reply(act(c.json(), c.by->account));
-        board.touch();
-        lti.nudge();
-        return reply;
-      });
-    };
-    get("/api/exams", [this](const Call&) { return desk.exams(); });
-    site.on("POST", "/api/roster/preview", [this](const Call& c) { return json_reply(desk.preview(c.json())); });
-    post("/api/roster/issue", [this](const json& asked, const Account& by) { return desk.issue(asked, by); });
-    get("/api/tickets", [this](const Call& c) { return desk.tickets(c.by->account.role == Role::officer, board.candidates()); });
-    post("/api/tickets/cancel", [this](const json& asked, const Account& by) { return desk.cancel(asked, by, board.candidates()); });
-    post("/api/tickets/makeup", [this](const json& asked, const Account& by) { return desk.make_up(asked, by); });
-    get("/api/board", [this](const Call&) { return desk.board(board, inbox); });
-    site.on("GET", "/api/board/events", [this](const Call& c) {
-      return events(
-          c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); }, true);
-    });
-    post("/api/stations/invite", [this](const json& asked, const Account& by) { return desk.invite(asked, by); });
-    post("/api/stations/revoke", [this](const json& asked, const Account& by) { return desk.revoke(asked, by); });
-    post("/api/stations/room", [this](const json& asked, const Account& by) { return desk.place(asked, by); });
-    post("/api/seats", [this](const json& asked, const Account& by) { return desk.seat(asked, by); });
-    get("/api/attendance", [this](const Call&) { return desk.attendance(board); });
-    post("/api/announce", [this](const json& asked, const Account& by) { return desk.announce(asked, by); });
-    post("/api/hold", [this](const json& asked, const Account& by) { return desk.hold(asked, by); });
-    post("/api/go-on", [this](const json& asked, const Account& by) { return desk.go_on(asked, by); });
-    get("/api/incidents", [this](const Call&) { return desk.incidents(); });
-    post("/api/incidents", [this](const json& asked, const Account& by) { return desk.note_incident(asked, by); });
-    get("/api/queue", [this](const Call&) { return desk.queue(); });
-    post("/api/decide", [this](const json& asked, const Account& by) { return desk.decide(asked, by); });
-    get("/api/results", [this](const Call& c) { return desk.results(c.by->account.role == Role::officer); });
-    post("/api/release", [this](const json& asked, const Account& by) {
-      require_code(text_in(asked, "code"), by);
-      return desk.release(asked, by);
-    });
-    post("/api/retract", [this](const json& asked, const Account& by) {
-      require_code(text_in(asked, "code"), by);
-      return desk.retract(asked, by);
-    });
-    serve_regrades();
-    get("/api/appeals", [this](const Call&) { return desk.appeals(); });
-    post("/api/appeals/open", [this](const json& asked, const Account& by) { return desk.open_appeal(asked, by); });
-    post("/api/appeals/answer", [this](const json& asked, const Account& by) { return desk.answer_appeal(asked, by); });
-    site.on("POST", "/api/trail", [this](const Call& c) { return json_reply(desk.trail(c.json(), c.by->account.role == Role::officer)); });
-    site.on("GET", "/api/report/*", [this](const Call& c) { return reports.of(desk.recording(c.tail)); });
-    const auto paper = [this](const char* path, const char* file, const char* type, auto make) {
-      site.on("GET", path, [file, type, make](const Call&) {
-        Reply reply{200, type, make()};
-        reply.fields.emplace_back("Content-Disposition", fmt::format("attachment; filename=\"{}\"", file));
-        return reply;
-      });
-    };
-    static constexpr char k_csv[] = "text/csv; charset=utf-8", k_pdf[] = "application/pdf";
-    paper("/api/gradebook.csv", "gradebook.csv", k_csv, [this] { return desk.gradebook(rehearsal); });
-    paper("/api/criteria.csv", "criteria.csv", k_csv, [this] { return desk.criteria(); });
-    paper("/api/cards.pdf", "cards.pdf", k_pdf, [this] { return desk.cards(); });
-    paper("/api/sign-in-sheet.pdf", "sign-in-sheet.pdf", k_pdf, [this] { return desk.sign_in_sheet(); });
+  Exams answer(route::exams, const Call&) { return desk.exams(); }
+  Preview answer(route::preview, const ClassList& asked, const Call&) { return desk.preview(asked); }
+  Issued answer(route::issue, const Issue& asked, const Call& c) { return desk.issue(asked, c.by->account); }
+  Tickets answer(route::tickets, const Call& c) { return desk.tickets(is_officer(c), board.candidates()); }
+  Entered answer(route::cancel_ticket, const CancelTicket& asked, const Call& c) { return desk.cancel(asked, c.by->account, board.candidates()); }
+  MadeUp answer(route::make_up, const MakeUp& asked, const Call& c) { return desk.make_up(asked, c.by->account); }
+  BoardShown answer(route::board, const Call&) { return desk.board(board, inbox); }
+  Stream<BoardShown> answer(route::board_events, const Call& c) {
+    return events<BoardShown>(
+        c, [this](std::uint64_t seen) { return board.wait(seen, k_patience_ms); }, [this] { return desk.board(board, inbox); }, true);
   }
-
-  /// A new rubric over all of an exam.
-  void serve_regrades() {
-    const auto post = [this](const char* path, auto act) {
-      site.on("POST", path, [act](const Call& c) { return json_reply(act(c.json(), c.by->account)); });
-    };
-    site.on("GET", "/api/regrade", [this](const Call&) {
-      json state = regrades.state(true);
-      state["exams"] = desk.filed_exams();
-      return json_reply(state);
-    });
-    site.on("GET", "/api/regrade/events", [this](const Call& c) {
-      return events(
-          c, [this](std::uint64_t seen) { return regrades.wait(seen, k_patience_ms); }, [this] { return regrades.state(false); });
-    });
-    post("/api/regrade/begin", [this](const json& asked, const Account& by) { return regrades.begin(asked, by); });
-    post("/api/regrade/drop", [this](const json& asked, const Account& by) { return regrades.drop(asked, by); });
-    post("/api/regrade/count", [this](const json& asked, const Account& by) {
-      regrades.require_ready(asked, by);  // before a code is used up for nothing
-      static_cast<void>(reason_in(asked));
-      require_code(text_in(asked, "code"), by);
-      return regrades.count(asked, by);
-    });
+  InviteCode answer(route::invite_station, const Invite& asked, const Call& c) { return desk.invite(asked, c.by->account); }
+  Entered answer(route::revoke_station, const RevokeStation& asked, const Call& c) { return desk.revoke(asked, c.by->account); }
+  Entered answer(route::place_station, const PlaceStation& asked, const Call& c) { return desk.place(asked, c.by->account); }
+  Seated answer(route::seats, const SeatThem& asked, const Call& c) { return desk.seat(asked, c.by->account); }
+  Attendance answer(route::attendance, const Call&) { return desk.attendance(board); }
+  Reply answer(route::cards, const Call&) { return file_of(k_pdf, "cards.pdf", desk.cards()); }
+  Reply answer(route::sign_in_sheet, const Call&) { return file_of(k_pdf, "sign-in-sheet.pdf", desk.sign_in_sheet()); }
+  Entered answer(route::announce, const Announce& asked, const Call& c) { return desk.announce(asked, c.by->account); }
+  Entered answer(route::hold, const Hold& asked, const Call& c) { return desk.hold(asked, c.by->account); }
+  Entered answer(route::go_on, const GoOn& asked, const Call& c) { return desk.go_on(asked, c.by->account); }
+  Incidents answer(route::incidents, const Call&) { return desk.incidents(); }
+  Entered answer(route::note_incident, const NoteIncident& asked, const Call& c) { return desk.note_incident(asked, c.by->account); }
+  Queue answer(route::queue, const Call&) { return desk.queue(); }
+  Entered answer(route::decide, const Decide& asked, const Call& c) { return desk.decide(asked, c.by->account); }
+  Results answer(route::results, const Call& c) { return desk.results(is_officer(c)); }
+  Released answer(route::release, const ReleaseResults& asked, const Call& c) { return desk.release(asked, c.by->account); }
+  Entered answer(route::retract, const Retract& asked, const Call& c) { return desk.retract(asked, c.by->account); }
+  RegradeAll answer(route::regrade, const Call&) { return {regrades.state(), regrades.rows(), desk.filed_exams()}; }
+  Stream<RegradeShown> answer(route::regrade_events, const Call& c) {
+    return events<RegradeShown>(
+        c, [this](std::uint64_t seen) { return regrades.wait(seen, k_patience_ms); }, [this] { return regrades.state(); });
   }
+  RegradeId answer(route::begin_regrade, const BeginRegrade& asked, const Call& c) { return regrades.begin(asked, c.by->account); }
+  RegradeCounted answer(route::count_regrade, const CountRegrade& asked, const Call& c) { return regrades.count(asked, c.by->account); }
+  Nothing answer(route::drop_regrade, const RegradeId& asked, const Call& c) { return regrades.drop(asked.value, c.by->account), Nothing(); }
+  Appeals answer(route::appeals, const Call&) { return desk.appeals(); }
+  Entered answer(route::open_appeal, const OpenAppeal& asked, const Call& c) { return desk.open_appeal(asked, c.by->account); }
+  Entered answer(route::answer_appeal, const AnswerAppeal& asked, const Call& c) { return desk.answer_appeal(asked, c.by->account); }
+  TrailPage answer(route::trail, const AskTrail& asked, const Call& c) { return desk.trail(asked, is_officer(c)); }
+  Reply answer(route::report, const Call& c) { return reports.of(desk.recording(c.tail)); }
+  Reply answer(route::gradebook, const Call&) { return file_of(k_csv, "gradebook.csv", desk.gradebook(rehearsal)); }
+  Reply answer(route::criteria, const Call&) { return file_of(k_csv, "criteria.csv", desk.criteria()); }
+  [[nodiscard]] static bool is_officer(const Call& c) { return c.by->account.role == Role::officer; }
 
   /// What `say` says whenever `wait` gives another number, four times a second at most; after a silence a comment, so that a line that is dead is
   /// noticed, or, with `by_time`, what `say` says then: tickets run out by the clock alone.
-  [[nodiscard]] Reply events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<json()> say,
-                             bool by_time = false) {
-    Reply reply{200, "text/event-stream"};
-    reply.events = [this, call, by_time, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
+  template <class Event>
+  [[nodiscard]] Stream<Event> events(const Call& call, std::function<std::uint64_t(std::uint64_t seen)> wait, std::function<Event()> say,
+                                     bool by_time = false) {
+    Stream<Event> reply{{200, "text/event-stream"}};
+    reply.stream.events = [this, call, by_time, wait = std::move(wait), say = std::move(say)](const WriteEvent& write) {
       std::uint64_t seen = 0;
       std::int64_t spoken_s = steady_s();
       while (site.still(call)) {
@@ -272,11 +263,11 @@ struct Office::Parts {
         if (now != seen) {
           seen = now;
           spoken_s = steady_s();
-          if (!write("data: " + json_reply(say()).body + "\n\n")) return;
+          if (!write("data: " + json_reply(to_json_value(say())).body + "\n\n")) return;
           std::this_thread::sleep_for(k_between_events);
         } else if (steady_s() - spoken_s >= k_silence_s) {
           spoken_s = steady_s();
-          if (!write(by_time ? "data: " + json_reply(say()).body + "\n\n" : std::string(":\n\n"))) return;
+          if (!write(by_time ? "data: " + json_reply(to_json_value(say())).body + "\n\n" : std::string(":\n\n"))) return;
         } else if (!write("")) {
           return;
         }
@@ -297,55 +288,47 @@ struct Office::Parts {
       throw Error("the code", "was used already: wait for the next one", "the app shows another one within 30 s");
   }
 
-  void serve_stations() {
-    site.on("GET", "/station/hello", [this](const Call&) {
-      return json_reply({{"ledger", desk.ledger_id()}, {"public_key", desk.public_key()}, {"utc_ns", utc_now_ns()}});
-    });
-    site.on("POST", "/station/enrol", [this](const Call& c) {
-      if (!tries.allow("enrol " + c.head.address, k_tries_of_enrolment, steady_s())) return error_reply(429, "too many tries: wait a minute");
-      Reply reply = json_reply(desk.enrol(c.body));
-      tries.forget("enrol " + c.head.address);
+  Hello answer(route::hello, const Call&) { return {desk.ledger_id(), desk.public_key(), utc_now_ns()}; }
+  Enrolled answer(route::enrol, const Call& c) {
+    if (!tries.allow("enrol " + c.head.address, k_tries_of_enrolment, steady_s())) throw Refused{429, "too many tries: wait a minute"};
+    Enrolled done = desk.enrol(c.body);
+    tries.forget("enrol " + c.head.address);
+    board.touch();
+    return done;
+  }
+  StationTickets answer(route::station_tickets, const Call&) { return desk.station_tickets(); }
+  WordToBegin answer(route::begin_exam, const AskBegin& asked, const Call& c) {
+    try {
+      WordToBegin word = desk.begin(asked, c.station);
       board.touch();
-      return reply;
-    });
-    site.on("GET", "/station/tickets", [this](const Call&) { return json_reply(desk.station_tickets()); });
-    site.on("POST", "/station/begin", [this](const Call& c) {
-      const json asked = c.json();
-      try {
-        Reply reply = json_reply(desk.begin(asked, c.station));
-        board.touch();
-        return reply;
-      } catch (const Error&) {
-        if (const std::string candidate = desk.candidate_of(text_in(asked, "ticket")); !candidate.empty()) board.refused(c.station, candidate);
-        throw;
-      }
-    });
-    site.on("POST", "/station/report", [this](const Call& c) {
-      const StationReport report = parse_report(c.body);
-      board.report(c.station, report, utc_now_ns());
-      return json_reply(desk.word_for(c.station, report.heard, board.since_utc_ns(c.station)));
-    });
-    site.on("GET", "/station/pieces/*", [this](const Call& c) { return said_of(pieces.have(c.station, c.tail)); });
-    site.on("PUT", "/station/pieces/*", [this](const Call& c) {
-      const auto place = place_in(c.head.query);
-      if (!place) return error_reply(400, "say where the piece stands: ?at=0&of=1000");
-      return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
-    });
-    site.on_parts("PUT", "/station/sessions/*", [this](const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail, c.station); });
-    site.on("GET", "/station/sessions/*", [this](const Call& c) { return handed(c.tail); });
+      return word;
+    } catch (const Error&) {
+      if (const std::string candidate = desk.candidate_of(asked.value); !candidate.empty()) board.refused(c.station, candidate);
+      throw;
+    }
+  }
+  OfficeWord answer(route::station_report, const StationReport& report, const Call& c) {
+    board.report(c.station, report, utc_now_ns());
+    return desk.word_for(c.station, report.heard, board.since_utc_ns(c.station));
+  }
+  Told<HandInState> answer(route::pieces_had, const Call& c) { return said_of(pieces.have(c.station, c.tail)); }
+  Told<HandInState> answer(route::add_piece, const Call& c) {
+    const auto place = place_in(c.head.query);
+    if (!place) throw Refused{400, "say where the piece stands: ?at=0&of=1000"};
+    return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
+  }
+  std::unique_ptr<Taker> answer(route::hand_in, const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail, c.station); }
+  HandInState answer(route::handed_in, const Call& c) {
+    if (const auto entry = desk.filed(c.tail)) return {.state = HandedState::filed, .entry = *entry, .receipt = desk.receipt(*entry)};
+    const Handed h = inbox.of(c.tail);
+    if (h.state == HandedState::refused) return {.state = h.state, .findings = h.findings};
+    return {.state = h.state == HandedState::unknown ? h.state : HandedState::waiting};
   }
 
   /// 409: the piece was not the next one.
-  static Reply said_of(const Pieces::Have& h, bool after_a_piece = false) {
-    if (h.whole) return json_reply({{"state", "waiting"}}, 202);
-    return json_reply({{"have", h.have}, {"of", h.of}}, after_a_piece && !h.taken ? 409 : 200);
-  }
-
-  Reply handed(const std::string& sha256) {
-    if (const auto entry = desk.filed(sha256)) return json_reply({{"state", "filed"}, {"entry", *entry}, {"receipt", desk.receipt(*entry)}});
-    const Handed h = inbox.of(sha256);
-    if (h.state == Handed::State::refused) return json_reply({{"state", "refused"}, {"findings", h.findings}});
-    return json_reply({{"state", h.state == Handed::State::unknown ? "unknown" : "waiting"}});
+  static Told<HandInState> said_of(const Pieces::Have& h, bool after_a_piece = false) {
+    if (h.whole) return {HandInState{HandedState::waiting}, 202};
+    return {HandInState{.have = h.have, .of = h.of}, after_a_piece && !h.taken ? 409 : 200};
   }
 
   Accounts accounts;

@@ -1,4 +1,4 @@
-// The exam office's server, put together: accounts, ledger, board, inbox, and a handler behind each door.
+// The exam office's server, put together: accounts, ledger, board, inbox, and a handler behind each route.
 #pragma once
 
 #include <cstdint>

@@ -24,15 +24,13 @@ namespace {
 
 using nlohmann::json;
 
-constexpr const char* k_state_names[] = {"none", "marking", "ready", "failed", "counted", "lost"};
 constexpr char k_note_format[] = "cavum regrade note 1";
-constexpr std::size_t k_largest_rubric = 200U << 10, k_id_bytes = 8;
+constexpr std::size_t k_id_bytes = 8;
 
 /// Requests go first.
 void work_behind_requests() noexcept { ::setpriority(PRIO_PROCESS, static_cast<id_t>(::syscall(SYS_gettid)), 10); }
 
-json points_of(const json& result) { return member_of(member_of(result, "score"), "points"); }
-json max_of(const json& result) { return member_of(member_of(result, "score"), "max"); }
+double of_score(const json& result, const char* what) { return number_in(member_of(member_of(result, "score"), what)).value_or(0); }
 
 }  // namespace
 
@@ -58,7 +56,7 @@ void Regrades::change(State state, const std::string& problem) {
   changed_.notify_all();
 }
 
-json Regrades::begin(const json& asked, const Account& by) {
+RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
   {
     const std::lock_guard guard(lock_);
@@ -66,12 +64,11 @@ json Regrades::begin(const json& asked, const Account& by) {
       throw Error("the new rubric", "is not begun: another one is on its way", "wait until that one counts or is dropped");
   }
   ledger::RegradeBasis basis;
-  basis.rubric_toml = text_in(asked, "rubric");
-  if (basis.rubric_toml.empty() || basis.rubric_toml.size() > k_largest_rubric)
-    throw Error("the rubric", "is empty, or larger than 200 kB", "choose a file of a rubric (TOML)");
+  basis.rubric_toml = asked.rubric;
+  if (basis.rubric_toml.empty()) throw Error("the rubric", "is empty", "choose a file of a rubric (TOML)");
   static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "the rubric"));
   std::uint64_t entries = 0;
-  ledger::ClassRegrade plan = desk_.plan_regrade(text_in(asked, "exam"), std::move(basis), entries);
+  ledger::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
   end_marking();
   const std::lock_guard guard(lock_);
   plan_ = std::move(plan);
@@ -87,7 +84,7 @@ json Regrades::begin(const json& asked, const Account& by) {
   write_note();
   change(State::marking);
   worker_ = std::thread([this] { mark(); });
-  return {{"id", id_}};
+  return {id_};
 }
 
 void Regrades::mark() {
@@ -128,31 +125,30 @@ void Regrades::mark() {
   change(problem.empty() ? State::ready : State::failed, problem);
 }
 
-void Regrades::require_ready(const json& asked, const Account& by) const {
+void Regrades::require_ready(const std::string& id, const Account& by) const {
   const std::lock_guard guard(lock_);
-  if (state_ != State::ready || text_in(asked, "id") != id_)
+  if (state_ != State::ready || id != id_)
     throw Error("the new rubric", "is not the one that waits: it counts already, was dropped, or another was begun", "look at it again");
   if (by_ != by.name) throw Error("the new rubric", "was looked at by somebody else", "who looked at it lets it count; or begin anew");
 }
 
-json Regrades::count(const json& asked, const Account& by) {
+RegradeCounted Regrades::count(const CountRegrade& asked, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
-  require_ready(asked, by);
-  const std::string reason = reason_in(asked);
+  require_ready(asked.id, by);
   std::uint64_t first = 0;
-  const std::size_t counted = desk_.count_regrade(plan_, reason, by, first);  // plan_ is changed by begin() alone
+  const std::size_t counted = desk_.count_regrade(plan_, asked.reason, by, first);  // plan_ is changed by begin() alone
   const std::lock_guard guard(lock_);
   first_entry_ = first;
   counted_ = counted;
   change(State::counted);
-  return {{"counted", counted}, {"first_entry", first}};
+  return {counted, first};
 }
 
-json Regrades::drop(const json& asked, const Account& by) {
+void Regrades::drop(const std::string& id, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
   {
     const std::lock_guard guard(lock_);
-    if (state_ == State::none || text_in(asked, "id") != id_) throw Error("the new rubric", "is not the one that was begun", "look at it again");
+    if (state_ == State::none || id != id_) throw Error("the new rubric", "is not the one that was begun", "look at it again");
     if (by_ != by.name && (state_ == State::marking || state_ == State::ready))
       throw Error("the new rubric", "was begun by somebody else", "who began it drops it");
   }
@@ -162,39 +158,26 @@ json Regrades::drop(const json& asked, const Account& by) {
   plan_ = {};
   id_.clear();
   change(State::none);
-  return json::object();
 }
 
-json Regrades::state(bool rows) const {
+RegradeShown Regrades::state() const {
   const std::lock_guard guard(lock_);
-  json out = {{"state", k_state_names[static_cast<int>(state_)]},
-              {"id", id_},
-              {"exam", plan_.exam},
-              {"by", by_},
-              {"begun", begun_},
-              {"done", done_},
-              {"of", of_},
-              {"left_s", left_s_ < 0 ? json() : json(left_s_)},
-              {"problem", shown(problem_)},
-              {"counted", counted_},
-              {"first_entry", first_entry_},
-              {"left_out", plan_.left_out}};
-  if (!rows || state_ != State::ready) return out;
-  json list = json::array();
+  return {state_,         id_,
+          plan_.exam,     by_,
+          begun_,         shown(problem_),
+          done_,          of_,
+          plan_.left_out, left_s_ < 0 ? std::nullopt : std::optional(left_s_),
+          counted_,       first_entry_};
+}
+
+std::optional<std::vector<RegradeRow>> Regrades::rows() const {
+  const std::lock_guard guard(lock_);
+  if (state_ != State::ready) return std::nullopt;
+  std::vector<RegradeRow> out;
   for (const auto& s : plan_.sessions)
-    list.push_back({{"session", s.session},
-                    {"candidate", s.candidate},
-                    {"points_before", points_of(*s.before)},
-                    {"max_before", max_of(*s.before)},
-                    {"verdict_before", text_in(*s.before, "verdict")},
-                    {"points", points_of(s.after)},
-                    {"max", max_of(s.after)},
-                    {"verdict", text_in(s.after, "verdict")},
-                    {"other_verdict", s.other_verdict()},
-                    {"other_points", s.other_points()},
-                    {"decided", s.decided},
-                    {"shown", s.shown}});
-  out["sessions"] = std::move(list);
+    out.push_back({s.session, s.candidate, text_in(*s.before, "verdict"), text_in(s.after, "verdict"), of_score(*s.before, "points"),
+                   of_score(*s.before, "max"), of_score(s.after, "points"), of_score(s.after, "max"), s.other_verdict(), s.other_points(), s.decided,
+                   s.shown});
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <mutex>
-#include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <thread>
 
@@ -24,23 +24,24 @@ class Regrades {
   Regrades& operator=(const Regrades&) = delete;
 
   // Each throws Error in the words of what is wrong.
-  /// {"exam","rubric"}: the rubric's text, TOML. Marks in the background from now on. Throws Error while another one is marked.
-  [[nodiscard]] nlohmann::json begin(const nlohmann::json& asked, const Account& by);
-  /// {"id","reason"}: what was looked at counts from now on. Only for who began it. `counted` is how many were entered.
-  [[nodiscard]] nlohmann::json count(const nlohmann::json& asked, const Account& by);
-  /// {"id"}: nothing of it counts; marking that runs is ended.
-  [[nodiscard]] nlohmann::json drop(const nlohmann::json& asked, const Account& by);
+  /// Marks in the background from now on. Throws Error while another one is marked.
+  [[nodiscard]] RegradeId begin(const BeginRegrade& asked, const Account& by);
+  /// What was looked at counts from now on. Only for who began it.
+  [[nodiscard]] RegradeCounted count(const CountRegrade& asked, const Account& by);
+  /// Nothing of it counts; marking that runs is ended.
+  void drop(const std::string& id, const Account& by);
   /// Throws Error unless `id` is a new rubric that waits and that this person began.
-  void require_ready(const nlohmann::json& asked, const Account& by) const;
+  void require_ready(const std::string& id, const Account& by) const;
 
-  /// "state": none, marking, ready, failed, counted or lost (the server ended before it counted); who, how far, and an estimate of what is left (s,
-  /// or null). With `rows` each session with points and verdict before and after, by pseudonyms.
-  [[nodiscard]] nlohmann::json state(bool rows) const;
+  /// Lost: the server ended before it counted. With an estimate of what is left.
+  [[nodiscard]] RegradeShown state() const;
+  /// Each session with points and verdict before and after, by pseudonyms; none unless it is ready.
+  [[nodiscard]] std::optional<std::vector<RegradeRow>> rows() const;
   /// Waits until something is another than at `seen`, `patience_ms` at most; returns the new number.
   [[nodiscard]] std::uint64_t wait(std::uint64_t seen, int patience_ms) const;
 
  private:
-  enum class State { none, marking, ready, failed, counted, lost };
+  using State = RegradeState;
   void mark();
   void end_marking();
   void change(State state, const std::string& problem = {});

@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "grading/ledger/class_list.h"
+#include "ui/office/wire.h"
 
 namespace cavum::office {
 
@@ -15,12 +16,6 @@ inline constexpr char k_list[] = "the list";
 /// The answer for a column that is not needed.
 inline constexpr char k_pass_over[] = "pass over";
 
-struct RosterColumn {
-  std::string heading;
-  std::string use;                   ///< a name of ledger::people_columns(), k_pass_over, or empty: nobody has answered yet
-  bool known = false;                ///< by its heading
-  std::vector<std::string> samples;  ///< its first values that are not empty
-};
 struct Roster {
   bool headed = false;   ///< a name that is known stands in the first line; else it may be a candidate
   std::string encoding;  ///< UTF-8, UTF-16 or Windows-1252

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <regex>
-#include <stdexcept>
 
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
@@ -52,21 +51,21 @@ Reply json_reply(const nlohmann::json& body, int status) {
   return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
 
-/// A request on its way through a door.
+/// A request on its way to its handler.
 class Site::Visit : public Exchange {
  public:
   Visit(Site& site, const Head& head) {
     call_.head = head;
-    const Door* door = door_for(head.method, head.path);
-    if (door == nullptr) {
+    const Route* route = route_for(head.method, head.path);
+    if (route == nullptr) {
       refusal_ = error_reply(404, "there is nothing here");
       return;
     }
-    largest_ = door->largest_bytes;
-    call_.tail = tail_of(*door, head.path);
+    largest_ = route->largest_bytes;
+    call_.tail = tail_of(*route, head.path);
     guarded([&] {
-      refusal_ = site.refuse(*door, call_, body_sha256_);
-      served_ = &site.served_.at(door);
+      refusal_ = site.refuse(*route, call_, body_sha256_);
+      served_ = &site.served_.at(route->name);
       if (!refusal_ && served_->parts) taker_ = served_->parts(call_);
     });
     if (!body_sha256_.empty()) crypto_hash_sha256_init(&hash_);
@@ -103,6 +102,8 @@ class Site::Visit : public Exchange {
   void guarded(const Do& what) {
     try {
       what();
+    } catch (const Refused& e) {
+      refusal_ = error_reply(e.status, e.english);
     } catch (const DatabaseError& e) {
       refusal_ = error_reply(507, e.what());
     } catch (const ledger::ListMistakes& e) {
@@ -130,36 +131,20 @@ class Site::Visit : public Exchange {
 
 Site::Site(Knows knows) : knows_(std::move(knows)), heard_(knows_.utc_ns()) {}
 
-void Site::put(const std::string& method, const std::string& path, Served served) {
-  for (const Door& d : doors())
-    if (d.method == method && d.path == path) {
-      if (!served_.emplace(&d, std::move(served)).second) throw std::logic_error("two handlers for " + method + " " + path);
-      return;
-    }
-  throw std::logic_error("no row in the table of doors for " + method + " " + path);
-}
-void Site::on(const std::string& method, const std::string& path, Handler handler) { put(method, path, {std::move(handler), {}}); }
-void Site::on_parts(const std::string& method, const std::string& path, MakeTaker taker) { put(method, path, {{}, std::move(taker)}); }
-
-void Site::require_complete() const {
-  for (const Door& d : doors())
-    if (!served_.contains(&d)) throw std::logic_error("no handler for " + std::string(d.method) + " " + std::string(d.path));
-}
-
 std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_unique<Visit>(*this, head); }
 
-std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& body_sha256) {
+std::optional<Reply> Site::refuse(const Route& route, Call& call, std::string& body_sha256) {
   const ProxyWord proxied = proxy_word(call.head, knows_.proxy);
   if (proxied.refused) return error_reply(403, "a field of this request is the proxy's alone, and the proxy did not send it");
   call.proxied_as = proxied.known_as;
-  if (door.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
+  if (route.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
     return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt
                                                                                             : std::optional(error_reply(415, "send a form"));
   // a page of another place cannot send this type without asking first, and is refused then
-  if (door.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
-  if (const std::string origin = call.head.field("origin"); !origin.empty() && door.changes() && origin != "https://" + call.head.field("host"))
+  if (route.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
+  if (const std::string origin = call.head.field("origin"); !origin.empty() && route.changes() && origin != "https://" + call.head.field("host"))
     return error_reply(403, "another page asks this");
-  switch (door.asks) {
+  switch (route.asks) {
     case Asks::nobody:
     case Asks::form:
       return std::nullopt;
@@ -167,14 +152,14 @@ std::optional<Reply> Site::refuse(const Door& door, Call& call, std::string& bod
       call.cookie = cookie_in(call.head.field("cookie"), k_visit_cookie);
       return knows_.came && knows_.came(call.cookie) ? std::nullopt : std::optional(error_reply(401, "open the link on the platform again"));
     case Asks::person:
-      return refuse_person(door, call);
+      return refuse_person(route, call);
     case Asks::station:
       return refuse_station(call, body_sha256);
   }
   return error_reply(404, "there is nothing here");
 }
 
-std::optional<Reply> Site::refuse_person(const Door& door, Call& call) {
+std::optional<Reply> Site::refuse_person(const Route& route, Call& call) {
   call.cookie = cookie_in(call.head.field("cookie"), k_cookie);
   call.by = sign_ins_.of(call.cookie, knows_.now_s());
   if (call.by && knows_.account(call.by->account.name) != call.by->account) {  // removed, or given another password or role
@@ -183,8 +168,9 @@ std::optional<Reply> Site::refuse_person(const Door& door, Call& call) {
   }
   if (call.by && call.by->proxied_as != call.proxied_as && !call.by->proxied_as.empty()) call.by.reset();  // not by the proxy, or by another person
   if (!call.by) return error_reply(401, "nobody is signed in");
-  if (!door.lets(call.by->account.role)) return error_reply(403, "this account may not do that");
-  if (door.changes() && !equal(call.head.field(k_token_field), call.by->token)) return error_reply(403, "the page's token is missing; load it again");
+  if (!route.lets(call.by->account.role)) return error_reply(403, "this account may not do that");
+  if (route.changes() && !equal(call.head.field(k_token_field), call.by->token))
+    return error_reply(403, "the page's token is missing; load it again");
   return std::nullopt;
 }
 

@@ -1,5 +1,5 @@
-// What stands between a request and its handler: is there such a door, who asks, may he, is it his own page that asks. Every handler is registered
-// for a row of the table of doors, and is only reached through it.
+// What stands between a request and its handler: is there such a route, who asks, may he, is it his own page that asks. Every handler is registered
+// for a row of the table of routes, and is only reached through it.
 #pragma once
 
 #include <functional>
@@ -9,9 +9,9 @@
 #include <optional>
 #include <string>
 
-#include "ui/office/doors.h"
 #include "ui/office/http_server.h"
 #include "ui/office/proxy.h"
+#include "ui/office/routes.h"
 #include "ui/office/sign_ins.h"
 #include "ui/office/station_request.h"
 
@@ -22,11 +22,31 @@ struct Call {
   Head head;
   std::string body;                           ///< empty where a handler takes it part by part
   std::string cookie;                         ///< of the sign-in, or of who came from a learning platform
-  std::optional<SignedIn> by;                 ///< the person; where a door asks for one
+  std::optional<SignedIn> by;                 ///< the person; where a route asks for one
   std::string proxied_as;                     ///< who it is, as the proxy says; empty: it does not
-  std::string station;                        ///< key of the station; where a door asks for one
-  std::string tail;                           ///< what stands for `*` in the door's path
+  std::string station;                        ///< key of the station; where a route asks for one
+  std::string tail;                           ///< what stands for `*` in the route's path
   [[nodiscard]] nlohmann::json json() const;  ///< the body; throws Error when it is none
+};
+/// Thrown by a handler: answered with this status.
+struct Refused {
+  int status;
+  const char* english;
+};
+/// An answer with another status than 200, or fields of its own.
+template <class Answer>
+struct Told {
+  Told(Answer answer, int with = 200) : body(std::move(answer)), status(with) {}
+  Told(Answer answer, const std::string& cookie) : body(std::move(answer)), fields{{"Set-Cookie", cookie}} {}
+  Answer body;
+  int status = 200;
+  std::vector<std::pair<std::string, std::string>> fields = {};
+};
+/// A reply that goes on with events, each an Event.
+template <class Event>
+struct Stream {
+  using Answer = EventsOf<Event>;
+  Reply stream;
 };
 using Handler = std::function<Reply(const Call&)>;
 /// Takes a body part by part, for what is too large to be held.
@@ -52,11 +72,9 @@ struct Knows {
 class Site {
  public:
   explicit Site(Knows knows);
-  /// Throws std::logic_error when the table has no such row, or it has a handler already.
-  void on(const std::string& method, const std::string& path, Handler handler);
-  void on_parts(const std::string& method, const std::string& path, MakeTaker taker);
-  /// Throws std::logic_error when a row of the table has no handler.
-  void require_complete() const;
+  /// Before the first request.
+  void on(const Route& route, Handler handler) { served_[route.name].whole = std::move(handler); }
+  void on_parts(const Route& route, MakeTaker taker) { served_[route.name].parts = std::move(taker); }
   [[nodiscard]] SignIns& sign_ins() noexcept { return sign_ins_; }
   /// The person who was let in is still signed in, with the same account: for replies that go on.
   [[nodiscard]] bool still(const Call& call);
@@ -69,16 +87,15 @@ class Site {
     Handler whole;
     MakeTaker parts;
   };
-  void put(const std::string& method, const std::string& path, Served served);
   /// Fills `call`, or says why not.
-  [[nodiscard]] std::optional<Reply> refuse(const Door& door, Call& call, std::string& body_sha256);
-  [[nodiscard]] std::optional<Reply> refuse_person(const Door& door, Call& call);
+  [[nodiscard]] std::optional<Reply> refuse(const Route& route, Call& call, std::string& body_sha256);
+  [[nodiscard]] std::optional<Reply> refuse_person(const Route& route, Call& call);
   [[nodiscard]] std::optional<Reply> refuse_station(Call& call, std::string& body_sha256);
 
   Knows knows_;
   SignIns sign_ins_;
   HeardRequests heard_;
-  std::map<const Door*, Served> served_;
+  std::map<std::string_view, Served> served_;  // by the route's name
 };
 
 /// The cookie of the sign-in: its name keeps browsers from taking it over anything but HTTPS, or for another path or host.

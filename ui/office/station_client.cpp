@@ -151,7 +151,7 @@ json StationClient::require(Answer answer) const {
 
 void StationClient::meet() {
   if (!ledger_.empty()) return;
-  const json hello = require(send("GET", "/station/hello", "", ""));
+  const json hello = require(send("GET", route::hello::row.path_of(), "", ""));
   if (text_in(hello, "public_key") != school_)
     throw Error(fmt::format("https://{}:{}", host_, port_), "is the office of another school than this station's",
                 "look at the address, and at school.pub");
@@ -174,11 +174,15 @@ Answer StationClient::ask(const std::string& method, const std::string& path, co
   return answer;
 }
 
+Answer StationClient::ask(const Route& route, const std::string& body, std::string_view tail, const std::string& query) {
+  return ask(std::string(route.method), route.path_of(tail) + query, body);
+}
+
 json StationClient::enrol(const std::string& request) {
   meet();
-  return require(send("POST", "/station/enrol", request, ""));
+  return require(send("POST", route::enrol::row.path_of(), request, ""));
 }
-json StationClient::tickets() { return require(ask("GET", "/station/tickets", "")).at("tickets"); }
+json StationClient::tickets() { return require(ask(route::station_tickets::row)).at("tickets"); }
 std::string clock_problem(std::int64_t behind_ns) {
   constexpr std::int64_t k_most_ns = 120'000'000'000, k_second_ns = 1'000'000'000;
   if (std::abs(behind_ns) <= k_most_ns) return {};
@@ -190,15 +194,15 @@ std::string StationClient::begin(const std::string& nonce) {
   meet();
   if (const std::string problem = clock_problem(ahead_ns_); !problem.empty())
     throw Error("this computer's clock", problem, "set it right, and begin then: the exam's times would be refused");
-  return text_in(require(ask("POST", "/station/begin", json{{"ticket", nonce}}.dump())), "begin");
+  return text_in(require(ask(route::begin_exam::row, to_json_value(AskBegin{nonce}).dump())), "begin");
 }
-json StationClient::report(const json& state) { return require(ask("POST", "/station/report", state.dump())); }
+json StationClient::report(const json& state) { return require(ask(route::station_report::row, state.dump())); }
 json StationClient::hand_in_pieces(const Bytes& image) {
-  const std::string path = "/station/pieces/" + to_hex(sha256(image));
+  const std::string hash = to_hex(sha256(image));
   const auto place = [&](const json& said) {  // of another size, it is not this recording's
     return whole_in(said, "of") == static_cast<std::int64_t>(image.size()) ? static_cast<std::size_t>(whole_in(said, "have")) : 0;
   };
-  std::size_t at = place(require(ask("GET", path, "")));
+  std::size_t at = place(require(ask(route::pieces_had::row, "", hash)));
   for (int disputes = 0;;) {
     if (at >= image.size()) return {{"state", "waiting"}};  // all of it is there, and its hash is being made
     const std::size_t size = std::min(piece_bytes_, image.size() - at);
@@ -206,7 +210,7 @@ json StationClient::hand_in_pieces(const Bytes& image) {
     Answer answer;
     try {
       const auto first = image.begin() + static_cast<std::ptrdiff_t>(at);
-      answer = ask("PUT", fmt::format("{}?at={}&of={}", path, at, image.size()), {first, first + static_cast<std::ptrdiff_t>(size)});
+      answer = ask(route::add_piece::row, {first, first + static_cast<std::ptrdiff_t>(size)}, hash, fmt::format("?at={}&of={}", at, image.size()));
     } catch (const OfficeUnreachable&) {
       piece_bytes_ = std::max<std::size_t>(k_smallest_piece, piece_bytes_ / 2);
       throw;
@@ -225,8 +229,8 @@ json StationClient::hand_in_pieces(const Bytes& image) {
 
 json StationClient::hand_in(const Bytes& image) {
   if (image.size() > k_first_piece) return hand_in_pieces(image);
-  return require(ask("PUT", "/station/sessions/" + to_hex(sha256(image)), {image.begin(), image.end()}));
+  return require(ask(route::hand_in::row, {image.begin(), image.end()}, to_hex(sha256(image))));
 }
-json StationClient::handed(const std::string& sha256) { return require(ask("GET", "/station/sessions/" + sha256, "")); }
+json StationClient::handed(const std::string& sha256) { return require(ask(route::handed_in::row, "", sha256)); }
 
 }  // namespace cavum::office

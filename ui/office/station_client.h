@@ -13,6 +13,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/error.h"
 #include "engine/session/station_key.h"
+#include "ui/office/routes.h"
 
 namespace cavum::office {
 
@@ -63,6 +64,8 @@ class StationClient {
 
   /// One signed request, whatever comes back; for tests also one whose signed line is `line`.
   [[nodiscard]] Answer ask(const std::string& method, const std::string& path, const std::string& body, const std::string& line = "");
+  /// The same of a route: with `tail` in the place of its `*`, and `query` behind it.
+  [[nodiscard]] Answer ask(const Route& route, const std::string& body = "", std::string_view tail = {}, const std::string& query = "");
   /// The line that signs such a request now, by the office's clock.
   [[nodiscard]] std::string sign(const std::string& method, const std::string& path, const std::string& body);
 

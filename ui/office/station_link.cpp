@@ -60,7 +60,6 @@ StationLink::StationLink(const LinkOptions& options, const SigningKey& key) : op
   speaking_->set_patience(k_patience_of_reports);
   filing_ = client();
   make_private_folder(options_.tickets);
-  said_.state = "free";
   speaker_ = std::thread([this] { speak(); });
   filer_ = std::thread([this] { hand_in_all(); });
 }
@@ -133,8 +132,8 @@ void StationLink::speak() {
   int pause_ms = k_report_ms;
   std::unique_lock guard(lock_);
   while (!ending_) {
-    json report = {{"state", said_.state},   {"candidate", said_.candidate}, {"step", said_.step}, {"alarm", said_.alarm},
-                   {"left_s", said_.left_s}, {"held", said_.held},           {"heard", heard_},    {"here_s", said_.here_s}};
+    said_.heard = heard_;
+    const json report = to_json_value(said_);
     guard.unlock();
     std::string trouble;
     try {

@@ -46,22 +46,22 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
     case Screen::self_check:
     case Screen::preparing:
     case Screen::device_check:
-      r.state = "check";
+      r.state = office::AtStation::check;
       break;
     case Screen::briefing:
-      r.state = "briefing";
+      r.state = office::AtStation::briefing;
       break;
     case Screen::exam:
-      r.state = "exam";
+      r.state = office::AtStation::exam;
       break;
     case Screen::grading:
     case Screen::result:
     case Screen::trouble:
     case Screen::save:
-      r.state = "ended";
+      r.state = office::AtStation::ended;
       break;
     default:
-      r.state = "free";
+      r.state = office::AtStation::free;
   }
   if (sitting == nullptr) return r;
   constexpr double k_day_s = 86'400;
@@ -75,7 +75,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   r.step = short_line(step < steps.size() ? fmt::format("{}/{} {}", step + 1, steps.size(), steps[step].id) : fmt::format("{0}/{0}", steps.size()));
   if (view.limit_ticks > 0) r.left_s = std::max<std::int64_t>(0, (view.limit_ticks - view.ticks + view.paused_ticks) / k_ticks_per_second);
   r.held = view.held;
-  if (view.paused || view.held) r.state = "paused";
+  if (view.paused || view.held) r.state = office::AtStation::paused;
   if (!view.recording_error.empty())
     r.alarm = short_line(without_advice(view.recording_error));
   else if (const std::string problem = sitting->device().problem(); !problem.empty())

@@ -28,11 +28,9 @@ void list_platforms(office::LtiPlatforms& platforms) {
   for (const auto& p : platforms.all()) {
     std::cout << one_line(p.name) << "\n  issuer: " << one_line(p.issuer) << "\n  client id: " << one_line(p.client_id)
               << "\n  candidates are matched by: " << p.claim << "\n";
-    const auto addresses = office::shown_addresses(p);
-    std::cout << "  for its administrator:\n";
-    for (const auto& [what, name] :
-         {std::pair{"tool URL", "tool"}, {"initiate login URL", "login"}, {"redirection URI", "redirect"}, {"public keyset URL", "keys"}})
-      std::cout << "    " << what << ": " << addresses[name].get<std::string>() << "\n";
+    const auto addresses = office::addresses_for(p);
+    std::cout << "  for its administrator:\n    tool URL: " << addresses.tool << "\n    initiate login URL: " << addresses.login
+              << "\n    redirection URI: " << addresses.redirect << "\n    public keyset URL: " << addresses.keys << "\n";
     for (const auto& [sub, account] : p.accounts) std::cout << "  " << one_line(sub) << " is the account of " << one_line(account) << "\n";
   }
   for (const auto& key : platforms.keys()) std::cout << "key " << key.kid << ", made " << utc_text(key.made_utc_ns) << "\n";

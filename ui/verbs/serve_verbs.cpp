@@ -186,7 +186,7 @@ void office_report(const OfficeArguments& o) {
   auto client = client_of(o);
   const json word =
       client.report({{"state", o.state}, {"candidate", o.candidate}, {"step", o.step}, {"alarm", o.alarm}, {"left_s", o.left_s}, {"heard", o.heard}});
-  if (const json& hold = word.at("hold"); !hold.is_null()) std::cout << "paused: " << one_line(hold.at("reason").get<std::string>()) << "\n";
+  if (word.contains("hold")) std::cout << "paused: " << one_line(word.at("hold").at("reason").get<std::string>()) << "\n";
   for (const json& a : word.at("announcements"))
     std::cout << "announcement " << a.at("entry") << ": " << one_line(a.at("text").get<std::string>()) << "\n";
 }

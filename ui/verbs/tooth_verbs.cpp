@@ -101,7 +101,7 @@ void notice_unknown_tissues(const Tooth& tooth) {
   const auto known = known_tissues();
   for (const auto& t : tooth.tissues) {
     if (known.empty() || std::find(known.begin(), known.end(), t.name) != known.end()) continue;
-    const std::string hint = scenarios::suggestion(t.name, known);
+    const std::string hint = english_text(scenarios::suggestion(t.name, known));
     std::fprintf(stderr,
                  "cavum: notice: no shipped material set has the tissue '%s'; %s%s a tissue of your own needs [materials.%s] in the exam's --model\n",
                  t.name.c_str(), hint.c_str(), hint.ends_with('?') ? "" : ";", t.name.c_str());

@@ -91,18 +91,22 @@ TEST(AnnouncedTo, ACandidateSeesWhatWasAnnouncedSinceHeSignedInOrShortlyBefore) 
   EXPECT_EQ(seen(k_now - 1'000 * k_s), (Entries{2, 3, 4, 5}));
   EXPECT_EQ(seen(k_now - 7'200 * k_s), (Entries{2, 3, 4, 5})) << "an hour at most";
   EXPECT_EQ(seen(0), (Entries{4, 5})) << "nobody signed in: who does now";
-  const auto unread = [&](std::int64_t since, const char* state, std::int64_t heard) {
-    return unread_by(day, "aa", {{"aa", {{"since_utc_ns", since}, {"state", state}, {"heard", heard}}}}, k_now);
+  const auto unread = [&](std::int64_t since, AtStation state, std::uint64_t heard) {
+    StationSaid said;
+    said.since_utc_ns = since;
+    said.state = state;
+    said.heard = heard;
+    return unread_by(day, "aa", {{"aa", said}}, k_now);
   };
-  EXPECT_EQ(unread(k_now, "check", 0), 2u);
-  EXPECT_EQ(unread(k_now, "exam", 4), 1u);
-  EXPECT_EQ(unread(0, "free", 0), 0u);
-  EXPECT_EQ(unread(k_now, "ended", 0), 0u);
+  EXPECT_EQ(unread(k_now, AtStation::check, 0), 2u);
+  EXPECT_EQ(unread(k_now, AtStation::exam, 4), 1u);
+  EXPECT_EQ(unread(0, AtStation::free, 0), 0u);
+  EXPECT_EQ(unread(k_now, AtStation::ended, 0), 0u);
 }
 
 TEST(AnnouncedTo, AStationOfBeforeSaysNotSinceWhenItsCandidateIsThere) {
   Board board;
-  StationReport r{"free", "", "", "", -1, false, 0};
+  StationReport r;
   board.report("aa", r, 1'000);
   EXPECT_EQ(board.since_utc_ns("aa"), 0);
   r.candidate = "C-1";
@@ -115,10 +119,15 @@ TEST(AnnouncedTo, AStationOfBeforeSaysNotSinceWhenItsCandidateIsThere) {
   r.here_s = 60;
   board.report("aa", r, 100'000'000'000);
   EXPECT_EQ(board.since_utc_ns("aa"), 40'000'000'000) << "the station knows it better";
-  EXPECT_EQ(board.stations().at("aa")["since_utc_ns"], 40'000'000'000);
-  EXPECT_THROW(static_cast<void>(parse_report(R"({"state":"exam","here_s":-2})")), Error);
-  EXPECT_EQ(parse_report(R"({"state":"exam"})").here_s, -1);
-  EXPECT_EQ(parse_report(R"({"state":"exam","here_s":12})").here_s, 12);
+  EXPECT_EQ(board.stations().at("aa").since_utc_ns, 40'000'000'000);
+  const auto here_s = [](const json& said) {
+    StationReport read;
+    read_json_value(said, "", read);
+    return static_cast<std::int64_t>(read.here_s);
+  };
+  EXPECT_THROW(static_cast<void>(here_s({{"state", "exam"}, {"here_s", -2}})), Error);
+  EXPECT_EQ(here_s({{"state", "exam"}}), -1);
+  EXPECT_EQ(here_s({{"state", "exam"}, {"here_s", 12}}), 12);
 }
 
 TEST_F(ADay, APauseForAllHoldsEveryStationUntilItGoesOn) {

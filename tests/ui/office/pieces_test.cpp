@@ -206,10 +206,10 @@ TEST(PiecesOverTheNetwork, OfAnExamAreFiled) {
   sit_shortly(k_scenario, path, opened.school().ticket("4711"));
   const Bytes image = read_file(path);
   auto station = opened.station();
-  const std::string door = "/station/pieces/" + to_hex(sha256(image));
+  const std::string target = "/station/pieces/" + to_hex(sha256(image));
   const auto put = [&](std::size_t at, std::size_t size) {
     const auto first = image.begin() + static_cast<std::ptrdiff_t>(at);
-    return station.ask("PUT", fmt::format("{}?at={}&of={}", door, at, image.size()), {first, first + static_cast<std::ptrdiff_t>(size)});
+    return station.ask("PUT", fmt::format("{}?at={}&of={}", target, at, image.size()), {first, first + static_cast<std::ptrdiff_t>(size)});
   };
   std::size_t at = 0;
   Answer last;
@@ -217,14 +217,14 @@ TEST(PiecesOverTheNetwork, OfAnExamAreFiled) {
     last = put(at, std::min<std::size_t>(k_smallest_piece, image.size() - at));
     if (at == 0 && last.status == 200) {
       EXPECT_EQ(put(0, k_smallest_piece).status, 409) << "sent twice";
-      EXPECT_EQ(station.ask("GET", door, "").body["have"], k_smallest_piece);
+      EXPECT_EQ(station.ask("GET", target, "").body["have"], k_smallest_piece);
     }
   }
   EXPECT_EQ(last.status, 202);
   EXPECT_EQ(Opened::outcome(station, to_hex(sha256(image)))["state"], "filed");
   for (const char* query : {"", "?at=0", "?of=9&at=0", "?at=-1&of=9", "?at=0&of=9999999999", "?at=0&of=9&x=1"})
-    EXPECT_EQ(station.ask("PUT", door + query, "x").status, 400) << query;
-  EXPECT_EQ(opened.visitor().ask("PUT", door + "?at=0&of=1", "x").status, 401) << "no station signed it";
+    EXPECT_EQ(station.ask("PUT", target + query, "x").status, 400) << query;
+  EXPECT_EQ(opened.visitor().ask("PUT", target + "?at=0&of=1", "x").status, 401) << "no station signed it";
 }
 
 }  // namespace

@@ -92,9 +92,9 @@ test("a fire alarm in the first sitting: a real window stands still, and nobody 
   children.push(x);
   const open = windows.map((p) => open_window(display, home_of(at.get(p.id)!), p, codes.get(p.id)!));
   children.push(...open);
-  const board = async (): Promise<{ name: string; said: { held: boolean; state: string } | null }[]> => (await hall.evaluate(async () => (await fetch("/api/board")).json())).stations;
+  const board = async (): Promise<{ name: string; said?: { held: boolean; state: string } }[]> => (await hall.evaluate(async () => (await fetch("/api/board")).json())).stations;
   const of_windows = async (is: (s: { held: boolean; state: string }) => boolean): Promise<boolean> =>
-    (await board()).filter((s) => windows.some((p) => at.get(p.id) === s.name)).every((s) => s.said !== null && is(s.said));
+    (await board()).filter((s) => windows.some((p) => at.get(p.id) === s.name)).every((s) => s.said !== undefined && is(s.said));
   await until(async () => of_windows((s) => s.state === "exam"), "the window is in its exam");
   tell("the window is in its exam");
   await press(hall, "Pause the exams");

@@ -86,7 +86,7 @@ TEST_F(AStation, TheBoardShowsWhatItDoesAndItHearsWhatTheOfficeSays) {
   const auto link = begin();
   ASSERT_TRUE(within(10, [&] { return link->view().reached; }));
   StationReport report;
-  report.state = "exam";
+  report.state = AtStation::exam;
   report.step = "2/5 outline";
   report.left_s = 61;
   link->say(report);

@@ -130,12 +130,12 @@ LtiLogin LtiLogins::begin(const LtiPlatforms& platforms, const std::map<std::str
   if (found.empty()) throw launch_error(said("comes from a platform that this office does not know"));
   if (found.size() > 1) throw launch_error(said("does not say which of the platforms of its issuer it comes from"));
   const LtiPlatform& p = found.front();
-  if (target != p.office + "/lti/launch") throw launch_error(said("leads to another place than this office"));
+  if (target != p.office + k_lti_launch) throw launch_error(said("leads to another place than this office"));
   const std::string state = ledger::random_hex(k_random_bytes), nonce = ledger::random_hex(k_random_bytes);
   const json kept = {{"state", state}, {"nonce", nonce}, {"until", now_s + k_login_s}, {"iss", p.issuer}, {"client", p.client_id}};
   std::string address = p.auth_endpoint + (p.auth_endpoint.find('?') == std::string::npos ? "?" : "&");
   address += "scope=openid&response_type=id_token&response_mode=form_post&prompt=none&client_id=" + url_encoded(p.client_id) +
-             "&redirect_uri=" + url_encoded(p.office + "/lti/launch") + "&login_hint=" + url_encoded(hint) + "&state=" + state + "&nonce=" + nonce;
+             "&redirect_uri=" + url_encoded(p.office + k_lti_launch) + "&login_hint=" + url_encoded(hint) + "&state=" + state + "&nonce=" + nonce;
   if (const std::string message = field_in(fields, "lti_message_hint"); !message.empty()) address += "&lti_message_hint=" + url_encoded(message);
   return {address, sealed(to_base64url(kept.dump()))};
 }
@@ -180,7 +180,7 @@ LtiLaunch checked_claims(const json& claims, const LtiPlatform& platform, const 
     throw launch_error(said("comes from a deployment that was not set up"));
   if (claim_of(claims, "message_type") != "LtiResourceLinkRequest") throw launch_error(said("is another message than a link's"));
   if (claim_of(claims, "version") != "1.3.0") throw launch_error(said("is not of version 1.3.0"));
-  if (claim_of(claims, "target_link_uri") != platform.office + "/lti/launch") throw launch_error(said("leads to another place than this office"));
+  if (claim_of(claims, "target_link_uri") != platform.office + k_lti_launch) throw launch_error(said("leads to another place than this office"));
   launch.link = text_in(claim_of(claims, "resource_link"), "id");
   if (launch.link.empty() || launch.link.size() > k_longest_sub) throw launch_error(said("does not say which link was opened"));
   launch.sub = text_in(claims, "sub");

@@ -17,21 +17,17 @@ namespace {
 using nlohmann::json;
 
 constexpr char k_platforms_format[] = "cavum platforms 1";
-constexpr std::size_t k_longest_field = 1000, k_kept_keys = 2;
+constexpr std::size_t k_kept_keys = 2;
 
-std::string line_in(const json& given, const char* name, bool needed) {
-  const json& value = member_of(given, name);
-  std::string text = text_in(given, name);
-  if ((!value.is_null() && !value.is_string()) || text.size() > k_longest_field || !is_plain_text(text) || (needed && text.empty()))
+void require_line(const LtiLine& text, const char* name, bool needed) {
+  if (!is_plain_text(text) || (needed && text.empty()))
     throw Error(fmt::format("the platform's '{}'", name), "is no line of text", "copy it from the platform's page of this tool");
-  return text;
 }
 
-std::string address_in(const json& given, const char* name, bool needed) {
-  std::string text = line_in(given, name, needed);
+void require_address(const LtiLine& text, const char* name, bool needed) {
+  require_line(text, name, needed);
   if (!text.empty() && origin_of(text).empty())
     throw Error(fmt::format("the platform's '{}'", name), "is no address of https", "give one such as https://moodle.example/mod/lti/certs.php");
-  return text;
 }
 
 }  // namespace
@@ -53,50 +49,37 @@ bool LtiPlatform::may_ask(const std::string& address) const {
                              origin == origin_of(jwks_url) || std::find(hosts.begin(), hosts.end(), origin) != hosts.end());
 }
 
-json json_of(const LtiPlatform& p) {
-  return {{"name", p.name},
-          {"office", p.office},
-          {"issuer", p.issuer},
-          {"client_id", p.client_id},
-          {"deployments", p.deployments},
-          {"auth_endpoint", p.auth_endpoint},
-          {"token_endpoint", p.token_endpoint},
-          {"token_audience", p.token_audience},
-          {"jwks_url", p.jwks_url},
-          {"key_set", p.key_set},
-          {"claim", p.claim},
-          {"hosts", p.hosts},
-          {"certificate", p.certificate},
-          {"accounts", p.accounts}};
+LtiPlatform platform_in(const json& given) {
+  LtiPlatform p;
+  read_json_value(given, "", p);
+  return sound_platform(std::move(p));
 }
 
-LtiPlatform platform_in(const json& given) {
+LtiPlatform sound_platform(LtiPlatform p) {
   static const std::regex k_claim("sub|(custom|lis)\\.[A-Za-z0-9_]{1,100}");
-  LtiPlatform p;
-  p.name = line_in(given, "name", true);
-  p.office = origin_of(address_in(given, "office", true));
-  p.issuer = address_in(given, "issuer", true);
-  p.client_id = line_in(given, "client_id", true);
-  p.auth_endpoint = address_in(given, "auth_endpoint", true);
-  p.token_endpoint = address_in(given, "token_endpoint", true);
-  p.token_audience = line_in(given, "token_audience", false);
-  p.jwks_url = address_in(given, "jwks_url", false);
-  p.key_set = member_of(given, "key_set");
+  require_line(p.name, "name", true);
+  require_line(p.client_id, "client_id", true);
+  require_line(p.token_audience, "token_audience", false);
+  require_address(p.office, "office", true);
+  require_address(p.issuer, "issuer", true);
+  require_address(p.auth_endpoint, "auth_endpoint", true);
+  require_address(p.token_endpoint, "token_endpoint", true);
+  require_address(p.jwks_url, "jwks_url", false);
+  p.office = origin_of(p.office);
   if (p.key_set.is_string())
     p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
   if (p.jwks_url.empty() == p.key_set.is_null())
     throw Error("the platform's keys", p.jwks_url.empty() ? "are missing" : "stand there twice", "give jwks_url or key_set, and not both");
   if (!p.key_set.is_null() && !member_of(p.key_set, "keys").is_array())
     throw Error("the platform's 'key_set'", "is no key set", "give the whole key set as the platform writes it");
-  if (const std::string claim = line_in(given, "claim", false); !claim.empty()) p.claim = claim;
+  if (p.claim.empty()) p.claim = "sub";
   if (!std::regex_match(p.claim, k_claim))
     throw Error("the platform's 'claim'", "is none that candidates can be matched by", "say sub, custom.NAME or lis.NAME");
-  p.certificate = text_in(given, "certificate");
-  if (const json& list = member_of(given, "hosts"); list.is_array())
-    for (const json& h : list) p.hosts.push_back(origin_of(address_in({{"hosts", h}}, "hosts", true)));
-  if (const json& list = member_of(given, "deployments"); list.is_array())
-    for (const json& d : list)
-      if (d.is_string() && !d.get<std::string>().empty() && d.get<std::string>().size() <= 255) p.deployments.push_back(d);
+  for (LtiLine& host : p.hosts) {
+    require_address(host, "hosts", true);
+    host = origin_of(host);
+  }
+  std::erase_if(static_cast<std::vector<cavum::Text<255>>&>(p.deployments), [](const auto& d) { return d.empty(); });
   if (p.deployments.empty()) throw Error("the platform's 'deployments'", "are missing", "give the deployment id that the platform shows");
   return p;
 }
@@ -112,22 +95,16 @@ LtiPlatforms::File LtiPlatforms::read() const {
   if (text_in(read, "format") != k_platforms_format || !member_of(read, "platforms").is_array() || !member_of(read, "keys").is_array())
     throw Error(path_, "is no file of learning platforms", "restore it, or remove it and set them up anew");
   File file;
-  for (const json& one : read["platforms"]) {
-    file.platforms.push_back(platform_in(one));
-    if (const json& linked = member_of(one, "accounts"); linked.is_object())
-      for (const auto& [sub, account] : linked.items())
-        if (account.is_string()) file.platforms.back().accounts[sub] = account;
-  }
+  for (const json& one : read["platforms"]) file.platforms.push_back(platform_in(one));
   for (const json& k : read["keys"]) file.keys.push_back({text_in(k, "kid"), text_in(k, "pem"), whole_in(k, "made_utc_ns")});
   return file;
 }
 
 void LtiPlatforms::write(const File& file) const {
-  json platforms = json::array(), keys = json::array();
-  for (const auto& p : file.platforms) platforms.push_back(json_of(p));
+  json keys = json::array();
   for (const auto& k : file.keys) keys.push_back({{"kid", k.kid}, {"pem", k.pem}, {"made_utc_ns", k.made_utc_ns}});
   make_private_folder(std::filesystem::path(path_).parent_path().string());
-  write_private_text_file(path_, json{{"format", k_platforms_format}, {"platforms", platforms}, {"keys", keys}}.dump(1) + "\n");
+  write_private_text_file(path_, json{{"format", k_platforms_format}, {"platforms", to_json_value(file.platforms)}, {"keys", keys}}.dump(1) + "\n");
 }
 
 std::vector<LtiPlatform> LtiPlatforms::all() const {
@@ -146,6 +123,7 @@ void LtiPlatforms::set(LtiPlatform platform) {
   File file = read();
   const auto same =
       std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(platform.issuer, platform.client_id); });
+  platform.accounts.clear();
   if (same == file.platforms.end()) {
     file.platforms.push_back(std::move(platform));
   } else {
@@ -194,11 +172,8 @@ void LtiPlatforms::rotate() {
   write(file);
 }
 
-json shown_addresses(const LtiPlatform& p) {
-  return {{"tool", p.office + "/lti/launch"},
-          {"login", p.office + "/lti/login"},
-          {"redirect", p.office + "/lti/launch"},
-          {"keys", p.office + "/lti/jwks"}};
+LtiAddresses addresses_for(const LtiPlatform& p) {
+  return {p.office + k_lti_launch, p.office + k_lti_login, p.office + k_lti_launch, p.office + k_lti_keys};
 }
 
 }  // namespace cavum::office

@@ -9,32 +9,36 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/json_struct.h"
 #include "ui/office/lti/keys.h"
 
 namespace cavum::office {
 
-/// What both sides agreed on. Addresses are https.
+// Paths of this office that a platform knows.
+inline constexpr char k_lti_keys[] = "/lti/jwks", k_lti_login[] = "/lti/login", k_lti_launch[] = "/lti/launch";
+
+using LtiLine = Text<1000>;
+/// What both sides agreed on. Addresses are https. `name`: for people: "Moodle"; `office`: this office as browsers reach it:
+/// "https://office.example:8443"; issuer and client together name the platform; `deployments`: ids, any other is refused; `token_audience`: `aud` of
+/// what we sign for the token endpoint, empty: that endpoint itself; `jwks_url`: empty: `key_set` stands in its place, {"keys":[…]} or its text;
+/// `claim`: by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`, its value is the number of the class list; `hosts`: further origins of
+/// its services ("https://school.example"), where these stand elsewhere than its endpoints; `certificate`: PEM of the authority, or of the server
+/// itself, that is trusted for it, empty: those that this computer trusts; `accounts`: of the office, by the platform's `sub`.
 struct LtiPlatform {
-  std::string name;                      ///< for people: "Moodle"
-  std::string office;                    ///< this office as browsers reach it: "https://office.example:8443"
-  std::string issuer, client_id;         ///< together they name the platform
-  std::vector<std::string> deployments;  ///< ids; any other is refused
-  std::string auth_endpoint, token_endpoint;
-  std::string token_audience;      ///< `aud` of what we sign for the token endpoint; empty: that endpoint itself
-  std::string jwks_url;            ///< empty: `key_set` stands in its place
-  nlohmann::json key_set;          ///< {"keys":[…]}, or null
-  std::string claim = "sub";       ///< by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`; its value is the number of the class list
-  std::vector<std::string> hosts;  ///< further origins of its services ("https://school.example"), where these stand elsewhere than its endpoints
-  std::string certificate;         ///< PEM of the authority, or of the server itself, that is trusted for it; empty: those that this computer trusts
-  std::map<std::string, std::string> accounts;  ///< of the office, by the platform's `sub`
+  using Ids = AtMost<std::vector<Text<255>>, 1000>;
+  using Hosts = AtMost<std::vector<LtiLine>, 1000>;
+  using People = std::map<std::string, Text<1000>>;
+  CAVUM_FIELDS((LtiLine, name), (LtiLine, office), (LtiLine, issuer), (LtiLine, client_id), (Ids, deployments), (LtiLine, auth_endpoint),
+               (LtiLine, token_endpoint), (LtiLine, token_audience, optional), (LtiLine, jwks_url, optional), (nlohmann::json, key_set, optional),
+               (LtiLine, claim, optional), (Hosts, hosts, optional), (Text<1U << 20>, certificate, optional), (People, accounts, optional))
   [[nodiscard]] bool is(const std::string& other_issuer, const std::string& other_client) const {
     return issuer == other_issuer && client_id == other_client;
   }
   /// Whether the office may ask this address: https, and the host and port of an endpoint, or of `hosts`.
   [[nodiscard]] bool may_ask(const std::string& address) const;
 };
-[[nodiscard]] nlohmann::json json_of(const LtiPlatform& platform);
-/// Throws Error for what is missing, or no address of https.
+/// With origins in the place of addresses. Throws Error for what is missing, or no address of https.
+[[nodiscard]] LtiPlatform sound_platform(LtiPlatform given);
 [[nodiscard]] LtiPlatform platform_in(const nlohmann::json& given);
 /// "https://host[:port]" of an address, in small letters; empty when it is no plain address of https: credentials, blanks or a fragment are none.
 [[nodiscard]] std::string origin_of(const std::string& address);
@@ -46,7 +50,7 @@ class LtiPlatforms {
   /// Throws Error when the file is none of platforms.
   [[nodiscard]] std::vector<LtiPlatform> all() const;
   [[nodiscard]] std::optional<LtiPlatform> of(const std::string& issuer, const std::string& client_id) const;
-  /// Adds it, or takes the place of the one of that issuer and client; accounts that were linked stay.
+  /// Adds it, or takes the place of the one of that issuer and client; accounts that were linked stay, and none is linked by it.
   void set(LtiPlatform platform);
   /// Throws Error when there is none.
   void remove(const std::string& issuer, const std::string& client_id);
@@ -65,6 +69,7 @@ class LtiPlatforms {
 };
 
 /// What the platform's administrator types in there: addresses of ours.
-[[nodiscard]] nlohmann::json shown_addresses(const LtiPlatform& platform);
+CAVUM_JSON(LtiAddresses, (std::string, tool), (std::string, login), (std::string, redirect), (std::string, keys))
+[[nodiscard]] LtiAddresses addresses_for(const LtiPlatform& platform);
 
 }  // namespace cavum::office

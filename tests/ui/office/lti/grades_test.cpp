@@ -221,7 +221,7 @@ TEST_F(Grades, ALearnerSeesHisOwnReleasedResultAndNoneBesides) {
   EXPECT_EQ(own.status, 200);
   EXPECT_NE(own.body.find("student"), std::string::npos) << "the student's report: " << own.body;
   EXPECT_EQ(b.ask("GET", "/lti/report/" + hashes_["4712"]).status, 400) << "another's";
-  for (const char* door : {"/api/results", "/api/gradebook.csv", "/api/me", "/api/criteria.csv"}) EXPECT_EQ(b.ask("GET", door).status, 401) << door;
+  for (const char* path : {"/api/results", "/api/gradebook.csv", "/api/me", "/api/criteria.csv"}) EXPECT_EQ(b.ask("GET", path).status, 401) << path;
   EXPECT_EQ(b.ask("GET", "/api/report/" + hashes_["4711"]).status, 401) << "the instructor's report";
   platform_.control({{"exam", "another_exam"}});
   Browser elsewhere{opened_.port(), &platform_};

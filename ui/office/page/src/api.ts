@@ -1,16 +1,9 @@
 // Requests to the server that the page came from. Whatever changes something bears the sign-in's token.
+import type { Nothing, Route } from "../made/routes.ts";
 import { tr } from "../report_src/words.ts";
 
-export interface Me {
-  name: string;
-  role: string;
-  token: string;
-  /** Doors that the role may use: "POST /api/release". */
-  may: string[];
-  school: string;
-  second_factor: boolean;
-  rehearsal: boolean;
-}
+/** Whether who is signed in may use a route. */
+export type May = (route: Route<unknown, unknown>) => boolean;
 
 /** What the server refused, in words. */
 export class Refused extends Error {
@@ -24,7 +17,7 @@ export function set_token(text: string): void {
   token = text;
 }
 
-async function ask(method: string, path: string, body?: unknown): Promise<Response> {
+async function ask({ method, path }: Route<unknown, unknown>, body?: unknown): Promise<Response> {
   const headers: { [name: string]: string } = {};
   if (body !== undefined) headers["Content-Type"] = "application/json";
   if (method !== "GET") headers["X-Cavum-Token"] = token;
@@ -44,15 +37,21 @@ async function ask(method: string, path: string, body?: unknown): Promise<Respon
   throw new Refused(response.status, text);
 }
 
-export async function get<T>(path: string): Promise<T> {
-  return (await ask("GET", path)).json() as Promise<T>;
+export async function get<Answer>(route: Route<Nothing, Answer>): Promise<Answer> {
+  return (await ask(route)).json() as Promise<Answer>;
 }
 /** A file, given to the browser to keep; what the office says instead is thrown. */
-export async function download(path: string, name: string): Promise<void> {
-  const href = URL.createObjectURL(await (await ask("GET", path)).blob());
+export async function download(route: Route<Nothing, unknown>, name: string): Promise<void> {
+  const href = URL.createObjectURL(await (await ask(route)).blob());
   Object.assign(document.createElement("a"), { href, download: name }).click();
   setTimeout(() => URL.revokeObjectURL(href), 60_000);
 }
-export async function post<T>(path: string, body: unknown): Promise<T> {
-  return (await ask("POST", path, body)).json() as Promise<T>;
+export async function post<Request, Answer>(route: Route<Request, Answer>, body: NoInfer<Request>): Promise<Answer> {
+  return (await ask(route, body)).json() as Promise<Answer>;
+}
+/** Each event, until the source is closed. */
+export function listen<Event>(route: Route<Nothing, Event>, take: (event: Event) => void): EventSource {
+  const source = new EventSource(route.path);
+  source.onmessage = (event: MessageEvent<string>) => take(JSON.parse(event.data) as Event);
+  return source;
 }

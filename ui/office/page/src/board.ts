@@ -1,20 +1,10 @@
 // The live board: every station as it speaks, what waits to be filed, and the stations' register.
+import { routes, type BoardShown, type StationShown } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
-import { post } from "./api.ts";
-import { Announcements, Attendance, Pauses, type Announcement, type Hold } from "./day.ts";
+import { listen, post, type May } from "./api.ts";
+import { Announcements, Attendance, Pauses } from "./day.ts";
 import { form, input, local_time, say, select, table, with_reason, type View } from "./parts.ts";
-
-interface Said { state: string; candidate: string; step: string; alarm: string; left_s: number; held: boolean; refused: string; seen_utc_ns: number }
-interface Station { name: string; public_key: string; room: string; revoked: boolean; hold: number; unread: number; twins: string[]; said: Said | null }
-interface Shown {
-  utc_ns: number;
-  stations: Station[];
-  tickets: { [group: string]: number };
-  holds: Hold[];
-  announcements: Announcement[];
-  inbox: { waiting: number; trouble: string; refused: { sha256: string; station: string; candidate: string; findings: string[] }[] };
-}
 
 const silent_s = 15;
 const states = (): { [state: string]: string } => ({
@@ -28,7 +18,7 @@ function clock(s: number): string {
   return `${Math.floor(s / 60)}:${String(Math.floor(s % 60)).padStart(2, "0")}`;
 }
 
-function card(s: Station, now_ns: number): HTMLElement {
+function card(s: StationShown, now_ns: number): HTMLElement {
   const lines = make("div");
   const element = make("li", { class: "card" }, make("h3", {}, s.name), lines);
   if (s.room !== "") lines.append(make("p", { class: "hint" }, s.room));
@@ -37,7 +27,7 @@ function card(s: Station, now_ns: number): HTMLElement {
     lines.append(make("p", {}, tr("Key revoked")));
     return element;
   }
-  if (s.said === null) {
+  if (s.said === undefined) {
     element.classList.add("silent");
     lines.append(make("p", {}, tr("Has not spoken yet")));
     return element;
@@ -65,7 +55,7 @@ function card(s: Station, now_ns: number): HTMLElement {
   return element;
 }
 
-export async function board(may: (door: string) => boolean): Promise<View> {
+export async function board(may: May): Promise<View> {
   const counts = make("ul", { class: "counts" });
   const cards = make("ul", { class: "cards" });
   const inbox = make("div");
@@ -75,9 +65,9 @@ export async function board(may: (door: string) => boolean): Promise<View> {
   const attendance = new Attendance();
   const root = make("div", {}, make("h1", {}, tr("Exam day")), line, pauses.root, make("h2", {}, tr("Tickets")), counts, make("h2", {}, tr("Stations")), cards,
     announcements.root, attendance.root, make("h2", {}, tr("Exams that were handed in")), inbox);
-  const revocation = may("POST /api/stations/revoke") ? new Revocation() : null;
-  const placing = may("POST /api/stations/room") ? new Placing() : null;
-  let shown: Shown | null = null;
+  const revocation = may(routes.revoke_station) ? new Revocation() : null;
+  const placing = may(routes.place_station) ? new Placing() : null;
+  let shown: BoardShown | null = null;
   let came_ms = 0;
   let counted = "";
   const draw = (): void => {
@@ -85,7 +75,7 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     const now_ns = shown.utc_ns + (performance.now() - came_ms) * 1e6;  // by the office's clock
     cards.replaceChildren(...(shown.stations.length > 0 ? shown.stations.map((s) => card(s, now_ns)) : [make("li", {}, tr("No station is enrolled yet."))]));
   };
-  const take = (what: Shown): void => {
+  const take = (what: BoardShown): void => {
     shown = what;
     came_ms = performance.now();
     const names = groups();
@@ -104,18 +94,17 @@ export async function board(may: (door: string) => boolean): Promise<View> {
     counted = now;
     draw();
   };
-  const source = new EventSource("/api/board/events");
-  source.onmessage = (event: MessageEvent<string>) => {
+  const source = listen(routes.board_events, (now) => {
     line.textContent = tr("Live");
-    take(JSON.parse(event.data) as Shown);
-  };
+    take(now);
+  });
   source.onerror = () => {
     line.textContent = tr("The office does not answer; trying again …");
     if (source.readyState === EventSource.CLOSED) window.dispatchEvent(new Event("signed-out"));
   };
   const timer = setInterval(draw, 1000);
   const missing_timer = setInterval(() => void attendance.look().catch(() => undefined), 10_000);  // a time comes by the clock alone
-  if (may("POST /api/stations/invite")) root.append(invite());
+  if (may(routes.invite_station)) root.append(invite());
   if (placing !== null) root.append(placing.root);
   if (revocation !== null) root.append(revocation.root);
   return { root, leave: () => { source.close(); clearInterval(timer); clearInterval(missing_timer); } };
@@ -125,7 +114,7 @@ function invite(): HTMLElement {
   const name = input(tr("Name of the station"), { required: "", maxlength: "100", autocomplete: "off" }, tr("As people call it: Seat 3."));
   const out = make("p");
   return make("section", {}, make("h2", {}, tr("Invite a station")), form(tr("Make a code"), async () => {
-    const made = await post<{ code: string; until: string }>("/api/stations/invite", { name: name.value });
+    const made = await post(routes.invite_station, { name: name.value });
     out.replaceChildren(tr("One-time code of {0}, good until {1}, shown only now:", name.value, local_time(made.until)), " ", make("code", {}, made.code));
     say(tr("Type the code at the station."));
   }, name.block), out);
@@ -140,7 +129,7 @@ class StationList {
     this.list.required = true;
   }
 
-  take(stations: Station[]): void {
+  take(stations: StationShown[]): void {
     const good = stations.filter((s) => !s.revoked);
     const now = JSON.stringify(good.map((s) => [s.public_key, s.name]));
     if (now === this.held) return;
@@ -158,12 +147,12 @@ class Placing {
   constructor() {
     const room = input(tr("Room"), { maxlength: "80", autocomplete: "off" }, tr("Empty: in none."));
     this.root.append(form(tr("It stands there"), async () => {
-      await post("/api/stations/room", { public_key: this.stations.list.value, room: room.value });
+      await post(routes.place_station, { public_key: this.stations.list.value, room: room.value });
       say(tr("The board shows it."));
     }, this.stations.list.block, room.block));
   }
 
-  take(stations: Station[]): void {
+  take(stations: StationShown[]): void {
     this.stations.take(stations);
   }
 }
@@ -176,13 +165,13 @@ class Revocation {
     const { list } = this.stations;
     this.root.append(with_reason(tr("Revoke"), { class: "bad" }, async (reason) => {
       const name = list.selectedOptions[0].text;
-      await post("/api/stations/revoke", { public_key: list.value, reason });
+      await post(routes.revoke_station, { public_key: list.value, reason });
       list.value = "";
       say(tr("What {} sends from now on does not count.", name));
     }, { asked: [list.block] }));
   }
 
-  take(stations: Station[]): void {
+  take(stations: StationShown[]): void {
     this.stations.take(stations);
   }
 }

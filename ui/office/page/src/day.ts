@@ -1,21 +1,16 @@
 // What people do on an exam day: pause exams and let them go on, announce, and see who is not here.
+import { routes, type ForWhom, type Notice, type StationShown } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
 import { act, form, input, local_time, say, select, table, with_reason } from "./parts.ts";
-
-export interface Place { name: string; public_key: string; room: string; revoked: boolean }
-export interface Hold { entry: number; utc_ns: number; reason: string; room: string; stations: string[] }
-export interface Announcement { entry: number; utc_ns: number; text: string; room: string; stations: string[] }
-
-export type Audience = { all: true } | { room: string } | { station: string };
 
 /** For whom something is: all, a room, a station. Touched only when these are others: somebody may be choosing. */
 export class Choice {
   readonly list = select(tr("For"), [["all", tr("all stations")]]);
   private held = "";
 
-  take(stations: Place[]): void {
+  take(stations: StationShown[]): void {
     const good = stations.filter((s) => !s.revoked);
     const now = JSON.stringify(good.map((s) => [s.public_key, s.name, s.room]));
     if (now === this.held) return;
@@ -28,14 +23,14 @@ export class Choice {
     if (choices.some(([value]) => value === chosen)) this.list.value = chosen;
   }
 
-  get audience(): Audience {
+  get audience(): ForWhom {
     const value = this.list.value;
     if (value.startsWith("room ")) return { room: value.slice(5) };
     return value.startsWith("station ") ? { station: value.slice(8) } : { all: true };
   }
 }
 
-export function whom(of: { room: string; stations: string[] }, stations: Place[]): string {
+export function whom(of: { room: string; stations: string[] }, stations: StationShown[]): string {
   if (of.stations.length === 0) return tr("all stations");
   if (of.room !== "") return tr("all in {}", of.room);
   return of.stations.map((key) => stations.find((s) => s.public_key === key)?.name ?? key.slice(0, 8)).join(", ");
@@ -51,7 +46,7 @@ export class Pauses {
   constructor() {
     const reason = input(tr("Why"), { required: "", maxlength: "500", autocomplete: "off", value: tr("Fire alarm") }, tr("Candidates read it."));
     const pause = form(tr("Pause the exams"), async () => {
-      await post("/api/hold", { reason: reason.value, to: this.choice.audience });
+      await post(routes.hold, { reason: reason.value, to: this.choice.audience });
       more.open = false;
       say(tr("The exams stand still; each candidate keeps his time."));
     }, this.choice.list.block, reason.block);
@@ -59,16 +54,16 @@ export class Pauses {
     this.root.append(this.now, more);
   }
 
-  take(holds: Hold[], stations: Place[]): void {
+  take(holds: Notice[], stations: StationShown[]): void {
     this.choice.take(stations);
     const now = JSON.stringify(holds);
     if (now === this.held) return;  // somebody may be typing why they go on
     this.held = now;
     this.now.replaceChildren(...holds.map((h) => make("div", { class: "card held" },
-      make("h2", {}, tr("Paused: {0} ({1})", h.reason, whom(h, stations))),
+      make("h2", {}, tr("Paused: {0} ({1})", h.text, whom(h, stations))),
       make("p", {}, tr("Since {}", local_time(new Date(h.utc_ns / 1e6).toISOString()))),
       with_reason(tr("Let them go on"), { class: "main" }, async (reason) => {
-        await post("/api/go-on", { hold: h.entry, reason });
+        await post(routes.go_on, { hold: h.entry, reason });
         say(holds.length > 1 ? tr("This pause is over. Other pauses still last: {}.", holds.length - 1) : tr("The exams go on."));
       }))));
   }
@@ -83,20 +78,18 @@ export class Announcements {
   constructor() {
     const text = input(tr("What candidates read"), { required: "", maxlength: "500", autocomplete: "off" });
     this.root.append(form(tr("Announce it"), async () => {
-      await post("/api/announce", { text: text.value, to: this.choice.audience });
+      await post(routes.announce, { text: text.value, to: this.choice.audience });
       text.value = "";
       say(tr("Announced. A station's card says when it was not read yet."));
     }, this.choice.list.block, text.block), this.list);
   }
 
-  take(announcements: Announcement[], stations: Place[]): void {
+  take(announcements: Notice[], stations: StationShown[]): void {
     this.choice.take(stations);
     this.list.replaceChildren(...announcements.slice(0, 5).map((a) =>
       make("li", {}, `${local_time(new Date(a.utc_ns / 1e6).toISOString())}, ${whom(a, stations)}: ${a.text}`)));
   }
 }
-
-interface Missing { candidate: string; exam: string; not_before: string; not_after: string; seat: string; no_show: boolean; id: string; name: string }
 
 /** Who should be here and is not, by name. */
 export class Attendance {
@@ -109,7 +102,7 @@ export class Attendance {
   }
 
   async look(): Promise<void> {
-    const { missing } = await get<{ missing: Missing[] }>("/api/attendance");
+    const { missing } = await get(routes.attendance);
     const now = JSON.stringify(missing);
     if (now === this.held) return;  // somebody may be looking for a name in it
     this.held = now;

@@ -1,28 +1,21 @@
 // Learning platforms (LTI 1.3): what goes to each gradebook, what the platform's administrator types in there, set-up.
+import { routes, type LtiSetUp, type PlatformShown, type ScoresOfCourse } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
 import { act, code_field, field, form, input, local_time, say, select, table, type View } from "./parts.ts";
 
-interface Platform {
-  name: string; issuer: string; client_id: string; deployments: string[]; claim: string; accounts: { [sub: string]: string };
-  auth_endpoint: string; token_endpoint: string; token_audience: string; jwks_url: string; key_set: unknown; certificate: string;
-  addresses: { tool: string; login: string; redirect: string; keys: string };
-}
-interface Course { platform: string; title: string; exam: string; item: string; sent: number; refused: number; waiting: number; unknown: number; trouble: string }
-interface SetUp { platforms: Platform[]; keys: { kid: string; made: string }[]; progress: Course[] }
-
 export async function platforms(second_factor: boolean): Promise<View> {
   const root = make("div");
-  const show = (now: SetUp): void => {
-    root.replaceChildren(make("h1", {}, tr("Learning platforms")), scores(now.progress, async () => show(await get<SetUp>("/api/lti"))),
+  const show = (now: LtiSetUp): void => {
+    root.replaceChildren(make("h1", {}, tr("Learning platforms")), scores(now.progress, async () => show(await get(routes.lti))),
       ...now.platforms.map(card), ...(second_factor ? changes(now, show) : [make("p", { class: "wrong" }, tr("This account has no second factor, and changes nothing here."))]));
   };
-  show(await get<SetUp>("/api/lti"));
+  show(await get(routes.lti));
   return { root };
 }
 
-function scores(courses: Course[], look: () => Promise<void>): HTMLElement {
+function scores(courses: ScoresOfCourse[], look: () => Promise<void>): HTMLElement {
   const section = make("section", {}, make("h2", {}, tr("Scores")));
   if (courses.length === 0) section.append(make("p", {}, tr("No course is known yet. One is known as soon as somebody opens its link on the platform.")));
   else {
@@ -30,13 +23,13 @@ function scores(courses: Course[], look: () => Promise<void>): HTMLElement {
     section.append(table(tr("Courses: {}", courses.length), [tr("Course"), tr("Platform"), tr("Exam"), tr("Sent"), tr("Waiting"), tr("Has not opened the link yet"), tr("Refused"), tr("What keeps them back")], rows));
   }
   section.append(make("div", { class: "row" }, act(tr("Look again"), {}, look), act(tr("Send again now"), {}, async () => {
-    await post("/api/lti/send", {});
+    await post(routes.send_scores, {});
     say(tr("What waits or was refused is sent again. Look again in a moment."));
   })));
   return section;
 }
 
-function card(p: Platform): HTMLElement {
+function card(p: PlatformShown): HTMLElement {
   const list = make("dl");
   const put = (what: string, value: string): void => list.append(make("dt", {}, what), make("dd", {}, make("code", {}, value)));
   put(tr("Tool URL"), p.addresses.tool);
@@ -48,7 +41,7 @@ function card(p: Platform): HTMLElement {
   return make("section", { class: "card" }, make("h2", {}, p.name), make("p", {}, tr("Its administrator types in there:")), list, known, make("ul", {}, ...people));
 }
 
-function changes(now: SetUp, show: (now: SetUp) => void): HTMLElement[] {
+function changes(now: LtiSetUp, show: (now: LtiSetUp) => void): HTMLElement[] {
   const line = (label: string, hint = "", needed = true): ReturnType<typeof input> => input(label, { autocomplete: "off", maxlength: "1000", ...(needed ? { required: "" } : {}) }, hint);
   const name = line(tr("Name of the platform")), issuer = line(tr("Issuer"), tr("Moodle calls it Platform ID.")), client = line(tr("Client ID"));
   const deployments = line(tr("Deployment IDs"), tr("Several with commas between them."));
@@ -63,7 +56,7 @@ function changes(now: SetUp, show: (now: SetUp) => void): HTMLElement[] {
   const set = form(tr("Set it up"), async () => {
     const platform = { name: name.value, office: location.origin, issuer: issuer.value, client_id: client.value, deployments: listed(deployments.value),
       auth_endpoint: auth.value, token_endpoint: token.value, jwks_url: keys.value, key_set: key_set.value, claim: claim.value, token_audience: audience.value, certificate: certificate.value, hosts: listed(hosts.value) };
-    show(await post<SetUp>("/api/lti/set", { platform, code: code.value }));
+    show(await post(routes.set_platform, { platform, code: code.value }));
     say(tr("Set up. Give the platform's administrator the addresses above."));
   }, name.block, issuer.block, client.block, deployments.block, auth.block, token.block, keys.block, key_set.block, claim.block, audience.block, hosts.block, certificate.block, code.block);
   const out: HTMLElement[] = [make("details", {}, make("summary", {}, tr("Set up a platform, or change one")), set)];
@@ -76,35 +69,35 @@ function listed(text: string): string[] {
   return text.split(",").map((one) => one.trim()).filter((one) => one !== "");
 }
 
-function which(now: SetUp): ReturnType<typeof select> {
+function which(now: LtiSetUp): ReturnType<typeof select> {
   return select(tr("Platform"), now.platforms.map((p, i): [string, string] => [String(i), `${p.name}, ${p.client_id}`]));
 }
 
-function link(now: SetUp, show: (now: SetUp) => void): HTMLElement {
+function link(now: LtiSetUp, show: (now: LtiSetUp) => void): HTMLElement {
   const platform = which(now), sub = input(tr("The person's number there (sub)"), { required: "", autocomplete: "off" });
   const account = input(tr("Account at this office"), { autocomplete: "off" }, tr("Empty: nobody's any more. Whoever rules the platform can then act as this account, but for its codes."));
   const code = code_field();
   return make("details", {}, make("summary", {}, tr("An instructor who has an account here")), form(tr("Link them"), async () => {
     const { issuer, client_id } = now.platforms[Number(platform.value)]!;
-    show(await post<SetUp>("/api/lti/link", { issuer, client_id, sub: sub.value, account: account.value, code: code.value }));
+    show(await post(routes.link_person, { issuer, client_id, sub: sub.value, account: account.value, code: code.value }));
     say(tr("Done."));
   }, platform.block, sub.block, account.block, code.block));
 }
 
-function remove(now: SetUp, show: (now: SetUp) => void): HTMLElement {
+function remove(now: LtiSetUp, show: (now: LtiSetUp) => void): HTMLElement {
   const platform = which(now), code = code_field();
   return make("details", {}, make("summary", {}, tr("Remove a platform")), form(tr("Remove it"), async () => {
     const { issuer, client_id } = now.platforms[Number(platform.value)]!;
-    show(await post<SetUp>("/api/lti/remove", { issuer, client_id, code: code.value }));
+    show(await post(routes.remove_platform, { issuer, client_id, code: code.value }));
     say(tr("Removed. Who came from there is signed out."));
   }, platform.block, code.block));
 }
 
-function new_key(now: SetUp, show: (now: SetUp) => void): HTMLElement {
+function new_key(now: LtiSetUp, show: (now: LtiSetUp) => void): HTMLElement {
   const code = code_field();
   return make("details", {}, make("summary", {}, tr("This office's key for platforms")), make("ul", {}, ...now.keys.map((k) => make("li", {}, make("code", {}, k.kid), " ", tr("made {}", local_time(k.made))))),
     form(tr("Make a new key"), async () => {
-      show(await post<SetUp>("/api/lti/new-key", { code: code.value }));
+      show(await post(routes.new_key, { code: code.value }));
       say(tr("Made. The one before stays known until the next."));
     }, code.block));
 }

@@ -1,7 +1,8 @@
 // The exam office in a browser: who is signed in sees the views that his role has, by the address after #.
+import { routes, type Me, type Route } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { set_words, tr } from "../report_src/words.ts";
-import { get, post, Refused, set_token, type Me } from "./api.ts";
+import { get, post, Refused, set_token, type May } from "./api.ts";
 import { appeals } from "./appeals.ts";
 import { board } from "./board.ts";
 import { incidents } from "./incidents.ts";
@@ -18,22 +19,22 @@ import { trail } from "./trail.ts";
 let me: Me | null = null;
 let by_proxy = false;
 let view: View | null = null;
-const may = (door: string): boolean => me?.may.includes(door) ?? false;
+const may: May = ({ method, path }) => me?.may.includes(`${method} ${path}`) ?? false;
 
 const roles = (): { [role: string]: string } => ({ officer: tr("exam officer"), examiner: tr("examiner"), invigilator: tr("invigilator"), reader: tr("reader") });
 
-interface Place { name: string; title: string; door: string; open(): Promise<View> }
+interface Place { name: string; title: string; route: Route<unknown, unknown>; open(): Promise<View> }
 const places = (): Place[] => [
-  { name: "day", title: tr("Exam day"), door: "GET /api/board/events", open: () => board(may) },
-  { name: "list", title: tr("Class list"), door: "POST /api/roster/issue", open: roster },
-  { name: "tickets", title: tr("Tickets"), door: "GET /api/tickets", open: () => tickets(may) },
-  { name: "incidents", title: tr("Incidents"), door: "GET /api/incidents", open: incidents },
-  { name: "decisions", title: tr("Decisions"), door: "GET /api/queue", open: () => queue(may("POST /api/decide")) },
-  { name: "appeals", title: tr("Appeals"), door: "GET /api/appeals", open: () => appeals(me?.name ?? "", may) },
-  { name: "rubric", title: tr("New rubric"), door: "POST /api/regrade/begin", open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
-  { name: "platforms", title: tr("Learning platforms"), door: "GET /api/lti", open: () => platforms(me?.second_factor ?? false) },
-  { name: "results", title: tr("Results"), door: "GET /api/results", open: () => results(may, me?.second_factor ?? false) },
-  { name: "trail", title: tr("Trail"), door: "POST /api/trail", open: trail },
+  { name: "day", title: tr("Exam day"), route: routes.board_events, open: () => board(may) },
+  { name: "list", title: tr("Class list"), route: routes.issue, open: roster },
+  { name: "tickets", title: tr("Tickets"), route: routes.tickets, open: () => tickets(may) },
+  { name: "incidents", title: tr("Incidents"), route: routes.incidents, open: incidents },
+  { name: "decisions", title: tr("Decisions"), route: routes.queue, open: () => queue(may(routes.decide)) },
+  { name: "appeals", title: tr("Appeals"), route: routes.appeals, open: () => appeals(me?.name ?? "", may) },
+  { name: "rubric", title: tr("New rubric"), route: routes.begin_regrade, open: () => regrade(me?.name ?? "", may, me?.second_factor ?? false) },
+  { name: "platforms", title: tr("Learning platforms"), route: routes.lti, open: () => platforms(me?.second_factor ?? false) },
+  { name: "results", title: tr("Results"), route: routes.results, open: () => results(may, me?.second_factor ?? false) },
+  { name: "trail", title: tr("Trail"), route: routes.trail, open: trail },
 ];
 
 function put(next: View): void {
@@ -57,7 +58,7 @@ function head(mine: Place[], now: string): void {
   }
   bar.append(make("nav", { "aria-label": tr("Views") }, list), make("span", {}, `${me.name}, ${roles()[me.role] ?? me.role}`),
     act(tr("Sign out"), {}, async () => {
-      await post("/api/sign-out", {});
+      await post(routes.sign_out, {});
       signed_out();
     }));
 }
@@ -77,7 +78,7 @@ function ended(): void {
 
 let asked = 0;
 async function show(): Promise<void> {
-  const mine = places().filter((p) => may(p.door));
+  const mine = places().filter((p) => may(p.route));
   const place = mine.find((p) => `#${p.name}` === location.hash) ?? mine[0];
   head(mine, place?.name ?? "");
   document.title = `${place?.title ?? tr("Sign in")} · ${me?.school ?? "Cavum"}`;
@@ -101,7 +102,7 @@ function signed_in(who: Me): void {
 }
 
 async function begin(): Promise<void> {
-  const { language, decimal_sign, words, proxy } = await get<{ language: string; decimal_sign: string; words: { [english: string]: string }; proxy: boolean }>("/api/words");
+  const { language, decimal_sign, words, proxy } = await get(routes.words);
   by_proxy = proxy;
   set_words(words, decimal_sign);
   document.documentElement.lang = language;
@@ -112,7 +113,7 @@ async function begin(): Promise<void> {
   });
   window.addEventListener("signed-out", ended);
   try {
-    signed_in(await get<Me>("/api/me"));
+    signed_in(await get(routes.me));
   } catch (wrong) {
     if (!(wrong instanceof Refused && wrong.status === 401)) say(wrong instanceof Error ? wrong.message : "", true);
     void show();

@@ -1,4 +1,5 @@
 // What the views are made of: fields with labels, tables that become cards on a narrow screen, and one line that says what happened.
+import { routes, type Decided, type Noted } from "../made/routes.ts";
 import { button, make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 
@@ -165,7 +166,7 @@ export function with_reason(text: string, attributes: { [name: string]: string }
 
 /** To the tooth in three dimensions and the replay of a recording, in a window of its own. */
 export function report_link(sha256: string): HTMLAnchorElement {
-  return make("a", { href: `/api/report/${sha256}`, target: "_blank", rel: "noopener" }, tr("Tooth, replay and every figure"));
+  return make("a", { href: routes.report.path.replace("*", sha256), target: "_blank", rel: "noopener" }, tr("Tooth, replay and every figure"));
 }
 export const verdict_words = (): { [verdict: string]: string } => ({ pass: tr("pass"), fail: tr("fail"), review: tr("review") });
 
@@ -204,16 +205,14 @@ export function time_zone(): string {
 }
 
 /** What a person has decided of a result. */
-export interface Decided { entry: number; by: string; verdict: string; reason: string; counts: boolean }
 export function decided_text(d: Decided): string {
   const verdict = verdict_words()[d.verdict] ?? d.verdict;
   return d.counts ? tr("decided by {0} (entry {1}): {2}, {3}", d.by, d.entry, verdict, d.reason) : tr("decided before by {0} (entry {1}): {2}, {3}", d.by, d.entry, verdict, d.reason);
 }
 
 /** What was noted of a candidate on the day, and what a person has decided before: for whoever decides now. */
-export interface Noted { utc: string; station: string; words: string }
-export function before_now(decided: Decided | null, noted: Noted[]): HTMLElement[] {
-  const lines = [...(decided === null ? [] : [decided_text(decided)]), ...noted.map((n) => [tr("Incident"), local_time(n.utc), n.station, n.words].filter((t) => t !== "").join(", "))];
+export function before_now(decided: Decided | undefined, noted: Noted[]): HTMLElement[] {
+  const lines = [...(decided === undefined ? [] : [decided_text(decided)]), ...noted.map((n) => [tr("Incident"), local_time(n.utc), n.station, n.words].filter((t) => t !== "").join(", "))];
   return lines.length === 0 ? [] : [make("ul", { class: "hint" }, ...lines.map((l) => make("li", {}, l)))];
 }
 

@@ -1,23 +1,22 @@
 // What the program leaves to a person: each result with its reasons, and the decision with its own.
+import { routes, type ToDecide } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
-import { act, before_now, form, reason_to_read, report_link, say, select, type Decided, type Noted, type View } from "./parts.ts";
+import { act, before_now, form, reason_to_read, report_link, say, select, type View } from "./parts.ts";
 
-interface Waiting { session: number; candidate: string; exam: string; points: number; max: number; reasons: string[]; sha256: string; decided: Decided | null; noted: Noted[] }
-
-const waiting = async (): Promise<Waiting[]> => (await get<{ queue: Waiting[] }>("/api/queue")).queue;
+const waiting = async (): Promise<ToDecide[]> => (await get(routes.queue)).queue;
 
 export async function queue(may_decide: boolean): Promise<View> {
   const list = make("div");
-  const draw = (queue: Waiting[]): void =>
+  const draw = (queue: ToDecide[]): void =>
     list.replaceChildren(...(queue.length > 0 ? queue.map((w) => decision(w, may_decide, draw)) : [make("p", {}, tr("Nothing waits for a decision."))]));
   const show = async (): Promise<void> => draw(await waiting());
   await show();
   return { root: make("div", {}, make("h1", {}, tr("Left to a person")), act(tr("Look again"), {}, show), list) };
 }
 
-function decision(w: Waiting, may_decide: boolean, draw: (queue: Waiting[]) => void): HTMLElement {
+function decision(w: ToDecide, may_decide: boolean, draw: (queue: ToDecide[]) => void): HTMLElement {
   const element = make("section", { class: "card", "aria-label": tr("Result of {}", w.candidate) },
     make("h2", {}, w.candidate),
     make("p", {}, tr("{0}, entry {1}: {2} of {3} points", w.exam, w.session, fixed(w.points, 1), w.max)),
@@ -29,7 +28,7 @@ function decision(w: Waiting, may_decide: boolean, draw: (queue: Waiting[]) => v
   const reason = reason_to_read();
   element.append(form(tr("Decide"), async () => {
     try {
-      const { entry } = await post<{ entry: number }>("/api/decide", { session: w.session, verdict: verdict.value, reason: reason.value });
+      const { entry } = await post(routes.decide, { session: w.session, verdict: verdict.value, reason: reason.value });
       draw(await waiting());
       say(tr("Decided: entry {}.", entry));
     } catch (wrong) {

@@ -1,18 +1,9 @@
 // All results with what keeps them back, their release with the second factor, and the files for other systems.
+import { routes, type ResultRow } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { fixed, tr } from "../report_src/words.ts";
-import { get, post } from "./api.ts";
-import { act, code_field, decided_text, form, input, report_link, say, select, table, verdict_words, type Decided, type View } from "./parts.ts";
-
-interface Result {
-  session: number; candidate: string; exam: string; state: string; findings: string[]; simulated: string; makes_up: number | null; made_up_by: number | null; verdict: string;
-  points: number | null; max: number | null; sha256: string; shown: boolean; appeal: boolean; id?: string; name?: string;
-  result: number;                             // entry of the result that counts
-  grade: number | null;                       // as the gradebook has what was released
-  decided: Decided | null; why_back: string; station: string; seat: string;
-  out?: { verdict: string; points: number };  // what was released, where another result has come since
-  later?: number;                             // the attempt that counts instead
-}
+import { get, post, type May } from "./api.ts";
+import { act, code_field, decided_text, form, input, report_link, say, select, table, verdict_words, type View } from "./parts.ts";
 
 /** States in which a result goes out by name only. */
 const by_name = ["taken back", "marked otherwise", "questioned"];
@@ -22,12 +13,12 @@ const states = (): { [state: string]: string } => ({
   erased: tr("erased"), "made up": tr("does not count: a makeup sitting was given"), ready: tr("ready for release"),
 });
 
-export async function results(may: (door: string) => boolean, second_factor: boolean): Promise<View> {
-  const list = make("div"), taking = make("div"), going = may("POST /api/release") ? new Going(second_factor) : null, counts = make("ul", { class: "counts" }), reports = may("GET /api/report/*");
+export async function results(may: May, second_factor: boolean): Promise<View> {
+  const list = make("div"), taking = make("div"), going = may(routes.release) ? new Going(second_factor) : null, counts = make("ul", { class: "counts" }), reports = may(routes.report);
   const show = async (): Promise<void> => {
-    const { results } = await get<{ results: Result[] }>("/api/results");
+    const { results } = await get(routes.results);
     going?.take(results);
-    if (may("POST /api/retract") && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
+    if (may(routes.retract) && second_factor) taking.replaceChildren(...retraction(results.filter((r) => r.shown), show));
     if (results.length === 0) return void list.replaceChildren(make("p", {}, tr("Nothing is filed yet.")));
     const named = results.some((r) => r.id !== undefined);
     const words = states();
@@ -35,10 +26,10 @@ export async function results(may: (door: string) => boolean, second_factor: boo
     counts.replaceChildren(...of_state.map(([word, n]) => make("li", {}, `${word}: `, make("b", {}, String(n)))));
     const rows = results.map((r) => [
       String(r.session), ...(named ? [r.id ?? "", r.name ?? ""] : []), r.candidate, r.exam, verdict_words()[r.verdict] ?? r.verdict,
-      r.points === null ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
-      [words[r.state] ?? r.state, ...(r.why_back !== "" ? [tr("reason: {}", r.why_back)] : []), ...(r.grade !== null && r.points !== null && Math.abs(r.grade - r.points) > 1e-6 ? [tr("grade in the gradebook: {}", fixed(r.grade, 1))] : []),
-        ...(r.decided !== null ? [decided_text(r.decided)] : []), ...(r.seat !== "" && r.station !== "" && r.seat !== r.station ? [tr("sat at {0}, not at {1}", r.station, r.seat)] : []), ...(r.out ? [tr("still out: {0}, {1} points", verdict_words()[r.out.verdict] ?? r.out.verdict, fixed(r.out.points, 1))] : []),
-        ...(r.later !== undefined ? [tr("a later attempt counts: entry {}", r.later)] : []), ...(r.makes_up !== null ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== null ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
+      r.points === undefined ? "" : tr("{0} of {1}", fixed(r.points, 1), r.max ?? ""),
+      [words[r.state] ?? r.state, ...(r.why_back !== "" ? [tr("reason: {}", r.why_back)] : []), ...(r.grade !== undefined && r.points !== undefined && Math.abs(r.grade - r.points) > 1e-6 ? [tr("grade in the gradebook: {}", fixed(r.grade, 1))] : []),
+        ...(r.decided !== undefined ? [decided_text(r.decided)] : []), ...(r.seat !== "" && r.station !== "" && r.seat !== r.station ? [tr("sat at {0}, not at {1}", r.station, r.seat)] : []), ...(r.out ? [tr("still out: {0}, {1} points", verdict_words()[r.out.verdict] ?? r.out.verdict, fixed(r.out.points ?? 0, 1))] : []),
+        ...(r.later !== undefined ? [tr("a later attempt counts: entry {}", r.later)] : []), ...(r.makes_up !== undefined ? [tr("makeup sitting of ticket {}", r.makes_up)] : []), ...(r.made_up_by !== undefined ? [tr("ticket {}", r.made_up_by)] : []), ...(r.appeal ? [tr("an appeal is open")] : []), ...(r.simulated !== "" ? [tr("simulated")] : []), ...r.findings].join("; "),
       ...(reports ? [r.sha256 !== "" ? report_link(r.sha256) : ""] : []),
     ]);
     const headings = [tr("Entry"), ...(named ? [tr("Number"), tr("Name")] : []), tr("Pseudonym"), tr("Exam"), tr("Verdict"), tr("Points"), tr("State"), ...(reports ? [tr("Report")] : [])];
@@ -48,14 +39,14 @@ export async function results(may: (door: string) => boolean, second_factor: boo
   const root = make("div", {}, make("h1", {}, tr("Results")), act(tr("Look again"), {}, show), counts);
   if (going !== null) root.append(going.open(show));
   const files = make("ul");
-  if (may("GET /api/gradebook.csv")) files.append(make("li", {}, make("a", { href: "/api/gradebook.csv", download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
-  if (may("GET /api/criteria.csv")) files.append(make("li", {}, make("a", { href: "/api/criteria.csv", download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
+  if (may(routes.gradebook)) files.append(make("li", {}, make("a", { href: routes.gradebook.path, download: "gradebook.csv" }, tr("Gradebook (CSV for Moodle), with names: what is released"))));
+  if (may(routes.criteria)) files.append(make("li", {}, make("a", { href: routes.criteria.path, download: "criteria.csv" }, tr("Every criterion (CSV), pseudonyms alone"))));
   root.append(make("h2", {}, tr("Files")), files, taking, list);
   return { root };
 }
 
 /** What was released goes back; nothing where nothing was. */
-function retraction(released: Result[], show: () => Promise<void>): HTMLElement[] {
+function retraction(released: ResultRow[], show: () => Promise<void>): HTMLElement[] {
   if (released.length === 0) return [];
   const which = select(tr("Released result"), [["", tr("choose …")], ...released.map((r): [string, string] => [String(r.session), [tr("entry {}", r.session), r.name ?? "", r.candidate].filter((t) => t !== "").join(", ")])]);
   which.required = true;
@@ -63,7 +54,7 @@ function retraction(released: Result[], show: () => Promise<void>): HTMLElement[
   const code = code_field();
   return [make("details", {}, make("summary", {}, tr("Take a result back")), make("p", {}, tr("It stands in no file from then on. What was handed out before is still with whoever has it.")),
     form(tr("Take it back"), async () => {
-      const { entry } = await post<{ entry: number }>("/api/retract", { sessions: [Number(which.value)], reason: reason.value, code: code.value });
+      const { entry } = await post(routes.retract, { sessions: [Number(which.value)], reason: reason.value, code: code.value });
       await show();
       say(tr("Taken back: entry {}.", entry));
     }, which.block, reason.block, code.block))];
@@ -76,12 +67,12 @@ class Going {
 
   constructor(private readonly second_factor: boolean) {}
 
-  take(results: Result[]): void {
+  take(results: ResultRow[]): void {
     const ready = results.filter((r) => r.state === "ready");
     const exams = [...new Set(ready.map((r) => r.exam))];
-    const one = (r: Result): [string, Result[]] => [[tr("entry {}", r.session), r.name ?? "", r.candidate, r.exam, ...(r.state === "ready" ? [] : [states()[r.state]])].filter((t) => t !== "").join(", "), [r]];
-    const rows: [string, Result[]][] = [[tr("all that are ready: {}", ready.length), ready],
-      ...(exams.length > 1 ? exams.map((e): [string, Result[]] => [tr("ready of {0}: {1}", e, ready.filter((r) => r.exam === e).length), ready.filter((r) => r.exam === e)]) : []),
+    const one = (r: ResultRow): [string, ResultRow[]] => [[tr("entry {}", r.session), r.name ?? "", r.candidate, r.exam, ...(r.state === "ready" ? [] : [states()[r.state]])].filter((t) => t !== "").join(", "), [r]];
+    const rows: [string, ResultRow[]][] = [[tr("all that are ready: {}", ready.length), ready],
+      ...(exams.length > 1 ? exams.map((e): [string, ResultRow[]] => [tr("ready of {0}: {1}", e, ready.filter((r) => r.exam === e).length), ready.filter((r) => r.exam === e)]) : []),
       ...results.filter((r) => by_name.includes(r.state)).map(one), ...ready.map(one)];
     const chosen = this.what.value;
     this.choices = new Map(rows.map(([, all], i) => [i === 0 ? "all" : all.map((r) => r.result).join(), { results: all.map((r) => r.result), with_findings: all.some((r) => r.state === "questioned") }]));
@@ -102,7 +93,7 @@ class Going {
         const { results, with_findings } = this.choices.get(this.what.value)!;
         if (results.length === 0) throw new Error(tr("Nothing is ready."));
         try {
-          const done = await post<{ released: number }>("/api/release", { results, with_findings, reason: reason.value, code: code.value });
+          const done = await post(routes.release, { results, with_findings, reason: reason.value, code: code.value });
           await show();
           say(tr("Released: {}.", done.released));
         } catch (wrong) {

@@ -1,27 +1,10 @@
 // From a class list to tickets: paste or file, what was found in it, an answer for each column, a preview, and then the tickets.
+import { routes, type ClassList, type Issued, type Preview } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { get, post } from "./api.ts";
 import { field, form, input, length_words, local_span, say, select, table, time_zone, utc, type View } from "./parts.ts";
 
-interface Column { heading: string; use: string; known: boolean; samples: string[] }
-interface Preview {
-  headed: boolean;
-  encoding: string;
-  separator: string;
-  rows: number;
-  columns: Column[];
-  people: { id: string; name: string; station: string; accommodations: string }[];
-  problem: string;
-  uses: string[];
-  longest_s: { [exam: string]: number };
-}
-interface Issued {
-  issued: { candidate: string; id: string; name: string; station: string; not_before: string; not_after: string }[];
-  refused: { id: string; name: string; why: string }[];
-  done: number;
-  of: number;
-}
 const k_portion = 100;
 
 function base64(bytes: Uint8Array): string {
@@ -74,16 +57,16 @@ class Roster {
     this.root.append(read, this.found);
   }
 
-  private asked(): { base64: string; answers: string[] } {
+  private asked(): ClassList {
     return { base64: base64(this.bytes), answers: this.answers };
   }
 
   private async look(): Promise<void> {
-    let preview = await post<Preview>("/api/roster/preview", this.asked());
+    let preview = await post(routes.preview, this.asked());
     if (this.answers.length === 0) {  // read anew: a column of the same heading keeps its answer
       const headings = preview.columns.map((c) => c.heading);
       this.answers = preview.columns.map((c) => (headings.filter((h) => h === c.heading).length === 1 ? kept.answers.get(c.heading) : undefined) ?? c.use);
-      if (this.answers.some((a, i) => a !== preview.columns[i].use)) preview = await post<Preview>("/api/roster/preview", this.asked());
+      if (this.answers.some((a, i) => a !== preview.columns[i].use)) preview = await post(routes.preview, this.asked());
     }
     this.answers = preview.columns.map((c) => c.use);
     this.found.replaceChildren(make("h2", { tabindex: "-1" }, tr("What was found")));
@@ -125,7 +108,7 @@ class Roster {
   }
 
   private async issue(longest_s: { [exam: string]: number }): Promise<HTMLElement> {
-    const { exams } = await get<{ exams: { id: string; title: string; time_limit_s: number }[] }>("/api/exams");
+    const { exams } = await get(routes.exams);
     const exam = select(tr("Exam"), exams.map((e) => [e.id, `${e.title} (${e.id}): ${length_words(e.time_limit_s, longest_s[e.id] ?? 0)}`]));
     const zone = tr("In your computer's time zone, {}.", time_zone());
     const from = input(tr("May begin from"), { type: "datetime-local", required: "" }, zone);
@@ -149,7 +132,7 @@ class Roster {
       const wish = { ...this.asked(), exam: exam.value, from: utc(from.value), until: utc(until.value), ...sittings(), begin_at_office: word.checked, another: another.checked, reason: reason.value };
       const done: Issued = { issued: [], refused: [], done: 0, of: 1 };
       while (done.done < done.of) {  // by portions: the office hears stations in between
-        const next = await post<Issued>("/api/roster/issue", { ...wish, first: done.done, most: k_portion });
+        const next = await post(routes.issue, { ...wish, first: done.done, most: k_portion });
         done.issued.push(...next.issued);
         done.refused.push(...next.refused);
         done.done = next.done;
