@@ -155,7 +155,8 @@ void compare_with_final_tooth(const GradeInput& input, std::size_t removed, Resu
 }  // namespace
 
 Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
-  if (input.inputs.size() != input.records.size()) throw Error("grading", "as many inputs as records are needed", "use a whole session");
+  if (input.inputs.size() != input.records.size())
+    throw Error(msg("grading"), msg("as many inputs as records are needed"), msg("use a whole session"));
   Result r;
   r.scenario_id = input.scenario.id;
   r.scenario_title = input.scenario.title;

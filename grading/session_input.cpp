@@ -58,11 +58,12 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Exa
   const std::string& path = reader.path();
   reader.require_readable();
   if (!reader.closed())
-    throw Error(path, "this exam was not closed",
-                fmt::format("close it as it stands with `cavum exam --resume --end --out {}`, or let it go on with --motion or --operator", path));
+    throw Error(path, msg("this exam was not closed"),
+                msg("close it as it stands with `cavum exam --resume --end --out {}`, or let it go on with --motion or --operator", path));
   // marks are given on evidence only: what the chain or the signature does not cover any more is not graded
   if (const auto findings = check_chain(reader); !findings.empty())
-    throw Error(path, "damaged or altered: " + without_advice(findings.front()), "run `cavum replay --verify` on it and use an intact copy");
+    throw Error(path, msg("damaged or altered: {}", without_advice(findings.front())),
+                msg("run `cavum replay --verify` on it and use an intact copy"));
   return load_with(reader, grounds,
                    [&](const ExamGround& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }
@@ -78,9 +79,8 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Too
 
 void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool another_task) {
   if (!another_task && scenario.id != session.scenario.id)
-    throw Error(scenario.path,
-                fmt::format("this is the task '{}', and {} was an exam in '{}'", scenario.id, session.facts.session_file, session.scenario.id),
-                "name its corrected scenario, or add --another-task to mark the work by this one all the same");
+    throw Error(scenario.path, msg("this is the task '{}', and {} was an exam in '{}'", scenario.id, session.facts.session_file, session.scenario.id),
+                msg("name its corrected scenario, or add --another-task to mark the work by this one all the same"));
   scenarios::require_tissues(scenario, *session.before);
   scenarios::require_same_surfaces(scenario, session.scenario);
   scenario.accommodations = scenarios::granted(scenario.accommodations, session.session.notes, session.facts.session_file + ": accommodations");

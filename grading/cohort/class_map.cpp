@@ -94,7 +94,8 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
   for (const auto& [candidate, session] : counting_sessions(registry, exam)) {
     try {
       const std::string path = ledger::recording_of(places, *session);
-      if (to_hex(sha256(read_file(path))) != session->file_sha256) throw Error(path, "was changed since it was filed", "put an intact copy back");
+      if (to_hex(sha256(read_file(path))) != session->file_sha256)
+        throw Error(path, msg("was changed since it was filed"), msg("put an intact copy back"));
       const SessionReader reader(path);
       reader.require_readable();
       Task& task = tasks[task_of(reader)];
@@ -107,10 +108,9 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
   const auto most =
       std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.second.cavities.size() < b.second.cavities.size(); });
   if (most == tasks.end())
-    throw Error(
-        places.folder,
-        fmt::format("no session of '{}' can be read{}", one_line(exam), out->findings.empty() ? "" : fmt::format(" ({})", out->findings.front())),
-        fmt::format("see `cavum ledger verify {}`", places.folder));
+    throw Error(places.folder,
+                msg("no session of '{}' can be read{}", one_line(exam), out->findings.empty() ? Message() : msg(" ({})", out->findings.front())),
+                msg("see `cavum ledger verify {}`", places.folder));
   const auto sat = scenarios::prepare_exam(SessionReader(most->second.path).setup());
   out->scenario = std::move(sat->scenario);
   out->tooth = std::move(sat->tooth);

@@ -12,7 +12,7 @@ using nlohmann::json;
 
 const FiledSession& appealed(const Registry& registry, std::uint64_t session) {
   const FiledSession* found = registry.session(session);
-  if (found == nullptr) throw Error(fmt::format("--session {}", session), "is no session's entry", "see `cavum ledger show`");
+  if (found == nullptr) throw Error(fmt::format("--session {}", session), msg("is no session's entry"), msg("see `cavum ledger show`"));
   return *found;
 }
 
@@ -37,8 +37,8 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
       [&](const LedgerContent&) {
         const FiledSession& s = appealed(ledger.registry(), session);
         const std::string where = fmt::format("--session {}", session);
-        if (!s.result->is_object()) throw Error(where, "has no result", "there is nothing to appeal against");
-        if (const Appeal* open = s.open_appeal()) throw Error(where, fmt::format("an appeal is open (entry {})", open->seq), "answer that one first");
+        if (!s.result->is_object()) throw Error(where, msg("has no result"), msg("there is nothing to appeal against"));
+        if (const Appeal* open = s.open_appeal()) throw Error(where, msg("an appeal is open (entry {})", open->seq), msg("answer that one first"));
         return AppealEntry{session};
       },
       reason);
@@ -51,12 +51,14 @@ const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome 
         const FiledSession& s = appealed(ledger.registry(), session);
         const std::string where = fmt::format("--session {}", session);
         const Appeal* open = s.open_appeal();
-        if (open == nullptr) throw Error(where, "no appeal is open", "see `cavum ledger appeal` without --session");
+        if (open == nullptr) throw Error(where, msg("no appeal is open"), msg("see `cavum ledger appeal` without --session"));
         const bool changed = changed_since(s, *open);
         if (outcome == Outcome::changed && !changed)
-          throw Error(where, "no other result was entered since the appeal", "enter it first: `cavum ledger regrade` or `cavum ledger decide`");
+          throw Error(where, msg("no other result was entered since the appeal"),
+                      msg("enter it first: `cavum ledger regrade` or `cavum ledger decide`"));
         if (outcome == Outcome::stands && changed)
-          throw Error(where, "another result was entered since the appeal", "look at that one; if it is right, answer that the result was changed");
+          throw Error(where, msg("another result was entered since the appeal"),
+                      msg("look at that one; if it is right, answer that the result was changed"));
         return AnswerEntry{session, open->seq, outcome};
       },
       reason);

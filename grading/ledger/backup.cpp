@@ -111,7 +111,7 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
     for (const auto& f : fs::directory_iterator(folder)) {
       const std::string name = f.path().filename().string();
       if (name != "ledger.db" && name != "identities.db" && name != "sessions" && !name.starts_with(".cavum-"))
-        throw Error(folder, "holds something else than a backup", "name a new folder");
+        throw Error(folder, msg("holds something else than a backup"), msg("name a new folder"));
     }
     if (!fs::exists(LedgerPlaces{folder}.database())) return;
   }
@@ -163,11 +163,11 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   if (!fs::exists(from.database())) throw Error(from.folder, "holds no ledger", instead_of_none(from.database()));
   std::error_code none;
   if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
-    throw Error(folder, "is the ledger itself", "name another folder");
+    throw Error(folder, msg("is the ledger itself"), msg("name another folder"));
   const LedgerContent now = read_ledger(from);
   if (!now.findings.empty())
-    throw Error(from.folder, fmt::format("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0]),
-                "see `cavum ledger verify`; to keep it as evidence, copy the folder");
+    throw Error(from.folder, msg("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0]),
+                msg("see `cavum ledger verify`; to keep it as evidence, copy the folder"));
   make_private_folder(folder);
   const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
   require_place_for(read_ledger(from), folder);  // as it is by now: whoever held the folder may have put a later state there
@@ -177,7 +177,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     copy_database(from.database(), to.database());
     copy = read_ledger(to, AskWitness::no);
     if (!copy.findings.empty())
-      throw Error(to.database(), fmt::format("the copy does not hold ({})", copy.findings[0]), "check the disk, and take it again");
+      throw Error(to.database(), msg("the copy does not hold ({})", copy.findings[0]), msg("check the disk, and take it again"));
     out.missing = copy_sessions(copy, from, to, out.copied);
     const auto gone = out.missing.empty() ? std::set<std::string>() : erased_recordings(read_ledger(from));
     erased_meanwhile = std::any_of(out.missing.begin(), out.missing.end(), [&](const std::string& hash) { return gone.contains(hash); });
@@ -238,7 +238,7 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     const std::string text = read_text_file(path), key_then = c.key_of(parse_checkpoint(text, c.public_key, path).checkpoint.size);
     const ReadCheckpoint read = parse_checkpoint(text, key_then, path);
     if (!is_signed_by_school(read.ledger_id, key_then, read.checkpoint))
-      throw Error(path, "the school's signature on it does not hold", "use an intact copy");
+      throw Error(path, msg("the school's signature on it does not hold"), msg("use an intact copy"));
     compare(plan, history, read.ledger_id, read.checkpoint, path, "");
   }
   if (plan.last_seen) {
@@ -253,12 +253,12 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
 void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key) {
   if (!plan.findings.empty()) throw Error(backup, plan.findings[0], "restore another backup");
   if (plan.last_seen && (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
-    throw Error("--accept-loss", "gives no reason",
-                "say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names");
+    throw Error("--accept-loss", msg("gives no reason"),
+                msg("say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names"));
   std::error_code none;
-  if (fs::exists(folder, none)) throw Error(folder, "is there already", "name a new folder");
+  if (fs::exists(folder, none)) throw Error(folder, msg("is there already"), msg("name a new folder"));
   if (plan.content.public_key != to_hex(key.public_key))
-    throw Error(backup, "belongs to another school's key", "name that key's file with --key, or restore it");
+    throw Error(backup, msg("belongs to another school's key"), msg("name that key's file with --key, or restore it"));
   const LedgerPlaces from{backup}, to{folder};
   make_private_folder(folder);
   std::size_t copied = 0;

@@ -15,7 +15,7 @@ constexpr std::string_view k_origin = "cavum.ledger/", k_time = "utc_ns ";
 constexpr std::size_t k_id_digits = 32;
 
 [[noreturn]] void no_checkpoint(const std::string& where, const std::string& why) {
-  throw Error(where, "is no checkpoint of a ledger: " + why, "name a note that `cavum ledger` wrote, unchanged");
+  throw Error(where, msg("is no checkpoint of a ledger: {}", why), msg("name a note that `cavum ledger` wrote, unchanged"));
 }
 
 template <class Whole>
@@ -86,7 +86,7 @@ ReadCheckpoint parse_checkpoint(const std::string& text, const std::string& publ
 
 Checkpoint checkpoint_in(const std::string& note, const std::string& id, const std::string& public_key, const std::string& where) {
   const ReadCheckpoint read = parse_checkpoint(note, public_key, where);
-  if (read.ledger_id != id) throw Error(where, "its checkpoint is of another ledger", "use an intact copy");
+  if (read.ledger_id != id) throw Error(where, msg("its checkpoint is of another ledger"), msg("use an intact copy"));
   return read.checkpoint;
 }
 

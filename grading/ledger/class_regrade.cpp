@@ -47,7 +47,7 @@ ClassRegrade plan_class_regrade(const Registry& registry, const std::string& exa
     plan.sessions.push_back(
         {s.seq, s.result_seq, s.candidate, s.file_sha256, counts != nullptr && !counts->person.empty(), s.shown_seq != 0, s.result, {}});
   }
-  if (plan.sessions.empty()) throw Error("exam " + one_line(exam), "has no session that can be marked", "see `cavum ledger show`");
+  if (plan.sessions.empty()) throw Error(msg("exam {}", one_line(exam)), msg("has no session that can be marked"), msg("see `cavum ledger show`"));
   return plan;
 }
 
@@ -68,8 +68,7 @@ void take_lines(ClassRegrade& plan, const std::vector<std::string>& lines, const
       throw Error(fmt::format("entry {}", s.session), lines[i].empty() ? "could not be marked" : without_advice(text_in(line, "error")),
                   "nothing was entered; correct the rubric or scenario, or mark the others by --session");
     if (text_in(line, "sha256") != s.file_sha256)
-      throw Error(fmt::format("entry {}", s.session), "its recording is another one by now",
-                  fmt::format("see `cavum ledger verify {}`", ledger_folder));
+      throw Error(msg("entry {}", s.session), msg("its recording is another one by now"), msg("see `cavum ledger verify {}`", ledger_folder));
     s.after = member_of(line, "result");
   }
 }
@@ -82,8 +81,8 @@ std::size_t enter_class_regrade(Ledger& ledger, const ClassRegrade& plan, const 
         const Registry& registry = ledger.registry();
         const ClassRegrade fresh = plan_class_regrade(registry, plan.exam, {});
         if (!std::equal(fresh.sessions.begin(), fresh.sessions.end(), plan.sessions.begin(), plan.sessions.end(), are_the_same))
-          throw Error("exam " + one_line(plan.exam), "has other sessions or results by now than those that were marked",
-                      "nothing was entered; begin anew");
+          throw Error(msg("exam {}", one_line(plan.exam)), msg("has other sessions or results by now than those that were marked"),
+                      msg("nothing was entered; begin anew"));
         std::vector<Entry> entries;
         for (const auto& s : plan.sessions)
           if (!is_entered(now, *registry.session(s.session), plan, s.after))

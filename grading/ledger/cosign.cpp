@@ -27,7 +27,7 @@ struct Request {
 };
 
 [[noreturn]] void no_request(const std::string& where, const std::string& why) {
-  throw Error(where, "is no checkpoint to be cosigned: " + why, "name a file that `cavum ledger checkpoint` wrote, unchanged");
+  throw Error(where, msg("is no checkpoint to be cosigned: {}", why), msg("name a file that `cavum ledger checkpoint` wrote, unchanged"));
 }
 
 Request parse_request(const std::string& text, const std::string& where) {
@@ -63,7 +63,7 @@ std::optional<Memory> remembered(const std::string& path, const std::string& led
   const ReadCheckpoint read = parse_checkpoint(text.substr(first + 1), m.school_key, path);
   m.last = read.checkpoint;
   if (read.ledger_id != ledger_id || key.name != ledger_origin(ledger_id) || !is_signed_by_school(ledger_id, m.school_key, m.last))
-    throw Error(path, "what was cosigned of this ledger was changed", "restore it from its backup");
+    throw Error(path, msg("what was cosigned of this ledger was changed"), msg("restore it from its backup"));
   return m;
 }
 
@@ -105,7 +105,7 @@ std::uint64_t last_cosigned(const LedgerContent& c) {
 
 std::string cosign_request(const LedgerContent& c, std::uint64_t since) {
   const Checkpoint& p = c.checkpoints.back();
-  if (since > p.size) throw Error(fmt::format("--since {}", since), "the ledger has " + entries(p.size), "name a size that it has had");
+  if (since > p.size) throw Error(fmt::format("--since {}", since), msg("the ledger has {}", entries(p.size)), msg("name a size that it has had"));
   std::string out = fmt::format("{}{}\n", k_old, since);
   if (since > 0)
     for (const auto& h : consistency_proof(leaves_of(c), since)) out += to_base64(h) + "\n";
@@ -123,10 +123,11 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const FolderLock lock(cosigner.memory, "the cosigner's memory cannot be kept there", "name a folder with --state");
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
-    throw Error(where, "is of a ledger that this cosigner does not know", "name its school's public key with --school-key, from the school itself");
+    throw Error(where, msg("is of a ledger that this cosigner does not know"),
+                msg("name its school's public key with --school-key, from the school itself"));
   if (memory && !cosigner.school_key.empty() && cosigner.school_key != memory->school_key)
-    throw Error("--school-key", "is not the key of the ledger that was cosigned before",
-                "leave it out; that the school replaced its key is shown by the receipt of that entry (--key-receipt)");
+    throw Error("--school-key", msg("is not the key of the ledger that was cosigned before"),
+                msg("leave it out; that the school replaced its key is shown by the receipt of that entry (--key-receipt)"));
   const std::string school = memory ? successor_of(memory->school_key, id, cosigner.key_entries) : cosigner.school_key;
   const ReadCheckpoint read = parse_checkpoint(request.note, school, where);
   const Checkpoint& p = read.checkpoint;
@@ -142,8 +143,8 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
     return out;
   }
   if (request.since != last)
-    throw Error(where, fmt::format("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
-                fmt::format("ask for `cavum ledger checkpoint LEDGER --since {}`", last));
+    throw Error(where, msg("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
+                msg("ask for `cavum ledger checkpoint LEDGER --since {}`", last));
   if (memory) out.findings = fork_of(*memory, p, request, path);
   if (!memory && !request.proof.empty()) no_request(where, "it proves something of no earlier entries");
   if (!out.findings.empty()) return out;
@@ -170,7 +171,8 @@ std::vector<NoteKey> read_cosigners(const std::string& path) {
     if (line.empty() || line[0] == '#') continue;
     const std::string where = fmt::format("{}:{}", path, number);
     out.push_back(parse_key_line(line, where));
-    if (out.back().kind != NoteKind::cosignature) throw Error(where, "is no cosigner's key", "copy the line that `cavum ledger cosign` shows");
+    if (out.back().kind != NoteKind::cosignature)
+      throw Error(where, msg("is no cosigner's key"), msg("copy the line that `cavum ledger cosign` shows"));
   }
   return out;
 }

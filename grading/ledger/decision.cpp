@@ -13,27 +13,26 @@ using nlohmann::json;
 
 void require_person(const std::string& text) {
   if (text.empty() || text.size() > k_longest_person || !is_plain_text(text))
-    throw Error("--person", text.size() > k_longest_person ? fmt::format("is longer than {} bytes", k_longest_person) : "is no line of text",
-                "say in one line of UTF-8 who decides: it is kept for ever");
+    throw Error("--person", text.size() > k_longest_person ? msg("is longer than {} bytes", k_longest_person) : msg("is no line of text"),
+                msg("say in one line of UTF-8 who decides: it is kept for ever"));
 }
 
 /// The result of a session that a person has to decide. Throws Error.
 const FiledSession& undecided_session(const Registry& registry, std::uint64_t session) {
   const std::string where = fmt::format("--session {}", session);
   const FiledSession* found = registry.session(session);
-  if (found == nullptr) throw Error(where, "is no session's entry", "see `cavum ledger decide` without --session");
+  if (found == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger decide` without --session"));
   if (found->made_up_by)
-    throw Error(where, fmt::format("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
-                "decide the makeup sitting's own result");
+    throw Error(where, msg("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
+                msg("decide the makeup sitting's own result"));
   if (found->undecided() || (found->open_appeal() != nullptr && found->result->is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
-    throw Error(where, fmt::format("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
-                "after an appeal a person may: `cavum ledger appeal`");
+    throw Error(where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
+                msg("after an appeal a person may: `cavum ledger appeal`"));
   throw Error(where,
-              found->result->is_object()
-                  ? fmt::format("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
-                  : "has no result",
-              "after an appeal a person may: `cavum ledger appeal`");
+              found->result->is_object() ? msg("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
+                                         : msg("has no result"),
+              msg("after an appeal a person may: `cavum ledger appeal`"));
 }
 
 }  // namespace
@@ -54,7 +53,7 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
 grading::Verdict decided_verdict(const std::string& word) {
   for (const auto verdict : {grading::Verdict::pass, grading::Verdict::fail})
     if (word == grading::verdict_name(verdict)) return verdict;
-  throw Error("--verdict " + one_line(word), "is none that a person gives", "say pass or fail");
+  throw Error("--verdict " + one_line(word), msg("is none that a person gives"), msg("say pass or fail"));
 }
 
 const LedgerEntry& enter_decision(Ledger& ledger, std::uint64_t session, const Decision& decision) {

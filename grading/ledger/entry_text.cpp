@@ -212,7 +212,7 @@ void fields(auto& io, Is<RoomEntry> auto& e) {
   io("room", e.room);
 }
 
-[[noreturn]] void no_entry(const std::string& where, const std::string& what) { throw Error(where, what, "use an intact copy"); }
+[[noreturn]] void no_entry(const std::string& where, const std::string& what) { throw Error(where, what, msg("use an intact copy")); }
 
 class EntryWriter {
  public:
@@ -285,7 +285,7 @@ class EntryReader {
   void format(const char* text) {
     std::string is;
     (*this)("format", is);
-    if (is != text) throw Error(where_, fmt::format("is no '{}'", text), "use the version of Cavum that wrote it");
+    if (is != text) throw Error(where_, msg("is no '{}'", text), msg("use the version of Cavum that wrote it"));
   }
   void utc(const char* name, std::int64_t& utc_ns) {
     std::string text;
@@ -465,7 +465,7 @@ template <class Enum>
 Enum of_word(const std::string& word, const std::string& where) {
   const auto at = std::find(k_words<Enum>.begin(), k_words<Enum>.end(), word);
   if (at == k_words<Enum>.end())
-    throw Error(where, fmt::format("'{}' is none of its words", one_line(word.substr(0, 80))), fmt::format("say {}", fmt::join(k_words<Enum>, ", ")));
+    throw Error(where, msg("'{}' is none of its words", one_line(word.substr(0, 80))), msg("say {}", list_of(k_words<Enum>)));
   return static_cast<Enum>(at - k_words<Enum>.begin());
 }
 

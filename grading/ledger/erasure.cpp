@@ -35,7 +35,7 @@ std::vector<ErasedPart> select_erasures(const LedgerContent& c, const ErasureWis
   std::set<std::uint64_t> sessions(wish.sessions.begin(), wish.sessions.end());
   for (const auto seq : sessions)
     if (seq >= c.entries.size() || c.entries[seq].as<SessionEntry>() == nullptr)
-      throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
+      throw Error(fmt::format("--session {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   if (wish.received_before)
     for (const auto& e : c.entries)
       if (e.as<SessionEntry>() != nullptr && e.utc_ns < *wish.received_before) sessions.insert(e.seq);
@@ -143,7 +143,7 @@ std::size_t remove_erased_recordings(const LedgerContent& c, const LedgerPlaces&
     if (!std::filesystem::exists(path, none)) continue;
     std::error_code why;
     std::filesystem::remove(path, why);  // somebody else may have been quicker
-    if (why) throw Error(path, "is erased and cannot be removed", "make the folder writable, and run `cavum ledger erase` again");
+    if (why) throw Error(path, msg("is erased and cannot be removed"), msg("make the folder writable, and run `cavum ledger erase` again"));
     sync_folder_of(path);
     ++removed;
   }

@@ -13,17 +13,19 @@ namespace {
 
 void require_words(const std::string& what, const std::string& text) {
   if (text.size() > k_longest_words || !is_seen_text(text))
-    throw Error(what, fmt::format("is no line of text of at most {} bytes", k_longest_words), "say it in one line, without names: it is kept");
+    throw Error(what, msg("is no line of text of at most {} bytes", k_longest_words), msg("say it in one line, without names: it is kept"));
 }
 
 void require_station(const Registry& registry, const std::string& key) {
   const Station* s = registry.stations.of(key);
-  if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(key), "is none that is enrolled", "choose one of the list");
+  if (s == nullptr || s->revoked_utc_ns)
+    throw Error(msg("station {}", one_line(key)), msg("is none that is enrolled"), msg("choose one of the list"));
 }
 
 void require_audience(const Registry& registry, const Audience& audience) {
   for (const auto& key : audience.stations) require_station(registry, key);
-  if (audience.stations.empty() && !audience.room.empty()) throw Error("room " + one_line(audience.room), "has no station", "choose another, or all");
+  if (audience.stations.empty() && !audience.room.empty())
+    throw Error(msg("room {}", one_line(audience.room)), msg("has no station"), msg("choose another, or all"));
 }
 
 Hold* lasting(ExamDay& day, std::uint64_t seq) {
@@ -44,7 +46,7 @@ const Hold* ExamDay::hold_of(const std::string& station) const {
 
 void take_go_on(ExamDay& day, const LedgerEntry& e, const GoOnEntry& what) {
   Hold* hold = lasting(day, what.hold);
-  if (hold == nullptr) throw Error("go_on", "lets exams go on that were not held", "use an intact copy");
+  if (hold == nullptr) throw Error(msg("go_on"), msg("lets exams go on that were not held"), msg("use an intact copy"));
   hold->ended_by = e.seq;
   hold->ended_utc_ns = e.utc_ns;
 }
@@ -72,7 +74,7 @@ const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::stri
   return ledger.append(
       [&](const LedgerContent&) {
         ExamDay day = ledger.registry().day;
-        if (lasting(day, hold) == nullptr) throw Error(fmt::format("entry {}", hold), "holds no exam, or not any more", "look at the board again");
+        if (lasting(day, hold) == nullptr) throw Error(msg("entry {}", hold), msg("holds no exam, or not any more"), msg("look at the board again"));
         return GoOnEntry{hold};
       },
       reason);
@@ -80,13 +82,13 @@ const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::stri
 
 const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, const std::string& candidate, const std::string& words) {
   require_words("the incident", words);
-  if (!candidate.empty() && !is_pseudonym(candidate)) throw Error("the candidate", "is no pseudonym", "choose one of the list");
+  if (!candidate.empty() && !is_pseudonym(candidate)) throw Error(msg("the candidate"), msg("is no pseudonym"), msg("choose one of the list"));
   return ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();
     if (!station.empty()) require_station(registry, station);
     const auto& tickets = registry.tickets;
     if (!candidate.empty() && std::none_of(tickets.begin(), tickets.end(), [&](const IssuedTicket& t) { return t.ticket.candidate == candidate; }))
-      throw Error("candidate " + candidate, "has no ticket here", "choose one of the list");
+      throw Error(msg("candidate {}", candidate), msg("has no ticket here"), msg("choose one of the list"));
     return IncidentEntry{station, candidate, make_opening(words)};
   });
 }

@@ -59,9 +59,10 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
 /// Throws Error when it cannot be filed at all.
 void require_closed(const SessionReader& session) {
   const std::string& path = session.path();
-  if (!session.closed() && !session.findings().empty()) throw Error(path, "is damaged: " + session.findings().front(), "use an intact copy");
+  if (!session.closed() && !session.findings().empty())
+    throw Error(path, msg("is damaged: {}", session.findings().front()), msg("use an intact copy"));
   if (!session.closed())
-    throw Error(path, "was never closed", fmt::format("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
+    throw Error(path, msg("was never closed"), msg("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
 }
 
 auto claims_of(Ledger& ledger, const SessionReader& session, const FilingOptions& options) {

@@ -52,7 +52,8 @@ Identities::Identities(const std::string& path, bool may_make)
         std::error_code none;
         const bool there = std::filesystem::exists(path), make = !there || (may_make && std::filesystem::file_size(path, none) == 0);
         if (make && !may_make)
-          throw Error(path, "the identities are not there", "restore them from their backup: without them nobody knows whose marks these are");
+          throw Error(path, msg("the identities are not there"),
+                      msg("restore them from their backup: without them nobody knows whose marks these are"));
         Database db = Database::open(path, !there, k_long_wait);
         db.run("PRAGMA synchronous = EXTRA");  // the journal's name is gone from the disk, too: a power cut brings nobody back, and takes nobody away
         if (make) {
@@ -65,24 +66,24 @@ Identities::Identities(const std::string& path, bool may_make)
         }
         return db;
       }()) {
-  if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, "holds no identities", "restore it from a backup");
+  if (database_.integer("PRAGMA application_id") != k_application_id) throw Error(path, msg("holds no identities"), msg("restore it from a backup"));
   if (const auto format = database_.integer("PRAGMA user_version"); format != k_format)
-    throw Error(path, fmt::format("is of format {}, and this version of Cavum reads format {}", format, k_format), "use the version that wrote it");
+    throw Error(path, msg("is of format {}, and this version of Cavum reads format {}", format, k_format), msg("use the version that wrote it"));
   database_.run("PRAGMA secure_delete = ON");
   if (database_.integer("SELECT count(*) FROM sqlite_schema WHERE name NOT LIKE 'sqlite\\_%' ESCAPE '\\'") != 1 ||
       database_.text("SELECT sql FROM sqlite_schema WHERE name = 'identity'") != k_table)
-    throw Error(path, "holds tables or triggers that this program did not make: who is forgotten might stay in them",
-                "restore it from a backup, and find out who changed it");
+    throw Error(path, msg("holds tables or triggers that this program did not make: who is forgotten might stay in them"),
+                msg("restore it from a backup, and find out who changed it"));
 }
 
 std::string Identities::enrol(const std::string& id, const std::string& name, const std::string& exam, const SigningKey& school) {
   require_candidate_id("candidate", id);
   require_candidate_id("name", name);
   if (is_pseudonym(id))
-    throw Error(fmt::format("candidate '{}'", id), "is what a pseudonym looks like, and would be taken for one",
-                "give the school's own number or address");
+    throw Error(msg("candidate '{}'", id), msg("is what a pseudonym looks like, and would be taken for one"),
+                msg("give the school's own number or address"));
   if (id.empty() || !is_plain_text(id) || !is_plain_text(name))
-    throw Error(fmt::format("candidate '{}'", one_line(id)), "is no name that can be filed", "use letters and digits on one line");
+    throw Error(msg("candidate '{}'", one_line(id)), msg("is no name that can be filed"), msg("use letters and digits on one line"));
   for (const auto& known : of_id(id))
     if (known.exam == exam) return known.pseudonym;
   const Identity i{new_pseudonym(), exam, id, name};
@@ -95,7 +96,7 @@ std::string Identities::enrol(const std::string& id, const std::string& name, co
       .run();
   for (const auto& known : of_id(id))  // somebody else may have enrolled the same candidate meanwhile
     if (known.exam == exam) return known.pseudonym;
-  throw Error(fmt::format("candidate '{}'", one_line(id)), "cannot be enrolled", "try again");
+  throw Error(msg("candidate '{}'", one_line(id)), msg("cannot be enrolled"), msg("try again"));
 }
 
 std::optional<Identity> Identities::of_pseudonym(const std::string& pseudonym) {
@@ -129,7 +130,8 @@ void Identities::seal_again(const SigningKey& before, const SigningKey& now) {
   Transaction all(database_);
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym"))) {
     if (!holds(r, before) && !holds(r, now))
-      throw Error("identities", r.who.pseudonym + " is not whom it was given to; the row was changed", "restore the file from its backup");
+      throw Error(msg("identities"), msg("{} is not whom it was given to; the row was changed", r.who.pseudonym),
+                  msg("restore the file from its backup"));
     database_.prepare("UPDATE identity SET seal = ? WHERE pseudonym = ?")
         .bind(1, identity_seal(now, sealed_text(r.who)))
         .bind(2, r.who.pseudonym)

@@ -52,12 +52,12 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
       [&](const LedgerContent&) {
         const IssuedTicket* t = ledger.registry().ticket(seq);
         const std::string where = fmt::format("--ticket {}", seq);
-        if (t == nullptr) throw Error(where, "is no ticket's entry", "see `cavum ledger tickets`");
+        if (t == nullptr) throw Error(where, msg("is no ticket's entry"), msg("see `cavum ledger tickets`"));
         if (t->used_by)
-          throw Error(where, fmt::format("was used: its exam is filed as entry {}", *t->used_by),
-                      "there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`");
-        if (t->made_up_by) throw Error(where, fmt::format("was made up by entry {}", *t->made_up_by), "cancel that one, if it is too much");
-        if (t->cancelled_by) throw Error(where, fmt::format("was cancelled before, by entry {}", *t->cancelled_by), "nothing is left to do");
+          throw Error(where, msg("was used: its exam is filed as entry {}", *t->used_by),
+                      msg("there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`"));
+        if (t->made_up_by) throw Error(where, msg("was made up by entry {}", *t->made_up_by), msg("cancel that one, if it is too much"));
+        if (t->cancelled_by) throw Error(where, msg("was cancelled before, by entry {}", *t->cancelled_by), msg("nothing is left to do"));
         return CancelEntry{seq};
       },
       reason);
@@ -85,17 +85,17 @@ std::vector<std::string> stations_of(const Registry& registry, Identities& ident
     const std::string at = fmt::format("{}:{}: station", where, p.line);
     for (const Station& s : registry.stations.stations) {
       if (s.name != p.station || s.revoked_utc_ns || !s.replaced_by.empty()) continue;
-      if (!keys[i].empty()) throw Error(at, fmt::format("two stations bear the name '{}'", one_line(p.station)), "give each a name of its own");
+      if (!keys[i].empty()) throw Error(at, msg("two stations bear the name '{}'", one_line(p.station)), msg("give each a name of its own"));
       keys[i] = s.public_key;
     }
     if (keys[i].empty())
-      throw Error(at, fmt::format("no station that is enrolled bears the name '{}'", one_line(p.station)),
-                  "write it as the board does, or leave it empty");
+      throw Error(at, msg("no station that is enrolled bears the name '{}'", one_line(p.station)),
+                  msg("write it as the board does, or leave it empty"));
     if (when.empty()) return;
     const IssuedTicket* there = seated_there(registry, keys[i], when.at(i), 0, read_clocks().utc_ns);
     const auto who = there == nullptr ? std::nullopt : identities.of_pseudonym(there->ticket.candidate);
     if (there != nullptr && (!who || who->id != p.id))
-      throw Error(at, fmt::format("'{}' has another candidate at that time (entry {})", one_line(p.station), there->seq), "choose another station");
+      throw Error(at, msg("'{}' has another candidate at that time (entry {})", one_line(p.station), there->seq), msg("choose another station"));
   };
   for (std::size_t i = 0; i < people.size(); ++i)
     if (!people[i].station.empty()) mistakes.unless([&] { find(i); });
@@ -133,16 +133,16 @@ std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const Lis
 }
 
 const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seats) {
-  if (seats.empty()) throw Error("the seats", "are none", "choose who is to sit where");
+  if (seats.empty()) throw Error(msg("the seats"), msg("are none"), msg("choose who is to sit where"));
   return ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();
     for (const Seat& s : seats) {
       const IssuedTicket* t = registry.ticket(s.ticket);
       if (t == nullptr || t->used_by || t->cancelled_by || t->made_up_by)
-        throw Error(fmt::format("entry {}", s.ticket), "is no ticket that is good", "look at the list of tickets again");
+        throw Error(msg("entry {}", s.ticket), msg("is no ticket that is good"), msg("look at the list of tickets again"));
       const Station* at = registry.stations.of(s.station);
       if (!s.station.empty() && (at == nullptr || at->revoked_utc_ns))
-        throw Error("station " + one_line(s.station), "is none that is enrolled", "choose one of the list");
+        throw Error(msg("station {}", one_line(s.station)), msg("is none that is enrolled"), msg("choose one of the list"));
       const TimeSpan when{t->ticket.not_before_utc_ns, t->ticket.not_after_utc_ns};
       const bool twice = !s.station.empty() && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) {
         const IssuedTicket* other = registry.ticket(o.ticket);
@@ -151,7 +151,7 @@ const LedgerEntry& seat_candidates(Ledger& ledger, const std::vector<Seat>& seat
       const IssuedTicket* there = seated_there(registry, s.station, when, s.ticket, read_clocks().utc_ns);
       const bool moves = there != nullptr && std::any_of(seats.begin(), seats.end(), [&](const Seat& o) { return o.ticket == there->seq; });
       if (twice || (there != nullptr && !moves))
-        throw Error("station " + one_line(at->name), "has another candidate at that time", "choose another station");
+        throw Error(msg("station {}", one_line(at->name)), msg("has another candidate at that time"), msg("choose another station"));
     }
     return SeatsEntry{seats};
   });

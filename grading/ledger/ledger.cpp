@@ -17,7 +17,7 @@ namespace cavum::ledger {
 
 void Ledger::create(const std::string& folder, const std::string& school_name, const SigningKey& key) {
   const LedgerPlaces places{folder};
-  if (std::filesystem::exists(places.database())) throw Error(folder, "holds a ledger already", "choose another folder");
+  if (std::filesystem::exists(places.database())) throw Error(folder, msg("holds a ledger already"), msg("choose another folder"));
   if (holds_parts_of_a_ledger(places))
     throw Error(folder, "holds sessions or identities of a ledger whose ledger.db is gone", instead_of_none(places.database()));
   make_private_folder(folder + "/sessions");
@@ -41,7 +41,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
     db.run("PRAGMA journal_mode = DELETE");  // one file, to be renamed whole
     db.close();
     tell_witness(id, p);
-    if (!put_in_place(fresh, places.database())) throw Error(folder, "holds a ledger already", "choose another folder");
+    if (!put_in_place(fresh, places.database())) throw Error(folder, msg("holds a ledger already"), msg("choose another folder"));
   } catch (const std::exception&) {
     remove_fresh();
     throw;
@@ -72,16 +72,16 @@ void Ledger::reload() {
   }
   if (!content_.findings.empty())
     throw Error(places_.folder,
-                fmt::format("{}{})",
-                            use_ != LedgerUse::tell ? "nothing is added to a ledger that does not hold ("
-                                                    : "nothing is told of a ledger that does not hold (",
-                            content_.findings.front()),
-                fmt::format("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
+                msg("{}{})",
+                    use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold (")
+                                            : msg("nothing is told of a ledger that does not hold ("),
+                    content_.findings.front()),
+                msg("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
   if (content_.public_key != to_hex(key_.public_key))
     throw Error(places_.folder,
-                content_.has_key(to_hex(key_.public_key)) ? "has gone on with another key of the school, which took the place of this one"
-                                                          : "belongs to another school's key",
-                "name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again");
+                content_.has_key(to_hex(key_.public_key)) ? msg("has gone on with another key of the school, which took the place of this one")
+                                                          : msg("belongs to another school's key"),
+                msg("name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again"));
 }
 
 void Ledger::wipe() { wipe_erased(database_, places_.database()); }

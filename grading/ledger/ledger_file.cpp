@@ -34,8 +34,8 @@ void require_ledger(Database& db, const std::string& where) {
     throw Error(where, empty ? "is empty" : "is no ledger", instead_of_none(where));
   }
   if (const auto format = db.integer("PRAGMA user_version"); format != k_ledger_format)
-    throw Error(where, fmt::format("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
-                "use the version that wrote it");
+    throw Error(where, msg("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
+                msg("use the version that wrote it"));
 }
 
 void check_schema(Database& db, std::vector<std::string>& findings) {
@@ -97,8 +97,8 @@ void insert(Database& db, const LedgerEntry& e, std::span<const std::string> era
 
 void wipe_erased(Database& db, const std::string& where) {
   if (db.integer("PRAGMA wal_checkpoint(TRUNCATE)") != 0)
-    throw Error(where, "what was erased is still in its log, which another program is reading",
-                "end that program, and run `cavum ledger erase` again");
+    throw Error(where, msg("what was erased is still in its log, which another program is reading"),
+                msg("end that program, and run `cavum ledger erase` again"));
 }
 
 void insert_cosignature(Database& db, std::uint64_t size, const std::string& line) {

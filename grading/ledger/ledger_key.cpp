@@ -16,12 +16,12 @@ std::string school_public_key_path() { return station_path("school.pub"); }
 
 SigningKey load_school_key(const std::string& path, bool make) {
   if (!make && !std::filesystem::exists(path))
-    throw Error(path, "the school's key is not there", "restore it from its backup, or name its place with --key or CAVUM_HOME");
+    throw Error(path, msg("the school's key is not there"), msg("restore it from its backup, or name its place with --key or CAVUM_HOME"));
   return load_signing_key(path, "school");
 }
 
 std::string random_hex(std::size_t bytes) {
-  if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
+  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("does not start"), msg("check the installation of libsodium"));
   Bytes b(bytes);
   randombytes_buf(b.data(), b.size());
   return to_hex(b);
@@ -32,7 +32,7 @@ Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& whe
   std::size_t read = 0;
   const bool whole = hex.size() == 2 * bytes && hex.find_first_not_of("0123456789abcdef") == std::string::npos &&
                      sodium_hex2bin(out.data(), out.size(), hex.data(), hex.size(), nullptr, &read, nullptr) == 0 && read == bytes;
-  if (!whole) throw Error(where, fmt::format("is not {} hexadecimal digits in lower case", 2 * bytes), "use an intact copy");
+  if (!whole) throw Error(where, msg("is not {} hexadecimal digits in lower case", 2 * bytes), msg("use an intact copy"));
   return out;
 }
 

@@ -34,8 +34,8 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
         const Registry& registry = ledger.registry();  // as it is under the lock
         const std::string where = fmt::format("the ticket of entry {}", wish.first);
         const IssuedTicket* first = registry.ticket(wish.first);
-        if (first == nullptr) throw Error(where, "is none", "look at the list of tickets again");
-        if (first->ticket.exam != ticket.exam) throw Error(where, "is of another exam", "a makeup is of the same exam");
+        if (first == nullptr) throw Error(where, msg("is none"), msg("look at the list of tickets again"));
+        if (first->ticket.exam != ticket.exam) throw Error(where, msg("is of another exam"), msg("a makeup is of the same exam"));
         std::string why_not;
         const std::int64_t now = read_clocks().utc_ns;
         const auto may = makeup_reasons(registry, *first, now, why_not);

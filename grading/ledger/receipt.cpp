@@ -54,8 +54,8 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
   const auto from = std::find_if(content.checkpoints.rbegin(), content.checkpoints.rend(), [&](const Checkpoint& p) { return p.size == from_size; });
   if (from == content.checkpoints.rend()) throw std::out_of_range("no such checkpoint");
   if (content.key_of(from_size) != content.public_key)
-    throw Error(fmt::format("--from-size {}", from_size), "was signed with a key that the school has replaced, and a receipt names one key",
-                "show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt");
+    throw Error(fmt::format("--from-size {}", from_size), msg("was signed with a key that the school has replaced, and a receipt names one key"),
+                msg("show the note of that time beside it: `cavum ledger verify --cosigned`, or the earlier receipt"));
   receipt["consistency"] = {{"from", told(content, *from)}, {"proof", hex_list(consistency_proof(leaves, from_size))}};
   return receipt;
 }

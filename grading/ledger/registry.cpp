@@ -32,7 +32,7 @@ const SharedJson& sound_result(const SharedJson& opened) {
                      (!score.contains("pass_percent") || number(score, "pass_percent")) &&
                      (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
                      std::all_of(criteria.begin(), criteria.end(), criterion);
-  if (!sound) throw Error("result", "is none as grading writes it", "use an intact copy");
+  if (!sound) throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
   return opened;
 }
 
@@ -155,8 +155,8 @@ const IssuedTicket* Registry::live_ticket(const std::string& candidate, const st
 
 std::string recording_of(const LedgerPlaces& places, const FiledSession& s) {
   if (s.motion_erased_by)
-    throw Error(fmt::format("entry {}", s.seq), fmt::format("its recording was erased (entry {})", *s.motion_erased_by),
-                "its result and its proofs are what is left");
+    throw Error(msg("entry {}", s.seq), msg("its recording was erased (entry {})", *s.motion_erased_by),
+                msg("its result and its proofs are what is left"));
   return places.session(s.file_sha256);
 }
 

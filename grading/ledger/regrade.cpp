@@ -33,8 +33,8 @@ std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regra
   for (const auto& [name, hash] : regrade.documents) {
     const auto found = content.documents.find(hash);
     if (found == content.documents.end())
-      throw Error(fmt::format("entry {}", regrade.seq), fmt::format("the {} that its result was marked by is not in the ledger", name),
-                  "restore ledger.db from its backup");
+      throw Error(msg("entry {}", regrade.seq), msg("the {} that its result was marked by is not in the ledger", name),
+                  msg("restore ledger.db from its backup"));
     const Bytes& bytes = found->second;
     if (name == k_rubric) basis.rubric_toml.assign(bytes.begin(), bytes.end());
     if (name == k_scenario) basis.scenario_toml.assign(bytes.begin(), bytes.end());

@@ -28,31 +28,29 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
   const std::string where = fmt::format("--session {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
-      throw Error(where, fmt::format("and entry {} are endings of the same exam, and one counts", other), "choose one of them");
+      throw Error(where, msg("and entry {} are endings of the same exam, and one counts", other), msg("choose one of them"));
   if (const FiledSession* other = registry.chosen_instead_of(s))
-    throw Error(where, fmt::format("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq),
-                "it stays unreleased");
+    throw Error(where, msg("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq), msg("it stays unreleased"));
   if (s.made_up_by)
-    throw Error(where, fmt::format("a makeup sitting was given in its place (entry {})", *s.made_up_by), "the makeup's result is released");
+    throw Error(where, msg("a makeup sitting was given in its place (entry {})", *s.made_up_by), msg("the makeup's result is released"));
   if (const FiledSession* other = registry.shown_beside(s))
-    throw Error(where, fmt::format("entry {}, another sitting of the same exam, is released", other->seq), "take that one back first");
-  if (s.result_erased_by)
-    throw Error(where, fmt::format("its result was erased (entry {})", *s.result_erased_by), "there is nothing left to release");
+    throw Error(where, msg("entry {}, another sitting of the same exam, is released", other->seq), msg("take that one back first"));
+  if (s.result_erased_by) throw Error(where, msg("its result was erased (entry {})", *s.result_erased_by), msg("there is nothing left to release"));
   if (s.questioned() && !wish.with_findings)
     throw Error(
         where,
-        s.contested_by.empty() ? "was filed with findings" : fmt::format("is one of several endings of the same exam (entries {})", entries_of(s)),
-        "look at it; to release it all the same, add --with-findings");
+        s.contested_by.empty() ? msg("was filed with findings") : msg("is one of several endings of the same exam (entries {})", entries_of(s)),
+        msg("look at it; to release it all the same, add --with-findings"));
 }
 
 }  // namespace
 
 Release select_results(const Registry& registry, const ReleaseWish& wish) {
   for (const auto seq : wish.sessions)
-    if (registry.session(seq) == nullptr) throw Error(fmt::format("--session {}", seq), "is no session's entry", "see `cavum ledger show`");
+    if (registry.session(seq) == nullptr) throw Error(fmt::format("--session {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
-      throw Error("--candidate " + c, "has no session in this ledger", "see `cavum ledger show`");
+      throw Error("--candidate " + c, msg("has no session in this ledger"), msg("see `cavum ledger show`"));
   Release out;
   const auto otherwise = registry.marked_otherwise();
   for (const auto& s : registry.sessions) {
@@ -60,8 +58,8 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     if (by_entry) require_releasable(registry, wish, s);
     const bool undecided = !s.contested_by.empty() && !s.chosen && registry.chosen_instead_of(s) == nullptr;
     if (by_candidate && undecided && !by_entry)
-      throw Error("--candidate " + s.candidate, fmt::format("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
-                  "choose it with --session and --with-findings");
+      throw Error("--candidate " + s.candidate, msg("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
+                  msg("choose it with --session and --with-findings"));
     if (s.made_up_by) continue;
     // what was released before somebody contested it is not chosen yet
     if ((!wish.all && !by_entry && !by_candidate) || (s.released && !(by_entry && s.doubtful())) || s.result_erased_by) continue;
@@ -88,7 +86,7 @@ Release release_results(Ledger& ledger, const ReleaseWish& wish) {
 }
 
 const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64_t>& sessions, const std::string& reason) {
-  if (sessions.empty()) throw Error("--session", "is missing", "name the entries of the sessions whose results are taken back");
+  if (sessions.empty()) throw Error("--session", msg("is missing"), msg("name the entries of the sessions whose results are taken back"));
   require_reason(reason);
   return ledger.append(
       [&](const LedgerContent&) {
@@ -96,8 +94,8 @@ const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64
         for (const auto seq : sessions) {
           const FiledSession* s = ledger.registry().session(seq);
           const std::string where = fmt::format("--session {}", seq);
-          if (s == nullptr) throw Error(where, "is no session's entry", "see `cavum ledger show`");
-          if (s->shown_seq == 0) throw Error(where, "has no released result", "there is nothing to take back");
+          if (s == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger show`"));
+          if (s->shown_seq == 0) throw Error(where, msg("has no released result"), msg("there is nothing to take back"));
           entry.results.push_back(s->shown_seq);
         }
         return entry;

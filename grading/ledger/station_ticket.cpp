@@ -31,23 +31,23 @@ HeldTicket read_ticket(const std::string& path) {
   while (!held.text.empty() && (held.text.back() == '\n' || held.text.back() == '\r')) held.text.pop_back();
   const std::string key = station_school_key();
   if (key.empty())
-    throw Error(school_public_key_path(), "this station knows no school yet",
-                "copy the school's public key there: `cavum ledger init` writes it beside the school's key");
+    throw Error(school_public_key_path(), msg("this station knows no school yet"),
+                msg("copy the school's public key there: `cavum ledger init` writes it beside the school's key"));
   held.ticket = parse_ticket(held.text, key, path);
   if (const std::string word = begin_path(path); word != path && std::filesystem::exists(word)) {
     held.begin = read_text_file(word);
     while (!held.begin.empty() && (held.begin.back() == '\n' || held.begin.back() == '\r')) held.begin.pop_back();
     if (parse_begin(held.begin, key, word).ticket != held.ticket.nonce)
-      throw Error(word, "is the word to begin of another ticket", "ask the office for this one's");
+      throw Error(word, msg("is the word to begin of another ticket"), msg("ask the office for this one's"));
   }
   return held;
 }
 
 void use_ticket(const HeldTicket& held, scenarios::ExamOptions& options) {
   if (!options.candidate.empty() && options.candidate != held.ticket.candidate)
-    throw Error("--candidate " + options.candidate, fmt::format("the ticket {} is for {}", held.path, held.ticket.candidate), "leave the option out");
+    throw Error("--candidate " + options.candidate, msg("the ticket {} is for {}", held.path, held.ticket.candidate), msg("leave the option out"));
   if (!scenarios::notes_of(options.grant).empty())
-    throw Error(held.path, "says itself what is granted", "leave out extra time, handedness and contrast");
+    throw Error(held.path, msg("says itself what is granted"), msg("leave out extra time, handedness and contrast"));
   options.candidate = held.ticket.candidate;
   options.notes.insert(options.notes.end(), held.ticket.grant.begin(), held.ticket.grant.end());
   options.notes.emplace_back(k_ticket_note, held.text);
@@ -56,8 +56,8 @@ void use_ticket(const HeldTicket& held, scenarios::ExamOptions& options) {
 
 void require_promised(const HeldTicket& held, const SessionSetup& setup) {
   if (held.ticket.begun_at_ledger && held.begin.empty())
-    throw Error(held.path, fmt::format("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
-                fmt::format("have the office run `cavum ledger begin LEDGER --ticket {}`", held.path));
+    throw Error(held.path, msg("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
+                msg("have the office run `cavum ledger begin LEDGER --ticket {}`", held.path));
   const auto wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
   if (wrong.empty()) return;
   std::string all;
@@ -108,7 +108,7 @@ class UsedTickets {
   [[noreturn]] void fail() const {
     const std::string why = std::strerror(errno);
     if (file_ >= 0) ::close(file_);
-    throw Error(path_, fmt::format("cannot remember which tickets were used ({})", why), "make the folder writable, and room on its disk");
+    throw Error(path_, msg("cannot remember which tickets were used ({})", why), msg("make the folder writable, and room on its disk"));
   }
 
   std::string path_ = used_tickets_path();
@@ -124,7 +124,8 @@ std::string nonce_in(const std::vector<std::pair<std::string, std::string>>& not
 }
 
 void refuse_used(const HeldTicket& held, const std::string& use) {
-  if (!use.empty()) throw Error(held.path, "was used at this station " + use, "go on with that exam (--resume), or ask the school for a new ticket");
+  if (!use.empty())
+    throw Error(held.path, msg("was used at this station {}", use), msg("go on with that exam (--resume), or ask the school for a new ticket"));
 }
 
 }  // namespace
@@ -155,8 +156,8 @@ bool require_not_closed(const std::vector<std::pair<std::string, std::string>>& 
     UsedTickets used;
     use = used.use_of(nonce);
     if (used.closed())
-      throw Error(session, "the exam of its ticket was closed at this station " + use,
-                  "hand that one in: an exam that was closed is not taken up again");
+      throw Error(session, msg("the exam of its ticket was closed at this station {}", use),
+                  msg("hand that one in: an exam that was closed is not taken up again"));
   }
   return !use.empty();
 }

@@ -37,8 +37,8 @@ SigningKey key_of_code(const std::string& code) {
     digits += c == 'O' ? '0' : c == 'I' || c == 'L' ? '1' : c;
   }
   if (digits.size() != k_code_digits || digits.find_first_not_of(k_code_alphabet) != std::string::npos)
-    throw Error("station code", fmt::format("'{}' is none", one_line(code)),
-                "type the code that `cavum ledger station … --invite` printed: S- and five groups of four");
+    throw Error(msg("station code"), msg("'{}' is none", one_line(code)),
+                msg("type the code that `cavum ledger station … --invite` printed: S- and five groups of four"));
   const Sha256 seed = sha256("CVCODE_1" + digits);
   SigningKey key;
   crypto_sign_seed_keypair(key.public_key.data(), key.secret_key.data(), seed.data());
@@ -56,12 +56,12 @@ void require_signed(const SignedRequest& asked, const std::string& where) {
   const StationRequest& r = asked.request;
   const bool has_code = !asked.code_signature.empty();
   if (!is_signed_by(r.public_key, request_message(r), asked.signature))
-    throw Error(where, "the station's signature does not hold: the request was changed", "make it again on the station");
+    throw Error(where, msg("the station's signature does not hold: the request was changed"), msg("make it again on the station"));
   if (!is_signed_by(r.by, request_message(r), has_code ? asked.code_signature : asked.old_signature))
-    throw Error(where, has_code ? "the code's signature does not hold" : "the signature of the key that is replaced does not hold",
-                "make it again on the station");
+    throw Error(where, has_code ? msg("the code's signature does not hold") : msg("the signature of the key that is replaced does not hold"),
+                msg("make it again on the station"));
   if (r.devices.size() > k_most_devices)
-    throw Error(where, fmt::format("names no list of at most {} styluses", k_most_devices), "make it again on the station");
+    throw Error(where, msg("names no list of at most {} styluses", k_most_devices), msg("make it again on the station"));
 }
 
 Station* station_in(StationRegister& r, const std::string& key) {
@@ -72,7 +72,7 @@ Station* station_in(StationRegister& r, const std::string& key) {
 /// Whom the request makes a station, by code or in place of another. Throws Error when that cannot be.
 Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t now_utc_ns, const std::string& where) {
   const StationRequest& request = asked.request;
-  if (station_in(r, request.public_key) != nullptr) throw Error(where, "this key was enrolled before", "see `cavum ledger station`");
+  if (station_in(r, request.public_key) != nullptr) throw Error(where, msg("this key was enrolled before"), msg("see `cavum ledger station`"));
   Station s;
   s.public_key = request.public_key;
   s.enrolled_utc_ns = now_utc_ns;
@@ -80,7 +80,7 @@ Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t no
   if (asked.code_signature.empty()) {
     Station* old = station_in(r, request.by);
     if (old == nullptr || old->revoked_utc_ns || !old->replaced_by.empty())
-      throw Error(where, "the key that it replaces is not, or no longer, enrolled", "invite the station anew");
+      throw Error(where, msg("the key that it replaces is not, or no longer, enrolled"), msg("invite the station anew"));
     s.name = old->name;
     s.room = old->room;
     if (s.devices.empty()) s.devices = old->devices;
@@ -90,9 +90,10 @@ Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t no
   }
   const auto code = std::find_if(r.invitations.begin(), r.invitations.end(), [&](const StationInvitation& i) { return i.code_key == request.by; });
   if (code == r.invitations.end())
-    throw Error(where, "its code was not given out by this ledger", "invite the station with `cavum ledger station --invite`");
-  if (code->used) throw Error(where, "its code was used before", "invite the station anew: each code is good once");
-  if (now_utc_ns > code->until_utc_ns) throw Error(where, "its code ran out on " + utc_text(code->until_utc_ns), "invite the station anew");
+    throw Error(where, msg("its code was not given out by this ledger"), msg("invite the station with `cavum ledger station --invite`"));
+  if (code->used) throw Error(where, msg("its code was used before"), msg("invite the station anew: each code is good once"));
+  if (now_utc_ns > code->until_utc_ns)
+    throw Error(where, msg("its code ran out on {}", utc_text(code->until_utc_ns)), msg("invite the station anew"));
   code->used = true;
   s.name = code->name;
   return s;
@@ -125,7 +126,7 @@ void take_invite(StationRegister& r, const LedgerEntry& e, const InviteEntry& wh
 void take_enrol(StationRegister& r, const LedgerEntry& e, const EnrolEntry& what, const std::string& school) {
   const std::string where = "station entry";
   require_signed(what.asked, where);
-  if (what.asked.request.school != school) throw Error(where, "asks another school", "use an intact copy");
+  if (what.asked.request.school != school) throw Error(where, msg("asks another school"), msg("use an intact copy"));
   Station s = enrolled(r, what.asked, e.utc_ns, where);
   s.seq = e.seq;
   s.until_utc_ns = what.until_utc_ns;
@@ -135,19 +136,19 @@ void take_enrol(StationRegister& r, const LedgerEntry& e, const EnrolEntry& what
 void take_revoke(StationRegister& r, const LedgerEntry& e, const RevokeEntry& what) {
   Station* s = station_in(r, what.public_key);
   if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty()))
-    throw Error("station entry", "revokes a key that is not enrolled", "use an intact copy");
+    throw Error(msg("station entry"), msg("revokes a key that is not enrolled"), msg("use an intact copy"));
   s->revoked_utc_ns = e.utc_ns;
   s->replaced_by.clear();
 }
 
 void take_room(StationRegister& r, const RoomEntry& what) {
   Station* s = station_in(r, what.public_key);
-  if (s == nullptr) throw Error("station entry", "places a station that is not enrolled", "use an intact copy");
+  if (s == nullptr) throw Error(msg("station entry"), msg("places a station that is not enrolled"), msg("use an intact copy"));
   s->room = what.room;
 }
 
 std::string new_station_code() {
-  if (sodium_init() < 0) throw Error("libsodium", "does not start", "check the installation of libsodium");
+  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("does not start"), msg("check the installation of libsodium"));
   std::string code = "S";
   for (std::size_t i = 0; i < k_code_digits; ++i) {
     if (i % 4 == 0) code += '-';
@@ -171,8 +172,8 @@ std::string station_request(const SigningKey& key, const std::string& school, co
 
 std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns) {
   if (name.size() > k_longest_station_name || !is_seen_text(name) || holds_unseen(name))
-    throw Error("--invite", fmt::format("'{}' is no station's name", one_line(name.substr(0, k_longest_station_name))),
-                fmt::format("give one line of at most {} bytes", k_longest_station_name));
+    throw Error("--invite", msg("'{}' is no station's name", one_line(name.substr(0, k_longest_station_name))),
+                msg("give one line of at most {} bytes", k_longest_station_name));
   std::string code = new_station_code();
   const std::string code_key = to_hex(key_of_code(code).public_key);
   ledger.append([&](const LedgerContent&) { return InviteEntry{name, code_key, until_utc_ns}; });
@@ -181,12 +182,12 @@ std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t
 
 const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::int64_t until_utc_ns, const std::string& where) {
   const json j = parse_json_or_null(text, k_json_part);
-  if (!member_of(j, "request").is_object()) throw Error(where, "is no station's request", "name a file that `cavum station --enrol` wrote");
+  if (!member_of(j, "request").is_object()) throw Error(where, msg("is no station's request"), msg("name a file that `cavum station --enrol` wrote"));
   const auto asked = value_in<SignedRequest>(j, where);
   require_signed(asked, where);
   return ledger.append([&](const LedgerContent& now) {
     if (asked.request.school != now.public_key)
-      throw Error(where, "asks another school to be enrolled", "copy this school's school.pub to the station, and ask again");
+      throw Error(where, msg("asks another school to be enrolled"), msg("copy this school's school.pub to the station, and ask again"));
     StationRegister stations = ledger.registry().stations;
     static_cast<void>(enrolled(stations, asked, read_clocks().utc_ns, where));
     return EnrolEntry{asked, until_utc_ns};
@@ -195,10 +196,11 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::i
 
 const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room) {
   if (room.size() > k_longest_station_name || !is_plain_text(room))
-    throw Error("the room", "is no line of text", fmt::format("give one line of at most {} bytes", k_longest_station_name));
+    throw Error(msg("the room"), msg("is no line of text"), msg("give one line of at most {} bytes", k_longest_station_name));
   return ledger.append([&](const LedgerContent&) {
     const Station* s = ledger.registry().stations.of(public_key);
-    if (s == nullptr || s->revoked_utc_ns) throw Error("station " + one_line(public_key), "is none that is enrolled", "choose one of the list");
+    if (s == nullptr || s->revoked_utc_ns)
+      throw Error(msg("station {}", one_line(public_key)), msg("is none that is enrolled"), msg("choose one of the list"));
     return RoomEntry{public_key, room};
   });
 }
@@ -208,7 +210,7 @@ const LedgerEntry& revoke_station(Ledger& ledger, const std::string& public_key,
       [&](const LedgerContent&) {
         const Station* s = ledger.registry().stations.of(public_key);
         if (s == nullptr || (s->revoked_utc_ns && s->replaced_by.empty()))
-          throw Error("--revoke " + one_line(public_key), "is not, or no longer, a station's key here", "see `cavum ledger station`");
+          throw Error("--revoke " + one_line(public_key), msg("is not, or no longer, a station's key here"), msg("see `cavum ledger station`"));
         return RevokeEntry{public_key};
       },
       one_line(reason));

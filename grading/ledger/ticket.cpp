@@ -60,17 +60,18 @@ SignedTicket sign_ticket(Ticket t, const SigningKey& school) {
 }
 
 void require_signed(const Ticket& t, const std::string& signature, const std::string& public_key, const std::string& where) {
-  if (!public_key.empty() && t.public_key != public_key) throw Error(where, "is the ticket of another school", "ask for one of this school");
+  if (!public_key.empty() && t.public_key != public_key)
+    throw Error(where, msg("is the ticket of another school"), msg("ask for one of this school"));
   if (!is_signed_by(fixed_from_hex<32>(t.public_key, where + ": public_key"), message_of(t), fixed_from_hex<64>(signature, where + ": signature")))
-    throw Error(where, "was changed after the school signed it", "ask for a new ticket");
+    throw Error(where, msg("was changed after the school signed it"), msg("ask for a new ticket"));
 }
 
 Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where) {
   const json j = parse_json_or_null(text);
-  if (!member_of(j, "ticket").is_object()) throw Error(where, "is no ticket", "name a file that `cavum ledger ticket` wrote");
+  if (!member_of(j, "ticket").is_object()) throw Error(where, msg("is no ticket"), msg("name a file that `cavum ledger ticket` wrote"));
   auto t = value_in<Ticket>(j["ticket"], where);
   const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, where + ": grant");
-  if (!granted.is_object()) throw Error(where, "grants nothing that can be read", "ask for a new ticket");
+  if (!granted.is_object()) throw Error(where, msg("grants nothing that can be read"), msg("ask for a new ticket"));
   for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, text_in(granted, key.c_str()));
   std::sort(t.grant.begin(), t.grant.end());
   require_signed(t, text_in(j, "signature"), public_key, where);
@@ -108,7 +109,7 @@ std::int64_t parse_utc(const std::string& text, const std::string& where) {
   const bool leap = (year % 4 == 0 && year % 100 != 0) || year % 400 == 0;
   if (!read || year < 1970 || year > 2200 || month < 1 || month > 12 || day < 1 || day > k_days[month - 1] + (month == 2 && leap ? 1 : 0) ||
       hour < 0 || hour > 23 || minute < 0 || minute > 59 || second < 0 || second > 59)
-    throw Error(where, fmt::format("'{}' is no time", text), "write it in UTC as 2026-11-21T09:00Z");
+    throw Error(where, msg("'{}' is no time", text), msg("write it in UTC as 2026-11-21T09:00Z"));
   return (((days_since_1970(year, month, day) * 24 + hour) * 60 + minute) * 60 + second) * 1'000'000'000;
 }
 

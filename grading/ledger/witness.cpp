@@ -80,8 +80,8 @@ void tell_witness(const std::string& id, const Checkpoint& p) {
     sync_folder_of(std::filesystem::path(path).parent_path().string());
   }
   if (!told)
-    throw Error(path, fmt::format("the entry is in the ledger, but its witness cannot be told ({})", std::strerror(why)),
-                "make the folder writable; the next entry tells it again");
+    throw Error(path, msg("the entry is in the ledger, but its witness cannot be told ({})", std::strerror(why)),
+                msg("make the folder writable; the next entry tells it again"));
 }
 
 }  // namespace cavum::ledger

@@ -52,16 +52,16 @@ void require_size_and_side(const Scan& scan, const Registration& found, const Sc
     if (!sized || !fits_tooth(fit_of(in_size(scan.points, sized->scale), sized->to_tooth, outer))) continue;
     const double percent = 100 * (1 / sized->scale - 1);
     throw Error(path,
-                fmt::format("is of this tooth by its form, but {} % too {}: in the tooth's size it fits", fixed(std::fabs(percent), 1),
-                            percent > 0 ? "large" : "small"),
-                fmt::format("calibrate the scanner (or the printer), or multiply the file's lengths by {}", fixed(sized->scale, 4)));
+                msg("is of this tooth by its form, but {} too {}: in the tooth's size it fits", as_percent(std::fabs(percent), 1),
+                    percent > 0 ? msg("large") : msg("small")),
+                msg("calibrate the scanner (or the printer), or multiply the file's lengths by {}", as_number(sized->scale, 4)));
   }
   const Scan other = mirrored(scan);
   const auto turned = register_scan(other.points, outer);
   if (turned && fits_tooth(fit_of(other.points, turned->best.to_tooth, outer)))
-    throw Error(
-        path, "is the mirror image of this tooth",
-        options.mirror ? "leave --mirror out" : "if the tooth was imported as its mirror image, and the scan is of the real one, say --mirror");
+    throw Error(path, msg("is the mirror image of this tooth"),
+                options.mirror ? msg("leave --mirror out")
+                               : msg("if the tooth was imported as its mirror image, and the scan is of the real one, say --mirror"));
 }
 
 /// Throws Error when another pose fits about as well.
@@ -69,9 +69,9 @@ void require_one_pose(const Registration& r, const std::string& path) {
   constexpr double k_as_well = 0.95;
   if (!r.second || r.second->share < k_as_well * r.best.share) return;
   throw Error(path,
-              fmt::format("can be laid upon the tooth in more than one way: {} % of it fit in one pose, {} % in another",
-                          fixed(100 * r.best.share, 1), fixed(100 * r.second->share, 1)),
-              "scan more of the tooth, so that its shape tells how it lies");
+              msg("can be laid upon the tooth in more than one way: {} of it fit in one pose, {} in another", as_percent(100 * r.best.share, 1),
+                  as_percent(100 * r.second->share, 1)),
+              msg("scan more of the tooth, so that its shape tells how it lies"));
 }
 
 TriangleMesh moved(TriangleMesh mesh, const Rigid& pose) {
@@ -178,7 +178,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   const OuterSurface outer(tooth);
   require_size(scan.points, options.unit_mm, outer, path);
   const auto registration = register_scan(scan.points, outer);
-  if (!registration) throw Error(path, "cannot be laid upon the tooth anywhere", "check that it is a scan of this tooth, in mm");
+  if (!registration) throw Error(path, msg("cannot be laid upon the tooth anywhere"), msg("check that it is a scan of this tooth, in mm"));
   ScanFacts facts;
   facts.triangles = scan.mesh.triangles.size();
   facts.pose = registration->best;

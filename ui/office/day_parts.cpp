@@ -69,7 +69,7 @@ ledger::Audience audience_of(const ForWhom& to, const ledger::StationRegister& s
   ledger::Audience a{to.room, {}};
   for (const auto& s : stations.stations)
     if (!a.room.empty() && s.room == a.room && !s.revoked_utc_ns && s.replaced_by.empty()) a.stations.push_back(s.public_key);
-  if (a.stations.empty()) throw Error("for whom", "names no station that is enrolled", "choose all, a room, or a station");
+  if (a.stations.empty()) throw Error(msg("for whom"), msg("names no station that is enrolled"), msg("choose all, a room, or a station"));
   return a;
 }
 

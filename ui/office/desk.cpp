@@ -98,7 +98,7 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
     throw Error("the list", roster.problem.empty() ? "has columns that nobody answered for" : roster.problem,
                 "answer, and look at the preview again");
   const IssueWish wish = issue_wish(asked.exam, asked.from, asked.until, exams_);
-  if (asked.at_once && !asked.minutes_apart) throw Error("'minutes_apart'", "is missing", "say how far apart the sittings are");
+  if (asked.at_once && !asked.minutes_apart) throw Error(msg("'minutes_apart'"), msg("is missing"), msg("say how far apart the sittings are"));
   const std::size_t at_once = asked.at_once ? static_cast<std::size_t>(*asked.at_once) : std::max<std::size_t>(1, roster.people.size());
   const std::int64_t apart_ns = asked.at_once ? *asked.minutes_apart * k_minute_ns : 0;
   if (at_once < roster.people.size() && !asked.overlap) require_apart(wish, apart_ns, time_limit_s(wish.scenario, grants_of(roster)));
@@ -119,8 +119,7 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
     write_private_text_file(places_.ticket(one.ticket.nonce), text + "\n");
   };
   const auto another = asked.another ? ledger::Another::allow : ledger::Another::refuse;
-  for (const auto& one :
-       ledger::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
+  for (const auto& one : ledger::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
     if (one.refused)
       out.refused.push_back({one.person.id, one.person.name, shown(english_text(one.refused->without_advice()))});
     else
@@ -149,8 +148,8 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = asked.begin_at_office;
   ticket.grant = *grant;
-  const std::string text = ledger::issue_makeup(
-      turn.book, ticket, {first, ledger::of_word<ledger::FirstSitting>(asked.became, "what became of the first"), asked.reason});
+  const std::string text =
+      ledger::issue_makeup(turn.book, ticket, {first, ledger::of_word<ledger::FirstSitting>(asked.became, "what became of the first"), asked.reason});
   const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
@@ -167,7 +166,8 @@ bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTic
 std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledger& book, std::uint64_t ticket) const {
   const auto& registry = book.registry();
   const ledger::IssuedTicket* t = registry.ticket(ticket);
-  if (t == nullptr || !keeps_grant(registry, *t)) throw Error("the accommodations", "of the first ticket are not kept any more", "say them again");
+  if (t == nullptr || !keeps_grant(registry, *t))
+    throw Error(msg("the accommodations"), msg("of the first ticket are not kept any more"), msg("say them again"));
   if (const std::string file = places_.ticket(t->ticket.nonce); std::filesystem::exists(file))
     return ledger::parse_ticket(read_text_file(file), "", "the first ticket").grant;
   const ledger::FiledSession* sat = registry.session(*t->used_by);

@@ -55,7 +55,7 @@ std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry,
     const auto found =
         std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return entry == s.result_seq; });
     if (found == registry.sessions.end() || found->released)
-      throw Error("the results", "are others by now than the page showed", "look again; nothing was released");
+      throw Error(msg("the results"), msg("are others by now than the page showed"), msg("look again; nothing was released"));
     out.push_back(found->seq);
   }
   return out;
@@ -123,7 +123,8 @@ Released Desk::release(const ReleaseResults& asked, const Account& by) {
   wish.with_findings = asked.with_findings;
   Turn turn(*this, {by.name, asked.reason, ""});
   if (asked.results) wish.sessions = sessions_of_results(turn.book.registry(), *asked.results);
-  if (wish.all != wish.sessions.empty()) throw Error("the release", "needs to know whose results", "name all, or results as they were shown");
+  if (wish.all != wish.sessions.empty())
+    throw Error(msg("the release"), msg("needs to know whose results"), msg("name all, or results as they were shown"));
   const ledger::Release done = ledger::release_results(turn.book, wish);
   return {done.results.size(), done.kept_back, done.to_decide};
 }
@@ -227,7 +228,7 @@ Recording Desk::recording(const std::string& file_sha256) {
   Turn turn(*this);
   for (const auto& s : turn.book.registry().sessions)
     if (s.file_sha256 == file_sha256) return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
-  throw Error("the session", "is not filed here", "look at the results again");
+  throw Error(msg("the session"), msg("is not filed here"), msg("look at the results again"));
 }
 
 }  // namespace cavum::office

@@ -110,9 +110,9 @@ Seated Desk::seat(const SeatThem& asked, const Account& by) {
               ? 1
               : 0;
     left -= seats.size();
-    if (seats.empty()) throw Error("the sitting", "has nobody without a seat, or no station is free", "take another room or time");
+    if (seats.empty()) throw Error(msg("the sitting"), msg("has nobody without a seat, or no station is free"), msg("take another room or time"));
   } else {
-    if (!asked.ticket) throw Error("'ticket'", "is missing", "name a sitting or a ticket");
+    if (!asked.ticket) throw Error(msg("'ticket'"), msg("is missing"), msg("name a sitting or a ticket"));
     seats.push_back({*asked.ticket, asked.station});
   }
   return {ledger::seat_candidates(turn.book, seats).seq, seats.size(), left};

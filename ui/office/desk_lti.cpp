@@ -74,7 +74,7 @@ Recording Desk::own_recording(const std::string& number, const std::string& file
   for (const auto& s : turn.book.registry().sessions)
     if (s.file_sha256 == file_sha256 && s.shown->is_object() && is_own(identities, s, number))
       return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
-  throw Error("this report", "is not there", "open the link on the platform again");
+  throw Error(msg("this report"), msg("is not there"), msg("open the link on the platform again"));
 }
 
 }  // namespace cavum::office

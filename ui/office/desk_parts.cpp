@@ -35,7 +35,7 @@ Roster roster_of(const ClassList& asked) {
   std::size_t size = 0;
   if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), packed.data(), packed.size(), nullptr, &size, nullptr,
                         sodium_base64_VARIANT_ORIGINAL) != 0)
-    throw Error("the list", "did not arrive whole", "send it again");
+    throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
   bytes.resize(size);
   return read_roster(bytes, {asked.answers.begin(), asked.answers.end()});
 }
@@ -71,11 +71,11 @@ IssueWish issue_wish(const std::string& exam, const std::string& from, const std
   IssueWish wish;
   for (const auto& file : exams)
     if (exam_facts(file).id == exam) wish.scenario = file;
-  if (wish.scenario.empty()) throw Error("the exam", "is none that this office offers", "choose one of the list");
+  if (wish.scenario.empty()) throw Error(msg("the exam"), msg("is none that this office offers"), msg("choose one of the list"));
   wish.from_utc_ns = ledger::parse_utc(from, "the first moment");
   wish.until_utc_ns = ledger::parse_utc(until, "the last moment");
   if (wish.until_utc_ns <= wish.from_utc_ns)
-    throw Error("the last moment", "is not after the first", "give the last moment at which the exam may begin");
+    throw Error(msg("the last moment"), msg("is not after the first"), msg("give the last moment at which the exam may begin"));
   return wish;
 }
 
@@ -86,7 +86,7 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const M
     const auto yes = [](bool said) { return said ? std::optional(true) : std::nullopt; };
     grant = {asked.extra_time_percent, asked.extra_time_s, yes(asked.left_handed), yes(asked.high_contrast)};
     if (!grant.extra_time_percent && !grant.extra_time_s && !grant.left_handed && !grant.high_contrast)
-      throw Error("the accommodations", "are none", "say what is granted, or that nothing is");
+      throw Error(msg("the accommodations"), msg("are none"), msg("say what is granted, or that nothing is"));
     scenarios::require_sound(grant, "the accommodations");
   }
   auto notes = scenarios::notes_of(grant);

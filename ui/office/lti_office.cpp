@@ -112,7 +112,7 @@ LtiSetUp LtiOffice::answer(route::remove_platform, const RemovePlatform& asked, 
 
 LtiSetUp LtiOffice::answer(route::link_person, const LinkPerson& asked, const Call& c) {
   if (!asked.account.empty() && !account_(asked.account))
-    throw Error("account " + one_line(asked.account), "is not there", "see `cavum serve --accounts`");
+    throw Error(msg("account {}", one_line(asked.account)), msg("is not there"), msg("see `cavum serve --accounts`"));
   platforms_.link(asked.issuer, asked.client_id, asked.sub, asked.account);
   return answer(route::lti(), c);
 }

@@ -162,7 +162,7 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
   std::erase_if(due, [&](const ledger::ScoreDue& d) { return user_in(course, all, platform.claim, d.id).empty(); });
   if (due.empty()) return;
   if (!allows(course, k_score_scope))
-    throw Error(course.title, "its platform lets this tool send no scores", "allow it in the tool's settings there");
+    throw Error(course.title, msg("its platform lets this tool send no scores"), msg("allow it in the tool's settings there"));
   if (item.empty()) {
     double maximum = 0;
     for (const auto& d : due) maximum = std::max(maximum, d.score.value("scoreMaximum", 0.0));
@@ -225,7 +225,7 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
 
 std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& course, double maximum) {
   if (!allows(course, k_line_scope) || course.lineitems.empty())
-    throw Error(course.title, "its platform has no column for this link, and lets this tool make none", "let the link have a grade there");
+    throw Error(course.title, msg("its platform has no column for this link, and lets this tool make none"), msg("let the link have a grade there"));
   std::string page = asked_for(course.lineitems, "resource_id=" + url_encoded(course.exam) + "&tag=" + k_tag);
   for (int i = 0; i < k_most_pages && !page.empty(); ++i) {
     const PlatformAnswer answer = ask(platform, course, "GET", page, {{"Accept", k_items_type}});
@@ -237,7 +237,7 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
         return text_in(one, "id");
     page = next_page(answer.link);
   }
-  if (maximum <= 0) throw Error(course.title, "has no result with points yet", "its column is made with the first");
+  if (maximum <= 0) throw Error(course.title, msg("has no result with points yet"), msg("its column is made with the first"));
   const json wanted = {{"label", "Cavum " + course.exam}, {"scoreMaximum", maximum}, {"resourceId", course.exam}, {"tag", k_tag}};
   const PlatformAnswer made =
       ask(platform, course, "POST", course.lineitems, {{"Content-Type", k_item_type}, {"Accept", k_item_type}}, wanted.dump());

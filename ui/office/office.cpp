@@ -279,13 +279,14 @@ struct Office::Parts {
   /// A release and a new rubric ask for a code of the second factor, each good once.
   void require_code(const std::string& code, const Account& by) {
     if (by.code_secret.empty())
-      throw Error("this", "needs a second factor, and this account has none",
-                  fmt::format("cavum serve --add-account NAME --role {} --second-factor", name_of(by.role)));
-    if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s())) throw Error("the code", "was tried too often", "wait a minute");
+      throw Error(msg("this"), msg("needs a second factor, and this account has none"),
+                  msg("cavum serve --add-account NAME --role {} --second-factor", name_of(by.role)));
+    if (!tries.allow("code " + by.name, k_tries_of_a_code, steady_s()))
+      throw Error(msg("the code"), msg("was tried too often"), msg("wait a minute"));
     const auto counter = counter_of_code(from_base32(by.code_secret).value_or(Bytes()), code, utc_now_ns() / 1'000'000'000);
-    if (!counter) throw Error("the code", "is not good", "type the one that the app shows now");
+    if (!counter) throw Error(msg("the code"), msg("is not good"), msg("type the one that the app shows now"));
     if (!used_codes.use(by.name, *counter))
-      throw Error("the code", "was used already: wait for the next one", "the app shows another one within 30 s");
+      throw Error(msg("the code"), msg("was used already: wait for the next one"), msg("the app shows another one within 30 s"));
   }
 
   Hello answer(route::hello, const Call&) { return {desk.ledger_id(), desk.public_key(), utc_now_ns()}; }

@@ -61,11 +61,11 @@ RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
   {
     const std::lock_guard guard(lock_);
     if (state_ == State::marking || (state_ == State::ready && by_ != by.name))
-      throw Error("the new rubric", "is not begun: another one is on its way", "wait until that one counts or is dropped");
+      throw Error(msg("the new rubric"), msg("is not begun: another one is on its way"), msg("wait until that one counts or is dropped"));
   }
   ledger::RegradeBasis basis;
   basis.rubric_toml = asked.rubric;
-  if (basis.rubric_toml.empty()) throw Error("the rubric", "is empty", "choose a file of a rubric (TOML)");
+  if (basis.rubric_toml.empty()) throw Error(msg("the rubric"), msg("is empty"), msg("choose a file of a rubric (TOML)"));
   static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "the rubric"));
   std::uint64_t entries = 0;
   ledger::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
@@ -128,8 +128,9 @@ void Regrades::mark() {
 void Regrades::require_ready(const std::string& id, const Account& by) const {
   const std::lock_guard guard(lock_);
   if (state_ != State::ready || id != id_)
-    throw Error("the new rubric", "is not the one that waits: it counts already, was dropped, or another was begun", "look at it again");
-  if (by_ != by.name) throw Error("the new rubric", "was looked at by somebody else", "who looked at it lets it count; or begin anew");
+    throw Error(msg("the new rubric"), msg("is not the one that waits: it counts already, was dropped, or another was begun"),
+                msg("look at it again"));
+  if (by_ != by.name) throw Error(msg("the new rubric"), msg("was looked at by somebody else"), msg("who looked at it lets it count; or begin anew"));
 }
 
 RegradeCounted Regrades::count(const CountRegrade& asked, const Account& by) {
@@ -148,9 +149,9 @@ void Regrades::drop(const std::string& id, const Account& by) {
   const std::lock_guard one(one_at_a_time_);
   {
     const std::lock_guard guard(lock_);
-    if (state_ == State::none || id != id_) throw Error("the new rubric", "is not the one that was begun", "look at it again");
+    if (state_ == State::none || id != id_) throw Error(msg("the new rubric"), msg("is not the one that was begun"), msg("look at it again"));
     if (by_ != by.name && (state_ == State::marking || state_ == State::ready))
-      throw Error("the new rubric", "was begun by somebody else", "who began it drops it");
+      throw Error(msg("the new rubric"), msg("was begun by somebody else"), msg("who began it drops it"));
   }
   end_marking();
   const std::lock_guard guard(lock_);

@@ -105,7 +105,7 @@ StationClient::StationClient(const std::string& address, const std::string& cert
   static const std::regex k_address(R"(https://(\[[0-9a-fA-F:]+\]|[A-Za-z0-9.-]+)(?::(\d{1,5}))?/?)");
   std::smatch found;
   if (!std::regex_match(address, found, k_address))
-    throw Error("--server " + one_line(address), "is no address", "give one such as https://office:8443");
+    throw Error("--server " + one_line(address), msg("is no address"), msg("give one such as https://office:8443"));
   host_ = found[1];
   if (host_.starts_with('[')) host_ = host_.substr(1, host_.size() - 2);
   port_ = found[2].matched ? found[2].str() : "443";
@@ -153,8 +153,8 @@ void StationClient::meet() {
   if (!ledger_.empty()) return;
   const json hello = require(send("GET", route::hello::row.path_of(), "", ""));
   if (text_in(hello, "public_key") != school_)
-    throw Error(fmt::format("https://{}:{}", host_, port_), "is the office of another school than this station's",
-                "look at the address, and at school.pub");
+    throw Error(msg("https://{}:{}", host_, port_), msg("is the office of another school than this station's"),
+                msg("look at the address, and at school.pub"));
   ahead_ns_ = require_whole<std::int64_t>(hello, "utc_ns", "the office's greeting") - read_clocks().utc_ns;
   ledger_ = text_in(hello, "ledger");
 }

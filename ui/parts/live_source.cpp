@@ -67,7 +67,8 @@ class StylusSource final : public LiveSource {
   void begin(const scenarios::ExamSetup& setup) override {
     if (!options_.point.empty()) {
       const auto at = std::find(setup.point_names.begin(), setup.point_names.end(), options_.point);
-      if (at == setup.point_names.end()) throw Error("--point " + options_.point, "is not on this scenario's tray", "name one of its points");
+      if (at == setup.point_names.end())
+        throw Error("--point " + options_.point, msg("is not on this scenario's tray"), msg("name one of its points"));
       desk_.point = static_cast<int>(at - setup.point_names.begin());
     }
     using Clock = std::chrono::steady_clock;
@@ -75,7 +76,7 @@ class StylusSource final : public LiveSource {
     std::string told;
     for (const auto until = Clock::now() + k_patience; !stylus_->health().ready && Clock::now() < until;
          std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
-      if (Interrupt::asked()) throw Error("exam", "was interrupted before it began", "begin it again");
+      if (Interrupt::asked()) throw Error(msg("exam"), msg("was interrupted before it began"), msg("begin it again"));
       if (const std::string now = stylus_->health().problem; now != told) std::fprintf(stderr, "cavum: %s\n", one_line(told = now).c_str());
     }
     first_mm_ = first_pose(*stylus_, 1.0).tip_mm;
@@ -92,8 +93,8 @@ class StylusSource final : public LiveSource {
   static StationPedal require_pedal() {
     auto pedal = load_station_pedal(station_pedal_path());
     if (!pedal)
-      throw Error("stylus", "this station has no foot pedal, and without one the handpiece stands still",
-                  "plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal");
+      throw Error(msg("stylus"), msg("this station has no foot pedal, and without one the handpiece stands still"),
+                  msg("plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal"));
     return *pedal;
   }
 
@@ -113,12 +114,14 @@ class StylusSource final : public LiveSource {
 std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
   const StylusKind& kind = stylus_kinds().at(options.device, "--device " + options.device, {StylusHand::candidate, StylusHand::person});
   if (kind.hand == StylusHand::candidate) {
-    if (options.operator_name.empty()) throw Error("--device simulated", "needs a hand", "add --operator expert, novice, perforator or careless");
-    if (!options.point.empty()) throw Error("--point", "is for a stylus in a hand", "leave it out: the operator chooses the point that fits");
+    if (options.operator_name.empty())
+      throw Error("--device simulated", msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));
+    if (!options.point.empty())
+      throw Error("--point", msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the point that fits"));
     return std::make_unique<SimulatedSource>(options);
   }
   if (!options.operator_name.empty())
-    throw Error("--operator " + options.operator_name, "holds only the simulated stylus", "leave it out, or take --device simulated");
+    throw Error("--operator " + options.operator_name, msg("holds only the simulated stylus"), msg("leave it out, or take --device simulated"));
   return std::make_unique<StylusSource>(options, kind);
 }
 

@@ -135,7 +135,7 @@ void OfficeLine::release(const StationState& state, Sitting* sitting) {
 
 void OfficeLine::require_free(const StationState& state) {
   if (state.office && state.office->hold != 0)
-    throw Error("the exam office", fmt::format("has paused the exams here ({})", state.office->hold_reason), "wait until they go on");
+    throw Error(msg("the exam office"), msg("has paused the exams here ({})", state.office->hold_reason), msg("wait until they go on"));
 }
 
 std::string OfficeLine::outcome_text(const std::string& recording) {

@@ -55,7 +55,7 @@ std::vector<ReplayMoment> replay_moments(const std::vector<TimedEvent>& events, 
                            c.at("title").get<std::string>(), true, lost});
       }
     } catch (const nlohmann::json::exception& e) {
-      throw Error("result of the session", e.what(), "grade it anew: cavum grade");
+      throw Error(msg("result of the session"), e.what(), msg("grade it anew: cavum grade"));
     }
   }
   std::stable_sort(moments.begin(), moments.end(), [](const ReplayMoment& a, const ReplayMoment& b) { return a.tick < b.tick; });

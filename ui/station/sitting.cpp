@@ -34,7 +34,7 @@ ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code)
   std::string path = path_of(name);
   if (const std::string pseudonym = ledger::pseudonym_typed(code); !pseudonym.empty() && !std::filesystem::exists(path)) path = path_of(pseudonym);
   if (!std::filesystem::exists(path))
-    throw Error(fmt::format("candidate '{}'", one_line(code)), "has no ticket here", "check the code, or ask the school");
+    throw Error(msg("candidate '{}'", one_line(code)), msg("has no ticket here"), msg("check the code, or ask the school"));
   return ledger::read_ticket(path);
 }
 
@@ -64,13 +64,12 @@ bool has_room(const std::string& path) {
 std::string require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
-  if (session.closed())
-    throw Error(path, "is closed: there is nothing to go on with", fmt::format("look at it with `cavum station --replay {}`", path));
+  if (session.closed()) throw Error(path, msg("is closed: there is nothing to go on with"), msg("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
   if (setup.candidate != candidate && setup.candidate != ledger::pseudonym_typed(candidate))
-    throw Error(fmt::format("candidate '{}'", one_line(candidate)), "did not begin this exam", "type the code that it was begun with");
+    throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
-    throw Error(device.name(), "has another encoder than the stylus that this exam was begun with", "go on with that one");
+    throw Error(device.name(), msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
   return setup.candidate;
 }
 
@@ -241,7 +240,7 @@ void Sitting::rescue() {
       advance();
     }
     if (stage_ != Stage::unsaved) return;
-    if (tries == 2) throw Error(path_, "cannot be written, nor can any other place", "what was on disk before can be resumed from there");
+    if (tries == 2) throw Error(path_, msg("cannot be written, nor can any other place"), msg("what was on disk before can be resumed from there"));
     try {
       save(tries == 0 ? "" : scenarios::rescue_place(path_));
     } catch (const DatabaseError& refusal) {
@@ -289,7 +288,8 @@ void Sitting::save(const std::string& place) {
   if (!place.empty()) {
     const std::filesystem::path wanted(place);
     const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
-    if (file.extension() != ".cavum") throw Error(place, "is neither a folder nor a session file", "name a folder, or a new file ending in .cavum");
+    if (file.extension() != ".cavum")
+      throw Error(place, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
     exam.recorder().move_to(file.string(), trouble_);
   }
   exam.recorder().flush();

@@ -91,8 +91,8 @@ class Station {
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
-        throw Error("station", fmt::format("failed during the exam ({})", without_advice(e.what())),
-                    "what was done is recorded; go on with: cavum station --resume " + open_session());
+        throw Error(msg("station"), msg("failed during the exam ({})", e.without_advice()),
+                    msg("what was done is recorded; go on with: cavum station --resume {}", open_session()));
       throw;
     }
     if (!abandoned_) rescue();

@@ -166,8 +166,8 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
   try {  // the exam is sealed by now, whatever becomes of its report
     report::write_closing_report(o.report, session, result, *closed.graded, report::ReportReader::instructor);
   } catch (const Error& e) {
-    throw Error(o.report, fmt::format("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
-                fmt::format("write it later: `cavum report {} --out FILE`", session));
+    throw Error(o.report, msg("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
+                msg("write it later: `cavum report {} --out FILE`", session));
   }
   if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
   return exit_code;
@@ -247,10 +247,10 @@ int run_new_live(const ExamArguments& o) {
 
 int run_new(const ExamArguments& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
-  if (o.end) throw Error("--end", "closes an exam that was cut off", "say --resume, too");
+  if (o.end) throw Error("--end", msg("closes an exam that was cut off"), msg("say --resume, too"));
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
-    throw Error("exam", "needs one source of motion", "give --motion F.csv, --operator NAME, or --device NAME");
+    throw Error(msg("exam"), msg("needs one source of motion"), msg("give --motion F.csv, --operator NAME, or --device NAME"));
   require_places(o);
   const auto setup = make_setup(o);
   const auto source = make_source(o, *setup);
@@ -290,7 +290,7 @@ bool names_nothing(const ExamArguments& o) {
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
 void require_same(const ExamArguments& o, const SessionSetup& held) {
   const auto differs = [&o](const std::string& option, const std::string& what) {
-    throw Error(option, fmt::format("is not the {} that {} was begun with", what, o.out), "leave it out, or name another session with --out");
+    throw Error(option, msg("is not the {} that {} was begun with", what, o.out), msg("leave it out, or name another session with --out"));
   };
   if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, fmt::format("candidate ('{}')", held.candidate));
   if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
@@ -306,8 +306,8 @@ void require_same(const ExamArguments& o, const SessionSetup& held) {
 /// Takes up a killed exam with new motion, or closes it as it stands.
 int run_resumed(const ExamArguments& o) {
   if (o.motion.empty() && o.operator_name.empty() && o.device.empty() && !o.end)
-    throw Error("exam --resume", "nothing to go on with",
-                "give --motion, --operator or --device to continue, or --end to close the exam as it stands");
+    throw Error(msg("exam --resume"), msg("nothing to go on with"),
+                msg("give --motion, --operator or --device to continue, or --end to close the exam as it stands"));
   require_places(o);
   const SessionReader reader(o.out);
   reader.require_readable();
@@ -320,8 +320,8 @@ int run_resumed(const ExamArguments& o) {
     const Interrupt interrupt;
     const auto live = open_source(o);
     if (live->position_quantum_mm() != parse_servo_config(setup->session.servo_toml, o.out).position_quantum_mm)
-      throw Error("--device " + o.device, fmt::format("has another encoder than the one that {} was begun with", o.out),
-                  "go on with the same device, or close the exam with --end");
+      throw Error("--device " + o.device, msg("has another encoder than the one that {} was begun with", o.out),
+                  msg("go on with the same device, or close the exam with --end"));
     live->begin(*setup);
     return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, {live->source(), live->name(), by.ticket_remembered, live->notes()}));
   }
@@ -381,12 +381,13 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
       exit_code = run_new(demonstration(*o));
       return;
     }
-    if (o->out.empty()) throw Error("exam", "no session file to write is named", "add --out with a name such as exam.cavum");
+    if (o->out.empty()) throw Error(msg("exam"), msg("no session file to write is named"), msg("add --out with a name such as exam.cavum"));
     if (o->resume) {
       exit_code = run_resumed(*o);
     } else {
-      if (o->scenario.empty()) throw Error("exam", "no scenario given", "name a file such as data/scenarios/molar_access.toml");
-      if (o->candidate.empty() && o->ticket.empty()) throw Error("exam", "no candidate given", "add --candidate with a pseudonym, or --ticket");
+      if (o->scenario.empty()) throw Error(msg("exam"), msg("no scenario given"), msg("name a file such as data/scenarios/molar_access.toml"));
+      if (o->candidate.empty() && o->ticket.empty())
+        throw Error(msg("exam"), msg("no candidate given"), msg("add --candidate with a pseudonym, or --ticket"));
       exit_code = run_new(*o);
     }
   });

@@ -25,7 +25,8 @@ void ledger_forget(const LedgerOptions& o) {
   std::vector<std::string> pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
-    throw Error("--candidate " + o.candidate, "is not among the identities", "nothing is known of that candidate, or it was forgotten before");
+    throw Error("--candidate " + o.candidate, msg("is not among the identities"),
+                msg("nothing is known of that candidate, or it was forgotten before"));
   ledger::forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
   for (const auto& p : pseudonyms) {
     identities.forget(p);
@@ -40,7 +41,8 @@ void ledger_erase(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
   const bool names_some = !o.chosen_sessions.empty() || !o.before.empty();
   if (!names_some) {
-    if (o.erase_motion || o.erase_results) throw Error("ledger erase", "needs to know of which sessions", "give --session for each, or --before");
+    if (o.erase_motion || o.erase_results)
+      throw Error(msg("ledger erase"), msg("needs to know of which sessions"), msg("give --session for each, or --before"));
     ledger.wipe();
     const auto removed = ledger::remove_erased_recordings(ledger.content(), ledger.places());
     std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
@@ -51,7 +53,7 @@ void ledger_erase(const LedgerOptions& o) {
     }
     return;
   }
-  if (!o.erase_motion && !o.erase_results) throw Error("ledger erase", "needs to know what", "give --motion, --results or both");
+  if (!o.erase_motion && !o.erase_results) throw Error(msg("ledger erase"), msg("needs to know what"), msg("give --motion, --results or both"));
   ledger::ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
   if (!o.before.empty()) wish.received_before = ledger::parse_utc(o.before, "--before");
   const auto erased = ledger::erase(ledger, wish, o.reason);

@@ -29,9 +29,9 @@ using nlohmann::json;
 
 void ledger_release(const LedgerOptions& o) {
   if (!o.all && o.chosen.empty() && o.chosen_sessions.empty())
-    throw Error("ledger release", "needs to know whose results", "give --all, --candidate for each, or --session for each");
+    throw Error(msg("ledger release"), msg("needs to know whose results"), msg("give --all, --candidate for each, or --session for each"));
   if (o.all && !(o.chosen.empty() && o.chosen_sessions.empty()))
-    throw Error("--all", "is given with names", "give either --all, or --candidate and --session");
+    throw Error("--all", msg("is given with names"), msg("give either --all, or --candidate and --session"));
   ledger::Ledger ledger(o.folder, key_of(o));
   ledger::Identities identities = sound_identities(ledger);
   ledger::ReleaseWish wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
@@ -75,7 +75,7 @@ void regrade_session(const LedgerOptions& o) {
   const ledger::Registry registry = ledger::read_registry(ledger.content());
   const ledger::FiledSession* found = registry.session(static_cast<std::uint64_t>(o.session_seq));
   if (found == nullptr)
-    throw Error(fmt::format("--session {}", o.session_seq), "is no session's entry", fmt::format("see `cavum ledger show {}`", o.folder));
+    throw Error(fmt::format("--session {}", o.session_seq), msg("is no session's entry"), msg("see `cavum ledger show {}`", o.folder));
   const ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
   const auto graded = grading::load_for_grading(ledger::recording_of(ledger.places(), *found));
   if (auto scenario = ledger::scenario_of(basis, o.scenario)) {
@@ -129,11 +129,13 @@ int regrade_exam(const LedgerOptions& o) {
 }
 
 int ledger_regrade(const LedgerOptions& o) {
-  if (o.rubric.empty() && o.scenario.empty()) throw Error("ledger regrade", "needs to know by what", "give --rubric R.toml or --scenario S.toml");
-  if (o.exam.empty() == (o.session_seq < 0)) throw Error("ledger regrade", "needs to know what", "give --session, or --exam for all of an exam");
-  if (o.reason.empty() && !o.preview) throw Error("--reason", "is no line of text", "say in one line of UTF-8 why the result changes");
+  if (o.rubric.empty() && o.scenario.empty())
+    throw Error(msg("ledger regrade"), msg("needs to know by what"), msg("give --rubric R.toml or --scenario S.toml"));
+  if (o.exam.empty() == (o.session_seq < 0))
+    throw Error(msg("ledger regrade"), msg("needs to know what"), msg("give --session, or --exam for all of an exam"));
+  if (o.reason.empty() && !o.preview) throw Error("--reason", msg("is no line of text"), msg("say in one line of UTF-8 why the result changes"));
   if (!o.exam.empty()) return regrade_exam(o);
-  if (o.preview) throw Error("--preview", "is of a whole exam", "give it with --exam");
+  if (o.preview) throw Error("--preview", msg("is of a whole exam"), msg("give it with --exam"));
   regrade_session(o);
   return 0;
 }
@@ -142,7 +144,7 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.session_seq < 0) {
     const ledger::LedgerContent content = ledger::read_ledger({o.folder});
     if (!content.findings.empty())
-      throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+      throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
     const auto queue = ledger::review_queue(ledger::read_registry(content));
     json list = json::array();
     for (const auto& d : queue) {
@@ -166,7 +168,7 @@ void ledger_decide(const LedgerOptions& o) {
     return;
   }
   if (o.verdict.empty() || o.person.empty() || o.reason.empty())
-    throw Error("ledger decide --session", "needs verdict, person and reason", "give --verdict pass or fail, --person and --reason");
+    throw Error(msg("ledger decide --session"), msg("needs verdict, person and reason"), msg("give --verdict pass or fail, --person and --reason"));
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto& entry =
       ledger::enter_decision(ledger, static_cast<std::uint64_t>(o.session_seq), {ledger::decided_verdict(o.verdict), o.person, o.reason});
@@ -193,7 +195,7 @@ namespace {
 void print_appeals(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   if (!content.findings.empty())
-    throw Error(o.folder, fmt::format("does not hold ({})", content.findings.front()), fmt::format("see `cavum ledger verify {}`", o.folder));
+    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   json list = json::array();
   std::size_t open = 0;
   for (const auto& s : ledger::read_registry(content).sessions)
@@ -220,7 +222,7 @@ void print_appeals(const LedgerOptions& o) {
 
 void ledger_appeal(const LedgerOptions& o) {
   if (o.session_seq < 0) return print_appeals(o);
-  if (o.reason.empty()) throw Error("ledger appeal --session", "needs a reason", "give --reason");
+  if (o.reason.empty()) throw Error(msg("ledger appeal --session"), msg("needs a reason"), msg("give --reason"));
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto session = static_cast<std::uint64_t>(o.session_seq);
   const auto& entry = o.outcome.empty() ? ledger::open_appeal(ledger, session, o.reason)

@@ -24,13 +24,13 @@ using nlohmann::json;
 
 int ledger_ticket(const LedgerOptions& o) {
   if (o.candidate.empty() == o.candidates.empty())
-    throw Error("ledger ticket", "needs to know for whom", "give either --candidate ID or --candidates FILE.csv");
+    throw Error(msg("ledger ticket"), msg("needs to know for whom"), msg("give either --candidate ID or --candidates FILE.csv"));
   ledger::require_candidate_id("--candidate", o.candidate);
   ledger::require_candidate_id("--name", o.name);
   const std::vector<ledger::Person> people = o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}}
                                                                   : ledger::parse_people(read_text_file(o.candidates), o.candidates, o.passed_over);
   const std::int64_t from = ledger::parse_utc(o.from, "--from"), until = ledger::parse_utc(o.until, "--until");
-  if (until <= from) throw Error("--until", "is not after --from", "give the last moment at which the exam may begin");
+  if (until <= from) throw Error("--until", msg("is not after --from"), msg("give the last moment at which the exam may begin"));
   scenarios::ExamOptions exam;
   exam.tooth_file = o.tooth;
   exam.rubric_file = o.rubric;
@@ -101,7 +101,7 @@ void ledger_tickets(const LedgerOptions& o) {
 }
 
 void ledger_cancel(const LedgerOptions& o) {
-  if (o.session_seq < 0) throw Error("--ticket", "is no entry's number", fmt::format("see `cavum ledger tickets {}`", o.folder));
+  if (o.session_seq < 0) throw Error("--ticket", msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto& entry = ledger::cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
   std::cout << "entry " << entry.seq << ": the ticket of entry " << o.session_seq

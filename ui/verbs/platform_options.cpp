@@ -60,7 +60,7 @@ bool set_up_platforms(const PlatformArguments& o, const std::string& home) {
   } else if (!o.link.empty()) {
     const auto p = platform_named(platforms, "--of-platform", o.of);
     if (!o.account.empty() && !office::Accounts(home + "/accounts.json").of(o.account))
-      throw Error("--to " + one_line(o.account), "is no account", "see `cavum serve --accounts`");
+      throw Error("--to " + one_line(o.account), msg("is no account"), msg("see `cavum serve --accounts`"));
     platforms.link(p.issuer, p.client_id, o.link, o.account);
   } else if (o.new_key) {
     platforms.rotate();

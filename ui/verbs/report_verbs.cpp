@@ -57,8 +57,8 @@ Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSessio
   const auto basis = ledger::kept_basis(ledger.content, regrade);
   if (!basis && !regrade.person.empty()) return {};  // a decision on the first mark: the exam's own rubric
   if (!basis)
-    throw Error(entry, fmt::format("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
-                "name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on");
+    throw Error(entry, msg("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
+                msg("name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on"));
   Marking m;
   m.scenario = ledger::scenario_of(*basis, entry + ": scenario.toml");
   m.rubric = ledger::rubric_of(*basis, entry + ": rubric.toml");
@@ -94,10 +94,10 @@ std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession&
   b->marked = marked_session(file, o.marking, grounds);
   const grading::ReportFacts &mine = own.session->facts, &other = b->marked.session->facts;
   if (mine.tooth_hash != other.tooth_hash || own.session->scenario.id != b->marked.session->scenario.id)
-    throw Error("--beside " + o.beside, "is of another task or tooth", "name a session of the same exam, or `expert`");
+    throw Error("--beside " + o.beside, msg("is of another task or tooth"), msg("name a session of the same exam, or `expert`"));
   if (o.for_whom() == report::ReportReader::student && !expert && mine.candidate != other.candidate)
-    throw Error("--beside " + o.beside, "is another candidate's, which a student's report does not show",
-                "name an attempt of the same candidate, or `expert`");
+    throw Error("--beside " + o.beside, msg("is another candidate's, which a student's report does not show"),
+                msg("name an attempt of the same candidate, or `expert`"));
   if (o.for_whom() == report::ReportReader::student && !expert && ledger != nullptr)
     report::require_released_result(ledger->session(to_hex(sha256(read_file(o.beside))), o.beside), b->marked.result);
   b->input.emplace(b->marked.session->input());
@@ -129,7 +129,7 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), {}, {}};
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
   if (filed == nullptr && o.for_whom() == report::ReportReader::student && m.session->scenario.hold_results && !is_practice(*m.session))
-    throw Error(session, "its scenario holds results until the school releases them", "name the ledger that holds it: --ledger");
+    throw Error(session, msg("its scenario holds results until the school releases them"), msg("name the ledger that holds it: --ledger"));
   report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();
@@ -162,10 +162,11 @@ void write_report(const std::string& session, const std::string& out, const Repo
 void run_report(const ReportArguments& o) {
   const bool picture = o.out.ends_with(".svg");
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
-    throw Error(o.out, "the kind of report is not clear from its name", "use a name ending in .html or .pdf, or in .svg for the sections alone");
-  if (o.with_name && o.ledger.empty()) throw Error("--with-name", "names are known to a ledger only", "add --ledger with its folder");
+    throw Error(o.out, msg("the kind of report is not clear from its name"),
+                msg("use a name ending in .html or .pdf, or in .svg for the sections alone"));
+  if (o.with_name && o.ledger.empty()) throw Error("--with-name", msg("names are known to a ledger only"), msg("add --ledger with its folder"));
   if (picture && !o.beside.empty())
-    throw Error("--beside " + o.beside, "is shown in a report, not in a picture of sections", "use a name ending in .html or .pdf");
+    throw Error("--beside " + o.beside, msg("is shown in a report, not in a picture of sections"), msg("use a name ending in .html or .pdf"));
   report::require_report_place(o.out, o.overwrite);
   require_own_places({{"--out " + o.out, o.out}}, {{"session", o.session}, {"--beside", o.beside}});
   require_sound_marking(o.marking);
@@ -182,8 +183,7 @@ int run_all(const ReportArguments& o) {
   const report::ReportLedger ledger(o.ledger);
   std::error_code failed_to_make;
   std::filesystem::create_directories(o.out, failed_to_make);
-  if (failed_to_make)
-    throw Error("--out " + o.out, fmt::format("cannot be made ({})", failed_to_make.message()), "name a folder that you may write to");
+  if (failed_to_make) throw Error("--out " + o.out, msg("cannot be made ({})", failed_to_make.message()), msg("name a folder that you may write to"));
   ReportArguments each = o;
   each.reader = "student";
   grading::ExamGrounds grounds;  // of the class

@@ -99,7 +99,7 @@ std::array<grading::BoundedVolume, scenarios::k_zones> zone_volumes(const Tooth&
 }
 
 int show(const ScenarioArguments& o) {
-  if (!o.out.ends_with(".svg")) throw Error(o.out, "the zones are drawn as SVG only", "use a name ending in .svg");
+  if (!o.out.ends_with(".svg")) throw Error(o.out, msg("the zones are drawn as SVG only"), msg("use a name ending in .svg"));
   require_writable(o.out);
   const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(s) : o.tooth);
@@ -199,8 +199,8 @@ int solve(const ScenarioArguments& o) {
   options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
   const auto setup = scenarios::prepare_exam(o.scenario, options);
   if (o.careless && setup->scenario.careless.fails_by.empty())
-    throw Error(o.scenario, "the scenario says nothing of a careless candidate",
-                "add [careless] with the mistake it is to catch, or leave out --careless");
+    throw Error(o.scenario, msg("the scenario says nothing of a careless candidate"),
+                msg("add [careless] with the mistake it is to catch, or leave out --careless"));
   const ScratchFolder scratch;
   const Solved solved = solve_exam(*setup, o.seed, o.out.empty() ? scratch.file("expert.cavum") : o.out);
   const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;

@@ -65,13 +65,13 @@ std::string typed_password() {
     return line;
   };
   std::string password = typed("the account's new password: ");
-  if (asks && typed("once more: ") != password) throw Error("the password", "was typed differently the second time", "begin again");
+  if (asks && typed("once more: ") != password) throw Error(msg("the password"), msg("was typed differently the second time"), msg("begin again"));
   return password;
 }
 
 void add_account(const ServeArguments& o) {
   const auto role = office::role_named(o.role);
-  if (!role) throw Error("--role " + one_line(o.role), "is none", "say officer, examiner, invigilator or reader");
+  if (!role) throw Error("--role " + one_line(o.role), msg("is none"), msg("say officer, examiner, invigilator or reader"));
   office::Accounts accounts(office_home() + "/accounts.json");
   const office::Account made = accounts.set(o.add_account, *role, typed_password(), o.second_factor, o.known_as);
   std::cout << "written: " << accounts.path() << "\n";
@@ -95,19 +95,19 @@ std::vector<std::string> exams_of(const ServeArguments& o) {
 std::string proxy_secret(const std::string& path) {
   const auto may = std::filesystem::status(path).permissions();
   if ((may & (std::filesystem::perms::group_all | std::filesystem::perms::others_all)) != std::filesystem::perms::none)
-    throw Error(path, "may be read by others", "chmod 600 it: whoever knows the secret can sign in as anybody");
+    throw Error(path, msg("may be read by others"), msg("chmod 600 it: whoever knows the secret can sign in as anybody"));
   const std::string text = read_text_file(path);
   return text.substr(0, text.find_first_of("\r\n"));
 }
 
 void serve(const ServeArguments& o) {
-  if (o.ledger.empty()) throw Error("serve", "needs to know which ledger", "name its folder; `cavum ledger init` makes one");
+  if (o.ledger.empty()) throw Error(msg("serve"), msg("needs to know which ledger"), msg("name its folder; `cavum ledger init` makes one"));
   if (o.certificate.empty() != o.certificate_key.empty())
-    throw Error("--certificate", "and --certificate-key belong together", "give both, or neither: one is made then");
+    throw Error("--certificate", msg("and --certificate-key belong together"), msg("give both, or neither: one is made then"));
   const auto colon = o.listen.rfind(':');
   const std::string port = colon == std::string::npos ? "" : o.listen.substr(colon + 1);
   if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65'535)
-    throw Error("--listen " + one_line(o.listen), "is no address and port", "give one such as 127.0.0.1:8443");
+    throw Error("--listen " + one_line(o.listen), msg("is no address and port"), msg("give one such as 127.0.0.1:8443"));
   office::OfficeOptions options;
   options.ledger_folder = o.ledger;
   options.school = ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key);
@@ -124,7 +124,7 @@ void serve(const ServeArguments& o) {
     office::make_certificate(options.certificate, names);
   }
   if (o.proxy_address.empty() != o.proxy_secret.empty())
-    throw Error("--proxy-address", "and --proxy-secret belong together", "give both, or neither: nobody signs in by a proxy then");
+    throw Error("--proxy-address", msg("and --proxy-secret belong together"), msg("give both, or neither: nobody signs in by a proxy then"));
   if (!o.proxy_address.empty()) options.proxy = office::proxy_sign_on(o.proxy_address, proxy_secret(o.proxy_secret), o.proxy_header);
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
@@ -147,8 +147,8 @@ struct OfficeArguments {
 office::StationClient client_of(const OfficeArguments& o) {
   const std::string school = ledger::station_school_key();
   if (school.empty())
-    throw Error(ledger::school_public_key_path(), "this station knows no school yet",
-                "copy the school's public key there: `cavum ledger init` writes it");
+    throw Error(ledger::school_public_key_path(), msg("this station knows no school yet"),
+                msg("copy the school's public key there: `cavum ledger init` writes it"));
   return {o.server, o.certificate, school, load_station_key(station_key_path())};
 }
 

@@ -21,13 +21,13 @@ constexpr std::size_t k_kept_keys = 2;
 
 void require_line(const LtiLine& text, const char* name, bool needed) {
   if (!is_plain_text(text) || (needed && text.empty()))
-    throw Error(fmt::format("the platform's '{}'", name), "is no line of text", "copy it from the platform's page of this tool");
+    throw Error(msg("the platform's '{}'", name), msg("is no line of text"), msg("copy it from the platform's page of this tool"));
 }
 
 void require_address(const LtiLine& text, const char* name, bool needed) {
   require_line(text, name, needed);
   if (!text.empty() && origin_of(text).empty())
-    throw Error(fmt::format("the platform's '{}'", name), "is no address of https", "give one such as https://moodle.example/mod/lti/certs.php");
+    throw Error(msg("the platform's '{}'", name), msg("is no address of https"), msg("give one such as https://moodle.example/mod/lti/certs.php"));
 }
 
 }  // namespace
@@ -69,18 +69,20 @@ LtiPlatform sound_platform(LtiPlatform p) {
   if (p.key_set.is_string())
     p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
   if (p.jwks_url.empty() == p.key_set.is_null())
-    throw Error("the platform's keys", p.jwks_url.empty() ? "are missing" : "stand there twice", "give jwks_url or key_set, and not both");
+    throw Error(msg("the platform's keys"), p.jwks_url.empty() ? msg("are missing") : msg("stand there twice"),
+                msg("give jwks_url or key_set, and not both"));
   if (!p.key_set.is_null() && !member_of(p.key_set, "keys").is_array())
-    throw Error("the platform's 'key_set'", "is no key set", "give the whole key set as the platform writes it");
+    throw Error(msg("the platform's 'key_set'"), msg("is no key set"), msg("give the whole key set as the platform writes it"));
   if (p.claim.empty()) p.claim = "sub";
   if (!std::regex_match(p.claim, k_claim))
-    throw Error("the platform's 'claim'", "is none that candidates can be matched by", "say sub, custom.NAME or lis.NAME");
+    throw Error(msg("the platform's 'claim'"), msg("is none that candidates can be matched by"), msg("say sub, custom.NAME or lis.NAME"));
   for (LtiLine& host : p.hosts) {
     require_address(host, "hosts", true);
     host = origin_of(host);
   }
   std::erase_if(static_cast<std::vector<cavum::Text<255>>&>(p.deployments), [](const auto& d) { return d.empty(); });
-  if (p.deployments.empty()) throw Error("the platform's 'deployments'", "are missing", "give the deployment id that the platform shows");
+  if (p.deployments.empty())
+    throw Error(msg("the platform's 'deployments'"), msg("are missing"), msg("give the deployment id that the platform shows"));
   return p;
 }
 
@@ -93,7 +95,7 @@ LtiPlatforms::File LtiPlatforms::read() const {
   if (!std::filesystem::exists(path_)) return {};
   const json read = parse_json(read_text_file(path_), path_);
   if (text_in(read, "format") != k_platforms_format || !member_of(read, "platforms").is_array() || !member_of(read, "keys").is_array())
-    throw Error(path_, "is no file of learning platforms", "restore it, or remove it and set them up anew");
+    throw Error(path_, msg("is no file of learning platforms"), msg("restore it, or remove it and set them up anew"));
   File file;
   for (const json& one : read["platforms"]) file.platforms.push_back(platform_in(one));
   for (const json& k : read["keys"]) file.keys.push_back({text_in(k, "kid"), text_in(k, "pem"), whole_in(k, "made_utc_ns")});
@@ -137,16 +139,16 @@ void LtiPlatforms::remove(const std::string& issuer, const std::string& client_i
   const std::lock_guard guard(lock_);
   File file = read();
   if (std::erase_if(file.platforms, [&](const LtiPlatform& p) { return p.is(issuer, client_id); }) == 0)
-    throw Error("platform " + one_line(issuer), "is not set up", "see `cavum serve --platforms`");
+    throw Error(msg("platform {}", one_line(issuer)), msg("is not set up"), msg("see `cavum serve --platforms`"));
   write(file);
 }
 
 void LtiPlatforms::link(const std::string& issuer, const std::string& client_id, const std::string& sub, const std::string& account) {
-  if (sub.empty() || sub.size() > 255) throw Error("the person's 'sub'", "is none", "copy it from the platform");
+  if (sub.empty() || sub.size() > 255) throw Error(msg("the person's 'sub'"), msg("is none"), msg("copy it from the platform"));
   const std::lock_guard guard(lock_);
   File file = read();
   const auto same = std::find_if(file.platforms.begin(), file.platforms.end(), [&](const LtiPlatform& p) { return p.is(issuer, client_id); });
-  if (same == file.platforms.end()) throw Error("platform " + one_line(issuer), "is not set up", "see `cavum serve --platforms`");
+  if (same == file.platforms.end()) throw Error(msg("platform {}", one_line(issuer)), msg("is not set up"), msg("see `cavum serve --platforms`"));
   if (account.empty())
     same->accounts.erase(sub);
   else
