@@ -204,7 +204,10 @@ void read_json_value(const nlohmann::json& from, const std::string& field, T& in
   } else if constexpr (JsonList<T>) {
     require(from.is_array(), "is no list");
     if constexpr (requires { T::k_most; }) require(from.size() <= T::k_most, fmt::format("has more than {} elements", T::k_most));
-    for (const auto& one : from) read_json_value(one, fmt::format("{}[{}]", field, into.size()), into.emplace_back());
+    for (const auto& one : from) {
+      const std::string place = fmt::format("{}[{}]", field, into.size());
+      read_json_value(one, place, into.emplace_back());
+    }
   } else if constexpr (std::derived_from<T, std::string>) {
     require(from.is_string(), "is no text");
     static_cast<std::string&>(into) = from.template get<std::string>();
