@@ -1,0 +1,39 @@
+#include "grading/result/finding.h"
+
+#include <nlohmann/json.hpp>
+
+#include "grading/result/result_json.h"
+
+namespace cavum::grading {
+namespace {
+
+nlohmann::ordered_json json_of(const Value& value) {
+  using Json = nlohmann::ordered_json;
+  struct Of {
+    Json operator()(std::int64_t whole) const { return whole; }
+    Json operator()(const Number& n) const { return rounded(n.value); }
+    Json operator()(const ClockTime& c) const { return rounded(c.seconds); }
+    Json operator()(Vec3 p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+    Json operator()(const Name& n) const { return n.text; }
+    Json operator()(const FilePlace& p) const { return p.file; }
+    Json operator()(const Term& t) const { return t.english; }
+    Json operator()(const Authored& a) const { return a.english; }
+    Json operator()(const List& list) const {
+      Json all = Json::array();
+      for (const Message& m : list.items) all.push_back(english_text(m));
+      return all;
+    }
+    Json operator()(const Message& m) const { return english_text(m); }
+  };
+  return std::visit(Of(), static_cast<const Value::variant&>(value));
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Finding& f) {
+  nlohmann::ordered_json values = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = json_of(f.values[i]);
+  return {{"kind", f.row().name}, {"values", values}, {"text", english_text(f.message())}};
+}
+
+}  // namespace cavum::grading
