@@ -141,13 +141,13 @@ Standing standing_of(const Result& r) {
   if (r.compensatory) {
     double sum = 0;
     for (const auto& c : r.criteria) sum += c.points;
-    if (!(r.max_points > 0)) return {.percent = 0};
-    return {.percent = 100 * sum / r.max_points, .bound_percent = 100 * r.points_bound / r.max_points};
+    if (!(r.max_points > 0)) return {0, "", false, 0};
+    return {100 * sum / r.max_points, "", false, 100 * r.points_bound / r.max_points};
   }
   for (const auto& c : r.criteria) {
     if (!(c.max > 0) || !c.judged) continue;
     const double percent = 100 * c.points / c.max;
-    if (percent < s.percent || s.criterion.empty()) s = {.percent = percent, .criterion = c.id, .bound_percent = 100 * c.points_bound / c.max};
+    if (percent < s.percent || s.criterion.empty()) s = {percent, c.id, false, 100 * c.points_bound / c.max};
   }
   s.none = s.criterion.empty();
   return s;

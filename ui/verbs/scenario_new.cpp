@@ -174,7 +174,7 @@ void add_scenario_new(CLI::App& scenario, int& exit_code) {
   news->add_option("--tooth", o->tooth, tooth_names() + ", or a tooth file (.cvt)")->capture_default_str();
   news->add_option("--task", o->task,
                    fmt::format("on a tooth, whose landmarks the zones follow: {}; on the block: {}; left out: the first that there is",
-                               fmt::join(scenarios::tooth_task_words(), ", "), list_of(scenarios::block_task_words())));
+                               fmt::join(scenarios::tooth_task_words(), ", "), fmt::join(scenarios::block_task_words(), ", ")));
   news->add_option("--out", o->out, "file to write");
   news->add_flag("--list", o->list, "which tasks make sense on the tooth, and why others do not");
   news->add_flag("--untried", o->untried, "write a task for a tooth without trying it: the expert need not pass, wrong work may");
