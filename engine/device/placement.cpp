@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 
 namespace cavum {
 namespace {
@@ -61,7 +61,8 @@ void require_a_plane(const std::vector<Vec3>& marks) {
         if (longest > 0) width = std::max(width, length(cross(marks[j] - marks[i], marks[k] - marks[i])) / longest);
       }
   if (!(width >= k_least_mm))
-    throw Error(msg("placement"), msg("the marks lie on a line, or too close together"), msg("touch marks further apart, in the order asked for"));
+    throw Error(DeviceError::marks_in_line, msg("placement"), msg("the marks lie on a line, or too close together"),
+                msg("touch marks further apart, in the order asked for"));
 }
 
 }  // namespace
@@ -109,7 +110,8 @@ Placement upright_device(Vec3 middle_mm) noexcept {
 
 PlacementFit fit_placement(const std::vector<Vec3>& device_mm, const std::vector<Vec3>& tooth_mm) {
   if (device_mm.size() != tooth_mm.size() || device_mm.size() < 3)
-    throw Error(msg("placement"), msg("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
+    throw Error(DeviceError::unequal_marks, msg("placement"),
+                msg("there are {} marks of the device for {} of the tooth", device_mm.size(), tooth_mm.size()),
                 msg("touch at least three, each once"));
   require_a_plane(device_mm);
   require_a_plane(tooth_mm);

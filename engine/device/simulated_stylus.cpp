@@ -38,7 +38,6 @@ void SimulatedStylus::send_force(Vec3 force_n) {
 
 StylusHealth SimulatedStylus::health() const {
   StylusHealth h;
-  h.ready = true;
   h.readings = readings_.load(std::memory_order_relaxed);
   h.plugged_in = 1;
   h.forces_cut = forces_cut_.load(std::memory_order_relaxed);

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 
+#include "engine/base/error.h"
 #include "engine/servo/servo_device.h"
 
 namespace cavum {
@@ -24,8 +26,7 @@ struct StylusFacts {
 
 /// How it fares. Periods are between readings that came from the device.
 struct StylusHealth {
-  bool ready = false;   ///< positions come, and they mean something
-  std::string problem;  ///< while not ready: what is wrong, and what to do
+  std::optional<Error> problem = {};  ///< none: positions come, and they mean something
   std::int64_t readings = 0;
   std::int64_t plugged_in = 0, unplugged = 0;
   std::int64_t forces_cut = 0;                                      ///< commands that were larger than it can bear

@@ -79,7 +79,7 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
   EXPECT_TRUE(servo.running()) << "the exam waits for it";
   const std::int64_t silent = tick;
   falcon.plug_in();
-  EXPECT_TRUE(comes_true([&] { return force_n > 0.2 && pushes(); })) << stylus.health().problem;
+  EXPECT_TRUE(comes_true([&] { return force_n > 0.2 && pushes(); })) << testing_basics::text_of(stylus.health().problem);
   servo.ask_to_stop();
   servo.join();
   EXPECT_TRUE(comes_true([&] { return !pushes(); })) << "no force after the end";

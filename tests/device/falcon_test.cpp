@@ -9,8 +9,10 @@
 #include <thread>
 
 #include "engine/base/file.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/falcon_stylus.h"
 #include "engine/device/hardware/open_stylus.h"
+#include "engine/device/hardware/udev_rule.h"
 #include "tests/device/emulated_falcon.h"
 #include "tests/device/emulated_pedal.h"
 #include "tests/engine/support/basics.h"
@@ -19,7 +21,8 @@ namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
-using testing_basics::error_of;
+using testing_basics::code_of;
+using testing_basics::text_of;
 using testing_device::EmulatedFalcon;
 
 bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 20000ms) {
@@ -42,7 +45,8 @@ class FalconTest : public ::testing::Test {
     ::setenv("CAVUM_HOME", folder_.file("").c_str(), 1);
     ::unsetenv("CAVUM_FALCON_FIRMWARE");
   }
-  static bool ready(const Stylus& stylus) { return stylus.health().ready; }
+  static bool ready(const Stylus& stylus) { return !stylus.health().problem; }
+  static std::optional<ErrorCode> wrong(const Stylus& stylus) { return code_of(stylus.health().problem); }
   static Vec3 place(Stylus& stylus) { return stylus.read(1e-3).pose.tip_mm; }
 
   testing_basics::Folder folder_;
@@ -50,16 +54,15 @@ class FalconTest : public ::testing::Test {
 
 TEST_F(FalconTest, IsFoundAndItsPlaceIsWhereItStands) {
   EmulatedFalcon falcon;
-  bool there = false;
-  EXPECT_EQ(falcon_problem(there), "");
-  EXPECT_TRUE(there);
+  const StylusLook look = look_for_falcon();
+  EXPECT_TRUE(look.there && !look.problem) << text_of(look.problem);
   FalconStylus stylus(own_frame());
   std::mt19937_64 random(testing_basics::drawn_seed("FalconTest"));
   std::uniform_real_distribution<double> off(-25, 25);
   for (int i = 0; i < 20; ++i) {
     const Vec3 at = k_falcon_middle_mm + Vec3{off(random), off(random), off(random)};
     falcon.move_to(at);
-    ASSERT_TRUE(comes_true([&] { return length(place(stylus) - at) < 2 * k_falcon_quantum_mm; })) << stylus.health().problem;
+    ASSERT_TRUE(comes_true([&] { return length(place(stylus) - at) < 2 * k_falcon_quantum_mm; })) << text_of(stylus.health().problem);
   }
   EXPECT_TRUE(comes_true([&] { return (stylus.read(1e-3).flags & k_stylus_fresh) != 0; }));
   falcon.press(1);
@@ -68,10 +71,10 @@ TEST_F(FalconTest, IsFoundAndItsPlaceIsWhereItStands) {
   EXPECT_TRUE(comes_true([&] { return (stylus.read(1e-3).flags & (k_button_1 | k_button_2)) == k_button_2; }));
 }
 
-TEST_F(FalconTest, WithoutFirmwareItSaysWhereToGetIt) {
+TEST_F(FalconTest, WithoutFirmwareItSaysSo) {
   const EmulatedFalcon falcon(false);
   const FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return stylus.health().problem.find("CAVUM_FALCON_FIRMWARE") != std::string::npos; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::firmware_missing; })) << text_of(stylus.health().problem);
   EXPECT_FALSE(ready(stylus));
 }
 
@@ -84,7 +87,7 @@ TEST_F(FalconTest, FirmwareArrivesByteForByteAndRuns) {
   StationStylus station = own_frame();
   station.settings["firmware"] = folder_.file("fw.bin");
   FalconStylus stylus(station);
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   const auto got = falcon.firmware();
   EXPECT_EQ(std::string(got.begin(), got.end()), firmware);
 }
@@ -95,14 +98,13 @@ TEST_F(FalconTest, AFirmwareThatDoesNotArriveIsSaid) {
   write_text_file(folder_.file("fw.bin"), std::string(500, 'x'));
   ::setenv("CAVUM_FALCON_FIRMWARE", folder_.file("fw.bin").c_str(), 1);
   const FalconStylus stylus(own_frame());
-  EXPECT_TRUE(comes_true([&] { return stylus.health().problem.find("while the firmware is loaded") != std::string::npos; }))
-      << stylus.health().problem;
+  EXPECT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::wrong_firmware; })) << text_of(stylus.health().problem);
 }
 
 TEST_F(FalconTest, HomesBeforeItMeansAnything) {
   EmulatedFalcon falcon(true, false);
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return stylus.health().problem.find("pull its grip out") != std::string::npos; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::needs_homing; })) << text_of(stylus.health().problem);
   stylus.send_force({0, 0, 5});
   std::this_thread::sleep_for(30ms);
   EXPECT_EQ(stylus.read(1e-3).flags & k_stylus_fresh, 0);
@@ -117,14 +119,14 @@ TEST_F(FalconTest, HomesBeforeItMeansAnything) {
     EXPECT_FALSE(ready(stylus)) << "one arm is not all";
   }
   falcon.set_homed(7);
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   EXPECT_TRUE(comes_true([&] { return falcon.last_frame()[13] == 'A' + 2; })) << "green";
 }
 
 TEST_F(FalconTest, ForcesAreTheTransposedMechanismInCounts) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   // Independent: work. Each arm's torque is the force times the way of the grip per turn of that arm, by differences of the inverse mechanism's
   // matrix.
   const Vec3 force{0.7, -1.1, 1.9};
@@ -157,7 +159,7 @@ TEST_F(FalconTest, ForcesAreTheTransposedMechanismInCounts) {
 TEST_F(FalconTest, TooLargeAForceKeepsItsDirectionAndIsCounted) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   const auto motors_for = [&](Vec3 force) {
     stylus.send_force({});
     EXPECT_TRUE(comes_true([&] {
@@ -185,7 +187,7 @@ TEST_F(FalconTest, TooLargeAForceKeepsItsDirectionAndIsCounted) {
 TEST_F(FalconTest, ForceEndsWhenItIsCutAndWhenNobodyRenewsIt) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   const auto pushes = [&] { return falcon.motors() != std::vector<std::int16_t>{0, 0, 0}; };
   ASSERT_TRUE(comes_true([&] {
     stylus.send_force({0, 0, 2});
@@ -206,7 +208,7 @@ TEST_F(FalconTest, ForceEndsWhenItIsCutAndWhenNobodyRenewsIt) {
 TEST_F(FalconTest, UnpluggedItIsNotFreshAndComesBack) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   const auto fresh = [&] { return (stylus.read(1e-3).flags & k_stylus_fresh) != 0; };
   for (int round = 1; round <= 2; ++round) {
     ASSERT_TRUE(comes_true(fresh));
@@ -214,11 +216,11 @@ TEST_F(FalconTest, UnpluggedItIsNotFreshAndComesBack) {
     falcon.unplug();
     ASSERT_TRUE(comes_true([&] { return !fresh(); }));
     ASSERT_TRUE(comes_true([&] { return stylus.health().unplugged == round; }));
-    ASSERT_TRUE(comes_true([&] { return stylus.health().problem.find("plug in") != std::string::npos; })) << stylus.health().problem;
+    ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::not_there; })) << text_of(stylus.health().problem);
     EXPECT_FALSE(fresh());
     EXPECT_LT(length(place(stylus) - before), 1e-9) << "the last place stays, and is not fresh";
     falcon.plug_in();
-    ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+    ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   }
   EXPECT_EQ(stylus.health().plugged_in, 3);
 }
@@ -226,7 +228,7 @@ TEST_F(FalconTest, UnpluggedItIsNotFreshAndComesBack) {
 TEST_F(FalconTest, SilenceIsNotFreshAndDamagedAnswersAreLeftOut) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   falcon.garble(true);
   const auto before = stylus.health().readings;
   ASSERT_TRUE(comes_true([&] { return stylus.health().readings > before + 20; })) << "every second one is sound";
@@ -241,38 +243,38 @@ TEST_F(FalconTest, SilenceIsNotFreshAndDamagedAnswersAreLeftOut) {
 TEST_F(FalconTest, SpeaksAThousandTimesASecond) {
   EmulatedFalcon falcon;
   FalconStylus stylus(own_frame());
-  ASSERT_TRUE(comes_true([&] { return ready(stylus) && stylus.health().readings > 2000; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus) && stylus.health().readings > 2000; })) << text_of(stylus.health().problem);
   const StylusHealth h = stylus.health();
   std::printf("%.0f exchanges a second, scatter %.2f ms, longest gap %.1f ms\n", 1 / h.mean_period_s, 1e3 * h.jitter_s, 1e3 * h.longest_gap_s);
   EXPECT_GT(h.mean_period_s, 0.9e-3) << "never faster than the servo";
 }
 
-TEST_F(FalconTest, OpensByNameAndErrorsNameWhatThereIs) {
+TEST_F(FalconTest, OpensByNameAndErrorsSayWhatIsWrong) {
   {
     EmulatedFalcon falcon;
     const auto stylus = open_stylus("falcon");
     EXPECT_LT(length(first_pose(*stylus, 20.0).tip_mm), 2 * k_falcon_quantum_mm) << "the usual placement has the middle at the crown's";
     const auto found = list_styluses();
     EXPECT_TRUE(found[1].there);
-    EXPECT_EQ(found[1].problem, "");
+    EXPECT_FALSE(found[1].problem) << text_of(found[1].problem);
     falcon.unplug();
     falcon.plug_in();
   }
   const auto none = list_styluses();
   EXPECT_FALSE(none[1].there);
-  EXPECT_NE(none[1].problem.find("power supply"), std::string::npos);
-  EXPECT_NE(error_of([] { static_cast<void>(open_stylus("phantom")); }).find("simulated, falcon, touch"), std::string::npos);
+  EXPECT_EQ(code_of(none[1].problem), DeviceError::not_there);
+  EXPECT_EQ(code_of([] { static_cast<void>(open_stylus("phantom")); }), DeviceError::unknown_stylus);
 }
 
 TEST_F(FalconTest, OneThatMayNotBeOpenedNamesTheRule) {
   if (::geteuid() == 0) GTEST_SKIP() << "root may open everything";
   EmulatedFalcon falcon;
   falcon.forbid();
-  bool there = false;
-  const std::string problem = falcon_problem(there);
-  EXPECT_TRUE(there);
-  EXPECT_NE(problem.find(R"(SUBSYSTEM=="usb", ATTR{idVendor}=="0403", ATTR{idProduct}=="cb48")"), std::string::npos) << problem;
-  EXPECT_NE(error_of([] { static_cast<void>(open_stylus("falcon")); }).find("/etc/udev/rules.d"), std::string::npos);
+  const StylusLook look = look_for_falcon();
+  EXPECT_TRUE(look.there);
+  EXPECT_EQ(code_of(look.problem), DeviceError::not_permitted);
+  EXPECT_NE(text_of(look.problem).find(udev_rule(k_falcon_vendor, k_falcon_product, false)), std::string::npos) << text_of(look.problem);
+  EXPECT_EQ(code_of([] { static_cast<void>(open_stylus("falcon")); }), DeviceError::not_permitted);
 }
 
 }  // namespace

@@ -42,9 +42,7 @@ TEST_F(FalconVerb, IsListedAndTried) {
   const auto j = nlohmann::json::parse(tried.out);
   EXPECT_GT(j["rate_hz"], 50.0);
   EXPECT_LT(j["rate_hz"], 1100.0);
-  const Ran pushed = run("devices --test --stylus falcon --seconds 0.2");
-  EXPECT_EQ(pushed.code, 1) << "this one is never moved by a force";
-  EXPECT_NE(pushed.out.find("did not move"), std::string::npos) << pushed.out;
+  EXPECT_EQ(run("devices --test --stylus falcon --seconds 0.2").code, 1) << "this one is never moved by a force";
 }
 
 TEST_F(FalconVerb, TheRuleForUdevIsPrintedForItAndForNoStylusThatNeedsNone) {
@@ -88,7 +86,7 @@ TEST_F(FalconVerb, IsPlacedByFourMarks) {
     std::fflush(pipe);
   }
   ASSERT_EQ(WEXITSTATUS(::pclose(pipe)), 0);
-  const StationStylus kept = load_station_stylus(stylus_kinds().at("falcon", "test", {StylusHand::person}));
+  const StationStylus kept = load_station_stylus(stylus_kinds().at("falcon", {}, {StylusHand::person}));
   for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{10, -5, 8}})
     EXPECT_LT(length(to_tooth(kept.placement, device_at(p)).tip_mm - p), 0.2) << "two encoder steps and more";
   EXPECT_NE(run("devices").out.find("(placed)"), std::string::npos);

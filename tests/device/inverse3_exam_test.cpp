@@ -113,7 +113,8 @@ TEST_F(Inverse3Exam, IsListedAndTried) {
   ASSERT_EQ(tried.code, 0) << tried.out;
   EXPECT_GT(nlohmann::json::parse(tried.out)["rate_hz"], 400.0);
   service_.stop();
-  EXPECT_NE(testing_device::run("devices").out.find("no service listens"), std::string::npos);
+  const auto stopped = nlohmann::json::parse(testing_device::run("devices --json").out)["styluses"];
+  EXPECT_TRUE(std::any_of(stopped.begin(), stopped.end(), [](const auto& s) { return s["id"] == "inverse3" && s["there"] == false; }));
 }
 
 TEST_F(Inverse3Exam, IsPlacedByFourMarksAndACrownAtTheEdgeOfItsReachIsNamed) {

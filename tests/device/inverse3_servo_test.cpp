@@ -12,7 +12,7 @@ using Answer = testing_device::EmulatedInverse3::Answer;
 TEST(Inverse3Servo, ReadingAndPushingNeitherAllocateNorWait) {
   testing_device::EmulatedInverse3 service;
   Inverse3Stylus stylus(testing_device::own_frame(service));
-  ASSERT_TRUE(testing_device::comes_true([&] { return stylus.health().ready; }));
+  ASSERT_TRUE(testing_device::comes_true([&] { return !stylus.health().problem; }));
   for (const Answer answer : {Answer::state, Answer::nothing, Answer::no_json}) {
     service.answer_with(answer);
     constexpr int k_steps = 100'000;

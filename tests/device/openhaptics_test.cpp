@@ -8,6 +8,7 @@
 #include <random>
 #include <thread>
 
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/openhaptics_stylus.h"
 #include "tests/engine/support/basics.h"
@@ -16,7 +17,9 @@ namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
+using testing_basics::code_of;
 using testing_basics::error_of;
+using testing_basics::text_of;
 
 bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 20000ms) {
   for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
@@ -43,7 +46,7 @@ struct Hands {
 };
 
 StationStylus station(const std::string& name = {}) {
-  StationStylus s = usual_station_stylus(stylus_kinds().at("touch", "test", {StylusHand::person}));
+  StationStylus s = usual_station_stylus(stylus_kinds().at("touch", {}, {StylusHand::person}));
   s.placement = {};
   s.settings["library"] = FAKE_HD;
   s.settings["device_name"] = name;
@@ -57,31 +60,31 @@ class OpenHaptics : public ::testing::Test {
   static void forget() {
     for (const char* name : {"FAKE_HD_NO_DEVICE", "FAKE_HD_ERROR_AFTER_MS", "FAKE_HD_CALIBRATION"}) ::unsetenv(name);
   }
-  static bool ready(const Stylus& stylus) { return stylus.health().ready; }
+  static std::optional<ErrorCode> wrong(const Stylus& stylus) { return code_of(stylus.health().problem); }
+  static bool ready(const Stylus& stylus) { return !stylus.health().problem; }
   Hands hands_;
 };
 
-TEST_F(OpenHaptics, WithoutTheLibraryItSaysWhatToInstall) {
+TEST_F(OpenHaptics, WithoutTheLibraryItSaysSo) {
   StationStylus none = station();
   none.settings["library"] = "libHD-that-is-nowhere.so";
-  EXPECT_NE(error_of([&] { const OpenHapticsStylus s(none); }).find("install OpenHaptics"), std::string::npos);
+  EXPECT_EQ(code_of([&] { const OpenHapticsStylus s(none); }), DeviceError::library_missing);
   none.settings["library"] = "libm.so.6";
-  EXPECT_NE(error_of([&] { const OpenHapticsStylus s(none); }).find("has no hdInitDevice"), std::string::npos);
-  bool there = true;
-  EXPECT_NE(openhaptics_problem(none, there), "");
-  EXPECT_FALSE(there);
+  EXPECT_EQ(code_of([&] { const OpenHapticsStylus s(none); }), DeviceError::library_too_old);
+  const StylusLook look = look_for_touch(none, true);
+  EXPECT_FALSE(look.there);
+  EXPECT_EQ(code_of(look.problem), DeviceError::library_too_old);
 }
 
 TEST_F(OpenHaptics, ADeviceThatDoesNotBeginIsNamed) {
   ::setenv("FAKE_HD_NO_DEVICE", "1", 1);
-  const std::string said = error_of([] { const OpenHapticsStylus s(station()); });
-  EXPECT_NE(said.find("default device"), std::string::npos) << said;
-  EXPECT_NE(said.find("0x0300"), std::string::npos) << said;
+  const auto begin = [](const std::string& name) { return [name] { const OpenHapticsStylus s(station(name)); }; };
+  EXPECT_EQ(code_of(begin("")), DeviceError::refuses);
+  EXPECT_NE(error_of(begin("")).find("0x0300"), std::string::npos) << "the number of its maker's driver";
   ::unsetenv("FAKE_HD_NO_DEVICE");
-  EXPECT_NE(error_of([] { const OpenHapticsStylus s(station("right")); }).find("'right'"), std::string::npos);
-  bool there = false;
-  EXPECT_EQ(openhaptics_problem(station(), there), "");
-  EXPECT_TRUE(there);
+  EXPECT_NE(error_of(begin("right")).find("right"), std::string::npos);
+  const StylusLook look = look_for_touch(station(), true);
+  EXPECT_TRUE(look.there && !look.problem) << text_of(look.problem);
   StylusOptions options;
   options.station = station();
   EXPECT_EQ(open_stylus("touch", options)->facts().id, "touch") << "looking leaves it free";
@@ -104,7 +107,7 @@ TEST_F(OpenHaptics, PlaceDirectionAndButtonsAreTheDevices) {
     ASSERT_TRUE(comes_true([&] {
       r = stylus.read(1e-3);
       return length(r.pose.tip_mm - at) < 1e-12 && (r.flags & k_stylus_fresh) != 0;
-    })) << stylus.health().problem;
+    })) << text_of(stylus.health().problem);
     EXPECT_LT(length(rotation(r.pose.rotation) * Vec3{0, 0, 1} - m * Vec3{0, 0, 1}), 1e-12) << "towards the handle";
     EXPECT_LT(length(rotation(r.pose.rotation) * Vec3{1, 0, 0} - m * Vec3{1, 0, 0}), 1e-12);
     EXPECT_EQ((r.flags & k_button_1) != 0, i % 4 % 2 == 1);
@@ -116,7 +119,7 @@ TEST_F(OpenHaptics, ForcesArriveInTheDevicesFrameAndAreCutToItsPeak) {
   StationStylus placed = station();
   placed.placement = touch_kind().placement;
   OpenHapticsStylus stylus(placed);
-  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
   const auto arrives = [&](Vec3 sent, Vec3 wanted) {
     return comes_true([&] {
       stylus.send_force(sent);
@@ -155,20 +158,20 @@ TEST_F(OpenHaptics, ForceEndsWhenItIsCutWhenNobodyRenewsItAndAtTheEnd) {
 TEST_F(OpenHaptics, NotCalibratedItGivesNoPlaceAndNoForce) {
   ::setenv("FAKE_HD_CALIBRATION", "manual", 1);
   OpenHapticsStylus stylus(station());
-  ASSERT_TRUE(comes_true([&] { return stylus.health().problem.find("inkwell") != std::string::npos; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::needs_calibration; })) << text_of(stylus.health().problem);
   stylus.send_force({0, 0, 1});
   std::this_thread::sleep_for(30ms);
   EXPECT_EQ(hands_.force_n(0).z, 0.0);
   EXPECT_EQ(stylus.read(1e-3).flags & k_stylus_fresh, 0);
   EXPECT_TRUE(std::isnan(stylus.read(1e-3).pose.tip_mm.x));
   hands_.inkwell(0);
-  EXPECT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  EXPECT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
 }
 
 TEST_F(OpenHaptics, CalibratesItselfWhereTheDeviceCan) {
   ::setenv("FAKE_HD_CALIBRATION", "update", 1);
   OpenHapticsStylus stylus(station());
-  EXPECT_TRUE(comes_true([&] { return ready(stylus); })) << stylus.health().problem;
+  EXPECT_TRUE(comes_true([&] { return ready(stylus); })) << text_of(stylus.health().problem);
 }
 
 TEST_F(OpenHaptics, LostInTheMiddleItIsNotFreshAndSaysSo) {
@@ -176,14 +179,14 @@ TEST_F(OpenHaptics, LostInTheMiddleItIsNotFreshAndSaysSo) {
   OpenHapticsStylus stylus(station());
   const auto fresh = [&] { return (stylus.read(1e-3).flags & k_stylus_fresh) != 0; };
   ASSERT_TRUE(comes_true(fresh));
-  ASSERT_TRUE(comes_true([&] { return stylus.health().problem.find("was lost (error 0x0302)") != std::string::npos; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return wrong(stylus) == DeviceError::lost; })) << text_of(stylus.health().problem);
   EXPECT_TRUE(comes_true([&] { return !fresh(); }));
   EXPECT_FALSE(ready(stylus));
 }
 
 TEST_F(OpenHaptics, TwoDevicesAreTwo) {
   OpenHapticsStylus one(station()), left(station("left"));
-  ASSERT_TRUE(comes_true([&] { return ready(one) && ready(left); })) << one.health().problem << left.health().problem;
+  ASSERT_TRUE(comes_true([&] { return ready(one) && ready(left); })) << text_of(one.health().problem) << text_of(left.health().problem);
   const double here[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 1, 2, 3, 1}, there[16] = {1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, -7, -8, -9, 1};
   hands_.place(0, here, 0);
   hands_.place(1, there, 0);
@@ -193,12 +196,12 @@ TEST_F(OpenHaptics, TwoDevicesAreTwo) {
     left.send_force({0, 1, 0});
     return hands_.force_n(0) == Vec3{1, 0, 0} && hands_.force_n(1) == Vec3{0, 1, 0};
   }));
-  EXPECT_NE(error_of([] { const OpenHapticsStylus again(station("left")); }).find("0x0301"), std::string::npos) << "one that is in use already";
+  EXPECT_EQ(code_of([] { const OpenHapticsStylus again(station("left")); }), DeviceError::refuses) << "one that is in use already";
 }
 
 TEST_F(OpenHaptics, ExchangesOnceInEachOfItsFrames) {
   OpenHapticsStylus stylus(station());
-  ASSERT_TRUE(comes_true([&] { return stylus.health().readings > 1500; })) << stylus.health().problem;
+  ASSERT_TRUE(comes_true([&] { return stylus.health().readings > 1500; })) << text_of(stylus.health().problem);
   const StylusHealth h = stylus.health();
   const long frames = hands_.frames(0);
   EXPECT_LE(h.readings, frames);

@@ -8,13 +8,17 @@
 #include <functional>
 #include <thread>
 
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "tests/device/the_pedal.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
 
 using namespace std::chrono_literals;
+using testing_basics::code_of;
+using testing_basics::text_of;
 using EmulatedPedal = testing_device::ThePedal;
 
 bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 3000ms) {
@@ -36,7 +40,7 @@ TEST_F(PedalTest, IsFoundWithItsAxes) {
   ASSERT_EQ(found.size(), 1u);
   EXPECT_EQ(found[0].id(), "068e:00f2");
   EXPECT_EQ(found[0].axes.size(), 3u);
-  EXPECT_EQ(found[0].problem, "");
+  EXPECT_FALSE(found[0].problem) << text_of(found[0].problem);
   EXPECT_EQ(found[0].path, pedal.path());
   EXPECT_EQ(found[0].name, "CH Products Pro Pedals");
 }
@@ -44,7 +48,7 @@ TEST_F(PedalTest, IsFoundWithItsAxes) {
 TEST_F(PedalTest, PresentButSilentIsUnknown) {
   const EmulatedPedal pedal;
   HidPedal reader(0x068e, 0x00f2, {});
-  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   std::this_thread::sleep_for(100ms);
   const PedalReading r = reader.read();
   EXPECT_FALSE(r.fresh);
@@ -54,7 +58,7 @@ TEST_F(PedalTest, PresentButSilentIsUnknown) {
 TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
   EmulatedPedal pedal;
   HidPedal reader(0x068e, 0x00f2, {.axis = 1, .released = 200, .pressed = 100, .speaks_on_change = false});
-  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   pedal.report_axes(7, 150, 9);
   ASSERT_TRUE(comes_true([&] { return std::abs(reader.read().position - 0.5) < 1e-4; }));
   pedal.report_axes(7, 250, 9);
@@ -66,7 +70,7 @@ TEST_F(PedalTest, ReadsTheCalibratedAxisAndGoesStale) {
 TEST_F(PedalTest, OneThatSpeaksOnChangeHoldsWhileItIsPluggedIn) {
   EmulatedPedal pedal;
   HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = true});
-  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   EXPECT_FALSE(reader.read().fresh) << "nothing heard yet";
   pedal.report_axes(255, 0, 0);
   ASSERT_TRUE(comes_true([&] { return reader.read().fresh; }));
@@ -80,7 +84,7 @@ TEST_F(PedalTest, OneThatSpeaksOnChangeHoldsWhileItIsPluggedIn) {
 TEST_F(PedalTest, ThreeThousandReportsArriveWithoutAGap) {
   EmulatedPedal pedal;
   HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
-  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   constexpr int k_reports = 3000;
   auto next = std::chrono::steady_clock::now();
   for (int i = 0; i < k_reports; ++i) {
@@ -97,7 +101,7 @@ TEST_F(PedalTest, ThreeThousandReportsArriveWithoutAGap) {
 TEST_F(PedalTest, UnpluggedIsUnknownWithin50msAndComesBack) {
   EmulatedPedal pedal;
   HidPedal reader(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});
-  ASSERT_TRUE(comes_true([&] { return reader.problem().empty(); })) << reader.problem();
+  ASSERT_TRUE(comes_true([&] { return !reader.problem(); })) << text_of(reader.problem());
   for (int round = 0; round < 2; ++round) {
     ASSERT_TRUE(comes_true([&] {
       pedal.report_axes(255, 0, 0);
@@ -115,7 +119,7 @@ TEST_F(PedalTest, UnpluggedIsUnknownWithin50msAndComesBack) {
     }));
     EXPECT_LT(last_fresh - gone, 50ms);
     ASSERT_TRUE(comes_true([&] { return std::isnan(reader.read().position); }));
-    EXPECT_NE(reader.problem(), "");
+    EXPECT_TRUE(reader.problem());
     pedal.plug_in();
   }
   ASSERT_TRUE(comes_true([&] { return reader.counts().plugged_in == 3; }));
@@ -128,17 +132,18 @@ TEST_F(PedalTest, OneThatMayNotBeOpenedNamesTheRule) {
   pedal.forbid();
   const auto found = list_hid_pedals();
   ASSERT_EQ(found.size(), 1u);
-  EXPECT_NE(found[0].problem.find("{idVendor}==\"068e\""), std::string::npos) << found[0].problem;
+  EXPECT_EQ(code_of(found[0].problem), DeviceError::not_permitted);
+  EXPECT_NE(text_of(found[0].problem).find("{idVendor}==\"068e\""), std::string::npos) << text_of(found[0].problem);
 }
 
 TEST_F(PedalTest, NoAxisOrNonsenseIsSaidAndNeverCuts) {
-  for (const std::vector<std::uint8_t>& descriptor :
-       {std::vector<std::uint8_t>{0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, 8, 0x81, 2},
-        std::vector<std::uint8_t>{0xff, 0x80, 0x12}}) {
+  using Descriptor = std::vector<std::uint8_t>;
+  for (const auto& [descriptor, wrong] :
+       {std::pair{Descriptor{0x05, 0x07, 0x19, 0xe0, 0x29, 0xe7, 0x15, 0, 0x25, 1, 0x75, 1, 0x95, 8, 0x81, 2}, DeviceError::no_such_axis},
+        {Descriptor{0xff, 0x80, 0x12}, DeviceError::bad_descriptor}}) {
     EmulatedPedal pedal(descriptor);
     HidPedal reader(0x068e, 0x00f2, {});
-    ASSERT_TRUE(comes_true(
-        [&] { return reader.problem().find("068e:00f2") != std::string::npos || reader.problem().find("descriptor") != std::string::npos; }));
+    ASSERT_TRUE(comes_true([&, wrong = wrong] { return code_of(reader.problem()) == wrong; })) << text_of(reader.problem());
     pedal.report({0xff, 0xff, 0xff});
     std::this_thread::sleep_for(30ms);
     EXPECT_FALSE(reader.read().fresh);

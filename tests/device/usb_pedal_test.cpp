@@ -6,6 +6,7 @@
 
 #include "engine/device/hardware/hid_pedal.h"
 #include "tests/device/emulated_usb_pedal.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
@@ -20,7 +21,7 @@ TEST(UsbPedal, IsNeverAskedForAReport) {
       pedal.report_axes(128, 0, 0);
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
-    EXPECT_TRUE(reader.read().fresh) << reader.problem();
+    EXPECT_TRUE(reader.read().fresh) << testing_basics::text_of(reader.problem());
   }
   EXPECT_EQ(pedal.asked_for_reports(), 0) << "the CH pedals do not answer that";
 }

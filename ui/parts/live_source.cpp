@@ -5,8 +5,8 @@
 #include <cstdio>
 #include <thread>
 
-#include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/station_pedal.h"
@@ -73,27 +73,30 @@ class StylusSource final : public LiveSource {
     }
     using Clock = std::chrono::steady_clock;
     constexpr auto k_patience = std::chrono::seconds(60);
-    std::string told;
-    for (const auto until = Clock::now() + k_patience; !stylus_->health().ready && Clock::now() < until;
-         std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+    Message told;
+    for (const auto until = Clock::now() + k_patience; Clock::now() < until; std::this_thread::sleep_for(std::chrono::milliseconds(20))) {
+      const std::optional<Error> now = stylus_->health().problem;
+      if (!now) break;
       if (Interrupt::asked()) throw Error(msg("exam"), msg("was interrupted before it began"), msg("begin it again"));
-      if (const std::string now = stylus_->health().problem; now != told) std::fprintf(stderr, "cavum: %s\n", one_line(told = now).c_str());
+      if (now->message() == told) continue;
+      told = now->message();
+      std::fprintf(stderr, "cavum: %s\n", one_line(english_text(told)).c_str());
     }
     first_mm_ = first_pose(*stylus_, 1.0).tip_mm;
   }
   [[nodiscard]] ServoDevice& device() override { return *with_desk_; }
   [[nodiscard]] Vec3 first_tip_mm() const override { return first_mm_; }
   [[nodiscard]] bool done() const override { return false; }
-  [[nodiscard]] std::string problem() const override {
-    const std::string stylus = stylus_->health().problem;
-    return stylus.empty() ? pedal_->problem() : stylus;
+  [[nodiscard]] std::optional<Error> problem() const override {
+    std::optional<Error> stylus = stylus_->health().problem;
+    return stylus ? stylus : pedal_->problem();
   }
 
  private:
   static StationPedal require_pedal() {
     auto pedal = load_station_pedal(station_pedal_path());
     if (!pedal)
-      throw Error(msg("stylus"), msg("this station has no foot pedal, and without one the handpiece stands still"),
+      throw Error(DeviceError::no_pedal, msg("stylus"), msg("this station has no foot pedal, and without one the handpiece stands still"),
                   msg("plug one in and run `cavum devices --calibrate-pedal`; `cavum devices` shows what is plugged in, stylus and pedal"));
     return *pedal;
   }
@@ -112,7 +115,7 @@ class StylusSource final : public LiveSource {
 }  // namespace
 
 std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
-  const StylusKind& kind = stylus_kinds().at(options.device, "--device " + options.device, {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(options.device, Name{"--device " + options.device}, {StylusHand::candidate, StylusHand::person});
   if (kind.hand == StylusHand::candidate) {
     if (options.operator_name.empty())
       throw Error("--device simulated", msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));

@@ -3,8 +3,10 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 
+#include "engine/base/error.h"
 #include "engine/servo/servo_device.h"
 #include "engine/session/resume.h"
 #include "scenarios/exam/exam.h"
@@ -38,7 +40,7 @@ class LiveSource {
   /// The operator has nothing left to do.
   [[nodiscard]] virtual bool done() const = 0;
   /// What goes wrong at the moment, or nothing.
-  [[nodiscard]] virtual std::string problem() const { return {}; }
+  [[nodiscard]] virtual std::optional<Error> problem() const { return {}; }
 };
 
 /// Throws Error when there is no such device, or what it needs is missing.

@@ -22,7 +22,7 @@ ArmClock simulated_clock() {
 Vec3 checked_at_mm(const StylusKind& kind) { return rotation(kind.placement.rotation).transposed(-kind.placement.offset_mm); }
 
 SelfChecked check_station_stylus(const std::string& id, const SelfCheckOptions& o) {
-  const StylusKind& kind = stylus_kinds().at(id, "--stylus " + id, {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::candidate, StylusHand::person});
   const SigningKey key = load_station_key(station_key_path());
   CheckHistory history(check_history_path());  // refused before anything moves
   StylusOptions open;

@@ -270,8 +270,8 @@ void exam_screen(const ScreenContext& c) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", fmt::format("{} call the supervisor: {}", waiting, view.recording_error), t.bad);
   } else if (!c.sitting->moved().empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
-  } else if (const std::string problem = c.sitting->device().problem(); !problem.empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + problem, t.bad);
+  } else if (const std::optional<Error> problem = c.sitting->device().problem()) {
+    words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + english_text(problem->message()), t.bad);
   } else if (view.held) {
     std::string words = tr("{}. The clock stands still and the handpiece stays off.", as_is(s.office ? s.office->hold_reason : ""));
     if (may_go_on_without(s)) words += " " + tr("The office does not answer. Supervisor: press Home to go on.");

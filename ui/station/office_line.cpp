@@ -78,8 +78,8 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   if (view.paused || view.held) r.state = office::AtStation::paused;
   if (!view.recording_error.empty())
     r.alarm = short_line(without_advice(view.recording_error));
-  else if (const std::string problem = sitting->device().problem(); !problem.empty())
-    r.alarm = short_line(without_advice(problem));
+  else if (const std::optional<Error> problem = sitting->device().problem())
+    r.alarm = short_line(english_text(problem->without_advice()));
   else if (state.attempt_shown_s > 0)
     r.alarm = short_line(state.attempt);
   return r;

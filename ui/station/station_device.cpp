@@ -92,7 +92,7 @@ class PluggedIn final : public StationDevice {
     const DeviceReading now = source_->device().read(k_tick_s);
     return is_finite(now.pose.tip_mm) ? now.pose.tip_mm : source_->first_tip_mm();
   }
-  [[nodiscard]] std::string problem() const override { return source_->problem(); }
+  [[nodiscard]] std::optional<Error> problem() const override { return source_->problem(); }
 
  private:
   std::unique_ptr<ui::LiveSource> source_;
@@ -101,7 +101,7 @@ class PluggedIn final : public StationDevice {
 }  // namespace
 
 const StylusKind& station_stylus_kind(const std::string& name) {
-  return stylus_kinds().at(name, "--device " + name, {StylusHand::candidate, StylusHand::mouse, StylusHand::person});
+  return stylus_kinds().at(name, Name{"--device " + name}, {StylusHand::candidate, StylusHand::mouse, StylusHand::person});
 }
 
 std::unique_ptr<StationDevice> make_station_device(const DeviceChoice& choice) {

@@ -42,8 +42,8 @@ class StationDevice {
   [[nodiscard]] virtual bool simulated() const { return false; }
   /// The candidate has nothing left to do: only simulated ones say so.
   [[nodiscard]] virtual bool done() const { return false; }
-  /// What is wrong with it at the moment; empty when nothing is.
-  [[nodiscard]] virtual std::string problem() const { return {}; }
+  /// What is wrong with it at the moment.
+  [[nodiscard]] virtual std::optional<Error> problem() const { return {}; }
   /// Null unless mouse and keyboard are the stylus.
   [[nodiscard]] virtual PointerStylus* pointer() { return nullptr; }
 };

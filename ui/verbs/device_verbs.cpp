@@ -10,9 +10,9 @@
 #include <nlohmann/json.hpp>
 #include <thread>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/station_pedal.h"
 #include "engine/device/hardware/stylus_kind.h"
@@ -37,14 +37,16 @@ struct DeviceArguments {
 
 /// The one that `id` names, or the only one there is.
 HidPedalInfo chosen(const std::vector<HidPedalInfo>& pedals, const std::string& id) {
-  std::string names;
+  List names;
   for (const auto& p : pedals) {
     if (p.id() == id) return p;
-    names += (names.empty() ? "" : ", ") + p.id();
+    names.items.emplace_back(Name{p.id()});
   }
-  if (pedals.empty()) throw Error(msg("devices"), msg("no foot pedal is plugged in"), msg("plug one in; a USB pedal is seen within a second"));
-  if (!id.empty()) throw Error("--pedal " + id, msg("is not plugged in"), msg("name one of {}", names));
-  if (pedals.size() > 1) throw Error(msg("devices"), msg("there are several pedals"), msg("choose with --pedal one of {}", names));
+  if (pedals.empty())
+    throw Error(DeviceError::not_there, msg("devices"), msg("no foot pedal is plugged in"), msg("plug one in; a USB pedal is seen within a second"));
+  if (!id.empty()) throw Error(DeviceError::not_there, Name{"--pedal " + id}, msg("is not plugged in"), msg("name one of {}", names));
+  if (pedals.size() > 1)
+    throw Error(DeviceError::several, msg("devices"), msg("there are several pedals"), msg("choose with --pedal one of {}", names));
   return pedals[0];
 }
 
@@ -67,15 +69,15 @@ nlohmann::json axis_json(const HidField& axis) {
 void list(const DeviceArguments& o) {
   if (!o.id.empty()) {
     std::uint16_t vendor = 0, product = 0;
-    parse_usb_id(o.id, "--pedal", vendor, product);
+    parse_usb_id(o.id, Name{"--pedal"}, vendor, product);
   }
   const auto pedals = list_hid_pedals();
-  std::string calibration_problem;
+  std::optional<Error> calibration_problem;
   std::optional<StationPedal> station;
   try {
     station = load_station_pedal(station_pedal_path());
   } catch (const Error& e) {
-    calibration_problem = e.what();
+    calibration_problem = e;
   }
   const auto calibrated = [&station](const HidPedalInfo& p) { return station && station->vendor == p.vendor && station->product == p.product; };
   if (o.json) {
@@ -83,30 +85,31 @@ void list(const DeviceArguments& o) {
     for (const auto& p : pedals) {
       nlohmann::json axes = nlohmann::json::array();
       for (const auto& axis : p.axes) axes.push_back(axis_json(axis));
-      all.push_back({{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", p.problem}, {"calibrated", calibrated(p)}});
+      all.push_back(
+          {{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", problem_text(p.problem)}, {"calibrated", calibrated(p)}});
     }
-    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", calibration_problem}, {"styluses", styluses_json(o.live)}});
+    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", problem_text(calibration_problem)}, {"styluses", styluses_json(o.live)}});
     return;
   }
   std::cout << "pedals\n";
   for (const auto& p : pedals) {
     std::cout << "  " << p.id() << "  " << one_line(p.name) << "  (" << one_line(p.path) << ", " << p.axes.size()
               << (p.axes.size() == 1 ? " axis" : " axes") << (calibrated(p) ? ", calibrated" : "") << ")\n";
-    if (!p.problem.empty())
-      std::cout << "    " << one_line(p.problem) << "\n";
+    if (p.problem)
+      std::cout << "    " << one_line(problem_text(p.problem)) << "\n";
     else if (!calibrated(p))
       std::cout << "    not calibrated; run `cavum devices --calibrate-pedal --pedal " << p.id() << "`\n";
   }
   if (pedals.empty()) std::cout << "  none; without one the handpiece stands still\n";
   if (station && std::none_of(pedals.begin(), pedals.end(), calibrated))
     std::cout << "  " << usb_id(station->vendor, station->product) << "  is calibrated for this station, and not plugged in\n";
-  if (!calibration_problem.empty()) std::cout << "  " << calibration_problem << "\n";
+  if (calibration_problem) std::cout << "  " << problem_text(calibration_problem) << "\n";
   std::cout << styluses_text(o.live) << std::flush;
 }
 
 int test(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
-  if (!pedal.problem.empty()) throw Error(msg("pedal {}", pedal.id()), msg("cannot be tested"), pedal.problem);
+  if (pedal.problem) throw Error(*pedal.problem);
   if (!o.json) std::cout << "move the pedal " << pedal.id() << " for " << plain_number(o.seconds) << " s ...\n" << std::flush;
   const PedalHearing heard = hear_pedal(pedal.vendor, pedal.product, o.seconds);
   // Continuous enough: no silence as long as the one after which the servo no longer believes the pedal.
@@ -142,7 +145,7 @@ int test(const DeviceArguments& o) {
 
 void calibrate(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
-  if (!pedal.problem.empty()) throw Error(msg("pedal {}", pedal.id()), msg("cannot be calibrated"), pedal.problem);
+  if (pedal.problem) throw Error(*pedal.problem);
   const std::string path = station_pedal_path();
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
@@ -154,7 +157,7 @@ void calibrate(const DeviceArguments& o) {
   };
   const PedalHearing off = listen("take the foot off the pedal; hold"), down = listen("press the pedal down; hold it");
   if (off.reports + down.reports == 0)
-    throw Error(msg("pedal {}", pedal.id()), msg("said nothing"), msg("press it a few times to wake it, and begin again"));
+    throw Error(DeviceError::silent, msg("pedal {}", pedal.id()), msg("said nothing"), msg("press it a few times to wake it, and begin again"));
   std::vector<AxisHeard> axes(down.numbers.size());
   for (std::size_t i = 0; i < axes.size(); ++i) {
     const auto& silent = off.numbers[i].empty() ? down.numbers[i] : off.numbers[i];  // one that speaks on change may say nothing at rest

@@ -13,7 +13,7 @@ namespace cavum::ui {
 namespace {
 
 MotionSource stylus(const std::string& id) {
-  const StylusKind& kind = stylus_kinds().at(id, "--stylus " + id, {StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::person});
   return {"device", id, kind.serial ? kind.serial(load_station_stylus(kind)) : ""};
 }
 

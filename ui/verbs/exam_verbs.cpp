@@ -198,7 +198,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   live.start();
   {
     ProgressBar bar(!o.json && !o.quiet);
-    std::string told;
+    Message told;
     constexpr auto k_look = std::chrono::milliseconds(20);
     for (; live.running() && !Interrupt::asked(); std::this_thread::sleep_for(k_look)) {
       if (source.done()) live.ask_to_end();
@@ -206,9 +206,10 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
       const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
       bar.show(view.ticks, std::min(1.0, share), view.instruction);
       if (view.ticks > 0) recording.look(view.recording_error, view.session);
-      if (const std::string problem = source.problem(); problem != told) {
-        if (!problem.empty()) std::fprintf(stderr, "\ncavum: %s\n", one_line(problem).c_str());
-        told = problem;
+      const std::optional<Error> problem = source.problem();
+      if (const Message now = problem ? problem->message() : Message(); now != told) {
+        if (problem) std::fprintf(stderr, "\ncavum: %s\n", one_line(english_text(now)).c_str());
+        told = now;
       }
     }
   }

@@ -11,7 +11,6 @@
 #include <thread>
 #include <vector>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/device/hardware/open_stylus.h"
@@ -25,7 +24,9 @@ bool placed(const std::string& id) { return ::access(station_stylus_path(id).c_s
 
 constexpr double k_patience_s = 10.0;
 
-const StylusKind& kind_of(const std::string& id) { return stylus_kinds().at(id, "--stylus " + id, {StylusHand::candidate, StylusHand::person}); }
+const StylusKind& kind_of(const std::string& id) {
+  return stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::candidate, StylusHand::person});
+}
 
 nlohmann::json ratings(const std::string& id) {
   const StylusFacts& f = kind_of(id).facts;
@@ -56,10 +57,17 @@ Vec3 held_at(Stylus& stylus) {
 
 }  // namespace
 
+std::string problem_text(const std::optional<Error>& problem) { return problem ? english_text(problem->message()) : std::string(); }
+
 nlohmann::json styluses_json(bool again) {
   nlohmann::json all = nlohmann::json::array();
   for (const auto& s : list_styluses(!again))
-    all.push_back({{"id", s.id}, {"name", s.name}, {"there", s.there}, {"problem", s.problem}, {"placed", placed(s.id)}, {"ratings", ratings(s.id)}});
+    all.push_back({{"id", s.id},
+                   {"name", s.name},
+                   {"there", s.there},
+                   {"problem", problem_text(s.problem)},
+                   {"placed", placed(s.id)},
+                   {"ratings", ratings(s.id)}});
   return all;
 }
 
@@ -69,7 +77,7 @@ std::string styluses_text(bool again) {
     std::string id = s.id;
     id.resize(10, ' ');
     text += fmt::format("  {} {}{}{}\n", id, one_line(s.name), s.there ? "" : "  (not there)", placed(s.id) ? "  (placed)" : "");
-    if (!s.problem.empty()) text += fmt::format("    {}\n", one_line(s.problem));
+    if (s.problem) text += fmt::format("    {}\n", one_line(problem_text(s.problem)));
   }
   return text;
 }
@@ -93,7 +101,7 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
                               {"quantum_mm", p.quantum_mm},
                               {"quantum_expected_mm", stylus->facts().position_quantum_mm},
                               {"friction_n", p.friction_n},
-                              {"friction_problem", p.friction_problem},
+                              {"friction_problem", problem_text(p.friction_problem)},
                               {"axes", axes}});
   } else {
     std::cout << stylus->facts().name << ": " << plain_number(p.rate_hz) << " Hz, jitter " << fixed(1e3 * p.jitter_s, 2) << " ms, longest gap "
@@ -108,13 +116,13 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
                 << fixed(p.axes[1].friction_n(), 2) << ", z " << fixed(p.axes[2].friction_n(), 2) << " N; pulled by itself "
                 << fixed(p.axes[2].bias_n(), 2) << " N along z\n";
     }
-    if (!p.friction_problem.empty()) std::cout << "  friction in air not found: " << p.friction_problem << "\n";
+    if (p.friction_problem) std::cout << "  " << problem_text(p.friction_problem) << "\n";
   }
-  return p.readings > 0 && p.friction_problem.empty() ? 0 : 1;
+  return p.readings > 0 && !p.friction_problem ? 0 : 1;
 }
 
 void place_stylus(const std::string& id) {
-  const StylusKind& kind = stylus_kinds().at(id, "--place --stylus " + id, {StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(id, Name{"--place --stylus " + id}, {StylusHand::person});
   const std::string path = station_stylus_path(id);
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);

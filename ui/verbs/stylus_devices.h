@@ -2,10 +2,15 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
+#include <optional>
 #include <string>
+
+#include "engine/base/error.h"
 
 namespace cavum::ui {
 
+/// Empty for none.
+[[nodiscard]] std::string problem_text(const std::optional<Error>& problem);
 /// For `cavum devices --json`: a list of {id, name, there, problem, placed, ratings}.
 /// `again`: asked twice a second, which not every driver likes; see list_styluses.
 [[nodiscard]] nlohmann::json styluses_json(bool again);

@@ -3,8 +3,7 @@
 #include <cstdlib>
 #include <utility>
 
-#include "engine/base/error.h"
-#include "engine/device/hardware/open_stylus.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/usb_serial.h"
 #include "engine/servo/scheduling.h"
 
@@ -50,24 +49,17 @@ StylusKind falcon_kind() {
                   // sources say 35 to 50; no firmware: the file in $CAVUM_FALCON_FIRMWARE
                   .settings = {{.key = "arm_offset_deg", .usual = 35.0, .least = 0.0, .most = 90.0}, {.key = "firmware", .usual = ""}},
                   .usb = UsbNumbers{k_falcon_vendor, k_falcon_product}};
-  kind.look = [](const StationStylus&, bool) {
-    StylusLook look;
-    look.problem = falcon_problem(look.there);
-    return look;
-  };
+  kind.look = [](const StationStylus&, bool) { return look_for_falcon(); };
   kind.serial = [](const StationStylus&) { return usb_serial(k_falcon_vendor, k_falcon_product); };
   kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> {
-    bool there = false;
-    if (const std::string problem = falcon_problem(there); there && !problem.empty()) throw_problem(problem);
+    if (const StylusLook look = look_for_falcon(); look.there && look.problem) throw Error(*look.problem);
     return std::make_unique<FalconStylus>(options.station);
   };
   return kind;
 }
 
 FalconStylus::FalconStylus(const StationStylus& station)
-    : ThreadedStylus(station, facts_of_this_one(), "stylus falcon: not looked for yet; wait a second"),
-      firmware_(firmware_of(station)),
-      drive_(drive_of(station)) {
+    : ThreadedStylus(station, facts_of_this_one()), firmware_(firmware_of(station)), drive_(drive_of(station)) {
   start([this] { run(); });
 }
 
@@ -75,7 +67,7 @@ void FalconStylus::run() {
   const UsbWatch watch;
   look_again_and_again([this] {
     FalconUsb usb;
-    set_problem("stylus falcon: is being started; wait until its lights are on");
+    set_problem(stylus_error(facts_.id, DeviceError::starting, msg("is being started"), msg("wait until its lights are on")));
     usb.start(firmware_);
     plugged_in_.fetch_add(1);
     serve(usb);
@@ -110,7 +102,7 @@ void FalconStylus::serve(FalconUsb& usb) {
     if (heard == FalconUsb::Heard::silence && ++silent < k_most_silent) continue;
     if (heard != FalconUsb::Heard::answer) {
       unplugged_.fetch_add(1);
-      set_problem("stylus falcon: was unplugged, or is silent; plug in its USB cable and its power supply");
+      set_problem(stylus_error(facts_.id, DeviceError::lost, msg("was unplugged, or is silent"), msg("plug in its USB cable and its power supply")));
       return;
     }
     silent = 0;
@@ -118,8 +110,8 @@ void FalconStylus::serve(FalconUsb& usb) {
       command = {.lights = k_falcon_red, .homing = true};
       said_ready = false;
       if (!std::exchange(said_homing, true))
-        set_problem(
-            "stylus falcon: does not know its place yet; pull its grip out as far as it goes and push it in, until the light is no longer red");
+        set_problem(stylus_error(facts_.id, DeviceError::needs_homing, msg("does not know its place yet"),
+                                 msg("pull its grip out as far as it goes and push it in, until the light is no longer red")));
       continue;
     }
     const FalconAngles angles = falcon_arm_angles(drive_, answer.encoders);
@@ -132,7 +124,7 @@ void FalconStylus::serve(FalconUsb& usb) {
     said_homing = false;
     const auto buttons = static_cast<std::uint16_t>(((answer.buttons & 1) != 0 ? k_button_1 : 0) | ((answer.buttons & 14) != 0 ? k_button_2 : 0));
     put({at, {}, buttons, monotonic_ns()});
-    if (!std::exchange(said_ready, true)) set_problem("");
+    if (!std::exchange(said_ready, true)) set_problem({});
     command = {.motors = motors(angles, at), .lights = k_falcon_green};
   }
   FalconAnswer ignored;

@@ -1,6 +1,5 @@
 #include "engine/device/hardware/falcon_usb.h"
 
-#include <fmt/core.h>
 #include <libusb-1.0/libusb.h>
 
 #include <algorithm>
@@ -8,8 +7,8 @@
 #include <chrono>
 #include <thread>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/udev_rule.h"
 
 namespace cavum {
@@ -18,7 +17,8 @@ namespace {
 constexpr unsigned char k_out = 0x02, k_in = 0x81;
 constexpr int k_packet_bytes = 64, k_status_bytes = 2;  // each packet of the chip begins with its two status bytes
 constexpr unsigned k_patience_ms = 1000;
-const char* const k_where = "stylus falcon";
+
+Error falcon_error(DeviceError code, Message problem, Message advice) { return stylus_error("falcon", code, std::move(problem), std::move(advice)); }
 
 // Requests of the FTDI chip and their values.
 enum : int { k_reset = 0, k_modem = 1, k_flow = 2, k_baud = 3, k_data = 4, k_latency = 9 };
@@ -29,7 +29,8 @@ constexpr int k_9600_baud = 0x4138, k_140000_baud = 0x15, k_1500000_baud = 0x2, 
 struct Context {
   libusb_context* context = nullptr;
   Context() {
-    if (libusb_init(&context) != 0) throw Error(k_where, msg("libusb does not start"), msg("look whether /dev/bus/usb is there"));
+    if (libusb_init(&context) != 0)
+      throw falcon_error(DeviceError::usb_stopped, msg("libusb does not start"), msg("look whether /dev/bus/usb is there"));
   }
   ~Context() {
     if (context != nullptr) libusb_exit(context);
@@ -38,8 +39,6 @@ struct Context {
   Context& operator=(const Context&) = delete;
   [[nodiscard]] libusb_context* release() { return std::exchange(context, nullptr); }
 };
-
-Error not_there() { return {k_where, "no Novint Falcon is plugged in", "plug in its USB cable and its own power supply"}; }
 
 /// The first Falcon, opened. Throws Error.
 libusb_device_handle* open_first(libusb_context* context, bool& there) {
@@ -55,23 +54,25 @@ libusb_device_handle* open_first(libusb_context* context, bool& there) {
     error = libusb_open(list[i], &handle);
   }
   if (count >= 0) libusb_free_device_list(list, 1);
-  if (!there) throw not_there();
-  if (error == LIBUSB_ERROR_ACCESS) throw Error(k_where, msg("may not be opened"), udev_advice(k_falcon_vendor, k_falcon_product, false));
-  if (error != 0) throw Error(k_where, msg("does not open ({})", libusb_strerror(error)), msg("plug it in again"));
+  if (!there)
+    throw falcon_error(DeviceError::not_there, msg("no Novint Falcon is plugged in"), msg("plug in its USB cable and its own power supply"));
+  if (error == LIBUSB_ERROR_ACCESS)
+    throw falcon_error(DeviceError::not_permitted, msg("may not be opened"), udev_advice(k_falcon_vendor, k_falcon_product, false));
+  if (error != 0) throw falcon_error(DeviceError::refuses, msg("does not open ({})", libusb_strerror(error)), msg("plug it in again"));
   return handle;
 }
 
 }  // namespace
 
-std::string falcon_problem(bool& there) {
-  there = false;
+StylusLook look_for_falcon() {
+  StylusLook look;
   try {
     const Context context;
-    libusb_close(open_first(context.context, there));
+    libusb_close(open_first(context.context, look.there));
   } catch (const Error& e) {
-    return e.what();
+    look.problem = e;
   }
-  return {};
+  return look;
 }
 
 UsbWatch::UsbWatch() noexcept {
@@ -89,7 +90,7 @@ FalconUsb::FalconUsb() {
   static_cast<void>(libusb_set_auto_detach_kernel_driver(device_, 1));  // a serial port driver may hold it; not every system can
   if (const int error = libusb_claim_interface(device_, 0); error != 0) {
     libusb_close(device_);
-    throw Error(k_where, msg("is in use ({})", libusb_strerror(error)), msg("close the other program that drives it"));
+    throw falcon_error(DeviceError::in_use, msg("is in use ({})", libusb_strerror(error)), msg("close the other program that drives it"));
   }
   context_ = context.release();
 }
@@ -105,7 +106,7 @@ void FalconUsb::control(int request, int value) {
   if (const int error = libusb_control_transfer(device_, k_vendor_out, static_cast<std::uint8_t>(request), static_cast<std::uint16_t>(value), 0,
                                                 nullptr, 0, k_patience_ms);
       error < 0)
-    throw Error(k_where, msg("its USB chip refuses a setting ({})", libusb_strerror(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses, msg("its USB chip refuses a setting ({})", libusb_strerror(error)), msg("plug it in again"));
 }
 
 void FalconUsb::send(std::span<const std::uint8_t> bytes) {
@@ -113,19 +114,20 @@ void FalconUsb::send(std::span<const std::uint8_t> bytes) {
   const int error =
       libusb_bulk_transfer(device_, k_out, const_cast<unsigned char*>(bytes.data()), static_cast<int>(bytes.size()), &sent, k_patience_ms);
   if (error != 0 || sent != static_cast<int>(bytes.size()))
-    throw Error(k_where, msg("does not take what is sent ({})", libusb_strerror(error)), msg("plug it in again"));
+    throw falcon_error(DeviceError::refuses, msg("does not take what is sent ({})", libusb_strerror(error)), msg("plug it in again"));
 }
 
 std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   std::array<std::uint8_t, k_packet_bytes> packet{};
   int got = 0;
   const int error = libusb_bulk_transfer(device_, k_in, packet.data(), k_packet_bytes, &got, static_cast<unsigned>(patience_ms));
-  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT) throw Error(k_where, msg("was lost ({})", libusb_strerror(error)), msg("plug it in again"));
+  if (error != 0 && error != LIBUSB_ERROR_TIMEOUT)
+    throw falcon_error(DeviceError::lost, msg("was lost ({})", libusb_strerror(error)), msg("plug it in again"));
   if (got <= k_status_bytes) return {};
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }
 
-void FalconUsb::expect(std::span<const std::uint8_t> wanted, const char* stage) {
+void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& stage) {
   using Clock = std::chrono::steady_clock;
   const auto until = Clock::now() + std::chrono::milliseconds(k_patience_ms);
   std::vector<std::uint8_t> heard;
@@ -134,8 +136,9 @@ void FalconUsb::expect(std::span<const std::uint8_t> wanted, const char* stage) 
     heard.insert(heard.end(), more.begin(), more.end());
   }
   if (heard.size() < wanted.size() || !std::equal(wanted.begin(), wanted.end(), heard.begin()))
-    throw Error(k_where, msg("{} {}", heard.empty() ? msg("is silent") : msg("answers something else"), stage),
-                msg("take it off its power supply for a moment, and begin again"));
+    throw falcon_error(heard.empty() ? DeviceError::silent : DeviceError::wrong_firmware,
+                       msg("{} {}", heard.empty() ? msg("is silent") : msg("answers something else"), stage),
+                       msg("take it off its power supply for a moment, and begin again"));
 }
 
 void FalconUsb::speak_normally() {
@@ -150,7 +153,7 @@ bool FalconUsb::answers() {
   FalconAnswer answer;
   for (int i = 0; i < k_tries; ++i) {
     const Heard heard = exchange({}, answer, k_try_ms);
-    if (heard == Heard::gone) throw Error(k_where, msg("was lost"), msg("plug it in again"));
+    if (heard == Heard::gone) throw falcon_error(DeviceError::lost, msg("was lost"), msg("plug it in again"));
     if (heard == Heard::answer) return true;
   }
   return false;
@@ -160,12 +163,14 @@ void FalconUsb::start(const std::string& firmware) {
   speak_normally();
   if (answers()) return;
   if (firmware.empty())
-    throw Error(k_where, msg("has no firmware, and its maker's may not be passed on"),
-                msg("take nvent_firmware.bin from its maker's driver, and name it as `firmware` in stylus-falcon.toml or in $CAVUM_FALCON_FIRMWARE"));
+    throw falcon_error(
+        DeviceError::firmware_missing, msg("has no firmware, and its maker's may not be passed on"),
+        msg("take nvent_firmware.bin from its maker's driver, and name it as `firmware` in stylus-falcon.toml or in $CAVUM_FALCON_FIRMWARE"));
   const Bytes bytes = read_file(firmware);
   load({bytes.begin(), bytes.end()});
   speak_normally();
-  if (!answers()) throw Error(k_where, msg("does not run with {}", firmware), msg("name the firmware of its maker's driver"));
+  if (!answers())
+    throw falcon_error(DeviceError::wrong_firmware, msg("does not run with {}", firmware), msg("name the firmware of its maker's driver"));
   loaded_ = true;
 }
 
@@ -182,15 +187,15 @@ void FalconUsb::load(const std::vector<std::uint8_t>& firmware) {
   control(k_flow, 0);
   for (const int lines : {k_rts_off, k_dtr_off, k_dtr_on}) control(k_modem, lines);
   send(k_who);
-  expect(k_loader, "when its loader is called");
+  expect(k_loader, msg("when its loader is called"));
   control(k_modem, k_dtr_off);
   control(k_baud, k_140000_baud);
   send(k_ready);
-  expect(k_ready, "when the loading begins");
+  expect(k_ready, msg("when the loading begins"));
   for (std::size_t at = 0; at < firmware.size(); at += k_piece_bytes) {
     const auto piece = std::span(firmware).subspan(at, std::min(k_piece_bytes, firmware.size() - at));
     send(piece);
-    expect(piece, "while the firmware is loaded");  // it says back what it heard
+    expect(piece, msg("while the firmware is loaded"));  // it says back what it heard
   }
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/device/hardware/falcon_protocol.h"
+#include "engine/device/hardware/stylus_kind.h"
 
 struct libusb_context;
 struct libusb_device_handle;
@@ -16,8 +17,8 @@ namespace cavum {
 
 inline constexpr std::uint16_t k_falcon_vendor = 0x0403, k_falcon_product = 0xcb48;
 
-/// Empty when a Falcon is plugged in and may be opened; otherwise what is wrong, and what to do. `there`: whether one is plugged in.
-[[nodiscard]] std::string falcon_problem(bool& there);
+/// Whether one is plugged in, and may be opened.
+[[nodiscard]] StylusLook look_for_falcon();
 
 /// libusb watches what is plugged in as long as anybody uses it. Held between one search and the next, it need not begin anew each time, and misses
 /// nothing in between.
@@ -55,7 +56,7 @@ class FalconUsb {
   void send(std::span<const std::uint8_t> bytes);
   /// What came within `patience_ms`, without the status bytes of the chip; may be nothing.
   std::vector<std::uint8_t> hear(int patience_ms);
-  void expect(std::span<const std::uint8_t> wanted, const char* stage);
+  void expect(std::span<const std::uint8_t> wanted, const Message& stage);
   bool answers();
   void speak_normally();
   void load(const std::vector<std::uint8_t>& firmware);

@@ -1,11 +1,8 @@
 #include "engine/device/hardware/hid_descriptor.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <string>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 
 namespace cavum {
 namespace {
@@ -15,7 +12,8 @@ constexpr std::uint32_t k_most_report_bits = 8 * 4096;
 constexpr std::size_t k_most_stacked = 16, k_deepest = 64;
 
 [[noreturn]] void refuse(std::size_t at, const Message& what) {
-  throw Error(msg("HID report descriptor, byte {}", at), what, msg("unplug the device and plug it in again; if it stays so, use another pedal"));
+  throw Error(DeviceError::bad_descriptor, msg("HID report descriptor, byte {}", at), what,
+              msg("unplug the device and plug it in again; if it stays so, use another pedal"));
 }
 
 /// Bits 2 and 3 of an item's first byte (HID 1.11, 6.2.2.2).

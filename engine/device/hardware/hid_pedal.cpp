@@ -10,8 +10,8 @@
 #include <filesystem>
 #include <memory>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/station_pedal.h"
 
 namespace cavum {
@@ -45,7 +45,8 @@ Bytes descriptor_of(const std::string& path) {
   std::error_code none;
   for (const auto& entry : fs::directory_iterator("/sys/bus/usb/devices/" + path, none))
     if (fs::exists(entry.path() / "report_descriptor", none)) return read_file((entry.path() / "report_descriptor").string());
-  throw Error(path, msg("has no report descriptor in /sys"), msg("plug the device in again, so that the kernel reads it"));
+  throw Error(DeviceError::bad_descriptor, Name{path}, msg("has no report descriptor in /sys"),
+              msg("plug the device in again, so that the kernel reads it"));
 }
 
 /// The file that must be opened: the node itself, or, through libusb, the USB device that the interface "1-2:1.0" belongs to. Empty when unknown.
@@ -57,6 +58,14 @@ std::string file_of(const std::string& path) {
   } catch (const std::exception&) {  // no such device, or no number: opening it will say
     return {};
   }
+}
+
+Error pedal_error(std::uint16_t vendor, std::uint16_t product, DeviceError code, Message problem, Message advice) {
+  return {code, msg("pedal {}", usb_id(vendor, product)), std::move(problem), std::move(advice)};
+}
+
+Error not_permitted(std::uint16_t vendor, std::uint16_t product, const std::string& path) {
+  return pedal_error(vendor, product, DeviceError::not_permitted, msg("may not be opened"), udev_advice(vendor, product, path.starts_with("/dev/")));
 }
 
 std::string name_of(const hid_device_info& d) {
@@ -75,10 +84,10 @@ HidPedalInfo info_of(const hid_device_info& d) {
     const Bytes descriptor = descriptor_of(info.path);
     info.axes = parse_hid_descriptor(descriptor).axes();
   } catch (const Error& e) {
-    info.problem = e.what();
+    info.problem = e;
   }
-  if (const std::string file = file_of(info.path); info.problem.empty() && !file.empty() && ::access(file.c_str(), R_OK | W_OK) != 0)
-    info.problem = "may not be opened; " + udev_advice(info.vendor, info.product, info.path.starts_with("/dev/"));
+  if (const std::string file = file_of(info.path); !info.problem && !file.empty() && ::access(file.c_str(), R_OK | W_OK) != 0)
+    info.problem = not_permitted(info.vendor, info.product, info.path);
   return info;
 }
 
@@ -93,7 +102,7 @@ std::vector<HidPedalInfo> list_hid_pedals() {
   for (const hid_device_info* d = devices.get(); d != nullptr; d = d->next) {
     HidPedalInfo info = info_of(*d);
     const bool listed = std::any_of(found.begin(), found.end(), [&info](const HidPedalInfo& other) { return other.path == info.path; });
-    if (!listed && (!info.axes.empty() || !info.problem.empty())) found.push_back(std::move(info));  // hidraw lists one entry a collection
+    if (!listed && (!info.axes.empty() || info.problem)) found.push_back(std::move(info));  // hidraw lists one entry a collection
   }
   return found;
 }
@@ -112,18 +121,19 @@ struct HidPedal::Open {
     const Devices devices(hid_enumerate(vendor, product));
     const hid_device_info* d = devices.get();
     while (d != nullptr && !wanted.empty() && wanted != d->path) d = d->next;
-    const std::string where = "pedal " + usb_id(vendor, product);
-    if (d == nullptr) throw Error(where, msg("is not plugged in"), msg("plug it in; `cavum devices` lists what is there"));
+    if (d == nullptr)
+      throw pedal_error(vendor, product, DeviceError::not_there, msg("is not plugged in"), msg("plug it in; `cavum devices` lists what is there"));
     path = d->path;
     const HidLayout layout = parse_hid_descriptor(descriptor_of(path));
     axes = layout.axes();
     if (axis < 0 || static_cast<std::size_t>(axis) >= axes.size())
-      throw Error(where, msg("has {} axes, and axis {} is wanted", axes.size(), axis), msg("calibrate it anew: `cavum devices --calibrate-pedal`"));
+      throw pedal_error(vendor, product, DeviceError::no_such_axis, msg("has {} axes, and axis {} is wanted", axes.size(), axis),
+                        msg("calibrate it anew: `cavum devices --calibrate-pedal`"));
     numbered = layout.numbered;
     // A pseudo terminal keeps no borders between reports: where there is one kind of report, exactly its length is read.
     bytes = layout.longest_bytes();
     device.reset(hid_open_path(path.c_str()));
-    if (device == nullptr) throw Error(where, msg("may not be opened"), udev_advice(vendor, product, path.starts_with("/dev/")));
+    if (device == nullptr) throw not_permitted(vendor, product, path);
   }
 
   /// Bytes of the next report, 0 when none came in time, -1 when the device is gone. Unplugging may read as silence.
@@ -146,7 +156,7 @@ PedalHearing hear_pedal(std::uint16_t vendor, std::uint16_t product, double seco
   std::uint64_t last_us = 0;
   for (const std::uint64_t end_us = now_us() + static_cast<std::uint64_t>(seconds * 1e6); now_us() < end_us;) {
     const int n = open.hear(report, 10);
-    if (n < 0) throw Error(msg("pedal {}", usb_id(vendor, product)), msg("was unplugged"), msg("plug it in and begin again"));
+    if (n < 0) throw pedal_error(vendor, product, DeviceError::lost, msg("was unplugged"), msg("plug it in and begin again"));
     if (n == 0) continue;
     ++heard.reports;
     const std::uint64_t now = now_us();
@@ -170,7 +180,12 @@ PedalHearing hear_pedal(std::uint16_t vendor, std::uint16_t product, double seco
 }
 
 HidPedal::HidPedal(std::uint16_t vendor, std::uint16_t product, PedalCalibration calibration, std::string path)
-    : vendor_(vendor), product_(product), calibration_(calibration), path_(std::move(path)), thread_([this] { run(); }) {}
+    : vendor_(vendor),
+      product_(product),
+      calibration_(calibration),
+      path_(std::move(path)),
+      problem_(pedal_error(vendor, product, DeviceError::starting, msg("was not looked for yet"), msg("wait a second"))),
+      thread_([this] { run(); }) {}
 
 HidPedal::~HidPedal() {
   {
@@ -186,10 +201,10 @@ bool HidPedal::wait(double seconds) {
   return stop_asked_.wait_for(lock, std::chrono::duration<double>(seconds), [this] { return stop_; });
 }
 
-void HidPedal::forget(const std::string& why) {
+void HidPedal::forget(Error why) {
   latest_.store(0, std::memory_order_release);
   const std::lock_guard lock(mutex_);
-  problem_ = why;
+  problem_ = std::move(why);
 }
 
 void HidPedal::run() {
@@ -200,11 +215,13 @@ void HidPedal::run() {
       {
         const std::lock_guard lock(mutex_);
         ++counts_.plugged_in;
-        problem_.clear();
+        problem_.reset();
       }
       serve(open);
+    } catch (const Error& e) {
+      forget(e);
     } catch (const std::exception& e) {
-      forget(e.what());
+      forget(pedal_error(vendor_, product_, DeviceError::failed, msg("cannot be served ({})", e.what()), msg("begin Cavum again")));
     }
   } while (!wait(k_look_again_s));
 }
@@ -230,7 +247,7 @@ void HidPedal::serve(Open& open) {
       if (gone) ++counts_.unplugged;
     }
     if (gone) {
-      forget("the pedal was unplugged; plug it in again");
+      forget(pedal_error(vendor_, product_, DeviceError::lost, msg("was unplugged"), msg("plug it in again")));
       return;
     }
     if (n == 0) {
@@ -260,7 +277,7 @@ HidPedalCounts HidPedal::counts() const {
   return counts_;
 }
 
-std::string HidPedal::problem() const {
+std::optional<Error> HidPedal::problem() const {
   const std::lock_guard lock(mutex_);
   return problem_;
 }

@@ -6,10 +6,12 @@
 #include <atomic>
 #include <condition_variable>
 #include <mutex>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/device/hardware/hid_descriptor.h"
 #include "engine/device/hardware/udev_rule.h"
 #include "engine/device/pedal.h"
@@ -21,7 +23,7 @@ struct HidPedalInfo {
   std::uint16_t vendor = 0, product = 0;
   std::string name, path;  ///< path as hidapi names it
   std::vector<HidField> axes;
-  std::string problem;  ///< empty when it may be opened; otherwise what is wrong and what to do
+  std::optional<Error> problem = {};  ///< why it cannot be opened
 
   /// "068e:00f2"
   [[nodiscard]] std::string id() const;
@@ -60,8 +62,8 @@ class HidPedal final : public Pedal {
 
   [[nodiscard]] PedalReading read() noexcept override;
   [[nodiscard]] HidPedalCounts counts() const;
-  /// Why there is no pedal; empty while one is open.
-  [[nodiscard]] std::string problem() const;
+  /// Why there is no pedal; none while one is open.
+  [[nodiscard]] std::optional<Error> problem() const;
 
   struct Open;
 
@@ -69,7 +71,7 @@ class HidPedal final : public Pedal {
   void run();
   void serve(Open& open);
   void hear(std::int32_t raw, const HidField& axis);
-  void forget(const std::string& why);
+  void forget(Error why);
   [[nodiscard]] bool wait(double seconds);
 
   const std::uint16_t vendor_, product_;
@@ -81,7 +83,7 @@ class HidPedal final : public Pedal {
   std::condition_variable stop_asked_;
   bool stop_ = false;
   HidPedalCounts counts_;
-  std::string problem_ = "not looked for yet";
+  std::optional<Error> problem_;
   std::thread thread_;
 };
 

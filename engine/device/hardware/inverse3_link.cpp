@@ -11,8 +11,8 @@
 #include <chrono>
 #include <optional>
 
-#include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/inverse3_protocol.h"
 
 namespace cavum {
@@ -22,8 +22,6 @@ namespace asio = boost::asio;
 namespace beast = boost::beast;
 using Clock = std::chrono::steady_clock;
 using Outcome = std::optional<beast::error_code>;  // of what was begun; empty while it goes on
-
-const char* const k_where = "stylus inverse3";
 
 Clock::time_point in(double seconds) { return Clock::now() + std::chrono::duration_cast<Clock::duration>(std::chrono::duration<double>(seconds)); }
 
@@ -59,15 +57,15 @@ Inverse3Link::Inverse3Link(std::uint16_t port, double patience_s) : socket_(std:
   const asio::ip::tcp::endpoint service(asio::ip::address_v4::loopback(), port);
   auto error = s.wait(patience_s, [&](auto done) { s.stream.next_layer().async_connect(service, std::move(done)); });
   if (error)
-    throw Error(k_where, msg("no service listens at {} ({})", at, one_line(error.message())),
-                msg("start the Haply Inverse Service (`systemctl start haply-inverse-service`), or name its port in stylus-inverse3.toml"));
+    throw inverse3_error(DeviceError::no_service, msg("no service listens at {} ({})", at, one_line(error.message())),
+                         msg("start the Haply Inverse Service (`systemctl start haply-inverse-service`), or name its port in stylus-inverse3.toml"));
   beast::error_code ignored;
   s.stream.next_layer().socket().set_option(asio::ip::tcp::no_delay(true), ignored);
   s.stream.read_message_max(k_inverse3_largest);
   error = s.wait(patience_s, [&](auto done) { s.stream.async_handshake(at, "/", std::move(done)); });
   if (error)
-    throw Error(k_where, msg("what listens at {} is no Haply Inverse Service ({})", at, one_line(error.message())),
-                msg("name the service's port in stylus-inverse3.toml; 10001 is usual"));
+    throw inverse3_error(DeviceError::no_service, msg("what listens at {} is no Haply Inverse Service ({})", at, one_line(error.message())),
+                         msg("name the service's port in stylus-inverse3.toml; 10001 is usual"));
 }
 
 Inverse3Link::~Inverse3Link() {
@@ -89,8 +87,8 @@ void Inverse3Link::send(const std::string& text, double patience_s) {
     socket_->stream.async_write(asio::buffer(*kept), [kept, done](beast::error_code e, std::size_t) mutable { done(e); });
   });
   if (error)
-    throw Error(k_where, msg("the line to the service is cut ({})", one_line(error.message())),
-                msg("see whether the Haply Inverse Service still runs"));
+    throw inverse3_error(DeviceError::lost, msg("the line to the service is cut ({})", one_line(error.message())),
+                         msg("see whether the Haply Inverse Service still runs"));
 }
 
 bool Inverse3Link::hear(std::string& text, double patience_s) {
@@ -103,11 +101,13 @@ bool Inverse3Link::hear(std::string& text, double patience_s) {
   if (!s.wait_for(s.read, in(patience_s))) return false;
   const beast::error_code error = *s.read;
   if (error == beast::websocket::error::message_too_big || error == beast::websocket::error::buffer_overflow)
-    throw Error(k_where, msg("the service sent more than {} bytes at once", k_inverse3_largest), msg("update the Haply Inverse Service"));
+    throw inverse3_error(DeviceError::malformed_message, msg("the service sent more than {} bytes at once", k_inverse3_largest),
+                         msg("update the Haply Inverse Service"));
   if (error)
-    throw Error(k_where, msg("the line to the service is cut ({})", one_line(error.message())),
-                msg("see whether the Haply Inverse Service still runs"));
-  if (!s.stream.got_text()) throw Error(k_where, msg("the service sent bytes that are no text"), msg("update the Haply Inverse Service"));
+    throw inverse3_error(DeviceError::lost, msg("the line to the service is cut ({})", one_line(error.message())),
+                         msg("see whether the Haply Inverse Service still runs"));
+  if (!s.stream.got_text())
+    throw inverse3_error(DeviceError::malformed_message, msg("the service sent bytes that are no text"), msg("update the Haply Inverse Service"));
   text.assign(static_cast<const char*>(s.heard.data().data()), s.heard.size());
   s.read.reset();
   s.listens = false;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
@@ -14,10 +13,10 @@ namespace {
 
 using nlohmann::json;
 
-const char* const k_where = "stylus inverse3";
-constexpr const char* k_todo = "start the Haply Inverse Service again; docs/inverse3.md says what is expected of it";
-
-[[noreturn]] void refuse(const Message& what) { throw Error(k_where, msg("the service sent {}", what), msg(k_todo)); }
+[[noreturn]] void refuse(const Message& what) {
+  throw inverse3_error(DeviceError::malformed_message, msg("the service sent {}", what),
+                       msg("start the Haply Inverse Service again; docs/inverse3.md says what is expected of it"));
+}
 
 double number_in(const json& j, const char* key) {
   const json& m = member_of(j, key);
@@ -81,11 +80,15 @@ const json& list_in(const json& message, const char* key) {
 
 }  // namespace
 
+Error inverse3_error(DeviceError code, Message problem, Message advice) {
+  return stylus_error("inverse3", code, std::move(problem), std::move(advice));
+}
+
 Inverse3Message parse_inverse3(std::string_view text) {
   constexpr JsonLimits k_limits{.bytes = k_inverse3_largest, .values = 8000, .depth = 12};
   json message;
   try {
-    message = parse_json(text, k_where, k_limits);
+    message = parse_json(text, "inverse3", k_limits);
   } catch (const Error& e) {
     refuse(msg("what is no message of it ({})", e.without_advice()));
   }

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
+#include "engine/device/device_error.h"
 
 namespace cavum {
 
@@ -31,6 +32,8 @@ struct Inverse3Message {
   std::vector<Inverse3Device> devices;
   std::vector<Inverse3Grip> grips;  ///< wireless ones first
 };
+
+[[nodiscard]] Error inverse3_error(DeviceError code, Message problem, Message advice);
 
 /// Largest text that is taken, bytes: twenty devices with all their settings have some 40,000.
 inline constexpr std::size_t k_inverse3_largest = 64U << 10;

@@ -1,26 +1,22 @@
 #include "engine/device/hardware/inverse3_stylus.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <utility>
 
-#include "engine/base/error.h"
 #include "engine/device/hardware/inverse3_link.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
 namespace {
 
-const char* const k_where = "stylus inverse3";
 constexpr double k_patience_s = 0.5;  // for a service on this computer
 
 std::uint16_t port_of(const StationStylus& station) { return static_cast<std::uint16_t>(station.number("port")); }
 
 template <class T>
-std::string ids_of(const std::vector<T>& all) {
-  std::string ids;
-  for (const auto& one : all) ids += (ids.empty() ? "" : ", ") + one.id;
+List ids_of(const std::vector<T>& all) {
+  List ids;
+  for (const auto& one : all) ids.items.emplace_back(Name{one.id});
   return ids;
 }
 
@@ -28,13 +24,16 @@ std::string ids_of(const std::vector<T>& all) {
 template <class T>
 const T& chosen(const std::vector<T>& all, const std::string& wanted, const Message& what, const std::string& key) {
   if (all.empty())
-    throw Error(k_where, msg("the service knows of no {}", what), msg("plug it in, switch it on, and look whether Haply Hub shows it"));
+    throw inverse3_error(DeviceError::not_there, msg("the service knows of no {}", what),
+                         msg("plug it in, switch it on, and look whether Haply Hub shows it"));
   for (const T& one : all)
     if (one.id == wanted) return one;
   if (!wanted.empty())
-    throw Error(k_where, msg("the {} {} is not there", what, wanted), msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
+    throw inverse3_error(DeviceError::not_there, msg("the {} {} is not there", what, wanted),
+                         msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
   if (all.size() > 1)
-    throw Error(k_where, msg("there are several of {}", what), msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
+    throw inverse3_error(DeviceError::several, msg("there are several of {}", what),
+                         msg("set {} in stylus-inverse3.toml to one of {}", key, ids_of(all)));
   return all.front();
 }
 
@@ -46,7 +45,8 @@ const Inverse3Device& chosen_device(const Inverse3Message& message, const Statio
 Inverse3Message greeting(Inverse3Link& link) {
   std::string text;
   if (!link.hear(text, k_patience_s))
-    throw Error(k_where, msg("the service says nothing of its devices"), msg("start the Haply Inverse Service again; 3.1 or later is needed"));
+    throw inverse3_error(DeviceError::silent, msg("the service says nothing of its devices"),
+                         msg("start the Haply Inverse Service again; 3.1 or later is needed"));
   return parse_inverse3(text);
 }
 
@@ -121,7 +121,7 @@ StylusKind inverse3_kind() {
     try {
       look.there = !look_for_id(station).empty();
     } catch (const Error& e) {
-      look.problem = e.what();
+      look.problem = e;
     }
     return look;
   };
@@ -130,8 +130,7 @@ StylusKind inverse3_kind() {
   return kind;
 }
 
-Inverse3Stylus::Inverse3Stylus(const StationStylus& station)
-    : ThreadedStylus(station, facts_of_this_one(station), "stylus inverse3: not looked for yet; wait a second") {
+Inverse3Stylus::Inverse3Stylus(const StationStylus& station) : ThreadedStylus(station, facts_of_this_one(station)) {
   start([this] { run(); });
 }
 
@@ -181,11 +180,12 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
       take(parse_inverse3(heard_), id);
       continue;
     }
-    const Error silence(k_where, msg("the service is silent"), msg("see whether the Haply Inverse Service still runs, and the device's cables"));
+    const Error silence = inverse3_error(DeviceError::silent, msg("the service is silent"),
+                                         msg("see whether the Haply Inverse Service still runs, and the device's cables"));
     if (is_to_stop() || ++silent >= k_most_silent) throw silence;
     if (silent > 1) continue;
     lose();
-    set_problem(silence.what());
+    set_problem(silence);
     link.send(inverse3_command(id, {}, vector), k_silent_after_s);  // it may still hear
     ++owed;
   }
@@ -193,37 +193,39 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
 
 void Inverse3Stylus::take(const Inverse3Message& message, const std::string& id) {
   const auto device = std::find_if(message.devices.begin(), message.devices.end(), [&id](const auto& d) { return d.id == id; });
-  if (device == message.devices.end()) throw Error(k_where, msg("the Inverse3 {} was unplugged", id), msg("plug it in again"));
+  if (device == message.devices.end()) throw inverse3_error(DeviceError::lost, msg("the Inverse3 {} was unplugged", id), msg("plug it in again"));
   Place place;
-  std::string problem = place_of(*device, place);
-  if (problem.empty() && facts_.measures_direction) problem = direction_of(message, place);
-  set_problem(problem);
-  knows_its_place_ = problem.empty();
+  std::optional<Error> problem = place_of(*device, place);
+  if (!problem && facts_.measures_direction) problem = direction_of(message, place);
+  knows_its_place_ = !problem;
+  set_problem(std::move(problem));
   if (!knows_its_place_) return meter_.pause();
   place.at_ns = monotonic_ns();
   put(place);
   if (std::exchange(lost_, false)) plugged_in_.fetch_add(1);
 }
 
-std::string Inverse3Stylus::place_of(const Inverse3Device& device, Place& place) {
+std::optional<Error> Inverse3Stylus::place_of(const Inverse3Device& device, Place& place) {
   calibrated_ = device.calibrated.value_or(calibrated_);
   powered_ = device.powered.value_or(powered_);
-  if (!powered_) return "stylus inverse3: has no power; plug in its power supply";
-  if (!calibrated_) return "stylus inverse3: is not calibrated; put the grip onto its rest until the light says so, and take it up";
-  if (!device.position_mm) return "stylus inverse3: gives no place; start the Haply Inverse Service again";
+  if (!powered_) return inverse3_error(DeviceError::no_power, msg("has no power"), msg("plug in its power supply"));
+  if (!calibrated_)
+    return inverse3_error(DeviceError::needs_calibration, msg("is not calibrated"),
+                          msg("put the grip onto its rest until the light says so, and take it up"));
+  if (!device.position_mm) return inverse3_error(DeviceError::no_position, msg("gives no place"), msg("start the Haply Inverse Service again"));
   place.device_mm = *device.position_mm;
   return {};
 }
 
-std::string Inverse3Stylus::direction_of(const Inverse3Message& message, Place& place) const {
+std::optional<Error> Inverse3Stylus::direction_of(const Inverse3Message& message, Place& place) const {
   try {
     const Inverse3Grip& grip = chosen(message.grips, station_.text("grip"), msg("VerseGrip"), "grip");
-    if (!grip.to_device) return "stylus inverse3: its grip tells no direction; switch it on and move it";
+    if (!grip.to_device) return inverse3_error(DeviceError::no_direction, msg("its grip tells no direction"), msg("switch it on and move it"));
     place.tool_to_device = turned(tool_to_grip(), *grip.to_device);
     place.flags = static_cast<std::uint16_t>((grip.button_1 ? k_button_1 : 0) | (grip.button_2 ? k_button_2 : 0));
     return {};
   } catch (const Error& e) {
-    return e.what();
+    return e;
   }
 }
 

@@ -5,6 +5,7 @@
 // force, the step of the positions and the largest forces (docs/inverse3.md).
 #pragma once
 
+#include <optional>
 #include <string>
 
 #include "engine/device/hardware/inverse3_protocol.h"
@@ -33,8 +34,8 @@ class Inverse3Stylus final : public ThreadedStylus {
   /// Its place, once it means something; otherwise the problem is set. Throws Error when the device is not there any more.
   void take(const Inverse3Message& message, const std::string& id);
   /// Both return the problem, or nothing.
-  [[nodiscard]] std::string place_of(const Inverse3Device& device, Place& place);
-  [[nodiscard]] std::string direction_of(const Inverse3Message& message, Place& place) const;
+  [[nodiscard]] std::optional<Error> place_of(const Inverse3Device& device, Place& place);
+  [[nodiscard]] std::optional<Error> direction_of(const Inverse3Message& message, Place& place) const;
   /// No place is known until the next one.
   void lose();
   /// None either where the place means nothing.

@@ -1,18 +1,11 @@
 #include "engine/device/hardware/open_stylus.h"
 
-#include <fmt/core.h>
-
 #include <chrono>
 #include <thread>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 
 namespace cavum {
-
-void throw_problem(const std::string& problem) {
-  const auto what = problem.find(": ") + 2, todo = problem.rfind("; ");
-  throw Error(problem.substr(0, what - 2), problem.substr(what, todo - what), problem.substr(todo + 2));
-}
 
 std::vector<StylusInfo> list_styluses(bool begin, const StylusKinds& kinds) {
   std::vector<StylusInfo> found;
@@ -22,7 +15,7 @@ std::vector<StylusInfo> list_styluses(bool begin, const StylusKinds& kinds) {
     try {
       look = kind.look(load_station_stylus(kind), begin);
     } catch (const Error& e) {
-      look.problem = e.what();  // the station's file
+      look.problem = e;  // the station's file
     }
     found.push_back({.id = kind.facts.id, .name = kind.facts.name, .there = look.there, .problem = look.problem});
   }
@@ -30,11 +23,11 @@ std::vector<StylusInfo> list_styluses(bool begin, const StylusKinds& kinds) {
 }
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted, const StylusOptions& options, const StylusKinds& kinds) {
-  return kinds.at(wanted, fmt::format("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person}).open(options);
+  return kinds.at(wanted, msg("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person}).open(options);
 }
 
 std::unique_ptr<Stylus> open_stylus(const std::string& wanted) {
-  const StylusKind& kind = stylus_kinds().at(wanted, fmt::format("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person});
+  const StylusKind& kind = stylus_kinds().at(wanted, msg("stylus '{}'", wanted), {StylusHand::candidate, StylusHand::person});
   StylusOptions options;
   options.station = load_station_stylus(kind);
   return kind.open(options);
@@ -47,12 +40,12 @@ Pose first_pose(Stylus& stylus, double patience_s) {
   for (;;) {
     const DeviceReading reading = stylus.read(k_look_s);
     stylus.send_force({});
-    if ((reading.flags & k_stylus_fresh) != 0 && stylus.health().ready) return reading.pose;
+    if ((reading.flags & k_stylus_fresh) != 0 && !stylus.health().problem) return reading.pose;
     if (Clock::now() >= until) break;
     std::this_thread::sleep_for(std::chrono::duration<double>(k_look_s));
   }
-  const std::string problem = stylus.health().problem;
-  throw_problem(problem.empty() ? fmt::format("stylus {}: gives no position; see `cavum devices`", stylus.facts().id) : problem);
+  if (const std::optional<Error> problem = stylus.health().problem) throw Error(*problem);
+  throw stylus_error(stylus.facts().id, DeviceError::no_position, msg("gives no position"), msg("see `cavum devices`"));
 }
 
 }  // namespace cavum

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -14,7 +15,7 @@ namespace cavum {
 struct StylusInfo {
   std::string id, name;
   bool there = false;
-  std::string problem;  ///< why it cannot be opened, and what to do; empty when it can
+  std::optional<Error> problem = {};  ///< why it cannot be opened
 };
 /// Of all kinds but the mouse, in the order of the table. Opens none for longer than a look; with `begin` drivers may be begun, which not every one
 /// likes again and again.
@@ -29,8 +30,5 @@ struct StylusInfo {
 /// Where the tip is, tooth frame: waits until the stylus is ready, for `patience_s` at most. For the thread that will give it to the servo.
 /// Throws Error with its problem when time is up.
 [[nodiscard]] Pose first_pose(Stylus& stylus, double patience_s);
-
-/// Throws the Error whose text `problem` is.
-[[noreturn]] void throw_problem(const std::string& problem);
 
 }  // namespace cavum

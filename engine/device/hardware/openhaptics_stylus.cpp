@@ -7,7 +7,7 @@
 #include <limits>
 #include <mutex>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
@@ -30,14 +30,16 @@ enum : unsigned {
 };
 constexpr unsigned short k_highest_priority = 0xffff;
 constexpr unsigned k_done = 0, k_again = 1;
-const char* const k_where = "stylus touch";
-constexpr const char* k_todo = "look at its cables, run the diagnostic of its maker's driver, and begin again";
 
 struct ErrorInfo {
   unsigned code;
   int internal;
   unsigned handle;
 };
+
+Error touch_error(DeviceError code, Message problem, Message advice) { return stylus_error("touch", code, std::move(problem), std::move(advice)); }
+
+Message look_at_its_cables() { return msg("look at its cables, run the diagnostic of its maker's driver, and begin again"); }
 
 std::string code_text(unsigned code) { return fmt::format("0x{:04x}", code); }
 
@@ -59,11 +61,7 @@ StylusKind touch_kind() {
                   .placement = upright_device({}),
                   // the library to load; the name given in its maker's setup, none: the default device
                   .settings = {{.key = "library", .usual = "libHD.so"}, {.key = "device_name", .usual = ""}}};
-  kind.look = [](const StationStylus& station, bool begin) {
-    StylusLook look;
-    look.problem = openhaptics_problem(station, look.there, begin);
-    return look;
-  };
+  kind.look = look_for_touch;
   kind.open = [](const StylusOptions& options) -> std::unique_ptr<Stylus> { return std::make_unique<OpenHapticsStylus>(options.station); };
   return kind;
 }
@@ -94,8 +92,8 @@ struct OpenHapticsStylus::Library {
 
   explicit Library(const std::string& path) : file(::dlopen(path.c_str(), RTLD_NOW | RTLD_LOCAL)) {
     if (file == nullptr)
-      throw Error(k_where, msg("OpenHaptics is not there ({})", path),
-                  msg("install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml"));
+      throw touch_error(DeviceError::library_missing, msg("OpenHaptics is not there ({})", path),
+                        msg("install OpenHaptics and the device's driver of 3D Systems, or name the library in stylus-touch.toml"));
     find(init_device, "hdInitDevice");
     find(disable_device, "hdDisableDevice");
     find(make_current, "hdMakeCurrentDevice");
@@ -121,7 +119,8 @@ struct OpenHapticsStylus::Library {
   template <class Function>
   void find(Function& function, const char* name) {
     function = reinterpret_cast<Function>(::dlsym(file, name));
-    if (function == nullptr) throw Error(k_where, msg("its library has no {}", name), msg("install OpenHaptics 3.4 or later"));
+    if (function == nullptr)
+      throw touch_error(DeviceError::library_too_old, msg("its library has no {}", name), msg("install OpenHaptics 3.4 or later"));
   }
 
   /// Errors that wait are taken; the first one is returned, 0 = none.
@@ -141,10 +140,10 @@ struct OpenHapticsStylus::Library {
     const unsigned handle = init_device(name.empty() ? nullptr : name.c_str());
     const unsigned error = take_errors();
     if (error != 0 || handle == k_no_handle)
-      throw Error(k_where,
-                  msg("{} does not begin (error {})", name.empty() ? std::string("the default device") : fmt::format("the device '{}'", name),
-                      code_text(error)),
-                  msg("look at its cables and power supply, and at its name in the setup of its maker's driver"));
+      throw touch_error(
+          DeviceError::refuses,
+          msg("{} does not begin (error {})", name.empty() ? msg("the default device") : msg("the device '{}'", name), code_text(error)),
+          msg("look at its cables and power supply, and at its name in the setup of its maker's driver"));
     return handle;
   }
 
@@ -164,17 +163,17 @@ struct OpenHapticsStylus::Library {
   }
 };
 
-std::string openhaptics_problem(const StationStylus& station, bool& there, bool begin) {
-  there = false;
+StylusLook look_for_touch(const StationStylus& station, bool begin) {
+  StylusLook look;
   try {
     const auto library = OpenHapticsStylus::Library::load(station.text("library"));
     const std::lock_guard lock(library->mutex);
     if (begin && library->running == 0) library->disable_device(library->begin(station.text("device_name")));
-    there = true;
+    look.there = true;
   } catch (const Error& e) {
-    return e.what();
+    look.problem = e;
   }
-  return {};
+  return look;
 }
 
 OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
@@ -196,7 +195,7 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   library_->enable(k_force_output);
   if (const unsigned error = library_->take_errors(); error != 0) {
     library_->disable_device(handle_);
-    throw Error(k_where, msg("cannot be made ready (error {})", code_text(error)), msg(k_todo));
+    throw touch_error(DeviceError::refuses, msg("cannot be made ready (error {})", code_text(error)), look_at_its_cables());
   }
   task_ = library_->schedule(&OpenHapticsStylus::call, this, k_highest_priority);
   if (library_->running++ == 0) library_->start_scheduler();
@@ -298,20 +297,19 @@ StylusHealth OpenHapticsStylus::health() const {
   h.mean_period_s = meter_.mean_s();
   h.jitter_s = meter_.scatter_s();
   h.longest_gap_s = meter_.longest_s();
-  const std::string where = fmt::format("{}: ", k_where);
   const unsigned error = error_.load(std::memory_order_acquire), calibration = calibration_.load(std::memory_order_acquire);
   if (error >= k_first_device_error)
-    h.problem = fmt::format("{}was lost (error {}); {}", where, code_text(error), k_todo);
+    h.problem = touch_error(DeviceError::lost, msg("was lost (error {})", code_text(error)), look_at_its_cables());
   else if (calibration == 0)
-    h.problem = where + "has not spoken yet; wait a second";
+    h.problem = touch_error(DeviceError::starting, msg("has not spoken yet"), msg("wait a second"));
   else if (calibration == k_calibration_manual)
-    h.problem = where + "needs calibration; put the stylus into its inkwell and take it out";
+    h.problem = touch_error(DeviceError::needs_calibration, msg("needs calibration"), msg("put the stylus into its inkwell and take it out"));
   else if (calibration == k_calibration_update)
-    h.problem = where + "is being calibrated; hold the stylus still, in its inkwell if it has one";
+    h.problem = touch_error(DeviceError::needs_calibration, msg("is being calibrated"), msg("hold the stylus still, in its inkwell if it has one"));
   else if (calibration != k_calibration_ok)
-    h.problem = fmt::format("{}says nothing of its calibration ({}); {}", where, code_text(calibration), k_todo);
-  h.ready = h.problem.empty() && h.readings > 0;
-  if (!h.ready && h.problem.empty()) h.problem = fmt::format("{}gives no place; {}", where, k_todo);
+    h.problem = touch_error(DeviceError::refuses, msg("says nothing of its calibration ({})", code_text(calibration)), look_at_its_cables());
+  else if (h.readings == 0)
+    h.problem = touch_error(DeviceError::no_position, msg("gives no place"), look_at_its_cables());
   return h;
 }
 

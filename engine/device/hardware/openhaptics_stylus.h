@@ -13,9 +13,8 @@
 
 namespace cavum {
 
-/// Empty when the library is there and, with `begin`, its device begins; otherwise what is wrong, and what to do. `there`: whether it is. Not to be
-/// begun again and again.
-[[nodiscard]] std::string openhaptics_problem(const StationStylus& station, bool& there, bool begin = true);
+/// Whether the library is there and, with `begin`, its device begins. Not to be begun again and again.
+[[nodiscard]] StylusLook look_for_touch(const StationStylus& station, bool begin);
 
 class OpenHapticsStylus final : public Stylus {
  public:

@@ -7,13 +7,13 @@
 #include <charconv>
 #include <cstdlib>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/toml_reader.h"
+#include "engine/device/device_error.h"
 
 namespace cavum {
 
-void parse_usb_id(const std::string& text, const std::string& where, std::uint16_t& vendor, std::uint16_t& product) {
+void parse_usb_id(const std::string& text, const Message& where, std::uint16_t& vendor, std::uint16_t& product) {
   const char* const end = text.data() + text.size();
   const bool shaped = text.size() == 9 && text[4] == ':';
   const auto four = [&](const char* from, std::uint16_t& number) {
@@ -21,7 +21,8 @@ void parse_usb_id(const std::string& text, const std::string& where, std::uint16
     return error == std::errc{} && rest == from + 4;
   };
   if (!shaped || !four(text.data(), vendor) || !four(end - 4, product))
-    throw Error(where, msg("'{}' is no USB device", text), msg("write vendor and product as `cavum devices` shows them, for example 068e:00f2"));
+    throw Error(DeviceError::not_a_usb_id, where, msg("'{}' is no USB device", text),
+                msg("write vendor and product as `cavum devices` shows them, for example 068e:00f2"));
 }
 
 std::string usb_id(std::uint16_t vendor, std::uint16_t product) { return fmt::format("{:04x}:{:04x}", vendor, product); }
@@ -32,7 +33,7 @@ StationPedal parse_station_pedal(const std::string& text, const std::string& whe
   const toml::table table = parse_toml(text, where);
   TomlReader reader(table, where);
   StationPedal pedal;
-  parse_usb_id(reader.text("id"), where + ": id", pedal.vendor, pedal.product);
+  parse_usb_id(reader.text("id"), msg("{}: id", where), pedal.vendor, pedal.product);
   constexpr double k_most = 2147483647.0;
   pedal.calibration.axis = static_cast<int>(reader.number("axis", 0, 63));
   pedal.calibration.released = static_cast<std::int32_t>(reader.number("released", -k_most, k_most));
@@ -40,7 +41,8 @@ StationPedal parse_station_pedal(const std::string& text, const std::string& whe
   pedal.calibration.speaks_on_change = reader.truth_or("speaks_on_change", false);
   reader.finish();
   if (pedal.calibration.released == pedal.calibration.pressed)
-    throw Error(where, msg("released and pressed are the same"), msg("calibrate the pedal anew: `cavum devices --calibrate-pedal`"));
+    throw Error(DeviceError::ends_equal, Name{where}, msg("released and pressed are the same"),
+                msg("calibrate the pedal anew: `cavum devices --calibrate-pedal`"));
   return pedal;
 }
 
@@ -70,7 +72,8 @@ PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::
     }
   }
   if (best_share < k_least_share)
-    throw Error(msg("calibration"), msg("no axis moved by a tenth of its range"), msg("press the pedal fully when asked to, and check its cable"));
+    throw Error(DeviceError::axes_still, msg("calibration"), msg("no axis moved by a tenth of its range"),
+                msg("press the pedal fully when asked to, and check its cable"));
   const AxisHeard& heard = axes[best];
   const double way = static_cast<double>(heard.pressed) - heard.released, sign = way > 0 ? 1.0 : -1.0;
   const double in = sign * std::min(static_cast<double>(heard.jitter) + k_draw_in * std::abs(way), 0.25 * std::abs(way));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/device/pedal.h"
 
 namespace cavum {
@@ -16,8 +17,8 @@ struct StationPedal {
   PedalCalibration calibration;
 };
 
-/// "068e:00f2" in numbers. Throws Error(`where`, ...) for anything else.
-void parse_usb_id(const std::string& text, const std::string& where, std::uint16_t& vendor, std::uint16_t& product);
+/// "068e:00f2" in numbers. Throws Error at `where` for anything else.
+void parse_usb_id(const std::string& text, const Message& where, std::uint16_t& vendor, std::uint16_t& product);
 [[nodiscard]] std::string usb_id(std::uint16_t vendor, std::uint16_t product);
 
 /// station_path("pedal.toml").

@@ -7,6 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/toml_reader.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/stylus_kind.h"
 
 namespace cavum {
@@ -63,7 +64,7 @@ template <class T>
 const T& setting(const StationStylus& s, const std::string& key) {
   const auto found = s.settings.find(key);
   if (found == s.settings.end() || !std::holds_alternative<T>(found->second))
-    throw Error(msg("setting '{}'", key), msg("is none of this stylus"), msg("add it to the settings of its record"));
+    throw Error(DeviceError::not_a_setting, msg("setting '{}'", key), msg("is none of this stylus"), msg("add it to the settings of its record"));
   return std::get<T>(found->second);
 }
 

@@ -1,12 +1,10 @@
 #include "engine/device/hardware/stylus_kind.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <set>
 
-#include "engine/base/error.h"
 #include "engine/base/kept.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/falcon_stylus.h"
 #include "engine/device/hardware/inverse3_stylus.h"
 #include "engine/device/hardware/openhaptics_stylus.h"
@@ -40,16 +38,16 @@ bool is_word(const std::string& id) {
 }
 
 /// What the record lacks; empty when nothing.
-std::string lacks(const StylusKind& k) {
+Message lacks(const StylusKind& k) {
   const StylusFacts& f = k.facts;
-  if (!is_word(f.id)) return "an id of lower-case letters and digits";
-  if (f.name.empty()) return "a name";
-  if (!(f.peak_n > 0.0) || !(f.continuous_n > 0.0) || f.continuous_n > f.peak_n) return "forces above 0, the peak the larger one";
-  if (!(f.rate_hz > 0.0)) return "a rate";
-  if (!(f.reach_mm > 0.0)) return "a reach";
+  if (!is_word(f.id)) return msg("an id of lower-case letters and digits");
+  if (f.name.empty()) return msg("a name");
+  if (!(f.peak_n > 0.0) || !(f.continuous_n > 0.0) || f.continuous_n > f.peak_n) return msg("forces above 0, the peak the larger one");
+  if (!(f.rate_hz > 0.0)) return msg("a rate");
+  if (!(f.reach_mm > 0.0)) return msg("a reach");
   if (k.hand == StylusHand::mouse) return {};
-  if (!k.look) return "a function that looks for it";
-  if (!k.open) return "a function that opens it";
+  if (!k.look) return msg("a function that looks for it");
+  if (!k.open) return msg("a function that opens it");
   return {};
 }
 
@@ -60,16 +58,19 @@ bool among(std::initializer_list<StylusHand> hands, StylusHand hand) { return st
 StylusKinds::StylusKinds(std::vector<StylusKind> kinds) : kinds_(std::move(kinds)) {
   std::set<std::string> taken;
   for (const auto& k : kinds_) {
-    const std::string where = fmt::format("table of styluses, '{}'", k.facts.id), todo = "complete its record; see docs/howto/add_a_stylus.md";
-    if (const std::string lack = lacks(k); !lack.empty()) throw Error(where, msg("lacks {}", lack), todo);
-    if (!taken.insert(k.facts.id).second) throw Error(where, msg("stands there twice"), msg("give each stylus an id of its own"));
+    const Message where = msg("table of styluses, '{}'", k.facts.id);
+    if (const Message lack = lacks(k); !lack.empty())
+      throw Error(DeviceError::incomplete_record, where, msg("lacks {}", lack), msg("complete its record; see docs/howto/add_a_stylus.md"));
+    if (!taken.insert(k.facts.id).second)
+      throw Error(DeviceError::name_taken, where, msg("stands there twice"), msg("give each stylus an id of its own"));
   }
 }
 
-const StylusKind& StylusKinds::at(const std::string& id, const std::string& where, std::initializer_list<StylusHand> hands) const {
+const StylusKind& StylusKinds::at(const std::string& id, const Message& where, std::initializer_list<StylusHand> hands) const {
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
-  throw Error(where, msg("is no stylus that can be used here"), msg("name one of {}; `cavum devices` lists what is there", ids(hands)));
+  throw Error(DeviceError::unknown_stylus, where, msg("is no stylus that can be used here"),
+              msg("name one of {}; `cavum devices` lists what is there", ids(hands)));
 }
 
 std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {

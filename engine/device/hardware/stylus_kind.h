@@ -34,7 +34,7 @@ struct StylusOptions {
 /// What a look found.
 struct StylusLook {
   bool there = false;
-  std::string problem = {};  ///< why it cannot be opened, and what to do, as the text of an Error; empty when it can
+  std::optional<Error> problem = {};  ///< why it cannot be opened
 };
 
 struct StylusKind {
@@ -59,7 +59,7 @@ class StylusKinds {
 
   [[nodiscard]] std::span<const StylusKind> all() const noexcept { return kinds_; }
   /// The record of `id`. Throws Error at `where` for a name that is none of `hands`, naming those that are.
-  [[nodiscard]] const StylusKind& at(const std::string& id, const std::string& where, std::initializer_list<StylusHand> hands) const;
+  [[nodiscard]] const StylusKind& at(const std::string& id, const Message& where, std::initializer_list<StylusHand> hands) const;
   /// Ids of those that `hands` hold, in the order of the table: "falcon, touch".
   [[nodiscard]] std::string ids(std::initializer_list<StylusHand> hands) const;
 

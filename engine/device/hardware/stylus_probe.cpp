@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
@@ -28,7 +28,8 @@ class Hold {
     stylus_.send_force(force_n);
     if ((r.flags & k_stylus_fresh) == 0) {
       if (++silent_ > k_most_silent)
-        throw Error(msg("stylus {}", stylus_.facts().id), msg("fell silent while it was tried"), msg("see `cavum devices`, and begin again"));
+        throw stylus_error(stylus_.facts().id, DeviceError::silent, msg("fell silent while it was tried"),
+                           msg("see `cavum devices`, and begin again"));
       return at_;
     }
     silent_ = 0;
@@ -54,17 +55,19 @@ class Hold {
 };
 
 /// The push along `way`, unit, at which it moved; 0 with `problem` when there is none.
-double breakaway_n(Hold& hold, Vec3 way, double moved_mm, const StylusProbeOptions& o, std::string& problem) {
+double breakaway_n(Hold& hold, Vec3 way, double moved_mm, const StylusProbeOptions& o, std::optional<Error>& problem) {
   constexpr double k_settle_s = 0.4, k_watch_s = 0.3;
   hold.rest(k_settle_s);
   const Vec3 before = hold.tick({}), from = hold.rest(k_watch_s);
   if (length(from - before) > moved_mm) {
-    problem = "it moves without being pushed; balance it, let go of it, and try again";
+    problem = Error(DeviceError::moves_unpushed, msg("friction in air"), msg("not found, for the stylus moves without being pushed"),
+                    msg("balance it, let go of it, and try again"));
     return 0.0;
   }
   for (double push_n = 0.0; push_n <= o.most_n; push_n += o.ramp_n_per_s * k_tick_of_probe_s)
     if (dot(hold.tick(way * push_n) - from, way) > moved_mm) return push_n;
-  problem = "it did not move; let it stand free, not in its inkwell or at the end of its way";
+  problem = Error(DeviceError::stuck, msg("friction in air"), msg("not found, for the stylus did not move"),
+                  msg("let it stand free, not in its inkwell or at the end of its way"));
   return 0.0;
 }
 
@@ -72,7 +75,7 @@ double breakaway_n(Hold& hold, Vec3 way, double moved_mm, const StylusProbeOptio
 
 StylusProbe probe_stylus(Stylus& stylus, const StylusProbeOptions& o) {
   const StylusHealth before = stylus.health();
-  if (!before.ready) throw Error(msg("stylus {}", stylus.facts().id), msg("is not ready"), before.problem);
+  if (before.problem) throw Error(*before.problem);
   StylusProbe probe;
   Hold hold(stylus, o.real_time);
   const std::int64_t begin_ns = monotonic_ns();
@@ -86,13 +89,13 @@ StylusProbe probe_stylus(Stylus& stylus, const StylusProbeOptions& o) {
   if (o.friction) {
     const double moved_mm = std::max(o.moved_mm, 2.0 * stylus.facts().position_quantum_mm);
     double sum_n = 0.0;
-    for (std::size_t axis = 0; axis < 3 && probe.friction_problem.empty(); ++axis) {
+    for (std::size_t axis = 0; axis < 3 && !probe.friction_problem; ++axis) {
       const Vec3 way{axis == 0 ? 1.0 : 0.0, axis == 1 ? 1.0 : 0.0, axis == 2 ? 1.0 : 0.0};
       probe.axes[axis].forwards_n = breakaway_n(hold, way, moved_mm, o, probe.friction_problem);
-      if (probe.friction_problem.empty()) probe.axes[axis].backwards_n = breakaway_n(hold, -way, moved_mm, o, probe.friction_problem);
+      if (!probe.friction_problem) probe.axes[axis].backwards_n = breakaway_n(hold, -way, moved_mm, o, probe.friction_problem);
       sum_n += probe.axes[axis].friction_n();
     }
-    if (probe.friction_problem.empty()) probe.friction_n = sum_n / 3.0;
+    if (!probe.friction_problem) probe.friction_n = sum_n / 3.0;
   }
   probe.quantum_mm = hold.quantum_mm();
   return probe;

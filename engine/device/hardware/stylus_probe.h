@@ -3,7 +3,7 @@
 #pragma once
 
 #include <array>
-#include <string>
+#include <optional>
 
 #include "engine/device/stylus.h"
 
@@ -29,8 +29,8 @@ struct StylusProbe {
     [[nodiscard]] double bias_n() const noexcept { return 0.5 * (backwards_n - forwards_n); }
   };
   std::array<Axis, 3> axes;
-  double friction_n = 0.0;       ///< mean of the axes; 0 = not found
-  std::string friction_problem;  ///< why it was not found
+  double friction_n = 0.0;                     ///< mean of the axes; 0 = not found
+  std::optional<Error> friction_problem = {};  ///< why it was not found
 };
 
 /// Nobody may hold the stylus. It ends with no force. Throws Error when the stylus is not ready, or falls silent meanwhile.

@@ -4,12 +4,15 @@
 #include <limits>
 #include <utility>
 
+#include "engine/device/device_error.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
 
-ThreadedStylus::ThreadedStylus(const StationStylus& station, StylusFacts facts, std::string problem)
-    : station_(station), facts_(std::move(facts)), problem_(std::move(problem)) {}
+ThreadedStylus::ThreadedStylus(const StationStylus& station, StylusFacts facts)
+    : station_(station),
+      facts_(std::move(facts)),
+      problem_(stylus_error(facts_.id, DeviceError::starting, msg("was not looked for yet"), msg("wait a second"))) {}
 
 ThreadedStylus::~ThreadedStylus() { stop(); }
 
@@ -53,13 +56,12 @@ StylusHealth ThreadedStylus::health() const {
   h.longest_gap_s = meter_.longest_s();
   const std::lock_guard lock(mutex_);
   h.problem = problem_;
-  h.ready = problem_.empty();
   return h;
 }
 
-void ThreadedStylus::set_problem(const std::string& problem) {
+void ThreadedStylus::set_problem(std::optional<Error> problem) {
   const std::lock_guard lock(mutex_);
-  problem_ = problem;
+  problem_ = std::move(problem);
 }
 
 bool ThreadedStylus::wait(double seconds) {
@@ -72,8 +74,10 @@ void ThreadedStylus::look_again_and_again(const std::function<void()>& serve) {
   do {
     try {
       serve();
+    } catch (const Error& e) {
+      set_problem(e);
     } catch (const std::exception& e) {
-      set_problem(e.what());
+      set_problem(stylus_error(facts_.id, DeviceError::failed, msg("cannot be served ({})", e.what()), msg("begin Cavum again")));
     }
     meter_.pause();
   } while (!wait(k_look_again_s));

@@ -6,7 +6,7 @@
 #include <condition_variable>
 #include <functional>
 #include <mutex>
-#include <string>
+#include <optional>
 #include <thread>
 
 #include "engine/device/hardware/stylus_kind.h"
@@ -39,8 +39,8 @@ class ThreadedStylus : public Stylus {
     std::int64_t at_ns = 0;   ///< 0: none yet
   };
 
-  /// `problem`: in the health until the thread says otherwise.
-  ThreadedStylus(const StationStylus& station, StylusFacts facts, std::string problem);
+  /// Its problem is DeviceError::starting until the thread says otherwise.
+  ThreadedStylus(const StationStylus& station, StylusFacts facts);
   /// Begins the thread, once all of the stylus is there.
   void start(std::function<void()> run);
   /// Ends it, while all of the stylus is still there.
@@ -50,7 +50,7 @@ class ThreadedStylus : public Stylus {
   /// Serves what it finds, again and again until the end: an exception says what is wrong meanwhile.
   void look_again_and_again(const std::function<void()>& serve);
   [[nodiscard]] bool is_to_stop() const noexcept { return stop_.load(std::memory_order_relaxed); }
-  void set_problem(const std::string& problem);
+  void set_problem(std::optional<Error> problem);
   void put(const Place& place);
   /// N, in the device's frame; none where the servo wants none, or has not said anything for k_force_lasts_s. `cut`: it wanted more than the peak.
   [[nodiscard]] Vec3 force_now(bool& cut) noexcept;
@@ -75,7 +75,7 @@ class ThreadedStylus : public Stylus {
   mutable std::mutex mutex_;  // of what follows
   std::condition_variable stop_asked_;
   std::atomic<bool> stop_{false};  // changed with the mutex held, so that nobody sleeps through it
-  std::string problem_;
+  std::optional<Error> problem_;
   std::thread thread_;
 };
 

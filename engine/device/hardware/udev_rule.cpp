@@ -1,7 +1,5 @@
 #include "engine/device/hardware/udev_rule.h"
 
-#include <fmt/core.h>
-
 #include "engine/device/hardware/station_pedal.h"
 
 namespace cavum {
@@ -13,9 +11,9 @@ std::string udev_rule(std::uint16_t vendor, std::uint16_t product, bool hid) {
          R"(", MODE="0660", TAG+="uaccess")";
 }
 
-std::string udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid) {
-  return fmt::format("put the line  {}  into /etc/udev/rules.d/60-cavum.rules, run `udevadm control --reload` as root, and plug the device in again",
-                     udev_rule(vendor, product, hid));
+Message udev_advice(std::uint16_t vendor, std::uint16_t product, bool hid) {
+  return msg("put the line  {}  into /etc/udev/rules.d/60-cavum.rules, run `udevadm control --reload` as root, and plug the device in again",
+             udev_rule(vendor, product, hid));
 }
 
 }  // namespace cavum

@@ -133,7 +133,7 @@ void count_ticks(const ArmServo& servo, ArmFigures& f) {
 
 ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   const StylusHealth before = stylus.health();
-  if (!before.ready) throw Error(msg("stylus {}", stylus.facts().id), msg("is not ready"), before.problem);
+  if (before.problem) throw Error(*before.problem);
   ArmFigures f;
   const auto tell = [&](const char* words, double share) {
     if (o.tell) o.tell({words, share});

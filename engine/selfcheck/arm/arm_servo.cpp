@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
@@ -49,7 +49,8 @@ void ArmServo::look() {
     ++stale_;
     if (++silent_ > k_most_silent) {
       stylus_.cut_force();
-      throw Error(msg("stylus {}", stylus_.facts().id), msg("fell silent while it was checked"), msg("see `cavum devices`, and begin again"));
+      throw stylus_error(stylus_.facts().id, DeviceError::silent, msg("fell silent while it was checked"),
+                         msg("see `cavum devices`, and begin again"));
     }
     return;
   }

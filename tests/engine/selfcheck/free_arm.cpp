@@ -95,7 +95,6 @@ DeviceReading FreeArm::read(double elapsed_s) {
 
 StylusHealth FreeArm::health() const {
   StylusHealth h;
-  h.ready = true;
   h.readings = readings_;
   h.mean_period_s = 1.0 / model_.rate_hz;
   h.jitter_s = model_.jitter / model_.rate_hz / std::sqrt(3.0);

@@ -8,6 +8,7 @@
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <optional>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -46,6 +47,19 @@ std::string error_of(const Action& action) {
   }
   return {};
 }
+
+/// Which Error `action` throws; none.
+template <class Action>
+std::optional<ErrorCode> code_of(const Action& action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    return e.code();
+  }
+  return {};
+}
+inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) { return problem ? std::optional(problem->code()) : std::nullopt; }
+inline std::string text_of(const std::optional<Error>& problem) { return problem ? problem->what() : ""; }
 
 /// `what`, `times` times in a row.
 inline std::string repeated(const std::string& what, std::size_t times) {

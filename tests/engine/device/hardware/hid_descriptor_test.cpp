@@ -5,7 +5,7 @@
 
 #include <random>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -75,7 +75,7 @@ TEST(HidDescriptor, WhatCannotBeIsRefused) {
   for (const Descriptor& wrong :
        {Descriptor{}, Descriptor{0x26, 0xff}, Descriptor{0xa1, 0x01, 0x09, 0x30}, Descriptor{0xc0}, Descriptor{0xb4}, Descriptor{0x85, 0x00},
         Descriptor{0x77, 0xff, 0xff, 0xff, 0x7f}, Descriptor{0xfe, 0x05, 0x10}, Descriptor(5000, 0x00)})
-    EXPECT_THROW(static_cast<void>(parse_hid_descriptor(wrong)), Error);
+    EXPECT_EQ(testing_basics::code_of([&] { static_cast<void>(parse_hid_descriptor(wrong)); }), DeviceError::bad_descriptor);
 }
 
 /// Any bytes: either refused, or a layout whose fields all lie within their reports, readable whatever the report holds.

@@ -3,7 +3,8 @@
 
 #include <gtest/gtest.h>
 
-#include "engine/base/error.h"
+#include "engine/device/device_error.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
@@ -43,7 +44,9 @@ TEST(StationPedal, CalibrationTakesTheAxisThatMovedAndRestsAtZero) {
   EXPECT_EQ(pedal_position(248, c.released, c.pressed), 0.0) << "the foot off, a little noise";
   EXPECT_EQ(pedal_position(50, c.released, c.pressed), 1.0);
   EXPECT_NEAR(pedal_position(150, c.released, c.pressed), 0.5, 1e-12);
-  EXPECT_THROW(static_cast<void>(calibrate_pedal({{.released = 100, .pressed = 110, .jitter = 0, .reports = 5}}, {255}, false)), Error);
+  EXPECT_EQ(testing_basics::code_of(
+                [] { static_cast<void>(calibrate_pedal({{.released = 100, .pressed = 110, .jitter = 0, .reports = 5}}, {255}, false)); }),
+            DeviceError::axes_still);
 }
 
 }  // namespace

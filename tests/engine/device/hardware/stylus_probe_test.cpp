@@ -5,11 +5,14 @@
 
 #include <random>
 
+#include "engine/device/device_error.h"
 #include "engine/device/simulated_stylus.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
+
+using testing_basics::code_of;
 
 constexpr HandModel k_nobody{.mass_kg = 0.0, .stiffness_n_per_mm = 0.0, .damping_n_s_per_mm = 0.0};
 
@@ -53,7 +56,7 @@ TEST(StylusProbe, FindsFrictionWeightQuantumAndRate) {
     const double weight = 0.3 * omni.coulomb_n;
     Free stylus(omni, {0, 0, -weight});
     const StylusProbe probe = probe_stylus(stylus, {.real_time = false});
-    EXPECT_EQ(probe.friction_problem, "");
+    EXPECT_FALSE(probe.friction_problem);
     // The push goes on growing while it begins to move: m x'' = ramp t gives 0.02 N for 0.12 mm and 45 g.
     EXPECT_NEAR(probe.friction_n, omni.coulomb_n, 0.035);
     EXPECT_GE(probe.friction_n, omni.coulomb_n - 0.002) << "nothing moves before its friction is overcome";
@@ -71,15 +74,15 @@ TEST(StylusProbe, SaysWhenItCannotKnow) {
   OmniModel stuck;
   stuck.coulomb_n = 2.0;
   Free in_its_inkwell(stuck, {});
-  EXPECT_NE(probe_stylus(in_its_inkwell, {.real_time = false}).friction_problem.find("did not move"), std::string::npos);
+  EXPECT_EQ(code_of(probe_stylus(in_its_inkwell, {.real_time = false}).friction_problem), DeviceError::stuck);
   EXPECT_LE(in_its_inkwell.largest_n, 1.0);
   Free falling({}, {0, 0, -0.6});
   const StylusProbe falls = probe_stylus(falling, {.real_time = false});
-  EXPECT_NE(falls.friction_problem.find("without being pushed"), std::string::npos);
+  EXPECT_EQ(code_of(falls.friction_problem), DeviceError::moves_unpushed);
   EXPECT_EQ(falls.friction_n, 0.0);
   Free silent({}, {});
   silent.silent_after = 1000;
-  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(probe_stylus(silent, {.real_time = false})); }).find("fell silent"), std::string::npos);
+  EXPECT_EQ(code_of([&] { static_cast<void>(probe_stylus(silent, {.real_time = false})); }), DeviceError::silent);
   EXPECT_EQ(silent.last_n, Vec3{});
 }
 
