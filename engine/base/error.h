@@ -58,7 +58,4 @@ class Error : public std::runtime_error {
   Message where_, problem_, advice_;
 };
 
-/// TODO: goes with the last error that is kept as a text.
-[[nodiscard]] inline std::string without_advice(const std::string& text) { return text.substr(0, text.rfind("; ")); }
-
 }  // namespace cavum

@@ -33,12 +33,12 @@
 #define CAVUM_LIMITED(TYPE, NAME, ...) &&is_limited<TYPE>()
 /// Members of a struct, each (type, name) or (type, name, optional). One that is optional may be missing, or null, and then keeps its value. So may a
 /// std::optional, which is left out where it is empty.
-#define CAVUM_FIELDS(...)                                   \
-  CAVUM_EACH(CAVUM_MEMBER, __VA_ARGS__)                     \
-  template <class Self, class What>                         \
+#define CAVUM_FIELDS(...)                                    \
+  CAVUM_EACH(CAVUM_MEMBER, __VA_ARGS__)                      \
+  template <class Self, class What>                          \
   static void each_own_field(Self& self, const What& what) { \
-    CAVUM_EACH(CAVUM_TELL, __VA_ARGS__)                     \
-  }                                                         \
+    CAVUM_EACH(CAVUM_TELL, __VA_ARGS__)                      \
+  }                                                          \
   static constexpr bool k_limited = true CAVUM_EACH(CAVUM_LIMITED, __VA_ARGS__);
 #define CAVUM_JSON(NAME, ...) \
   struct NAME {               \
@@ -83,7 +83,9 @@ struct Only;
 
 /// `T` says its fields. Those of a `Base` that it names are its own, too.
 template <class T>
-concept JsonStruct = requires { T::k_limited; };
+concept JsonStruct = requires {
+  T::k_limited;
+};
 /// An enum whose names stand in `names_of(E)`, by value from 0 on.
 template <class T>
 concept NamedEnum = std::is_enum_v<T> && requires(T t) {
@@ -117,7 +119,8 @@ template <class T>
   } else if constexpr (JsonMap<T>) {
     return is_limited<typename T::mapped_type>();
   } else if constexpr (JsonList<T>) {
-    return requires { T::k_most; } ? is_limited<typename T::value_type>() : false;
+    return requires { T::k_most; }
+    ? is_limited<typename T::value_type>() : false;
   } else if constexpr (std::derived_from<T, std::string>) {
     return requires { T::k_most; };
   } else {

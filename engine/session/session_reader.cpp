@@ -33,7 +33,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(fmt::format("table {}, row {}: {}", table, rows, e.what()));
+    findings.push_back(fmt::format("table {}, row {}: {}", table, rows, english_text(e.without_advice())));
   }
 }
 
@@ -61,7 +61,7 @@ void quick_check(Database& database, std::vector<std::string>& findings) {
     while (s.step())
       if (const std::string line = s.text(0); line != "ok") findings.push_back("file: " + line);
   } catch (const DatabaseError& e) {
-    findings.push_back(fmt::format("file: {}", e.what()));
+    findings.push_back(fmt::format("file: {}", english_text(e.without_advice())));
   }
 }
 
@@ -103,7 +103,7 @@ void SessionReader::read(Bytes image) {
     check_schema(database, findings_);
   } catch (const Error& e) {
     if (!marked) throw Error(path_, msg("is an SQLite database, but not a Cavum session"), msg("name a .cavum file that an exam wrote"));
-    findings_.push_back(fmt::format("file: {}", e.what()));
+    findings_.push_back(fmt::format("file: {}", english_text(e.without_advice())));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -164,7 +164,7 @@ void SessionReader::read_seal(Database& database) {
 }
 
 void SessionReader::require_readable() const {
-  if (!findings_.empty()) throw Error(path_, without_advice(findings_.front()), "use an intact copy");
+  if (!findings_.empty()) throw Error(path_, findings_.front(), msg("use an intact copy"));
 }
 
 std::string SessionReader::fact(const std::string& key) const {

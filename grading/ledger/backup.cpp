@@ -152,7 +152,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
       plan.findings.push_back(fmt::format("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size));
   } catch (const Error& e) {
-    plan.findings.push_back(without_advice(e.what()));
+    plan.findings.push_back(english_text(e.without_advice()));
   }
 }
 

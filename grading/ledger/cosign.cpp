@@ -198,7 +198,7 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
       out.not_checked.emplace_back("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here");
     if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, "the cosigned note", out.findings);
   } catch (const Error& e) {
-    out.findings.push_back(without_advice(e.what()));
+    out.findings.push_back(english_text(e.without_advice()));
   }
   return out;
 }

@@ -30,7 +30,7 @@ LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256
     if (e.seq != seq) findings.push_back(fmt::format("{}: was entered as number {}: entries were moved", name, e.seq));
     if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(name + ": begins a ledger a second time");
   } catch (const Error& wrong) {
-    findings.push_back(without_advice(wrong.what()));
+    findings.push_back(english_text(wrong.without_advice()));
     e.text = text;
   }
   e.seq = seq;
@@ -125,7 +125,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
         c.findings.push_back(name + ": its note is not as the school wrote it");
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
-      c.findings.push_back(without_advice(e.what()));
+      c.findings.push_back(english_text(e.without_advice()));
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
@@ -133,7 +133,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
-      c.findings.push_back(without_advice(e.what()));
+      c.findings.push_back(english_text(e.without_advice()));
     }
   }
 }

@@ -128,6 +128,8 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
     }
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the session
+  } catch (const Error& e) {
+    line["error"] = one_line(below(work.folder, english_text(e.without_advice())));
   } catch (const std::exception& e) {
     line["error"] = one_line(below(work.folder, e.what()));
   }

@@ -18,7 +18,7 @@ nlohmann::ordered_json json_of_value(const Value& value) {
     nlohmann::ordered_json operator()(const Term& t) const { return t.english; }
     nlohmann::ordered_json operator()(const Authored& a) const { return a.english; }
     nlohmann::ordered_json operator()(const List& list) const {
-      nlohmann::ordered_json all = Json::array();
+      auto all = nlohmann::ordered_json::array();
       for (const Message& m : list.items) all.push_back(english_text(m));
       return all;
     }

@@ -116,8 +116,10 @@ void Regrades::mark() {
     ledger::take_lines(plan, made.lines, ledger_folder_);
   } catch (const std::bad_alloc&) {
     problem = "there is not enough memory";
+  } catch (const Error& wrong) {
+    problem = english_text(wrong.without_advice());
   } catch (const std::exception& wrong) {
-    problem = without_advice(wrong.what());
+    problem = wrong.what();
   }
   const std::lock_guard guard(lock_);
   if (stop_) return;

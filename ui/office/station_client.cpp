@@ -145,8 +145,8 @@ Answer StationClient::send(const std::string& method, const std::string& path, c
 json StationClient::require(Answer answer) const {
   if (answer.status >= 200 && answer.status < 300) return std::move(answer.body);
   const std::string why = text_in(answer.body, "error");
-  throw Error(fmt::format("https://{}:{}", host_, port_), why.empty() ? fmt::format("refuses ({})", answer.status) : without_advice(why),
-              "ask the office");
+  throw Error(fmt::format("https://{}:{}", host_, port_), why.empty() ? msg("refuses ({})", answer.status) : Message(Name{why}),
+              msg("ask the office"));
 }
 
 void StationClient::meet() {

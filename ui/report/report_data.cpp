@@ -149,7 +149,7 @@ json report_data(const ReportSource& s) {
     return data;
   }
   json events = json::array(), moments = json::array();
-  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", e.kind}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
+  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", name_of(e.kind)}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
   for (const auto& w : s.lost)
     for (const auto& m : w.items) {
       if (m.tick < 0) continue;

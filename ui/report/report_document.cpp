@@ -275,8 +275,9 @@ void add_course(Document& d, const ReportSource& s) {
       tr("Events")};
   for (std::size_t i = 0; i < s.events.size(); ++i) {
     const ReportEvent& e = s.events[i];
-    t.rows.push_back({{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {e.kind}, {e.text}, {place_text(e.site_mm)}},
-                      e.kind == "perforation" || e.kind == "violation"});
+    t.rows.push_back(
+        {{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {name_of(e.kind)}, {e.text}, {place_text(e.site_mm)}},
+         e.kind == EventGroup::perforation || e.kind == EventGroup::violation});
   }
   d.blocks.push_back(std::move(t));
 }

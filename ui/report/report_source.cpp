@@ -15,7 +15,7 @@ namespace cavum::report {
 namespace {
 
 ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
-  const auto say = [&](const char* kind, const std::string& text, std::optional<Vec3> site_mm = {}) {
+  const auto say = [&](EventGroup kind, const std::string& text, std::optional<Vec3> site_mm = {}) {
     return ReportEvent{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, kind, text, site_mm};
   };
   const auto number = [](const OfStep& of) { return as_is(std::to_string(of.step + 1LL)); };
@@ -25,35 +25,35 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
           [&](const StepStarted& of) {
             const auto& steps = input.scenario.steps;
             const std::string asked = static_cast<std::size_t>(of.step) < steps.size() ? steps[static_cast<std::size_t>(of.step)].instruction : "";
-            return say(said("step"), asked.empty() ? tr("step {} begins", number(of)) : tr("step {} begins: {}", number(of), asked));
+            return say(EventGroup::step, asked.empty() ? tr("step {} begins", number(of)) : tr("step {} begins: {}", number(of), asked));
           },
-          [&](const StepCompleted& of) { return say(said("step"), tr("step {} completed", number(of))); },
-          [&](const StepFailed& of) { return say(said("step"), tr("step {} failed", number(of))); },
-          [&](const StepTimeUp& of) { return say(said("limit"), tr("time limit of step {}", number(of))); },
-          [&](const TimeUp&) { return say(said("limit"), tr("time limit of the exam")); },
-          [&](const OverSpeed&) { return say(said("violation"), tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm))); },
+          [&](const StepCompleted& of) { return say(EventGroup::step, tr("step {} completed", number(of))); },
+          [&](const StepFailed& of) { return say(EventGroup::step, tr("step {} failed", number(of))); },
+          [&](const StepTimeUp& of) { return say(EventGroup::limit, tr("time limit of step {}", number(of))); },
+          [&](const TimeUp&) { return say(EventGroup::limit, tr("time limit of the exam")); },
+          [&](const OverSpeed&) { return say(EventGroup::violation, tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm))); },
           [&](const PointNotAllowed& of) {
             const auto at = static_cast<std::size_t>(of.point);
-            return say(said("violation"), at < points_toml.size() ? tr("diamond point not allowed here: {}",
-                                                                       parse_diamond_point(points_toml[at], "diamond point of the session").title)
-                                                                  : tr("diamond point not allowed here"));
+            return say(EventGroup::violation, at < points_toml.size() ? tr("diamond point not allowed here: {}",
+                                                                           parse_diamond_point(points_toml[at], "diamond point of the session").title)
+                                                                      : tr("diamond point not allowed here"));
           },
-          [&](const AimReached& of) { return say(said("aim"), tr("{} reached: the aim", tissue(of)), of.site_mm); },
-          [&](const Perforated& of) { return say(said("perforation"), tr("{} broken into (tissue)", tissue(of)), of.site_mm); },
-          [&](const Finished& of) { return say(said("finish"), tr("the exam ended: {}", finish_words(of.how))); },
-          [&](const PauseStarted&) { return say(said("pause"), tr("pause begins")); },
-          [&](const PauseEnded&) { return say(said("pause"), tr("pause ends")); },
-          [&](const HoldStarted&) { return say(said("pause"), tr("the exam office pauses the exam")); },
-          [&](const HoldEnded&) { return say(said("pause"), tr("the exam office lets the exam go on")); },
-          [&](const PauseRefused&) { return say(said("pause"), tr("pause refused")); },
-          [&](const RecordingMoved&) { return say(said("gap"), tr("the disk refused: recorded at another place from here on")); },
-          [&](const RecordingGap&) { return say(said("gap"), tr("the recording was interrupted here and taken up again")); },
+          [&](const AimReached& of) { return say(EventGroup::aim, tr("{} reached: the aim", tissue(of)), of.site_mm); },
+          [&](const Perforated& of) { return say(EventGroup::perforation, tr("{} broken into (tissue)", tissue(of)), of.site_mm); },
+          [&](const Finished& of) { return say(EventGroup::finish, tr("the exam ended: {}", finish_words(of.how))); },
+          [&](const PauseStarted&) { return say(EventGroup::pause, tr("pause begins")); },
+          [&](const PauseEnded&) { return say(EventGroup::pause, tr("pause ends")); },
+          [&](const HoldStarted&) { return say(EventGroup::pause, tr("the exam office pauses the exam")); },
+          [&](const HoldEnded&) { return say(EventGroup::pause, tr("the exam office lets the exam go on")); },
+          [&](const PauseRefused&) { return say(EventGroup::pause, tr("pause refused")); },
+          [&](const RecordingMoved&) { return say(EventGroup::gap, tr("the disk refused: recorded at another place from here on")); },
+          [&](const RecordingGap&) { return say(EventGroup::gap, tr("the recording was interrupted here and taken up again")); },
           [&](const AnyOf<ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness,
                           WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&
                   of) {
             std::string name = of.k_kind;
             std::replace(name.begin(), name.end(), '_', ' ');
-            return say(said("device"), shown(name));
+            return say(EventGroup::device, shown(name));
           },
       },
       e.event);
@@ -61,12 +61,18 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
 
 }  // namespace
 
+const char* name_of(EventGroup group) noexcept {
+  constexpr const char* k_names[] = {said("perforation"), said("aim"),    said("violation"), said("step"), said("pause"),
+                                     said("limit"),       said("finish"), said("device"),    said("gap")};
+  return k_names[static_cast<std::size_t>(group)];
+}
+
 std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
   std::vector<ReportEvent> list;
   for (const auto& e : input.events)
     if (e.as<ServoLateness>() == nullptr) list.push_back(event_of(e, input, points_toml));
   for (const auto& e : result.perforation.events)
-    list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? "perforation" : "aim",
+    list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? EventGroup::perforation : EventGroup::aim,
                     tr("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
                        e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue")),
                     e.site_mm});

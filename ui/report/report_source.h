@@ -69,9 +69,13 @@ struct ReportScan {
 };
 
 /// Something that happened, in words.
+enum class EventGroup { perforation, aim, violation, step, pause, limit, finish, device, gap };
+/// "perforation" and so on, in English.
+[[nodiscard]] const char* name_of(EventGroup group) noexcept;
+
 struct ReportEvent {
   double t_s = 0;
-  std::string kind;  ///< perforation, aim, violation, step, pause, limit, finish, device, gap
+  EventGroup kind = EventGroup::device;
   std::string text;
   std::optional<Vec3> site_mm;
 };

@@ -67,7 +67,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   constexpr double k_day_s = 86'400;
   r.here_s = static_cast<std::int64_t>(std::min(k_day_s, sitting->here_s()));
   if (sitting->stage() != Stage::preparing) r.candidate = short_line(sitting->candidate());
-  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(without_advice(sitting->trouble()));
+  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(sitting->trouble());
   if (sitting->stage() != Stage::running) return r;
   const scenarios::LiveView view = sitting->live().view();
   const auto& steps = sitting->setup().scenario.steps;
@@ -77,7 +77,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   r.held = view.held;
   if (view.paused || view.held) r.state = office::AtStation::paused;
   if (!view.recording_error.empty())
-    r.alarm = short_line(without_advice(view.recording_error));
+    r.alarm = short_line(view.recording_error);
   else if (const std::optional<Error> problem = sitting->device().problem())
     r.alarm = short_line(english_text(problem->without_advice()));
   else if (state.attempt_shown_s > 0)
