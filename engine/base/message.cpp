@@ -12,7 +12,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<std::string_view, 17> k_signs{"",  "mm", "mm²", "mm³", "µm", "N",  "N·s",  "°",   "s",
+constexpr std::array<std::string_view, 17> k_signs{"",    "mm", "mm²", "mm³", "µm", "N",    "N·s",  "°",    "s",
                                                    "min", "ms", "rpm", "%",   "Hz", "mm/s", "N/mm", "bytes"};
 static_assert(k_signs.size() == static_cast<std::size_t>(Unit::byte) + 1);
 
@@ -49,7 +49,8 @@ std::string rendered(const Number& n, const Locale& locale) {
 std::string rendered(Vec3 p, const Locale& locale) {
   constexpr int k_digits = 2;
   const std::string between = locale.decimal_sign() == ',' ? "; " : ", ";
-  return fmt::format("[{}{}{}{}{}] mm", figure(p.x, k_digits, locale), between, figure(p.y, k_digits, locale), between, figure(p.z, k_digits, locale));
+  return fmt::format("[{}{}{}{}{}] mm", figure(p.x, k_digits, locale), between, figure(p.y, k_digits, locale), between,
+                     figure(p.z, k_digits, locale));
 }
 
 std::string filled(const std::string& sentence, const std::vector<std::string>& texts) {
@@ -86,7 +87,8 @@ std::string render(const Value& value, const Locale& locale) {
                         [&](const Vec3& p) { return rendered(p, locale); },
                         [&](const Name& n) { return locale.name(n.text); },
                         [&](const FilePlace& p) {
-                          const std::string line = p.line > 0 ? fmt::format(":{}", p.line) : "", column = p.column > 0 ? fmt::format(":{}", p.column) : "";
+                          const std::string line = p.line > 0 ? fmt::format(":{}", p.line) : "",
+                                            column = p.column > 0 ? fmt::format(":{}", p.column) : "";
                           return locale.name(p.file + line + column);
                         },
                         [&](const Term& t) { return locale.term(t.english); },
@@ -106,8 +108,7 @@ std::string render(const Message& m, const Locale& locale) {
   if (m.values().size() == 1 && std::string_view(m.english()) == "{}") return render(m.values().front(), locale);
   std::vector<std::string> texts;
   for (const Value& v : m.values()) texts.push_back(render(v, locale));
-  const std::string sentence =
-      m.plural() == nullptr ? locale.sentence(m.english()) : locale.sentence(m.english(), m.plural(), m.count());
+  const std::string sentence = m.plural() == nullptr ? locale.sentence(m.english()) : locale.sentence(m.english(), m.plural(), m.count());
   try {
     return filled(sentence, texts);
   } catch (const fmt::format_error&) {  // a translation with other gaps

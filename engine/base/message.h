@@ -84,8 +84,8 @@ class Message {
   Message(Name name);        // NOLINT(google-explicit-constructor)
   Message(FilePlace place);  // NOLINT(google-explicit-constructor)
   // TODO: goes when every sentence is made by msg()
-  Message(std::string text);   // NOLINT(google-explicit-constructor)
-  Message(const char* text);   // NOLINT(google-explicit-constructor)
+  Message(std::string text);  // NOLINT(google-explicit-constructor)
+  Message(const char* text);  // NOLINT(google-explicit-constructor)
   Message(const char* english, const char* plural, std::int64_t count, std::vector<Value> values);
 
   [[nodiscard]] bool empty() const noexcept { return english_ == nullptr; }
@@ -152,8 +152,8 @@ template <class... A>
 }
 /// The same in the form that `count` takes: `one` where that is 1 in English, else `many`. Both have the same gaps.
 template <class... A>
-[[nodiscard]] Message msgn(fmt::format_string<message_detail::Text<A>...> one, fmt::format_string<message_detail::Text<A>...> many, std::int64_t count,
-                           A&&... values) {
+[[nodiscard]] Message msgn(fmt::format_string<message_detail::Text<A>...> one, fmt::format_string<message_detail::Text<A>...> many,
+                           std::int64_t count, A&&... values) {
   return {fmt::string_view(one).data(), fmt::string_view(many).data(), count, {message_detail::value_of(std::forward<A>(values))...}};
 }
 

@@ -32,7 +32,8 @@ std::string messages(const std::string& name) {
   fs::current_path(k_folder);  // a zone's STL lies beside its file
   const bool own_tooth = text.find("\"block.cvt\"") != std::string::npos;
   std::string all;
-  for (const auto& p : check_whole(text, file, own_tooth ? k_source + "/tests/replay/block.cvt" : "").problems) all += english_text(p.message()) + "\n";
+  for (const auto& p : check_whole(text, file, own_tooth ? k_source + "/tests/replay/block.cvt" : "").problems)
+    all += english_text(p.message()) + "\n";
   return all;
 }
 

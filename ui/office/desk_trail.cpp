@@ -42,9 +42,9 @@ class Trail {
   [[nodiscard]] TrailEntry row(const ledger::LedgerEntry& e, bool words) const {
     const auto* session = e.as<ledger::SessionEntry>();
     const Told told = told_of(e, words);
-    return {e.seq, utc_text(e.utc_ns), told.what,
-            e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account, told.why,
-            told.number};
+    return {e.seq,     utc_text(e.utc_ns),
+            told.what, e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account,
+            told.why,  told.number};
   }
 
   /// Pseudonyms.

@@ -171,7 +171,8 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   for (const scenarios::Problem& p : c.problems) {
     const Message where = FilePlace{p.where.line > 0 ? file : p.where.file, p.where.line, p.where.column};
     ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
-    wrapped_text(english_text(p.warning ? msg("{}  warning: {}; {}", where, p.what, p.what_to_do) : msg("{}  MISTAKE: {}; {}", where, p.what, p.what_to_do)));
+    wrapped_text(
+        english_text(p.warning ? msg("{}  warning: {}; {}", where, p.what, p.what_to_do) : msg("{}  MISTAKE: {}; {}", where, p.what, p.what_to_do)));
     ImGui::PopStyleColor();
   }
   end_area();

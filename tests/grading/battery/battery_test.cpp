@@ -57,8 +57,9 @@ std::set<std::string> passing(const Battery& b) {
 }
 
 bool named(const Battery& b, const std::string& name) {
-  return std::any_of(b.problems.begin(), b.problems.end(),
-                     [&](const auto& p) { return !p.warning && english_text(p.what).find("wrong work passes: '" + name + "'") != std::string::npos; });
+  return std::any_of(b.problems.begin(), b.problems.end(), [&](const auto& p) {
+    return !p.warning && english_text(p.what).find("wrong work passes: '" + name + "'") != std::string::npos;
+  });
 }
 
 TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
@@ -101,8 +102,8 @@ TEST_P(BlindRubric, LetsThatPassAndIsToldSo) {
   for (const auto& name : GetParam().passes) {
     EXPECT_TRUE(passes.contains(name)) << name;
     EXPECT_TRUE(named(b, name)) << name;
-    const auto p =
-        std::find_if(b.problems.begin(), b.problems.end(), [&](const auto& one) { return english_text(one.what).find("'" + name + "'") != std::string::npos; });
+    const auto p = std::find_if(b.problems.begin(), b.problems.end(),
+                                [&](const auto& one) { return english_text(one.what).find("'" + name + "'") != std::string::npos; });
     ASSERT_NE(p, b.problems.end());
     EXPECT_NE(english_text(p->what_to_do).find(GetParam().advice), std::string::npos) << english_text(p->message());
   }
@@ -146,7 +147,8 @@ TEST(Battery, SaysWhenExactlyTheTargetDoesNotPass) {
   const Battery b = battery_of(
       scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)), chambered_block(0.1));
   ASSERT_FALSE(b.problems.empty());
-  EXPECT_NE(english_text(b.problems[0].what).find("who removes exactly the target gets 10.0 of 100.0 points"), std::string::npos) << english_text(b.problems[0].message());
+  EXPECT_NE(english_text(b.problems[0].what).find("who removes exactly the target gets 10.0 of 100.0 points"), std::string::npos)
+      << english_text(b.problems[0].message());
   EXPECT_NE(english_text(b.problems[0].what_to_do).find("'much'"), std::string::npos) << english_text(b.problems[0].message());
 }
 

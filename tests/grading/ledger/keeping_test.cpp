@@ -6,9 +6,9 @@
 #include "grading/ledger/backup.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_file.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
-#include "grading/ledger/ledger_file.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {

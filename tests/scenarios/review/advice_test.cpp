@@ -17,7 +17,8 @@ std::vector<std::string> warnings(const std::string& target, const Tooth& tooth)
   const Scenario s = parse_scenario(testing::scenario_text(target), "s.toml");
   ExpertsPart expert;
   std::vector<std::string> said;
-  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert)) said.push_back(english_text(p.what));
+  for (const auto& p : advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert))
+    said.push_back(english_text(p.what));
   return said;
 }
 

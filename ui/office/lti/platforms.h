@@ -21,8 +21,8 @@ using LtiLine = Text<1000>;
 /// What both sides agreed on. Addresses are https. `name`: for people: "Moodle"; `office`: this office as browsers reach it:
 /// "https://office.example:8443"; issuer and client together name the platform; `deployments`: ids, any other is refused; `token_audience`: `aud` of
 /// what we sign for the token endpoint, empty: that endpoint itself; `jwks_url`: empty: `key_set` stands in its place, {"keys":[…]} or its text;
-/// `claim`: by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`, its value is the number of the class list; `hosts`: further origins of
-/// its services ("https://school.example"), where these stand elsewhere than its endpoints; `certificate`: PEM of the authority, or of the server
+/// `claim`: by what candidates are matched: `sub`, `custom.NAME` or `lis.NAME`, its value is the number of the class list; `hosts`: further origins
+/// of its services ("https://school.example"), where these stand elsewhere than its endpoints; `certificate`: PEM of the authority, or of the server
 /// itself, that is trusted for it, empty: those that this computer trusts; `accounts`: of the office, by the platform's `sub`.
 struct LtiPlatform {
   using Ids = AtMost<std::vector<Text<255>>, 1000>;
