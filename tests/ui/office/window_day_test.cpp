@@ -151,7 +151,9 @@ TEST_F(AWindow, SitsAnExamWithTheOfficesWordAPauseAnAnnouncementAndFilesIt) {
   for (const TimedEvent& e : session.events()) {
     if (e.as<HoldStarted>() != nullptr) held -= e.tick;
     if (e.as<HoldEnded>() != nullptr) held += e.tick;
-    if (e.as<OfficeHold>() != nullptr) EXPECT_EQ(e.as<OfficeHold>()->entry, hold["entry"]);
+    if (const auto* by_office = e.as<OfficeHold>()) {
+      EXPECT_EQ(by_office->entry, hold["entry"]);
+    }
     if (e.as<OfficeHold>() != nullptr || e.as<Announced>() != nullptr || e.as<AnnouncementRead>() != nullptr) office.push_back({0, e.event});
   }
   EXPECT_GE(held, 4000);
