@@ -22,16 +22,17 @@
 namespace cavum::grading {
 namespace {
 
-std::string seconds(std::int64_t ticks) { return fixed(static_cast<double>(ticks) * k_tick_s, 3) + " s"; }
+Number seconds(std::int64_t ticks) { return as_s(static_cast<double>(ticks) * k_tick_s, 3); }
+Number at_time(std::int64_t tick) { return as_s(static_cast<double>(tick) * k_tick_s); }
 
 /// What the events say.
 struct Course {
   ProgressMeasures progress;
   std::vector<PauseMeasure> pauses;  ///< one that was running at the end ends there
-  std::vector<std::string> steps;    ///< not completed but ended: by their own time, or by their condition
+  Findings steps;                    ///< not completed but ended: by their own time, or by their condition
   /// Recordings that were cut off and taken up again: the exam's clock stood still meanwhile, so a reader must know how long for.
-  std::vector<std::string> interruptions;
-  std::string refused;  ///< pauses, with their reasons
+  Findings interruptions;
+  List refused;  ///< pauses, with their reasons
   int pauses_refused = 0;
   std::int64_t lost_periods = 0;  ///< that the servo gave up, as the station recorded them
   LateWork late;
@@ -45,11 +46,10 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
   c.progress.steps = static_cast<int>(input.scenario.steps.size());
   bool last_done = c.progress.steps == 0;
   for (const auto& e : input.events) {
-    const auto step_ended = [&](const OfStep& of, const auto& text) {
+    const auto step_ended = [&](const OfStep& of, const auto& found) {
       ++c.progress.steps_failed;
-      if (static_cast<std::size_t>(of.step) >= input.scenario.steps.size()) return;
-      const scenarios::StepSpec& s = input.scenario.steps[static_cast<std::size_t>(of.step)];
-      c.steps.push_back(fmt::format("step '{}' {}", s.id, text(s, " at " + when({e.tick, {}}))));
+      if (static_cast<std::size_t>(of.step) < input.scenario.steps.size())
+        c.steps.push_back(found(input.scenario.steps[static_cast<std::size_t>(of.step)]));
     };
     const auto end_pause = [&] {
       if (!c.pauses.empty()) c.pauses.back().end = std::min(e.tick, ticks);
@@ -60,12 +60,15 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
                      last_done = last_done || of.step == c.progress.steps - 1;
                    },
                    [&](const StepFailed& of) {
-                     step_ended(of, [](const auto& s, const std::string& at) { return fmt::format("failed{}: {}", at, s.fail_when); });
+                     step_ended(of, [&](const scenarios::StepSpec& s) {
+                       return finding<FindingKind::step_failed>(s.id, at_time(e.tick), e.tick, s.fail_when);
+                     });
                    },
                    [&](const StepTimeUp& of) {
-                     step_ended(of, [&](const auto& s, const std::string& at) {
-                       return fmt::format("ran out of its time{}{}", at,
-                                          s.time_limit_s ? ": its limit was " + seconds(scenarios::step_limit_ticks(input.scenario, s)) : "");
+                     step_ended(of, [&](const scenarios::StepSpec& s) {
+                       return s.time_limit_s ? finding<FindingKind::step_timed_out>(s.id, at_time(e.tick), e.tick,
+                                                                                    seconds(scenarios::step_limit_ticks(input.scenario, s)))
+                                             : finding<FindingKind::step_timed_out_otherwise>(s.id, at_time(e.tick), e.tick);
                      });
                    },
                    [&](const AnyOf<PointNotAllowed, OverSpeed> auto&) {
@@ -83,15 +86,14 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
                    [&](const PauseRefused&) {
                      const bool turned = e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) &&
                                          input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
-                     c.refused += fmt::format("{}tick {}{}", c.pauses_refused++ == 0 ? "" : ", ", e.tick,
-                                              turned ? ": the handpiece turned" : ": none was left");
+                     ++c.pauses_refused;
+                     c.refused.items.push_back(turned ? msg("tick {}: the handpiece turned", e.tick) : msg("tick {}: none was left", e.tick));
                    },
                    [&](const ServoGap& gap) { c.lost_periods += std::clamp<std::int64_t>(gap.periods, 0, k_day); },
                    [&](const RecordingGap& gap) {
                      const double away_s = std::clamp(gap.utc_s(), 0.0, k_longest_s);
-                     c.interruptions.push_back(
-                         fmt::format("the recording was interrupted at {} and taken up again{}; the exam's clock stood still meanwhile",
-                                     when({e.tick, {}}), away_s > 0 ? fmt::format(" after {} s by the computer's clock", fixed(away_s, 0)) : ""));
+                     c.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(e.tick), e.tick, as_s(away_s, 0))
+                                                          : finding<FindingKind::interrupted>(at_time(e.tick), e.tick));
                    },
                    [&](const WorkAfterEnd& late) {
                      c.late = {late.ticks, late.pedal_ticks};
@@ -109,31 +111,24 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
 /// What granted, paused and late time means for a reader.
 void note_time(const Course& course, Result& r) {
   if (const auto text = scenarios::accommodations_text(r.accommodations); !text.empty())
-    r.notes.push_back(fmt::format("accommodations: {}; the limit was {}", text, seconds(r.limit_ticks)));
+    r.notes.push_back(finding<FindingKind::accommodations>(text, seconds(r.limit_ticks)));
   if (!r.pauses.empty()) {
-    std::string list;
+    List list;
     std::int64_t sum = 0;
     for (const auto& p : r.pauses) {
-      list += fmt::format("{}{} from tick {}{}", list.empty() ? "" : ", ", seconds(p.end - p.begin), p.begin, p.by_office ? " by the office" : "");
+      const Number length = seconds(p.end - p.begin);
+      list.items.push_back(p.by_office ? msg("{} from tick {} by the office", length, p.begin) : msg("{} from tick {}", length, p.begin));
       sum += p.end - p.begin;
     }
-    r.notes.push_back(fmt::format("pauses: {}, {} in all, which do not count ({})", r.pauses.size(), seconds(sum), list));
+    r.notes.push_back(finding<FindingKind::pauses>(r.pauses.size(), seconds(sum), list));
   }
-  if (r.pauses_refused > 0)
-    r.notes.push_back(
-        fmt::format("{}{} asked for and not given ({})", r.pauses_refused, r.pauses_refused == 1 ? " pause" : " pauses", course.refused));
-  if (r.motion.lost_s > 0)
-    r.notes.push_back(fixed(r.motion.lost_s, 3) +
-                      " s were lost while the station's program stood still: the exam's clock does not show them, and the " + "candidate had them");
+  if (r.pauses_refused > 0) r.notes.push_back(finding<FindingKind::pauses_refused>(r.pauses_refused, course.refused));
+  if (r.motion.lost_s > 0) r.notes.push_back(finding<FindingKind::time_lost>(as_s(r.motion.lost_s, 3)));
   r.notes.insert(r.notes.end(), course.interruptions.begin(), course.interruptions.end());
-  if (r.motion.late_ticks > 0)
-    r.notes.push_back(fmt::format("{} ticks were recorded after the exam was over, {} mm3 removed in them; they do not count", r.motion.late_ticks,
-                                  fixed(r.motion.late_removed_mm3, 2)));
-  if (r.late_work.ticks > 0)
-    r.notes.push_back(
-        fmt::format("the candidate went on for {}{}, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts",
-                    seconds(r.late_work.ticks), r.progress.finish == Finish::time ? " after time was up" : " after the exam was over",
-                    seconds(r.late_work.pedal_ticks)));
+  if (r.motion.late_ticks > 0) r.notes.push_back(finding<FindingKind::late_ticks>(r.motion.late_ticks, as_mm3(r.motion.late_removed_mm3)));
+  if (const Number late = seconds(r.late_work.ticks), pedal = seconds(r.late_work.pedal_ticks); r.late_work.ticks > 0)
+    r.notes.push_back(r.progress.finish == Finish::time ? finding<FindingKind::work_after_time>(late, pedal)
+                                                        : finding<FindingKind::work_after_end>(late, pedal));
 }
 
 /// The list of removed leaves and the tooth as it was left must tell the same story.
@@ -148,8 +143,7 @@ void compare_with_final_tooth(const GradeInput& input, std::size_t removed, Resu
   for (const auto c : was.count_leaves()) before += c;
   for (const auto c : is.count_leaves()) after += c;
   const bool late = result.motion.late_ticks > 0;
-  if (wrong > 0 || (!late && before - after != removed))
-    result.notes.push_back("the list of removed leaves and the final tooth disagree: a person must look at this recording");
+  if (wrong > 0 || (!late && before - after != removed)) result.notes.push_back(finding<FindingKind::record_differs>());
 }
 
 }  // namespace
@@ -166,8 +160,7 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   r.accommodations = input.scenario.accommodations;
   r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : scenarios::exam_limit_ticks(input.scenario);
   if (const auto limit = scenarios::exam_limit_ticks(input.scenario); limit != r.limit_ticks)
-    r.notes.push_back(fmt::format("the exam ran under a limit of {}; the scenario it is marked by has {}, which was not applied",
-                                  seconds(r.limit_ticks), seconds(limit)));
+    r.notes.push_back(finding<FindingKind::other_limit>(seconds(r.limit_ticks), seconds(limit)));
   const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
   // without motion (a cavity handed in for marking) every removed leaf counts
   const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
@@ -195,13 +188,9 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
     for (const auto& t : r.tissues)
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = course.progress;
-  if (input.landmarks_anew)
-    r.notes.emplace_back(
-        "the recording is of before exams kept the landmarks that their zones follow: this version found them anew, and the zones may lie elsewhere "
-        "than "
-        "in the exam; a person must look at it, and the sealed result is the exam's");
+  if (input.landmarks_anew) r.notes.push_back(finding<FindingKind::landmarks_found_again>());
   if (r.progress.finish != Finish::running && r.progress.steps_completed < r.progress.steps)
-    r.notes.push_back(fmt::format("steps not completed: {} of {}", r.progress.steps - r.progress.steps_completed, r.progress.steps));
+    r.notes.push_back(finding<FindingKind::steps_open>(r.progress.steps - r.progress.steps_completed, r.progress.steps));
   r.notes.insert(r.notes.end(), course.steps.begin(), course.steps.end());
   note_time(course, r);
   compare_with_final_tooth(input, input.beside != nullptr ? RemovedMap(input.all_removed(), last_tick).count() : removed.count(), r);

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/message.h"
+
 namespace cavum {
 
 inline constexpr std::size_t k_toml_bytes = 1U << 20;  ///< of text; our largest file has 4 kB, a zone drawn with 4,000 points 60 kB

@@ -43,8 +43,7 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
     if (!s.undecided() || s.made_up_by || registry.chosen_instead_of(s) != nullptr) continue;
     const json& score = s.result->at("score");
     ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
-    for (const json& reason : member_of(*s.result, "verdict_reasons"))
-      if (reason.is_string()) d.reasons.push_back(reason.get<std::string>());
+    for (const json& reason : member_of(*s.result, "verdict_reasons")) d.reasons.push_back(text_in(reason, "text"));
     queue.push_back(std::move(d));
   }
   return queue;

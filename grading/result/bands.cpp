@@ -29,23 +29,21 @@ void put_in_band(const Result& r, const scenarios::CriterionSpec& spec, Criterio
       c.reason += fmt::format(" (the limit of {} lies within the bound of the figure)", limit(i));
 }
 
-std::vector<std::string> count_bands(Result& r) {
+Findings count_bands(Result& r) {
   for (auto& b : r.bands) b.criteria = 0;
   for (const auto& c : r.criteria)
     if (c.band) ++r.bands[*c.band].criteria;
-  std::vector<std::string> failed;
+  Findings failed;
   for (std::size_t i = 0; i < r.bands.size(); ++i) {
     if (!r.bands[i].most) continue;
-    std::string which;
-    int count = 0;
-    for (const auto& c : r.criteria) {
-      if (!c.band || *c.band < i) continue;
-      which += (count == 0 ? "" : ", ") + c.title;
-      ++count;
-    }
-    if (count > *r.bands[i].most)
-      failed.push_back(fmt::format("{} {}{}, and at most {} may be: {}", count, r.bands[i].name, i + 1 < r.bands.size() ? " or worse" : "",
-                                   *r.bands[i].most, which));
+    List which;
+    for (const auto& c : r.criteria)
+      if (c.band && *c.band >= i) which.items.push_back(msg("{}", Authored{c.title}));
+    const int count = static_cast<int>(which.items.size()), most = *r.bands[i].most;
+    if (count <= most) continue;
+    const Authored band{r.bands[i].name};
+    failed.push_back(i + 1 < r.bands.size() ? finding<FindingKind::bands_too_full>(count, band, most, which)
+                                            : finding<FindingKind::band_too_full>(count, band, most, which));
   }
   return failed;
 }

@@ -13,7 +13,7 @@ namespace cavum::grading {
 /// the work, lie in the worst. Nothing happens to a criterion without limits.
 void put_in_band(const Result& result, const scenarios::CriterionSpec& spec, CriterionResult& criterion);
 
-/// Counts the criteria of each band; returns a sentence for each band with more than it may have, for the exam is failed by it.
-[[nodiscard]] std::vector<std::string> count_bands(Result& result);
+/// Counts the criteria of each band; returns a finding for each band with more than it may have, for the exam is failed by it.
+[[nodiscard]] Findings count_bands(Result& result);
 
 }  // namespace cavum::grading

@@ -128,10 +128,11 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   return out;
 }
 
-/// What counts against the pass mark: all points together, or each criterion by itself.
+/// What counts against the pass mark: all points together, or the lowest criterion.
 struct Standing {
   double percent = 100.0;
-  std::string which;
+  std::string criterion;  ///< its id; empty: all points together
+  bool none = false;      ///< there is nothing to judge by
   double bound_percent = 0.0;
 };
 
@@ -140,14 +141,15 @@ Standing standing_of(const Result& r) {
   if (r.compensatory) {
     double sum = 0;
     for (const auto& c : r.criteria) sum += c.points;
-    if (!(r.max_points > 0)) return {0, "the sum"};
-    return {100 * sum / r.max_points, r.unjudged_points > 0 ? "the sum of what could be judged" : "the sum", 100 * r.points_bound / r.max_points};
+    if (!(r.max_points > 0)) return {0, "", false, 0};
+    return {100 * sum / r.max_points, "", false, 100 * r.points_bound / r.max_points};
   }
   for (const auto& c : r.criteria) {
     if (!(c.max > 0) || !c.judged) continue;
     const double percent = 100 * c.points / c.max;
-    if (percent < s.percent || s.which.empty()) s = {percent, "criterion " + c.id, 100 * c.points_bound / c.max};
+    if (percent < s.percent || s.criterion.empty()) s = {percent, c.id, false, 100 * c.points_bound / c.max};
   }
+  s.none = s.criterion.empty();
   return s;
 }
 
@@ -160,24 +162,22 @@ struct Reach {
   double least = 0.0, most = 0.0;
 };
 Reach reach_of(const Result& r, const Standing& judged) {
-  if (!r.compensatory) return {0.0, judged.which.empty() ? 100.0 : judged.percent};
+  if (!r.compensatory) return {0.0, judged.none ? 100.0 : judged.percent};
   const double all = r.max_points + r.unjudged_points;
   return {100 * r.points / all, 100 * (r.points + r.unjudged_points) / all};
 }
 
 /// What was not judged can make no pass: it is one only when it is one whatever that is worth, and a fail only when nothing could mend it.
 void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standing& standing, bool critical) {
-  std::string open, guarded;
+  std::vector<std::string> open, guarded;
   for (std::size_t i = 0; i < r.criteria.size(); ++i) {
     if (r.criteria[i].judged) continue;
     const scenarios::CriterionSpec& spec = rubric.criteria[i];
-    open += (open.empty() ? "" : ", ") + spec.id;
-    if (spec.critical_above || spec.critical_below) guarded += (guarded.empty() ? "" : ", ") + spec.id;
+    open.push_back(spec.id);
+    if (spec.critical_above || spec.critical_below) guarded.push_back(spec.id);
   }
   if (open.empty()) return;
-  r.verdict_reasons.push_back(
-      fmt::format("not judged, for a preparation without its recording does not show it: {} ({} points); the score is of the other {}", open,
-                  fixed(r.unjudged_points, 1), fixed(r.max_points, 1)));
+  r.verdict_reasons.push_back(finding<FindingKind::not_judged>(list_of(open), as_points(r.unjudged_points), as_points(r.max_points)));
   if (critical) return;
   const Reach reach = r.unjudged_points > 0 ? reach_of(r, standing) : Reach{standing.percent, standing.percent};
   const auto verdict_at = [&](double percent) {
@@ -186,13 +186,13 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
   };
   const Verdict worst = verdict_at(reach.least), best = verdict_at(reach.most);
   r.verdict = worst == best ? worst : Verdict::review;
+  const Number least = as_percent(reach.least, 1), most = as_percent(reach.most, 1);
   if (r.unjudged_points > 0)
-    r.verdict_reasons.push_back(fmt::format("with all and without any of those points it would be {} to {} % of the whole rubric: {}",
-                                            fixed(reach.least, 1), fixed(reach.most, 1),
-                                            worst == best ? fmt::format("{} either way", verdict_name(worst)) : "a person must decide"));
+    r.verdict_reasons.push_back(worst == best ? finding<FindingKind::not_judged_same>(least, most, Term{verdict_name(worst)})
+                                              : finding<FindingKind::not_judged_open>(least, most));
   if (r.verdict != Verdict::pass || guarded.empty()) return;
   r.verdict = Verdict::review;
-  r.verdict_reasons.push_back("what could not be judged has a critical limit: a person must decide about " + guarded);
+  r.verdict_reasons.push_back(finding<FindingKind::not_judged_critical>(list_of(guarded)));
 }
 
 }  // namespace
@@ -239,11 +239,11 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     if (!c.critical_failed) continue;
     critical = true;
     certain = certain || !c.limit_in_bound;
-    r.verdict_reasons.push_back(fmt::format("{}{}: {}", k_critical_reason, c.id, c.reason));
+    r.verdict_reasons.push_back(finding<FindingKind::critical_limit>(c.id, c.reason));
   }
-  for (auto& text : count_bands(r)) {
+  for (auto& too_full : count_bands(r)) {
     critical = certain = true;
-    r.verdict_reasons.push_back(std::move(text));
+    r.verdict_reasons.push_back(std::move(too_full));
   }
   const Standing standing = standing_of(r);
   const double beyond = standing.percent - rubric.pass_percent;
@@ -251,39 +251,36 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   r.verdict = critical || beyond < 0 ? Verdict::fail : Verdict::pass;
   const bool open = !certain && !band && std::fabs(beyond) < standing.bound_percent;
   if (!critical && band) r.verdict = Verdict::review;
-  std::string text = fmt::format("{} reaches {} %, {}the pass mark is {} %", standing.which, fixed(standing.percent, 1),
-                                 critical && beyond >= 0 ? "which alone would be enough: " : "", fixed(rubric.pass_percent, 1));
-  if (!critical && band) text += fmt::format(", which is within the borderline band of {} %", fixed(rubric.borderline_percent, 1));
-  if (open && !critical)
-    text += fmt::format("; the score's bound of ± {} % reaches across it (every figure off by all of its bound, each to the same side)",
-                        fixed(standing.bound_percent, 1));
-  r.verdict_reasons.push_back(text);
+  const Number reached = as_percent(standing.percent, 1), pass = as_percent(rubric.pass_percent, 1);
+  r.verdict_reasons.push_back(!standing.criterion.empty() ? finding<FindingKind::lowest_criterion_reaches>(standing.criterion, reached, pass)
+                              : r.unjudged_points > 0     ? finding<FindingKind::judged_sum_reaches>(reached, pass)
+                                                          : finding<FindingKind::sum_reaches>(reached, pass));
+  if (critical && beyond >= 0) r.verdict_reasons.push_back(finding<FindingKind::enough_alone>());
+  if (!critical && band) r.verdict_reasons.push_back(finding<FindingKind::borderline>(as_percent(rubric.borderline_percent, 1)));
+  if (open && !critical) r.verdict_reasons.push_back(finding<FindingKind::bound_crosses>(as_percent(standing.bound_percent, 1)));
   if (!r.compensatory)
     for (const auto& c : r.criteria)
-      if (const double percent = c.max > 0 && c.judged ? 100 * c.points / c.max : 100.0;
-          percent < rubric.pass_percent && standing.which != "criterion " + c.id)
-        r.verdict_reasons.push_back(fmt::format("criterion {} reaches {} %, below the pass mark, too", c.id, fixed(percent, 1)));
+      if (const double percent = c.max > 0 && c.judged ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.criterion != c.id)
+        r.verdict_reasons.push_back(finding<FindingKind::criterion_below>(c.id, as_percent(percent, 1)));
   weigh_unjudged(r, rubric, standing, critical);
   // What fails by points whatever a limit's figure is, or the other way round, is not open.
   const bool fails_by_points = beyond < 0 && !band && !open;
   if (rubric.review_within_bound && !certain && !fails_by_points && (open || limit_open)) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.emplace_back("the bounds of the figures leave the verdict open: a person decides, as the rubric asks");
+    r.verdict_reasons.push_back(finding<FindingKind::bounds_open>());
   }
   if (!r.perforation.agree())
-    r.verdict_reasons.emplace_back(r.perforation.detected()
-                                       ? "the force shows a faulty breakthrough and the tissue none, which costs nothing: the tissue decides"
-                                       : "the force does not show the faulty breakthrough that the tissue shows: the tissue decides");
+    r.verdict_reasons.push_back(r.perforation.detected() ? finding<FindingKind::force_without_tissue>()
+                                                         : finding<FindingKind::tissue_without_force>());
   if (r.verdict == Verdict::pass && !r.progress.open_last_step.empty() && !rubric.open_step_passes) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(
-        fmt::format("the last step, '{}', is open, and work that is not finished is no pass: a person decides", r.progress.open_last_step));
+    r.verdict_reasons.push_back(finding<FindingKind::last_step_open>(r.progress.open_last_step));
   }
   if (r.perforation.fault.perforated &&
       std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))
-    r.verdict_reasons.push_back(r.perforation.fault.tissue + " was opened, which is a fault, and no criterion of this rubric asks for it");
-  for (const auto& note : r.notes)
-    if (note.find("a person must") != std::string::npos) {
+    r.verdict_reasons.push_back(finding<FindingKind::fault_not_asked>(Term{r.perforation.fault.tissue}));
+  for (const Finding& note : r.notes)
+    if (note.asks_examiner()) {
       r.verdict = Verdict::review;
       r.verdict_reasons.push_back(note);
     }

@@ -21,11 +21,6 @@ struct MetricValue {
 /// do best in) count in proportion until this much of the target was removed; for a wall, of the target towards it.
 inline constexpr double k_care_counts_percent = 50.0;
 
-/// How a reason of the verdict begins that names a criterion beyond its critical limit.
-inline constexpr char k_critical_reason[] = "critical criterion ";
-/// How a reason ends that says which of two detectors counts: of use to examiners.
-inline constexpr char k_detectors_differ[] = ": the tissue decides";
-
 /// By how much a grant stretches the exam's limit: the limit with what was granted over the one without; 1 where nothing was.
 [[nodiscard]] double granted_stretch(const Result& measured);
 /// A criterion as it is marked: one on the exam's time has its limits stretched by `granted_stretch`, so that the same share of the limit gets the

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "grading/result/finding.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -261,7 +262,7 @@ struct Result {
   std::string scenario_id, scenario_title, tooth_name;
   double leaf_mm = 0.0;
   Verdict verdict = Verdict::fail;
-  std::vector<std::string> verdict_reasons;
+  Findings verdict_reasons;
   double points = 0.0, max_points = 0.0;
   double points_bound = 0.0;     ///< the sum of the criteria's
   double unjudged_points = 0.0;  ///< most points of the criteria that could not be judged; no part of `max_points`
@@ -283,7 +284,7 @@ struct Result {
   std::vector<PauseMeasure> pauses;
   int pauses_refused = 0;
   LateWork late_work;
-  std::vector<std::string> notes;     ///< what a reader must know: disagreement in the record, late ticks
+  Findings notes;                     ///< what a reader must know: disagreement in the record, late ticks
   std::optional<NotShown> not_shown;  ///< none of a recorded exam
   std::vector<Tissue> tissues;
 };

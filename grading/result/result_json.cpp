@@ -228,6 +228,12 @@ std::string padded(std::string s, std::size_t width) {
   return s;
 }
 
+Json json_of(const Findings& findings) {
+  Json all = Json::array();
+  for (const Finding& f : findings) all.push_back(to_json(f));
+  return all;
+}
+
 }  // namespace
 
 Json to_json(const Result& r) {
@@ -236,7 +242,7 @@ Json to_json(const Result& r) {
   j["tooth"] = r.tooth_name;
   j["leaf_mm"] = r.leaf_mm;
   j["verdict"] = verdict_name(r.verdict);
-  j["verdict_reasons"] = r.verdict_reasons;
+  j["verdict_reasons"] = json_of(r.verdict_reasons);
   j["score"] = score_json(r);
   if (r.not_shown) j["score"]["not_judged_points"] = rounded(r.unjudged_points);
   j["criteria"] = Json::array();
@@ -257,25 +263,17 @@ Json to_json(const Result& r) {
   put_bounds(j, r, "/bounds/");
   j["bounds"]["force_n"] = rounded(r.motion.force_bound_n);  // of the mean and of the largest
   put_what_there_was(j, r);
-  j["notes"] = r.notes;
+  j["notes"] = json_of(r.notes);
   return j;
 }
 
 namespace {
 
-/// "critical criterion ID: ...": the identifier is no word to translate.
-std::string with_id_kept(const std::string& reason, const Result& r) {
-  for (const auto& c : r.criteria)
-    if (const std::string begin = k_critical_reason + c.id + ":"; reason.starts_with(begin))
-      return k_critical_reason + kept(c.id) + reason.substr(begin.size() - 1);
-  return reason;
-}
-
 std::string verdict_text(const Result& r) {
   std::string s = one_line(fmt::format("{} ({})", r.scenario_title, r.tooth_name)) + "\n";
   s += fmt::format("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)\n", verdict_name(r.verdict), fixed(r.points, 1),
                    fixed(r.max_points, 1), fixed(r.points_bound, 1));
-  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(with_id_kept(reason, r)));
+  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(english_text(reason.message())));
   return s;
 }
 
@@ -368,7 +366,7 @@ std::string motion_text(const Result& r) {
 
 std::string to_text(const Result& r) {
   std::string s = verdict_text(r) + criteria_text(r) + volumes_text(r) + walls_text(r) + cavity_text(r) + perforation_text(r) + motion_text(r);
-  for (const auto& note : r.notes) s += fmt::format("note: {}\n", one_line(note));
+  for (const auto& note : r.notes) s += fmt::format("note: {}\n", one_line(english_text(note.message())));
   return s;
 }
 

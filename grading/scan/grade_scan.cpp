@@ -143,23 +143,19 @@ constexpr double k_nearly_as_well = 0.92;
 /// What a reader must know; what is doubtful asks for a person.
 void put_notes(const ScanFacts& f, Result& r) {
   constexpr double k_sure_agreement = 0.93, k_sure_crown = 0.55, k_sure_form_mm = 0.012;
-  r.notes.insert(r.notes.end(), f.notes.begin(), f.notes.end());
-  if (f.cavities == 0) r.notes.emplace_back("the scan shows nothing that was removed");
-  if (f.cavities > 1) r.notes.push_back(fmt::format("{} separate cavities were found, and all of them count", f.cavities));
+  for (const std::string& note : f.notes) r.notes.push_back(finding<FindingKind::scan_note>(note));
+  if (f.cavities == 0) r.notes.push_back(finding<FindingKind::scan_shows_nothing>());
+  if (f.cavities > 1) r.notes.push_back(finding<FindingKind::scan_cavities>(f.cavities));
   if (!f.apart.empty()) {
     const auto& deepest =
         *std::max_element(f.apart.begin(), f.apart.end(), [](const ThinPiece& a, const ThinPiece& b) { return a.deep_mm < b.deep_mm; });
-    r.notes.push_back(fmt::format(
-        "apart from the cavity the scan lies up to {} mm deeper than the tooth, at [{}, {}, {}] mm: a nick, or a groove that one of the two "
-        "surfaces lacks; it is not counted, and a person must look at it. {}",
-        fixed(deepest.deep_mm, 2), fixed(deepest.at_mm.x, 2), fixed(deepest.at_mm.y, 2), fixed(deepest.at_mm.z, 2), f.were_they_counted));
+    r.notes.push_back(finding<FindingKind::scan_deeper_apart>(as_mm(deepest.deep_mm), deepest.at_mm));
+    if (f.were_they_counted) r.notes.push_back(*f.were_they_counted);
   }
   if (f.second_share > k_nearly_as_well * f.pose.share)
-    r.notes.push_back(fmt::format("the scan fits the tooth nearly as well in another pose ({} % of it, {} % in this one): a person must look at it",
-                                  fixed(100 * f.second_share, 1), fixed(100 * f.pose.share, 1)));
+    r.notes.push_back(finding<FindingKind::scan_other_pose>(as_percent(100 * f.second_share, 1), as_percent(100 * f.pose.share, 1)));
   if (agreement(f.fit) < k_sure_agreement || f.fit.crown_seen < k_sure_crown || f.fit.form_mm > k_sure_form_mm)
-    r.notes.push_back(fmt::format("the scan fits the tooth doubtfully ({} % of what should fit, {} % of the crown seen): a person must look at it",
-                                  fixed(100 * agreement(f.fit), 1), fixed(100 * f.fit.crown_seen, 1)));
+    r.notes.push_back(finding<FindingKind::scan_doubtful>(as_percent(100 * agreement(f.fit), 1), as_percent(100 * f.fit.crown_seen, 1)));
 }
 
 }  // namespace
@@ -211,9 +207,10 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   if (!facts.apart.empty()) {
     Result all = graded_by(cut_by_scan(even.mesh, caps, outer, facts.surface_bound_mm, path, ThinApart::goes), facts).result;
     mark(all, rubric);
-    facts.were_they_counted = fmt::format("Were it counted, the verdict would be {}, with {} of {} points", verdict_name(all.verdict),
-                                          fixed(all.points, 1), fixed(all.max_points, 1));
-    for (std::size_t i = 0; i < all.verdict_reasons.size(); ++i) facts.were_they_counted += (i == 0 ? ": " : "; ") + all.verdict_reasons[i];
+    List reasons{{}, true};
+    for (const Finding& reason : all.verdict_reasons) reasons.items.push_back(reason.message());
+    facts.were_they_counted =
+        finding<FindingKind::scan_apart_counted>(Term{verdict_name(all.verdict)}, as_points(all.points), as_points(all.max_points), reasons);
   }
   GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);

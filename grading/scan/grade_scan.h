@@ -27,11 +27,11 @@ struct ScanFacts {
   int cavities = 0;
   double unseen_mm3 = 0.0;  ///< of the tooth below where the scan ends
   double left_as_noise_mm3 = 0.0;
-  std::vector<ThinPiece> apart;    ///< thin pieces apart from the cavity: not counted
-  std::string were_they_counted;   ///< where there are any: the verdict and points that there would be then
-  double end_mm = 0.0;             ///< length of the rim where the scan ends; 0: it is closed
-  int holes = 0;                   ///< other rims
-  std::vector<std::string> notes;  ///< what was put right, and what is doubtful
+  std::vector<ThinPiece> apart;              ///< thin pieces apart from the cavity: not counted
+  std::optional<Finding> were_they_counted;  ///< where there are any: the verdict and points that there would be then
+  double end_mm = 0.0;                       ///< length of the rim where the scan ends; 0: it is closed
+  int holes = 0;                             ///< other rims
+  std::vector<std::string> notes;            ///< what was put right, and what is doubtful
 };
 
 struct GradedScan {

@@ -127,7 +127,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   if (options.peak_n > 0) config.limits.peak_n = std::min(config.limits.peak_n, options.peak_n);
   if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
   s.servo_toml = to_toml(config);
-  auto setup = std::make_unique<ExamSetup>(exam_task(std::move(s), scenario_path, point_paths));
+  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(std::move(s), scenario_path, point_paths), {}, {}});
   setup->tooth = load_tooth(setup->session.tooth, tooth_path);
   setup->session.landmarks_json = landmarks_to_keep(setup->scenario, setup->tooth);
   setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, setup->session.landmarks_json, scenario_path);
@@ -138,7 +138,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
 }
 
 std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
-  auto setup = std::make_unique<ExamSetup>(exam_task(session, "scenario of the session"));
+  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(session, "scenario of the session"), {}, {}});
   setup->tooth = load_tooth(session.tooth, "tooth of the session");
   setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "session");
   return setup;

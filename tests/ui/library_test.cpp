@@ -32,7 +32,7 @@ std::vector<std::string> tasks() {
 std::string text_of(const grading::Result& r) {
   std::string all =
       std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
-  for (const auto& reason : r.verdict_reasons) all += "  " + reason + "\n";
+  for (const auto& reason : r.verdict_reasons) all += "  " + english_text(reason.message()) + "\n";
   for (const auto& c : r.criteria) all += "  " + c.id + ": " + c.reason + "\n";
   return all;
 }

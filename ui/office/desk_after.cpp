@@ -105,7 +105,7 @@ Results Desk::results(bool names) {
     row.decided = decided(s);
     row.shown = s.shown_seq != 0;
     row.appeal = s.open_appeal() != nullptr;
-    row.makes_up = s.makes_up;
+    if (s.makes_up) row.makes_up = s.makes_up->ticket;
     row.made_up_by = s.made_up_by;
     if (s.shown->is_object() && s.shown_seq != s.result_seq)  // what is out is not what will be
       row.out = {text_in(*s.shown, "verdict"), number_in(member_of(member_of(*s.shown, "score"), "points"))};

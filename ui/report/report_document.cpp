@@ -165,19 +165,20 @@ std::string without_ticks(std::string text) {
   return text;
 }
 
-/// A failed limit by its criterion's title: "critical criterion ID: ..." is what the file says.
-std::string with_title(const std::string& reason, const grading::Result& r) {
-  for (const auto& c : r.criteria)
-    if (const std::string begin = grading::k_critical_reason + c.id + ":"; reason.starts_with(begin))
-      return fmt::format("{}{}:{}", grading::k_critical_reason, c.title, reason.substr(begin.size()));
-  return reason;
+/// A failed limit by its criterion's title.
+std::string reason_text(const grading::Finding& reason, const ReportSource& s) {
+  if (reason.kind == grading::FindingKind::critical_limit)
+    for (const auto& c : s.result.criteria)
+      if (reason.values[0] == Value(Name{c.id}))
+        return english_text(grading::finding<grading::FindingKind::critical_limit>(c.title, without_ticks(for_reader(c.reason, s))).message());
+  return for_reader(english_text(reason.message()), s);
 }
 
 /// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.
 std::vector<std::string> reasons_for(const ReportSource& s) {
   std::vector<std::string> out;
   if (s.reader == ReportReader::instructor) {
-    for (const auto& reason : s.result.verdict_reasons) out.push_back(with_title(without_ticks(for_reader(reason, s)), s.result));
+    for (const auto& reason : s.result.verdict_reasons) out.push_back(reason_text(reason, s));
     return out;
   }
   for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
@@ -187,7 +188,8 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
                      limits_text(grading::as_marked(s.rubric.criteria[i], s.result), c.unit)));
   }
   for (const auto& reason : s.result.verdict_reasons)
-    if (!reason.starts_with(grading::k_critical_reason) && !reason.ends_with(grading::k_detectors_differ)) out.push_back(for_reader(reason, s));
+    if (reason.kind != grading::FindingKind::critical_limit && reason.row().concerns != grading::Concerns::detail)
+      out.push_back(reason_text(reason, s));
   return out;
 }
 
@@ -483,7 +485,7 @@ Document report_document(const ReportSource& s) {
                                     p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
                                  tr("Perforation"), Paragraph::Kind::note});
   add_lessons(d, s);
-  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{for_reader(note, s), tr("Note")});
+  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{for_reader(english_text(note.message()), s), tr("Note")});
   const bool student = s.reader == ReportReader::student;
   if (student)
     add_marks(d, s);

@@ -110,7 +110,7 @@ void result_screen(const ScreenContext& c) {
   quiet_text(t, tr("{},  candidate {},  {} minutes{}", as_is(shown(r.scenario_title)), as_is(c.sitting->candidate()), clock_text(r.motion.time_s),
                    c.practice ? ",  practice" : ""));
   for (const auto& reason : r.verdict_reasons)
-    if (!reason.starts_with(grading::k_critical_reason)) wrapped_text(reason);  // that one is among the mistakes
+    if (reason.kind != grading::FindingKind::critical_limit) wrapped_text(english_text(reason.message()));  // that one is among the mistakes
   ImGui::Dummy({0, t.px(4)});
   what_to_work_on(t, c.sitting->lessons());
   ImGui::Dummy({0, t.px(4)});

@@ -91,7 +91,7 @@ class Station {
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
-        throw Error(msg("station"), msg("failed during the exam ({})", e.without_advice()),
+        throw Error(msg("station"), msg("failed during the exam ({})", e.what()),
                     msg("what was done is recorded; go on with: cavum station --resume {}", open_session()));
       throw;
     }

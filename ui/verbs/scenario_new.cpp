@@ -62,7 +62,7 @@ std::string named_from(const std::string& out, const std::string& tooth_file) {
 }
 
 int list_tasks(const NewArguments& o) {
-  if (o.on_the_block()) throw Error("--list", msg("is for a tooth"), msg("tasks on the block: {}", fmt::join(scenarios::block_task_words(), ", ")));
+  if (o.on_the_block()) throw Error("--list", msg("is for a tooth"), msg("tasks on the block: {}", list_of(scenarios::block_task_words())));
   const Tooth tooth = load_tooth_file(tooth_file(o));
   const auto offered = scenarios::offered_tasks(tooth, find_landmarks(tooth));
   if (o.json) {

@@ -177,7 +177,7 @@ std::string to_text(const Caught& c) {
   std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", kept(c.criterion.id),
                               c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), grading::verdict_name(c.result.verdict));
   if (c.as_named) return s;
-  for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", reason);
+  for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", english_text(reason.message()));
   s += fmt::format("what to do: {}\n", c.advice);
   return s;
 }

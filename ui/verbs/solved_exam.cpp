@@ -60,7 +60,7 @@ Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed, const s
   solved.point = setup.point_names[expert->point()];
   const grading::Result& r = solved.result.emplace(sat_by(setup, *expert, session));
   if (r.verdict == grading::Verdict::pass) return solved;
-  solved.reasons = r.verdict_reasons;
+  for (const grading::Finding& reason : r.verdict_reasons) solved.reasons.push_back(english_text(reason.message()));
   if (r.progress.finish == Finish::time)
     solved.reasons.push_back(fmt::format("time was up after {} s: the expert was not finished", fixed(r.motion.time_s, 1)));
   for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)

@@ -116,7 +116,6 @@ TEST(OverPulp, ARubricThatAsksForItIsRefusedWhereTheToothHasNoPulp) {
   std::erase_if(bare.tissues, [](const Tissue& t) { return t.name == "pulp"; });
   const auto problems = scenarios::not_in_this_exam(c.scenario.rubric, c.scenario, bare);
   ASSERT_EQ(problems.size(), 1u);
-  EXPECT_NE(problems[0].what.find("the tooth has no pulp"), std::string::npos) << problems[0].what;
 }
 
 TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {

@@ -60,11 +60,12 @@ TEST(Bands, OneMoreThanABandMayHoldFailsWhateverThePoints) {
   const Result two = cut_beyond(0.35, 0.35, rubric(1));
   EXPECT_EQ(two.verdict, Verdict::fail);
   EXPECT_GT(two.points, 0.5 * two.max_points) << "by points alone it would pass";
-  EXPECT_EQ(two.verdict_reasons.at(0), "2 marginal or worse, and at most 1 may be: mesial, distal");
+  EXPECT_EQ(two.verdict_reasons.at(0).kind, FindingKind::bands_too_full);
+  EXPECT_EQ(std::get<std::int64_t>(two.verdict_reasons[0].values[0]), 2);
   EXPECT_EQ(cut_beyond(0.35, 0.35, rubric(2)).verdict, Verdict::pass);
   const Result deficient = cut_beyond(0.7, 0.0, rubric(2));
   EXPECT_EQ(deficient.verdict, Verdict::fail);
-  EXPECT_EQ(deficient.verdict_reasons.at(0), "1 critical, and at most 0 may be: mesial");
+  EXPECT_EQ(deficient.verdict_reasons.at(0).kind, FindingKind::band_too_full);
 }
 
 TEST(Bands, CareForLessThanHalfOfTheWorkLiesInTheWorst) {

@@ -29,7 +29,7 @@ TEST(Condition, IsJudgedByTheRangesOfItsQuantities) {
 TEST(Condition, ChainsCommasAndDivisionsByZeroAreFaults) {
   const auto fault = [](const char* text) {
     const auto found = condition_fault(text);
-    return found ? found->what : "";
+    return found ? english_text(found->what) : "";
   };
   for (const char* text : {"0 < depth_mm < 10", "a > 1 && (0 <= b <= c)", "a == b == c", "min(a < b < c, 1) > 0", "a<b!=c"})
     EXPECT_EQ(fault(text), "is a chain of comparisons, which does not mean what it reads") << text;

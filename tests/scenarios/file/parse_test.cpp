@@ -186,7 +186,7 @@ TEST(ParseRubric, NamesEveryMistakeAtOnceEachWithItsPlace) {
     EXPECT_EQ(english_text(e.problems()[0].where), "r.toml:2:16");
     EXPECT_EQ(english_text(e.problems()[1].where), "r.toml:5:10");
     EXPECT_EQ(english_text(e.problems()[2].where), "r.toml:7:8");
-    EXPECT_EQ(std::string(e.what()), e.problems()[0].text() + " (and 2 more)");
+    EXPECT_EQ(std::string(e.what()), english_text(e.problems()[0].message()) + " (and 2 more)");
   }
 }
 

@@ -34,13 +34,13 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
     ledger::Ledger ledger = opened.school().ledger();
     json review = *ledger::read_registry(ledger.content()).sessions.at(0).result;
     review["verdict"] = "review";
-    review["verdict_reasons"] = {"force and tissue differ"};
+    review["verdict_reasons"] = json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
     ledger::enter_regrade(ledger, filed["entry"], review, {}, "as if");
     EXPECT_TRUE(ledger.content().entries.back().by.account.empty()) << "nobody signed in for that";
   }
   const json queue = examiner.get("/api/queue").json()["queue"];
   ASSERT_EQ(queue.size(), 1u);
-  EXPECT_EQ(queue[0]["reasons"][0], "force and tissue differ");
+  EXPECT_EQ(queue[0]["reasons"].size(), 1u);
   EXPECT_EQ(queue[0].contains("name"), false) << "an examiner sees no name";
   EXPECT_EQ(examiner.get("/api/results").json()["results"][0].contains("name"), false);
   EXPECT_EQ(officer.get("/api/results").json()["results"][0]["id"], "4711");

@@ -140,7 +140,7 @@ TEST_F(Grades, AReviewIsNeverSentAsAMark) {
   EXPECT_EQ(state["posts"][0]["gradingProgress"], "PendingManual");
   EXPECT_FALSE(state["posts"][0].contains("scoreGiven"));
   auto now = opened_.school().ledger();
-  ledger::enter_decision(now, sessions_["4711"], {"pass", "Dr Stein", "the wall is thick enough"});
+  ledger::enter_decision(now, sessions_["4711"], {grading::Verdict::pass, "Dr Stein", "the wall is thick enough"});
   release({"4711"});
   settled();
   state = platform_.control();

@@ -1,0 +1,38 @@
+#include "grading/result/finding.h"
+
+#include <nlohmann/json.hpp>
+
+#include "grading/result/result_json.h"
+
+namespace cavum::grading {
+namespace {
+
+nlohmann::ordered_json json_of_value(const Value& value) {
+  struct Of {
+    nlohmann::ordered_json operator()(std::int64_t whole) const { return whole; }
+    nlohmann::ordered_json operator()(const Number& n) const { return rounded(n.value); }
+    nlohmann::ordered_json operator()(const ClockTime& c) const { return rounded(c.seconds); }
+    nlohmann::ordered_json operator()(Vec3 p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
+    nlohmann::ordered_json operator()(const Name& n) const { return n.text; }
+    nlohmann::ordered_json operator()(const FilePlace& p) const { return p.file; }
+    nlohmann::ordered_json operator()(const Term& t) const { return t.english; }
+    nlohmann::ordered_json operator()(const Authored& a) const { return a.english; }
+    nlohmann::ordered_json operator()(const List& list) const {
+      nlohmann::ordered_json all = Json::array();
+      for (const Message& m : list.items) all.push_back(english_text(m));
+      return all;
+    }
+    nlohmann::ordered_json operator()(const Message& m) const { return english_text(m); }
+  };
+  return std::visit(Of(), static_cast<const Value::variant&>(value));
+}
+
+}  // namespace
+
+nlohmann::ordered_json to_json(const Finding& f) {
+  nlohmann::ordered_json values = nlohmann::ordered_json::object();
+  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = json_of_value(f.values[i]);
+  return {{"kind", f.row().name}, {"values", values}, {"text", english_text(f.message())}};
+}
+
+}  // namespace cavum::grading

@@ -1,0 +1,115 @@
+// What a result says beside its figures: why the verdict is what it is, and what a reader must know. Each is a kind with its values; who decides asks
+// for the kind, and only a face puts it into words. One table has all kinds.
+#pragma once
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <nlohmann/json_fwd.hpp>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "engine/base/message.h"
+
+namespace cavum::grading {
+
+/// Whom a finding concerns: `examiner` leaves the verdict to an examiner; `detail` is of use to examiners alone.
+enum class Concerns : std::uint8_t { reader, examiner, detail };
+
+// FINDING(kind, Concerns, English sentence, names of its values)
+// clang-format off
+#define CAVUM_FINDINGS(FINDING) \
+  /* why the verdict is what it is */ \
+  FINDING(critical_limit, reader, "critical criterion {}: {}", "criterion", "reason") \
+  FINDING(band_too_full, reader, "{} {}, and at most {} may be: {}", "count", "band", "most", "criteria") \
+  FINDING(bands_too_full, reader, "{} {} or worse, and at most {} may be: {}", "count", "band", "most", "criteria") \
+  FINDING(sum_reaches, reader, "the sum reaches {}, the pass mark is {}", "percent", "pass_percent") \
+  FINDING(judged_sum_reaches, reader, "the sum of what could be judged reaches {}, the pass mark is {}", "percent", "pass_percent") \
+  FINDING(lowest_criterion_reaches, reader, "criterion {} reaches {}, the pass mark is {}", "criterion", "percent", "pass_percent") \
+  FINDING(enough_alone, reader, "the points alone would be enough", ) \
+  FINDING(borderline, reader, "the points lie within the borderline band of {}", "borderline_percent") \
+  FINDING(bound_crosses, reader, "the score's bound of ± {} reaches across the pass mark (every figure off by all of its bound, each to the same side)", "bound_percent") \
+  FINDING(criterion_below, reader, "criterion {} reaches {}, below the pass mark, too", "criterion", "percent") \
+  FINDING(not_judged, reader, "not judged, for a preparation without its recording does not show it: {} ({} points); the score is of the other {}", "criteria", "points", "judged_points") \
+  FINDING(not_judged_same, reader, "with all and without any of those points it would be {} to {} of the whole rubric: {} either way", "least_percent", "most_percent", "verdict") \
+  FINDING(not_judged_open, examiner, "with all and without any of those points it would be {} to {} of the whole rubric: an examiner must decide", "least_percent", "most_percent") \
+  FINDING(not_judged_critical, examiner, "what could not be judged has a critical limit: an examiner must decide about {}", "criteria") \
+  FINDING(bounds_open, examiner, "the bounds of the figures leave the verdict open: an examiner must decide, as the rubric asks", ) \
+  FINDING(force_without_tissue, detail, "the force shows a faulty breakthrough and the tissue none, which costs nothing: the tissue decides", ) \
+  FINDING(tissue_without_force, detail, "the force does not show the faulty breakthrough that the tissue shows: the tissue decides", ) \
+  FINDING(last_step_open, examiner, "the last step, '{}', was not completed: an examiner must decide", "step") \
+  FINDING(fault_not_asked, reader, "{} was opened, which is a fault, and no criterion of this rubric asks for it", "tissue") \
+  /* what a reader must know */ \
+  FINDING(accommodations, reader, "accommodations: {}; the limit was {}", "granted", "limit_s") \
+  FINDING(other_limit, reader, "the exam ran under a limit of {}; the scenario it is marked by has {}, which was not applied", "limit_s", "own_limit_s") \
+  FINDING(pauses, reader, "pauses: {}, {} in all, which do not count ({})", "count", "all_s", "pauses") \
+  FINDING(pauses_refused, reader, "pauses asked for and not given: {} ({})", "count", "refused") \
+  FINDING(time_lost, reader, "{} were lost while the station's program stood still: the exam's clock does not show them, and the candidate had them", "lost_s") \
+  FINDING(interrupted, reader, "the recording was interrupted at {} (tick {}) and taken up again; the exam's clock stood still meanwhile", "t_s", "tick") \
+  FINDING(interrupted_for, reader, "the recording was interrupted at {} (tick {}) and taken up again after {} by the computer's clock; the exam's clock stood still meanwhile", "t_s", "tick", "away_s") \
+  FINDING(late_ticks, reader, "{} ticks were recorded after the exam was over, {} removed in them; they do not count", "ticks", "removed_mm3") \
+  FINDING(work_after_time, reader, "the candidate went on for {} after time was up, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts", "late_s", "pedal_s") \
+  FINDING(work_after_end, reader, "the candidate went on for {} after the exam was over, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts", "late_s", "pedal_s") \
+  FINDING(steps_open, reader, "steps not completed: {} of {}", "open", "steps") \
+  FINDING(step_failed, reader, "step '{}' failed at {} (tick {}): {}", "step", "t_s", "tick", "condition") \
+  FINDING(step_timed_out, reader, "step '{}' ran out of its time at {} (tick {}): its limit was {}", "step", "t_s", "tick", "limit_s") \
+  FINDING(step_timed_out_otherwise, reader, "step '{}' ran out of its time at {} (tick {})", "step", "t_s", "tick") \
+  FINDING(record_differs, examiner, "the list of removed leaves and the final tooth disagree: an examiner must look at this recording", ) \
+  FINDING(landmarks_found_again, examiner, "the recording does not hold the landmarks that its zones follow: they were found again, and the zones may lie elsewhere than in the exam; an examiner must look at it, and the sealed result is the exam's", ) \
+  /* of a scan */ \
+  FINDING(scan_note, reader, "the scan: {}", "note") \
+  FINDING(scan_shows_nothing, reader, "the scan shows nothing that was removed", ) \
+  FINDING(scan_cavities, reader, "{} separate cavities were found, and all of them count", "count") \
+  FINDING(scan_deeper_apart, examiner, "apart from the cavity the scan lies up to {} deeper than the tooth, at {}: a nick, or a groove that one of the two surfaces lacks; it is not counted, and an examiner must look at it", "deep_mm", "site_mm") \
+  FINDING(scan_apart_counted, reader, "were it counted, the verdict would be {}, with {} of {} points: {}", "verdict", "points", "max", "reasons") \
+  FINDING(scan_other_pose, examiner, "the scan fits the tooth nearly as well in another pose ({} of it, {} in this one): an examiner must look at it", "other_percent", "percent") \
+  FINDING(scan_doubtful, examiner, "the scan fits the tooth doubtfully ({} of what should fit, {} of the crown seen): an examiner must look at it", "fit_percent", "crown_percent")
+// clang-format on
+
+enum class FindingKind : std::uint8_t {
+#define CAVUM_FINDING_KIND(KIND, ...) KIND,
+  CAVUM_FINDINGS(CAVUM_FINDING_KIND)
+#undef CAVUM_FINDING_KIND
+};
+
+struct FindingRow {
+  std::string_view name;
+  Concerns concerns;
+  const char* english;
+  std::array<const char*, 4> values;  ///< their names in the JSON
+  [[nodiscard]] constexpr std::size_t count() const noexcept {
+    std::size_t n = 0;
+    while (n < values.size() && values[n] != nullptr) ++n;
+    return n;
+  }
+};
+inline constexpr FindingRow k_findings[] = {
+#define CAVUM_FINDING_ROW(KIND, CONCERNS, ENGLISH, ...) {#KIND, Concerns::CONCERNS, ENGLISH, {__VA_ARGS__}},
+    CAVUM_FINDINGS(CAVUM_FINDING_ROW)
+#undef CAVUM_FINDING_ROW
+};
+
+struct Finding {
+  FindingKind kind{};
+  std::vector<Value> values;  ///< as many as its row names
+
+  [[nodiscard]] const FindingRow& row() const noexcept { return k_findings[static_cast<std::size_t>(kind)]; }
+  /// Leaves the verdict to an examiner.
+  [[nodiscard]] bool asks_examiner() const noexcept { return row().concerns == Concerns::examiner; }
+  [[nodiscard]] Message message() const { return {row().english, nullptr, 0, values}; }
+  friend bool operator==(const Finding&, const Finding&) = default;
+};
+using Findings = std::vector<Finding>;
+
+/// A finding of this kind: the compiler counts its values.
+template <FindingKind kind, class... A>
+[[nodiscard]] Finding finding(A&&... values) {
+  static_assert(sizeof...(A) == k_findings[static_cast<std::size_t>(kind)].count(), "the kind has another number of values");
+  return {kind, {message_detail::value_of(std::forward<A>(values))...}};
+}
+
+/// {"kind", "values": {by name}, "text": English}.
+[[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
+
+}  // namespace cavum::grading
