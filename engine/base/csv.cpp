@@ -58,7 +58,9 @@ CsvReader::CsvReader(std::string_view text, std::string where, const CsvForm& fo
 
 std::string CsvReader::at() const { return fmt::format("{}:{}", where_, line_); }
 
-void CsvReader::fail(const Message& what, const Message& what_to_do) const { throw Error(at(), what, what_to_do); }
+void CsvReader::fail(ErrorCode code, const Message& what, const Message& what_to_do) const {
+  throw Error(code, FilePlace{where_, line_}, what, what_to_do);
+}
 
 bool CsvReader::next_row() {
   for (;;) {

@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/error.h"
 
 namespace cavum {
 
@@ -54,7 +54,8 @@ class CsvReader {
   /// What parts the fields; known once the heading was read.
   [[nodiscard]] char separator() const noexcept { return separator_; }
   /// Throws Error(where:line, what, what_to_do).
-  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const;
+  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const { fail(General::error, what, what_to_do); }
+  [[noreturn]] void fail(ErrorCode code, const Message& what, const Message& what_to_do) const;
 
  private:
   void read_row();

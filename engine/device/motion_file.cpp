@@ -36,17 +36,19 @@ std::vector<std::size_t> read_header(const CsvReader& in) {
     if (found == k_columns.end()) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
         if (name == axis || name.starts_with(fmt::format("{}_", axis)))
-          in.fail(msg("column '{}' has another unit or none", one_line(name)),
+          in.fail(MotionError::column_unit, msg("column '{}' has another unit or none", one_line(name)),
                   msg("convert it to '{}{}'", axis, axis == "t" ? msg("_s") : msg("_mm")));
-      in.fail(msg("column '{}' is not known", one_line(name)), msg("use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point"));
+      in.fail(MotionError::unknown_column, msg("column '{}' is not known", one_line(name)),
+              msg("use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point"));
     }
     const auto c = static_cast<std::size_t>(found - k_columns.begin());
-    if (std::find(column_of.begin(), column_of.end(), c) != column_of.end()) in.fail(msg("column '{}' stands twice", name), msg("remove one"));
+    if (std::find(column_of.begin(), column_of.end(), c) != column_of.end())
+      in.fail(MotionError::column_twice, msg("column '{}' stands twice", name), msg("remove one"));
     column_of.push_back(c);
   }
   for (std::size_t c = 0; c < k_required; ++c)
     if (std::find(column_of.begin(), column_of.end(), c) == column_of.end())
-      in.fail(msg("column '{}' is missing", k_columns[c]), msg("add it to header and rows"));
+      in.fail(MotionError::column_missing, msg("column '{}' is missing", k_columns[c]), msg("add it to header and rows"));
   return column_of;
 }
 
@@ -59,24 +61,30 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
     const auto name = std::string(k_columns[column_of[i]]);
     const auto [end, error] = std::from_chars(cells[i].data(), cells[i].data() + cells[i].size(), value);
     if (error != std::errc{} || end != cells[i].data() + cells[i].size())
-      in.fail(msg("'{}' in column {} is not a number", cells[i], name), msg("write a number with a point"));
-    if (!std::isfinite(value)) in.fail(msg("column {} is {}", name, cells[i]), msg("repair or cut out this row"));
+      in.fail(MotionError::not_a_number, msg("'{}' in column {} is not a number", cells[i], name), msg("write a number with a point"));
+    if (!std::isfinite(value)) in.fail(MotionError::not_finite, msg("column {} is {}", name, cells[i]), msg("repair or cut out this row"));
   }
-  if (v[0] < 0) in.fail(msg("t_s is {}, before the start of time", as_number(v[0])), msg("shift all times so that the first row is at 0 s"));
-  if (v[0] > k_latest_s) in.fail(msg("t_s is {}, which cannot be seconds", as_number(v[0])), msg("convert it to seconds, the first row at 0 s"));
-  if (v[8] < 0 || v[8] > 1) in.fail(msg("pedal is {}, outside 0 .. 1", as_number(v[8])), msg("scale it: 0 released, 1 pressed to the floor"));
+  if (v[0] < 0)
+    in.fail(MotionError::time, msg("t_s is {}, before the start of time", as_number(v[0])), msg("shift all times so that the first row is at 0 s"));
+  if (v[0] > k_latest_s)
+    in.fail(MotionError::time, msg("t_s is {}, which cannot be seconds", as_number(v[0])), msg("convert it to seconds, the first row at 0 s"));
+  if (v[8] < 0 || v[8] > 1)
+    in.fail(MotionError::pedal, msg("pedal is {}, outside 0 .. 1", as_number(v[8])), msg("scale it: 0 released, 1 pressed to the floor"));
   for (int axis = 1; axis <= 3; ++axis)
     if (std::fabs(v[static_cast<std::size_t>(axis)]) > 500)
-      in.fail(msg("{} is further than 500 mm from the tooth", k_columns[static_cast<std::size_t>(axis)]), msg("give millimetres in the tooth frame"));
+      in.fail(MotionError::too_far, msg("{} is further than 500 mm from the tooth", k_columns[static_cast<std::size_t>(axis)]),
+              msg("give millimetres in the tooth frame"));
   const double n2 = v[4] * v[4] + v[5] * v[5] + v[6] * v[6] + v[7] * v[7];
   if (n2 < 0.5 || n2 > 2)
-    in.fail(msg("the rotation qw,qx,qy,qz is not of unit length"), msg("give a unit quaternion, 1,0,0,0 for an upright handpiece"));
+    in.fail(MotionError::rotation, msg("the rotation qw,qx,qy,qz is not of unit length"),
+            msg("give a unit quaternion, 1,0,0,0 for an upright handpiece"));
   const bool has_point = std::find(column_of.begin(), column_of.end(), std::size_t{11}) != column_of.end();
   if (has_point && (v[11] != std::floor(v[11]) || v[11] < 0 || v[11] > 255))
-    in.fail(msg("point is {}, not a number of the tray", as_number(v[11])), msg("write 0 for the first diamond point"));
+    in.fail(MotionError::point, msg("point is {}, not a number of the tray", as_number(v[11])), msg("write 0 for the first diamond point"));
   for (const std::size_t button : {9u, 10u})
     if (v[button] != 0 && v[button] != 1)
-      in.fail(msg("{} is {}, neither 0 nor 1", k_columns[button], as_number(v[button])), msg("write 1 while the button is pressed, else 0"));
+      in.fail(MotionError::button, msg("{} is {}, neither 0 nor 1", k_columns[button], as_number(v[button])),
+              msg("write 1 while the button is pressed, else 0"));
   return {v[0], {{v[1], v[2], v[3]}, normalized(Quat{v[4], v[5], v[6], v[7]})}, v[8], v[9] != 0, v[10] != 0, static_cast<int>(v[11])};
 }
 
@@ -89,16 +97,18 @@ void take_setting(const CsvReader& in, Motion& motion) {
   const auto name = without_blanks(in.comment().substr(0, equals)), value = without_blanks(in.comment().substr(equals + 1));
   if (name == "point") {
     motion.point = value;
-    if (motion.point.empty()) in.fail(msg("'# point =' names no diamond point"), msg("write its name, such as round-1.0, or leave the line out"));
+    if (motion.point.empty())
+      in.fail(MotionError::setting, msg("'# point =' names no diamond point"), msg("write its name, such as round-1.0, or leave the line out"));
   } else if (name == "position_quantum_mm") {
     double& q = motion.position_quantum_mm;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), q);
     if (error != std::errc{} || end != value.data() + value.size() || !(q >= 0 && q <= k_coarsest_mm))
-      in.fail(msg("'# position_quantum_mm = {}' is no step of an encoder", one_line(value)), msg("write millimetres from 0 to 1, such as 0.055"));
+      in.fail(MotionError::setting, msg("'# position_quantum_mm = {}' is no step of an encoder", one_line(value)),
+              msg("write millimetres from 0 to 1, such as 0.055"));
   } else if (name == "first_tip_mm") {
     Vec3 tip;
     const auto refuse = [&] {
-      in.fail(msg("'# first_tip_mm = {}' is no place", one_line(value)), msg("write three numbers in mm, such as 1.5 0 2"));
+      in.fail(MotionError::setting, msg("'# first_tip_mm = {}' is no place", one_line(value)), msg("write three numbers in mm, such as 1.5 0 2"));
     };
     const char *at = value.data(), *const end = value.data() + value.size();
     for (double* axis : {&tip.x, &tip.y, &tip.z}) {
@@ -115,10 +125,10 @@ void take_setting(const CsvReader& in, Motion& motion) {
 /// Throws Error unless the sample is later than those before it, and within a day of the first.
 void add(Motion& motion, const MotionSample& sample, const CsvReader& in) {
   if (!motion.samples.empty() && !(sample.t_s > motion.samples.back().t_s))
-    in.fail(msg("t_s does not grow"), msg("sort the rows and remove repeated times"));
+    in.fail(MotionError::time_order, msg("t_s does not grow"), msg("sort the rows and remove repeated times"));
   motion.samples.push_back(sample);
   if (motion.duration_s() > k_longest_s)
-    in.fail(msg("t_s is {} after the first row, more than a day", as_s(motion.duration_s(), k_as_needed)),
+    in.fail(MotionError::too_long, msg("t_s is {} after the first row, more than a day", as_s(motion.duration_s(), k_as_needed)),
             msg("give seconds, and cut the file where the work ends"));
 }
 
@@ -131,13 +141,16 @@ void require_millimetres(const Motion& motion, const std::string& where) {
     high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
   }
   const double way = length(high - low);
-  if (way > 0 && way < 0.05) throw Error(where, msg("moves less than 0.05 mm in all"), msg("x_mm, y_mm and z_mm look like metres: multiply by 1000"));
+  if (way > 0 && way < 0.05)
+    throw Error(MotionError::in_metres, Name{where}, msg("moves less than 0.05 mm in all"),
+                msg("x_mm, y_mm and z_mm look like metres: multiply by 1000"));
 }
 
 }  // namespace
 
 Motion parse_motion(const std::string& text, const std::string& where) {
-  if (text.find('\0') != std::string::npos) throw Error(where, msg("is no text: it holds zero bytes"), msg("give a motion as CSV, in UTF-8"));
+  if (text.find('\0') != std::string::npos)
+    throw Error(MotionError::not_text, Name{where}, msg("is no text: it holds zero bytes"), msg("give a motion as CSV, in UTF-8"));
   CsvReader in(text, where, k_motion);
   Motion motion;
   std::vector<std::size_t> column_of;
@@ -149,7 +162,8 @@ Motion parse_motion(const std::string& text, const std::string& where) {
     else
       add(motion, read_row(in, column_of), in);
   }
-  if (motion.samples.size() < 2) throw Error(where, msg("holds fewer than two rows of motion"), msg("give a header and at least two rows"));
+  if (motion.samples.size() < 2)
+    throw Error(MotionError::too_short, Name{where}, msg("holds fewer than two rows of motion"), msg("give a header and at least two rows"));
   require_millimetres(motion, where);
   return motion;
 }
@@ -190,9 +204,12 @@ std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, do
     const TickInput& in = inputs[i];
     const auto at = fmt::format("tick {}: ", i);
     if ((in.flags & (k_stylus_fresh | k_pedal_fresh)) != (k_stylus_fresh | k_pedal_fresh) || (in.flags & k_stylus_fault) != 0)
-      throw Error(where, msg("{}stylus or pedal gave nothing, which no motion file can say", at), msg("replay the session itself: `cavum replay`"));
+      throw Error(MotionError::no_reading, Name{where}, msg("{}stylus or pedal gave nothing, which no motion file can say", at),
+                  msg("replay the session itself: `cavum replay`"));
     const std::optional<Quat> q = read_back_as(in);
-    if (!q) throw Error(where, msg("{}its rotation is none of unit length", at), msg("replay the session itself: `cavum replay`"));
+    if (!q)
+      throw Error(MotionError::rotation, Name{where}, msg("{}its rotation is none of unit length", at),
+                  msg("replay the session itself: `cavum replay`"));
     const auto mm = [](std::int32_t nm) { return fmt::format("{}{}.{:06}", nm < 0 ? "-" : "", std::abs(nm) / 1'000'000, std::abs(nm) % 1'000'000); };
     out += fmt::format("{}.{:03},{},{},{},{},{},{},{},{},{},{},{}\n", i / 1000, i % 1000, mm(in.tip_nm[0]), mm(in.tip_nm[1]), mm(in.tip_nm[2]), q->w,
                        q->x, q->y, q->z, in.pedal(), (in.flags & k_button_1) != 0 ? 1 : 0, (in.flags & k_button_2) != 0 ? 1 : 0, in.point);

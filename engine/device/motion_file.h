@@ -6,6 +6,7 @@
 // `# first_tip_mm = 1.5 0 2` says where the servo starts, if not at the first row.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <span>
 #include <string>
@@ -15,6 +16,29 @@
 #include "engine/servo/tick.h"
 
 namespace cavum {
+
+/// What a file of a motion can have wrong; faults of its CSV bear none of these.
+enum class MotionError : std::uint8_t {
+  not_text,
+  unknown_column,
+  column_unit,  ///< another than ours, or none
+  column_twice,
+  column_missing,
+  not_a_number,
+  not_finite,
+  time,  ///< before 0, or no seconds
+  time_order,
+  too_long,
+  too_short,
+  in_metres,
+  too_far,
+  rotation,
+  pedal,
+  button,
+  point,
+  setting,     ///< in a comment, `# NAME = VALUE`
+  no_reading,  ///< of the device, in a session to be written as a motion
+};
 
 struct MotionSample {
   double t_s = 0;
