@@ -21,7 +21,7 @@ struct TargetBox {
 };
 
 /// Leaves around the part of the target that lies in the tooth.
-TargetBox find_target(const Shape& target, const Tooth& tooth, const std::string& where, ZoneWork& work) {
+TargetBox find_target(const Shape& target, const Tooth& tooth, const Message& where, ZoneWork& work) {
   const Octree& tree = tooth.octree;
   const IVec3 n = tree.size();
   TargetBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
@@ -116,7 +116,7 @@ class ZoneBuilder {
   ShapeMaker maker_;
   const Octree& own_;                               // the tooth alone: what has a zone, but for what is protected
   std::unique_ptr<Shape> target_, guard_, beside_;  // no guard where nothing is protected, nothing beside a tooth that stands alone
-  std::string where_;                               // of the target's first body
+  Message where_;                                   // of the target's first body
   ZoneMap map_;
   std::vector<std::uint8_t> tissue_;  // of the leaves of the map's box
 };
@@ -128,7 +128,7 @@ ZoneBuilder::ZoneBuilder(const Scenario& scenario, const Tooth& tooth, std::opti
       maker_(tooth, scenario.path, std::move(landmarks)),
       own_(maker_.own().octree),
       target_(maker_.make(spec_.target)),
-      where_(spec_.target.empty() ? scenario.path : place_text(scenario.path, spec_.target[0])) {}
+      where_(spec_.target.empty() ? Message(Name{scenario.path}) : Message(place_text(scenario.path, spec_.target[0]))) {}
 
 ZoneMap ZoneBuilder::build() {
   place_box();

@@ -148,7 +148,7 @@ ColumnMap stump_top(ColumnMap relief, double reduction_mm) {
 }
 
 FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, Vec3 middle, const DepthField& depth,
-                       const std::string& where) {
+                       const Message& where) {
   std::array<double, k_ways> neck{};
   for (int i = 0; i < k_ways; ++i)
     if (!line_height(landmarks.neck_mm, middle, way_of(4.0 * i / k_ways), neck[static_cast<std::size_t>(i)]))
@@ -175,7 +175,7 @@ FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmark
 }  // namespace
 
 std::unique_ptr<Shape> crown_shell(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const ColumnMap& surface,
-                                   const std::string& where, ZoneWork& work) {
+                                   const Message& where, ZoneWork& work) {
   if (landmarks.neck_mm.empty())
     throw Error(where, msg("no neck is found on '{}'", tooth.name), msg("look at `cavum tooth landmarks`, or draw the crown's surface as STL"));
   const Octree& tree = tooth.octree;

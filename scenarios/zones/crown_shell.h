@@ -4,6 +4,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/message.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/shape.h"
@@ -15,6 +16,6 @@ namespace cavum::scenarios {
 /// it stays `depth_mm` below the outer surface, and under the occlusal surface (smoothed over 0.5 mm) by `occlusal_mm` square to its slope.
 /// `surface`: the tooth's relief from above. Throws Error when the tooth shows no neck, or none of its surface at the finish line.
 [[nodiscard]] std::unique_ptr<Shape> crown_shell(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const ColumnMap& surface,
-                                                 const std::string& where, ZoneWork& work);
+                                                 const Message& where, ZoneWork& work);
 
 }  // namespace cavum::scenarios

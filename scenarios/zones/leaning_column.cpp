@@ -47,7 +47,7 @@ struct LocalBox {
 
 }  // namespace
 
-ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const std::string& where) {
+ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
   if (landmarks.incisal_edge_mm.empty() || landmarks.neck_mm.empty() || landmarks.canal_mouths.empty())
     throw Error(where, msg("no incisal edge, neck or canal is found on '{}', so no way in from lingual", tooth.name),
                 msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
@@ -73,7 +73,7 @@ ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const std
   return way;
 }
 
-TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std::string& tissue, TissuePart part, const std::string& where) {
+TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std::string& tissue, TissuePart part, const Message& where) {
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();
   std::uint8_t id = k_air;
@@ -135,7 +135,7 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   return relief;
 }
 
-std::unique_ptr<Shape> leaning_column(const Tooth& tooth, const ShapeSpec& spec, const ShapeFrame& way, const std::string& where, ZoneWork& work) {
+std::unique_ptr<Shape> leaning_column(const Tooth& tooth, const ShapeSpec& spec, const ShapeFrame& way, const Message& where, ZoneWork& work) {
   const TissueRelief shadow = relief_along(tooth, way, spec.outline.tissue, spec.outline.part, where);
   const TissueRelief part = relief_along(tooth, way, spec.bottom.tissue, spec.bottom.part, where);
   const bool roof = spec.bottom.kind == BottomSpec::Kind::tissue_roof;

@@ -85,7 +85,7 @@ bool follows_landmarks(const ZoneSpec& zones) noexcept {
          std::any_of(zones.protected_shapes.begin(), zones.protected_shapes.end(), does);
 }
 
-OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where) {
+OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const Message& where) {
   if (landmarks.central_fissure_mm.size() < k_fewest)
     throw Error(where, msg("no central fissure is found on this tooth"),
                 msg("look at `cavum tooth landmarks`, set its pits there, or draw the outline yourself"));
@@ -104,7 +104,7 @@ OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, c
   return placed;
 }
 
-ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const std::string& where) {
+ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
   const std::string_view side = spec.side > 0 ? "mesial" : "distal";
   const Vec3 *contact = furthest_along(landmarks.height_of_contour_mm, Vec3{1.0 * spec.side, 0, 0}),
              *neck = furthest_along(landmarks.neck_mm, Vec3{1.0 * spec.side, 0, 0});

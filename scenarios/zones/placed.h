@@ -3,6 +3,7 @@
 
 #include <string>
 
+#include "engine/base/message.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "scenarios/file/scenario.h"
 #include "scenarios/zones/zone_map.h"
@@ -23,10 +24,10 @@ namespace cavum::scenarios {
 
 /// A fissure's outline with its lines (`paths_mm`) on the tooth: the central fissure from ridge to ridge, as far as `ridge_mm` lets it, and the
 /// branches when they are asked for. Every line is known to 0.03 mm. Throws Error when the tooth has no central fissure, or nothing of it is left.
-[[nodiscard]] OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const std::string& where);
+[[nodiscard]] OutlineSpec place_fissure(const OutlineSpec& spec, const Landmarks& landmarks, const Message& where);
 
 /// A proximal box as a plain box: from its axial wall out beyond the tooth, from its floor up beyond the cusps. `where` names the asker. Throws Error
 /// when the tooth shows no contact area or no neck there, or ends below the floor.
-[[nodiscard]] ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const std::string& where);
+[[nodiscard]] ShapeSpec place_proximal_box(const ShapeSpec& spec, const Tooth& tooth, const Landmarks& landmarks, const Message& where);
 
 }  // namespace cavum::scenarios

@@ -107,7 +107,7 @@ int chamber_floor(const Slices& s, double leaf_mm) {
 }
 
 /// Slices of a tissue that must be there.
-Slices required_slices(const Tooth& tooth, const std::string& tissue, const std::string& where) {
+Slices required_slices(const Tooth& tooth, const std::string& tissue, const Message& where) {
   std::uint8_t id = k_air;
   for (const auto& t : tooth.tissues)
     if (t.name == tissue) id = t.id;
@@ -175,7 +175,7 @@ int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcep
   return z == k_no_tooth_mm ? -1 : static_cast<int>(std::floor((z - tree.origin_mm().z) / tree.leaf_mm() - 0.5));
 }
 
-TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where) {
+TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const Message& where) {
   const Slices s = required_slices(tooth, tissue, where);
   const Octree& tree = tooth.octree;
   const int first = part == TissuePart::chamber ? chamber_floor(s, tree.leaf_mm()) : 0;
@@ -222,7 +222,7 @@ TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, Tissue
   return relief;
 }
 
-std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const std::string& where) {
+std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const Message& where) {
   const Slices s = required_slices(tooth, tissue, where);
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();

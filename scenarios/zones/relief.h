@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
 
@@ -43,7 +44,7 @@ inline constexpr double k_no_tooth_mm = -1e6;
 [[nodiscard]] int top_leaf(const ColumnMap& surface, const Octree& tree, int x, int y) noexcept;
 
 /// Throws Error when the tooth has no such tissue or no leaf of it. `where` names the asker.
-[[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const std::string& where);
+[[nodiscard]] TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, TissuePart part, const Message& where);
 
 /// Where a canal leaves the chamber: the middle of its mouth on the chamber's floor, and the radius of a circle of the mouth's area.
 struct CanalMouth {
@@ -52,7 +53,7 @@ struct CanalMouth {
 };
 /// The mouths of all canals of a tissue's chamber: the pieces of it just below the floor that are no ripple (0.02 mm2 or more, and 0.3 mm deep).
 /// None when nothing goes on below the chamber. Throws Error as tissue_relief does.
-[[nodiscard]] std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const std::string& where);
+[[nodiscard]] std::vector<CanalMouth> canal_mouths(const Tooth& tooth, const std::string& tissue, const Message& where);
 
 /// Signed distance (mm, negative inside) to the edge of a set of columns, padded by `padding` columns on each
 /// side; accurate to half a leaf.

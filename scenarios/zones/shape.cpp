@@ -212,7 +212,7 @@ class Combined final : public Shape {
 };
 
 /// Cones that stand on the canals' mouths and open towards occlusal; like a column they have no upper end.
-std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Vec3 middle, const std::string& where) {
+std::unique_ptr<Shape> canal_cones(const Tooth& tooth, const ShapeSpec& spec, Vec3 middle, const Message& where) {
   constexpr double k_out_of_any_tooth_mm = 60;
   const SinCos taper = det_sincos(spec.taper_deg * k_pi / 180);
   auto all = std::make_unique<Combined>();
@@ -284,7 +284,7 @@ ShapeFrame shape_frame(const ShapeSpec& s) {
   return f;
 }
 
-std::string place_text(const std::string& file, const ShapeSpec& spec) { return fmt::format("{}:{}:{}", file, spec.line, spec.column); }
+FilePlace place_text(const std::string& file, const ShapeSpec& spec) { return {file, spec.line, spec.column}; }
 
 struct ShapeMaker::Cache {
   std::optional<Tooth> own;  // where something stands beside the tooth
@@ -335,7 +335,7 @@ std::unique_ptr<Shape> ShapeMaker::make(const std::vector<ShapeSpec>& list) {
   return all;
 }
 
-const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart part, const std::string& where) {
+const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart part, const Message& where) {
   const std::pair<std::string, bool> key{tissue, part == TissuePart::chamber};
   auto found = cache_->relief.find(key);
   if (found == cache_->relief.end()) found = cache_->relief.emplace(key, tissue_relief(tooth_, tissue, part, where)).first;
@@ -343,7 +343,7 @@ const TissueRelief& ShapeMaker::relief(const std::string& tissue, TissuePart par
 }
 
 std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
-  const std::string where = place_text(where_, spec);
+  const Message where = place_text(where_, spec);
   switch (spec.kind) {
     case ShapeSpec::Kind::box:
       return std::make_unique<Box>(spec);
@@ -378,13 +378,13 @@ std::unique_ptr<Shape> ShapeMaker::make_one(const ShapeSpec& spec) {
   return make_column(spec, where);
 }
 
-std::unique_ptr<Shape> ShapeMaker::make_side_cavity(const ShapeSpec& spec, const std::string& where) {
+std::unique_ptr<Shape> ShapeMaker::make_side_cavity(const ShapeSpec& spec, const Message& where) {
   PlacedSideCavity placed = side_cavity(own(), spec, landmarks(), where, work_);
   cache_->side_way[{spec.line, spec.column}] = placed.way;
   return std::move(placed.body);
 }
 
-std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std::string& where) {
+std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const Message& where) {
   if (spec.leans) return leaning_column(own(), spec, lingual_way(own(), landmarks(), where), where, work_);
   const OutlineSpec o = spec.outline.kind == OutlineSpec::Kind::fissure ? place_fissure(spec.outline, landmarks(), where) : spec.outline;
   Vec3 centre = o.centre_mm;
@@ -400,7 +400,7 @@ std::unique_ptr<Shape> ShapeMaker::make_column(const ShapeSpec& spec, const std:
 }
 
 /// Of the enamel's underside: under a fissure's bottom, else anywhere inside the outline.
-double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where) {
+double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const Message& where) {
   const TissueRelief& enamel = relief("enamel", TissuePart::all, where);
   const ColumnMap& floor = enamel.floor_mm;
   double lowest = 1e9;
@@ -415,7 +415,7 @@ double ShapeMaker::lowest_border_mm(const Outline& outline, const OutlineSpec& p
   return lowest;
 }
 
-ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outline& outline, const OutlineSpec& placed, const std::string& where) {
+ShapeMaker::ColumnBottom ShapeMaker::bottom_of(const BottomSpec& b, const Outline& outline, const OutlineSpec& placed, const Message& where) {
   using Kind = BottomSpec::Kind;
   const auto level_at = [&](double z_mm) {
     ColumnBottom level{surface(), z_mm};

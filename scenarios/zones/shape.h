@@ -7,6 +7,7 @@
 #include <optional>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/file/scenario.h"
@@ -35,7 +36,7 @@ struct ShapeFrame {
 [[nodiscard]] ShapeFrame shape_frame(const ShapeSpec& spec);
 
 /// "file:line:column" of a shape.
-[[nodiscard]] std::string place_text(const std::string& file, const ShapeSpec& spec);
+[[nodiscard]] FilePlace place_text(const std::string& file, const ShapeSpec& spec);
 
 /// Makes bodies for one tooth; keeps what they have in common (surface, pulp chamber).
 class ShapeMaker {
@@ -65,11 +66,11 @@ class ShapeMaker {
     double outline_z_mm = 0.0;
   };
   [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
-  [[nodiscard]] std::unique_ptr<Shape> make_side_cavity(const ShapeSpec& spec, const std::string& where);
-  [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const std::string& where);
-  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const OutlineSpec& placed, const std::string& where);
-  [[nodiscard]] double lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const std::string& where);
-  [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const std::string& where);
+  [[nodiscard]] std::unique_ptr<Shape> make_side_cavity(const ShapeSpec& spec, const Message& where);
+  [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const Message& where);
+  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const OutlineSpec& placed, const Message& where);
+  [[nodiscard]] double lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const Message& where);
+  [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const Message& where);
   struct Cache;
   const Tooth& tooth_;
   std::string where_;

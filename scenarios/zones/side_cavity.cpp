@@ -125,7 +125,7 @@ Surface surface_in(const Ground& ground, const Outline& outline, const Reach& re
 
 }  // namespace
 
-PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const std::string& where, ZoneWork& work) {
+PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const Message& where, ZoneWork& work) {
   Ground ground{spec.side, spec.level, landmarks.long_axis.through_mm,
                 0,         0,          NeckSide(landmarks.neck_mm, landmarks.long_axis.through_mm.y, spec.side)};
   if (!ground.neck.found())

@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/message.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "scenarios/zones/shape.h"
 
@@ -19,7 +20,7 @@ struct PlacedSideCavity {
 /// the neck below each place, so that a rectangle bends with it (a kidney), or from its middle (`level`). Walls run straight in along the way; the
 /// axial wall lies `depth_mm` below the surface, square to it. Open outwards; nothing beyond the tooth's long axis. Throws Error when the tooth shows
 /// no neck on that side, or the outline lies beside it.
-[[nodiscard]] PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const std::string& where,
+[[nodiscard]] PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const Message& where,
                                            ZoneWork& work);
 
 }  // namespace cavum::scenarios
