@@ -30,7 +30,7 @@ Seat sat(const School& school, int number) {
   ledger::Ledger ledger = school.ledger();
   const std::string code = ledger::invite_station(ledger, "Seat " + std::to_string(number + 2), read_clocks().utc_ns + k_hour_ns);
   {
-    const ledger::AtStation here(home);
+    const testing_ledger::AtStation here(home);
     seat.key = load_station_key(station_key_path());
     sit_shortly(k_scenario, seat.recording, ticket);
   }
