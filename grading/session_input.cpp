@@ -18,7 +18,8 @@ namespace {
 template <class After>
 std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGrounds& grounds, const After& after_of) {
   const std::string& path = reader.path();
-  auto s = std::make_unique<GradedSession>(scenarios::exam_task(reader.setup(), path + ": scenario"));
+  auto s = std::make_unique<GradedSession>();
+  static_cast<scenarios::ExamTask&>(*s) = scenarios::exam_task(reader.setup(), path + ": scenario");
   const SessionSetup& setup = s->session;
   s->sat_under_ticks = scenarios::exam_limit_ticks(s->scenario);
   s->rubric = setup.rubric_toml.empty() ? s->scenario.rubric : scenarios::parse_rubric(setup.rubric_toml, path + ": rubric");
