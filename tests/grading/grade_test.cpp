@@ -474,7 +474,7 @@ TEST(Grade, AStepThatRanOutOfItsTimeIsNamedWithItsLimit) {
   c.events.push_back({5999, StepTimeUp{}});
   c.events.push_back({5999, Finished{Finish::time}});
   const Findings notes = c.graded().notes;
-  const Finding wanted = finding<FindingKind::step_timed_out>(c.scenario.steps[0].id, as_s(5.999), 5999, as_s(6.0, 3));
+  const Finding wanted = finding<FindingKind::step_timed_out>(c.scenario.steps[0].id, as_s(5999 * k_tick_s), 5999, as_s(6000 * k_tick_s, 3));
   EXPECT_EQ(std::count(notes.begin(), notes.end(), wanted), 1);
 }
 
