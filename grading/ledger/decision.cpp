@@ -28,11 +28,11 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   if (found->undecided() || (found->open_appeal() != nullptr && found->result->is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
     throw Error(where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
-                msg("after an appeal a person may: `cavum ledger appeal`"));
+                msg("nothing was changed; after an appeal it can be decided anew"));
   throw Error(where,
               found->result->is_object() ? msg("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
                                          : msg("has no result"),
-              msg("after an appeal a person may: `cavum ledger appeal`"));
+              msg("nothing was changed; after an appeal it can be decided anew"));
 }
 
 }  // namespace
