@@ -153,7 +153,7 @@ void StationClient::meet() {
   if (!ledger_.empty()) return;
   const json hello = require(send("GET", route::hello::row.path_of(), "", ""));
   if (text_in(hello, "public_key") != school_)
-    throw Error(msg("https://{}:{}", host_, port_), msg("is the office of another school than this station's"),
+    throw Error(Name{fmt::format("https://{}:{}", host_, port_)}, msg("is the office of another school than this station's"),
                 msg("look at the address, and at school.pub"));
   ahead_ns_ = require_whole<std::int64_t>(hello, "utc_ns", "the office's greeting") - read_clocks().utc_ns;
   ledger_ = text_in(hello, "ledger");
