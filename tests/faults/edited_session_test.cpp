@@ -90,7 +90,7 @@ TEST_F(EditedSession, AddedEventIsNamed) {
   expect_finding(report, {"table event", "5 events, closed with 4"});
 }
 TEST_F(EditedSession, EventOfNoChunkIsNamed) {
-  expect_finding(edited("INSERT INTO event VALUES (4, 2590, 77, 'step_done', '{}')"), {"table event, row 4", "no chunk"});
+  expect_finding(edited("INSERT INTO event VALUES (4, 2590, 77, 'time_limit', '{}')"), {"table event, row 4", "no chunk"});
 }
 TEST_F(EditedSession, ClockIsNamed) {
   expect_finding(edited("UPDATE chunk SET utc_ns = utc_ns - 3600000000000 WHERE seq = 1"), {"chunk 1", "clocks"});

@@ -1,5 +1,5 @@
 // A volume, or why there is none, from the process that reads it to the one that uses it: 8 bytes "CVVOLUME", then
-//   u32 0, u32 length, that many bytes of text (at most 4096): an Error as it prints; or
+//   u32 0, three times u32 length and that many bytes of text (at most 4096): where, problem and advice of an Error; or
 //   u32 1, i32 x 3 size, f64 x 3 spacing, f64 x 9 axes, f64 x 3 origin, f32 for each voxel, x fastest.
 // Little-endian. The receiver trusts nothing of it: the sender is a process that damaged files may have led astray.
 #pragma once
