@@ -39,7 +39,7 @@ Voxels ramp(int edge = k_edge) {
 std::string slice_name(int z) { return "s" + std::to_string(z) + ".dcm"; }
 
 fs::path series(const Voxels& v) {
-  const auto folder = fresh_folder();
+  auto folder = fresh_folder();
   for (int z = 0; z < v.nz; ++z) write_dicom_slice(folder / slice_name(z), v, z);
   return folder;
 }
@@ -170,7 +170,9 @@ TEST(ReadVolume, PackedDataThatWereCutOrDamagedAreRefused) {
   const Bytes packed = from_hex(k_packed);
   const std::string meta = packed_meta(packed.size());
   const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 0.2 0.2 0.2\nencoding: gzip\n\n";
-  for (const auto& [name, head] : {std::pair("v.mha", meta), std::pair("v.nrrd", nrrd)}) {
+  for (const auto& format : {std::pair("v.mha", meta), std::pair("v.nrrd", nrrd)}) {
+    const auto& name = format.first;
+    const auto& head = format.second;
     const auto write = [&](const Bytes& data) {
       Bytes all(head.begin(), head.end());
       all.insert(all.end(), data.begin(), data.end());
@@ -249,7 +251,7 @@ std::string told_by(const std::string& script) {
   std::ofstream(program) << "#!/bin/sh\n" << script << "\n";
   fs::permissions(program, fs::perms::owner_all);
   ::setenv("CAVUM_READ_VOLUME", program.c_str(), 1);
-  const std::string error = refused(volume);
+  std::string error = refused(volume);
   ::setenv("CAVUM_READ_VOLUME", CAVUM_READ_VOLUME_PROGRAM, 1);
   return error;
 }
@@ -261,7 +263,8 @@ TEST(ReadVolume, TheOtherProcessMayEndInAnyWay) {
   EXPECT_NE(told_by("exit 3").find("ended with status 3"), std::string::npos);
   EXPECT_NE(told_by("printf 'CVVOLUME\\001\\000\\000\\000\\004' >&3").find("ended with status 0"), std::string::npos);
   EXPECT_NE(told_by("echo some other words than ours >&3").find("gave no volume"), std::string::npos);
-  EXPECT_EQ(told_by("printf 'CVVOLUME\\000\\000\\000\\000\\005\\000\\000\\000where\\001\\000\\000\\000a\\003\\000\\000\\000do!' >&3"), "where: a; do!");
+  EXPECT_EQ(told_by("printf 'CVVOLUME\\000\\000\\000\\000\\005\\000\\000\\000where\\001\\000\\000\\000a\\003\\000\\000\\000do!' >&3"),
+            "where: a; do!");
   ::setenv("CAVUM_READ_VOLUME", "/nowhere/cavum-read-volume", 1);
   EXPECT_NE(refused(write_nrrd(fresh_folder() / "l.nrrd", ramp())).find("/nowhere/cavum-read-volume: is not there"), std::string::npos);
   ::setenv("CAVUM_READ_VOLUME", CAVUM_READ_VOLUME_PROGRAM, 1);
@@ -275,7 +278,7 @@ std::string received(const Bytes& bytes, std::uint64_t most = 1000, bool close_a
     static_cast<void>(!::write(ends[1], bytes.data(), bytes.size()));
     if (close_after) ::close(ends[1]);
   });
-  const std::string error = error_of([&] { (void)receive_volume(ends[0], "v", most, 1); });
+  std::string error = error_of([&] { (void)receive_volume(ends[0], "v", most, 1); });
   sender.join();
   if (!close_after) ::close(ends[1]);
   ::close(ends[0]);
