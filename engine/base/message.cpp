@@ -65,7 +65,11 @@ std::string_view unit_sign(Unit unit) noexcept { return k_signs[static_cast<std:
 
 Message::Message(Name name) : english_("{}"), values_{Value(std::move(name))} {}
 
-Message::Message(std::string text) : Message(text.empty() ? Message() : Message(Name{std::move(text)})) {}
+Message::Message(std::string text) {
+  if (text.empty()) return;
+  english_ = "{}";
+  values_.emplace_back(Authored{std::move(text)});
+}
 
 Message::Message(const char* text) : Message(std::string(text)) {}
 

@@ -7,21 +7,6 @@
 
 namespace cavum {
 
-AsIs as_is(std::string_view text) {
-  std::string line = one_line(text);
-  // Hebrew, Arabic and their neighbours (U+0590 to U+08FF, presentation forms)
-  const auto turns = [&line] {
-    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-      const auto a = static_cast<unsigned char>(line[i]), b = static_cast<unsigned char>(line[i + 1]);
-      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) || (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac)) return true;
-    }
-    return false;
-  };
-  if (turns()) line = k_isolate + line + k_isolate_end;
-  if (catalogue().kind() == Catalogue::Kind::pseudo) line = "\u27e8" + line + "\u27e9";
-  return {std::move(line)};
-}
-
 std::string with_isolates(std::string_view text, std::string (*safe)(std::string_view), std::string_view open, std::string_view close) {
   constexpr std::size_t k_sign = std::char_traits<char>::length(k_isolate);
   std::string out;
@@ -35,32 +20,23 @@ std::string with_isolates(std::string_view text, std::string (*safe)(std::string
   return out;
 }
 
-namespace language_detail {
-
-std::string translated(std::string_view english) {
-  std::string text(english);
-  if (catalogue().kind() == Catalogue::Kind::english) return text;
-  return catalogue().find(text).value_or(text);
-}
-
-std::string translated(std::string_view one, std::string_view many, long long count) {
-  const std::string a(one), b(many);
-  std::string text = count == 1 ? a : b;
-  if (catalogue().kind() == Catalogue::Kind::english) return text;
-  return catalogue().find(a, b, count).value_or(text);
-}
-
-std::string filled(const std::string& translation, std::string_view english, fmt::format_args arguments) {
-  try {
-    return fmt::vformat(translation, arguments);
-  } catch (const fmt::format_error&) {
-    return fmt::vformat(fmt::string_view(english.data(), english.size()), arguments);
-  }
-}
-
-}  // namespace language_detail
-
 namespace {
+
+/// A name among the words of a sentence.
+std::string name_in_line(std::string_view text) {
+  std::string line = one_line(text);
+  // Hebrew, Arabic and their neighbours (U+0590 to U+08FF, presentation forms)
+  const auto turns = [&line] {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+      const auto a = static_cast<unsigned char>(line[i]), b = static_cast<unsigned char>(line[i + 1]);
+      if ((a >= 0xd6 && a <= 0xdf && !(a == 0xd6 && b < 0x90)) || (a == 0xe0 && b >= 0xa0 && b <= 0xa3) || (a == 0xef && b >= 0xac)) return true;
+    }
+    return false;
+  };
+  if (turns()) line = k_isolate + line + k_isolate_end;
+  if (catalogue().kind() == Catalogue::Kind::pseudo) line = "\u27e8" + line + "\u27e9";
+  return line;
+}
 
 class ReadersLocale final : public Locale {
  public:
@@ -70,15 +46,16 @@ class ReadersLocale final : public Locale {
   }
   [[nodiscard]] std::string term(const std::string& english) const override { return catalogue().find(english).value_or(english); }
   [[nodiscard]] std::string authored(const std::string& english) const override { return shown(english); }
-  [[nodiscard]] std::string name(const std::string& text) const override { return shown(text); }  // TODO: as_is() once no sentence is a name
+  [[nodiscard]] std::string name(const std::string& text) const override { return name_in_line(text); }
   [[nodiscard]] char decimal_sign() const noexcept override { return catalogue().decimal_sign(); }
 };
 
+const ReadersLocale k_readers;
+
 }  // namespace
 
-std::string language_detail::rendered(const Message& message) {
-  static const ReadersLocale k_locale;
-  return remembered(render(message, k_locale));
-}
+std::string language_detail::rendered(const Message& message) { return remembered(render(message, k_readers)); }
+
+std::string tr(const Lines& lines) { return render(lines, k_readers); }
 
 }  // namespace cavum
