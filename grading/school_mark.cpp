@@ -28,9 +28,9 @@ std::int64_t ended_by_hand(const SessionReader& session) {
   return -1;
 }
 
-std::string event_text(const TimedEvent& e) {
+Message event_text(const TimedEvent& e) {
   const EventText text = encode(e.event);
-  return fmt::format("'{} {}' at tick {}", text.kind, text.detail_json, e.tick);
+  return msg("'{} {}' at tick {}", text.kind, text.detail_json, e.tick);
 }
 
 /// Runs the scenario over the motion while that is simulated.
@@ -58,8 +58,8 @@ class EventsAgain {
     take();
     for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_most_named; ++i) {
       if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
-      findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i, i < recorded_.size() ? event_text(recorded_[i]) : "none",
-                             i < again_.size() ? event_text(again_[i]) : "none"));
+      findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i,
+                             i < recorded_.size() ? event_text(recorded_[i]) : msg("none"), i < again_.size() ? event_text(again_[i]) : msg("none")));
     }
     return findings;
   }
@@ -89,12 +89,12 @@ class EventsAgain {
   std::int64_t ended_;
 };
 
-std::string shown(const json& value) {
-  if (value.is_null()) return "none";
-  if (value.is_number()) return plain_number(value.get<double>());
-  if (value.is_string()) return one_line(value.get<std::string>());
+Message in_words(const json& value) {
+  if (value.is_null()) return msg("none");
+  if (value.is_number()) return msg("{}", as_number(value.get<double>()));
+  if (value.is_string()) return Name{value.get<std::string>()};
   constexpr std::size_t k_longest = 60;
-  return one_line(value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, k_longest));
+  return Name{value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, k_longest)};
 }
 
 std::map<std::string, const json*> criteria_of(const json& result) {
@@ -104,52 +104,60 @@ std::map<std::string, const json*> criteria_of(const json& result) {
   return by_id;
 }
 
-/// What another version of grading makes of the marks: "verdict fail as before; 71.5 points, now 73.0; criterion walls 9.0, now 10.5; 12 other parts
-/// differ".
-std::string marks_then_and_now(const json& sealed, const json& marked, std::size_t parts_differ) {
+/// What another version of grading makes of the marks.
+List marks_then_and_now(const json& sealed, const json& marked, std::size_t parts_differ) {
   std::size_t told = 0;
-  const auto told_of = [&](const std::string& what, const std::string& was, const std::string& is) {
-    if (was == is) return what + " " + was + " as before";
+  List all{{}, true};
+  const auto tell = [&](const Message& what, const Message& was, const Message& is) {
+    if (was == is) {
+      all.items.push_back(msg("{} {} as before", what, was));
+      return;
+    }
     ++told;
-    return what + " " + was + ", now " + is;
+    all.items.push_back(msg("{} {}, now {}", what, was, is));
   };
-  const auto points = [](const json& of) { return member_of(of, "points").is_number() ? fixed(member_of(of, "points").get<double>(), 1) : "none"; };
-  std::string text = told_of("verdict", text_in(sealed, "verdict"), text_in(marked, "verdict")) + "; " +
-                     told_of("points", points(member_of(sealed, "score")), points(member_of(marked, "score")));
+  const auto points = [](const json& of) {
+    return member_of(of, "points").is_number() ? msg("{}", as_number(member_of(of, "points").get<double>(), 1)) : msg("none");
+  };
+  tell(msg("verdict"), msg("{}", Term{text_in(sealed, "verdict")}), msg("{}", Term{text_in(marked, "verdict")}));
+  tell(msg("points"), points(member_of(sealed, "score")), points(member_of(marked, "score")));
   const auto was = criteria_of(sealed), is = criteria_of(marked);
   for (const auto& [id, c] : is)
     if (const auto found = was.find(id); found != was.end() && points(*found->second) != points(*c))
-      text += "; " + told_of("criterion " + one_line(id), points(*found->second), points(*c));
-  return text + fmt::format("; {} {}parts of the result differ", parts_differ - std::min(told, parts_differ), told > 0 ? "other " : "");
+      tell(msg("criterion {}", id), points(*found->second), points(*c));
+  const std::size_t left = parts_differ - std::min(told, parts_differ);
+  all.items.push_back(told > 0 ? msg("{} other parts of the result differ", left) : msg("{} parts of the result differ", left));
+  return all;
 }
 
 }  // namespace
 
 std::vector<Message> result_differences(const json& sealed, const json& marked) {
-  std::vector<std::string> out;
-  const auto compare = [&](const std::string& name, const json& was, const json& is) {
-    if (was != is) out.push_back(msg("{} {}, marked {}", name, shown(was), shown(is)));
+  std::vector<Message> out;
+  const auto compare = [&](const Message& name, const json& was, const json& is) {
+    if (was != is) out.push_back(msg("{} {}, marked {}", name, in_words(was), in_words(is)));
   };
-  compare("verdict", member_of(sealed, "verdict"), member_of(marked, "verdict"));
-  for (const char* part : {"points", "max"}) compare(part, member_of(member_of(sealed, "score"), part), member_of(member_of(marked, "score"), part));
+  compare(msg("verdict"), member_of(sealed, "verdict"), member_of(marked, "verdict"));
+  const json &then = member_of(sealed, "score"), &now = member_of(marked, "score");
+  compare(msg("points"), member_of(then, "points"), member_of(now, "points"));
+  compare(msg("greatest number of points"), member_of(then, "max"), member_of(now, "max"));
   const auto was = criteria_of(sealed), is = criteria_of(marked);
   for (const auto& [id, c] : is) {
     const auto found = was.find(id);
     if (found == was.end()) {
-      out.push_back(msg("criterion {} missing", one_line(id)));
+      out.push_back(msg("criterion {} missing", id));
       continue;
     }
-    for (const auto& [key, value] : c->items())
-      compare(fmt::format("criterion {}: {}", one_line(id), key), member_of(*found->second, key.c_str()), value);
+    for (const auto& [key, value] : c->items()) compare(msg("criterion {}: {}", id, key), member_of(*found->second, key.c_str()), value);
   }
   for (const auto& [id, c] : was)
-    if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", one_line(id)));
+    if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", id));
   if (marked.is_object())
     for (const auto& [key, value] : marked.items())
-      if (key != "verdict" && key != "score" && key != "criteria") compare(key, member_of(sealed, key.c_str()), value);
+      if (key != "verdict" && key != "score" && key != "criteria") compare(msg("{}", key), member_of(sealed, key.c_str()), value);
   if (sealed.is_object() && marked.is_object())
     for (const auto& [key, value] : sealed.items())
-      if (!marked.contains(key)) out.push_back(msg("{}, which no result has", one_line(key)));
+      if (!marked.contains(key)) out.push_back(msg("{}, which no result has", key));
   if (out.empty() && sealed != marked) out.emplace_back(msg("another shape than a result has"));
   return out;
 }
@@ -162,7 +170,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("scenario: {}", e.what()));
+    out.findings.push_back(msg("scenario: {}", Name{e.what()}));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -184,17 +192,18 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("cannot be marked: {}", e.what()));
+    out.findings.push_back(msg("cannot be marked: {}", Name{e.what()}));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);
   auto differ = result_differences(sealed, out.result);
   if (differ.empty()) return out;
   out.sealed_otherwise = sealed;
-  std::string all;
-  const std::size_t named = std::min(differ.size(), k_most_named);
-  for (std::size_t i = 0; i < named; ++i) all += (i == 0 ? "" : "; ") + differ[i];
-  if (differ.size() > named) all += fmt::format("; and {} more", differ.size() - named);
+  List all{differ, true};
+  if (differ.size() > k_most_named) {
+    all.items.resize(k_most_named);
+    all.items.push_back(msg("and {} more", differ.size() - k_most_named));
+  }
   const auto version = whole_in(sealed, "grading_version");
   if (version < 1)
     out.findings.push_back(msg("the sealed result names no version of grading, and is not what marking gives. Sealed {}", all));

@@ -178,5 +178,10 @@ class Locale {
 [[nodiscard]] std::string render(const Value& value, const Locale& locale);
 /// In English: for logs, tests, and what()'s of exceptions.
 [[nodiscard]] std::string english_text(const Message& message);
+/// In JSON for other programs: its English text (nlohmann::json asks for this).
+template <class Json>
+void to_json(Json& json, const Message& message) {
+  json = english_text(message);
+}
 
 }  // namespace cavum

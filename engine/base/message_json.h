@@ -1,5 +1,5 @@
-// Messages in JSON. For other programs: the English sentence. In our own files: {"say": "the wall {} lacks {}", "of": ["mesial", {"value": 0.31, "unit": "mm³", "digits": 2}]}. What is kept so can
-// still be said in every language.
+// Messages in JSON. For other programs: the English sentence. In our own files: {"say": "the wall {} lacks {}", "of": ["mesial", {"value": 0.31,
+// "unit": "mm³", "digits": 2}]}. What is kept so can still be said in every language.
 #pragma once
 
 #include <nlohmann/json.hpp>
@@ -8,12 +8,6 @@
 #include "engine/base/message.h"
 
 namespace cavum {
-
-/// For whoever reads JSON: the English sentence.
-template <class Json>
-void to_json(Json& json, const Message& message) {
-  json = english_text(message);
-}
 
 // As our own files keep it.
 [[nodiscard]] nlohmann::ordered_json encode(const Message& message);

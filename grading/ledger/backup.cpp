@@ -117,14 +117,13 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
   }
   const LedgerContent before = read_ledger({folder}, AskWitness::no);
   std::vector<Message> findings;
-  if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), "the backup that is there", findings);
+  if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), msg("the backup that is there"), findings);
   if (before.checkpoints.empty() || !findings.empty())
-    throw Error(folder, findings.empty() ? "holds a backup that cannot be read" : findings[0], "keep it, and name a new folder");
+    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read") : findings[0], msg("keep it, and name a new folder"));
 }
 
 /// Adds what a checkpoint from outside tells of the backup.
-void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const std::string& what,
-             const std::string& entry) {
+void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const Message& what, const Message& entry) {
   plan.compared = true;
   std::vector<Message> wrong;
   const Standing standing = check_history(history, id, seen, what, wrong);
@@ -152,7 +151,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
       plan.findings.push_back(msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size));
   } catch (const Error& e) {
-    plan.findings.push_back(english_text(e.without_advice()));
+    plan.findings.push_back(e.without_advice());
   }
 }
 
@@ -198,7 +197,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   return out;
 }
 
-RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<Message>& notes) {
+RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes) {
   const LedgerPlaces places{backup};
   RestorePlan plan;
   plan.content = read_ledger(places, AskWitness::no);
@@ -210,48 +209,48 @@ RestorePlan plan_restore(const std::string& backup, const std::vector<std::strin
     if (!has_session(places, hash)) plan.missing_sessions.push_back(hash);
   plan.identities = fs::exists(places.identities());
   check_own_checkpoint(plan, history, checkpoint_path(backup));
-  std::vector<std::string> changed;
+  std::vector<Message> changed;
   for (const auto& w : read_witness(c.id, changed)) {
     if (!is_signed_by_school(c.id, c.key_of(w.size), w))
-      changed.push_back(fmt::format("{}: the witness was changed at entry {}", witness_path(c.id), w.size));
+      changed.push_back(msg("{}: the witness was changed at entry {}", witness_path(c.id), w.size));
     else
-      compare(plan, history, c.id, w, "the witness", "");
+      compare(plan, history, c.id, w, msg("the witness"), {});
   }
   for (auto& f : changed) plan.findings.push_back(std::move(f));
   for (const auto& path : receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
     const std::string signer = text_in(receipt, "public_key");
     if (const auto wrong = check_receipt(receipt, c.has_key(signer) ? signer : c.public_key, nullptr); !wrong.empty())
-      throw Error(path, wrong[0], "use an intact copy");
+      throw Error(path, wrong[0], msg("use an intact copy"));
     const std::string id = receipt.at("ledger"), text = receipt.at("entry");
     const LedgerEntry entry = read_entry_or_none(text);
     const auto* session = entry.as<SessionEntry>();
     const auto seq = receipt.at("seq").get<std::uint64_t>();
-    std::string told;
+    Message told;
     if (seq >= c.entries.size())
-      told =
-          fmt::format("entry {}: {}{} ({})", seq, entry.what ? kind_name(*entry.what) : "of a kind that this version does not know",
-                      session == nullptr ? "" : fmt::format(" of {}, file {}", one_line(session->candidate), one_line(session->file_sha256)), path);
-    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), path, told);
+      told = !entry.what ? msg("entry {}: of a kind that this version does not know ({})", seq, path)
+             : session == nullptr
+                 ? msg("entry {}: {} ({})", seq, kind_name(*entry.what), path)
+                 : msg("entry {}: {} of {}, file {} ({})", seq, kind_name(*entry.what), session->candidate, session->file_sha256, path);
+    compare(plan, history, id, checkpoint_in(receipt.at("checkpoint"), id, signer, path), msg("{}", path), told);
   }
   for (const auto& path : notes) {
     const std::string text = read_text_file(path), key_then = c.key_of(parse_checkpoint(text, c.public_key, path).checkpoint.size);
     const ReadCheckpoint read = parse_checkpoint(text, key_then, path);
     if (!is_signed_by_school(read.ledger_id, key_then, read.checkpoint))
       throw Error(path, msg("the school's signature on it does not hold"), msg("use an intact copy"));
-    compare(plan, history, read.ledger_id, read.checkpoint, path, "");
+    compare(plan, history, read.ledger_id, read.checkpoint, msg("{}", path), {});
   }
   if (plan.last_seen) {
     const auto first = c.entries.size(), last = static_cast<std::size_t>(plan.last_seen->checkpoint.size - 1);
-    plan.lost_entries.insert(plan.lost_entries.begin(), first == last
-                                                            ? fmt::format("entry {}: seen by {}", first, plan.last_seen->what)
-                                                            : fmt::format("entries {} to {}: seen by {}", first, last, plan.last_seen->what));
+    plan.lost_entries.insert(plan.lost_entries.begin(), first == last ? msg("entry {}: seen by {}", first, plan.last_seen->what)
+                                                                      : msg("entries {} to {}: seen by {}", first, last, plan.last_seen->what));
   }
   return plan;
 }
 
 void restore(const std::string& backup, const std::string& folder, const RestorePlan& plan, const std::string& reason, const SigningKey& key) {
-  if (!plan.findings.empty()) throw Error(backup, plan.findings[0], "restore another backup");
+  if (!plan.findings.empty()) throw Error(backup, plan.findings[0], msg("restore another backup"));
   if (plan.last_seen && (reason.empty() || reason.size() > k_longest_acceptance || !is_plain_text(reason)))
     throw Error("--accept-loss", msg("gives no reason"),
                 msg("say in one line of UTF-8, 1000 bytes at most, why the school accepts the loss; it is kept for ever, so no names"));

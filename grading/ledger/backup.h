@@ -23,7 +23,7 @@ struct Backup {
 
 /// What somebody outside the backup had seen of the ledger.
 struct Seen {
-  std::string what;  ///< "the witness", "receipt.json"
+  Message what;  ///< "the witness", "receipt.json"
   Checkpoint checkpoint;
 };
 /// What a backup lacks, as far as anything at hand tells.
@@ -39,7 +39,7 @@ struct RestorePlan {
 };
 /// Looks at a backup with this computer's witness, and receipts and cosigned notes, paths of files. Changes nothing. Throws Error when it is no
 /// ledger, or a file cannot be read.
-[[nodiscard]] RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<Message>& notes);
+[[nodiscard]] RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes);
 /// Makes the ledger anew in `folder`, which must not be there, and enters there that it goes on from a backup and what was lost: body
 /// {backup{root, size}, lost[{root, size}], missing_sessions[], reason}. Throws Error when the plan has findings, or entries
 /// were lost and `reason` does not say why the school accepts it; one line of UTF-8, 1000 bytes at most.

@@ -11,6 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
@@ -28,7 +29,7 @@ namespace {
 using nlohmann::json;
 
 /// What simulating and marking a filed session again gave: it must hold, and be marked as it was.
-void compare_with_line(const FiledSession& s, const std::string& line, const std::string& name, LedgerCheck& out) {
+void compare_with_line(const FiledSession& s, const std::string& line, const Message& name, LedgerCheck& out) {
   const json again = parse_json_or_null(line, k_json_part);
   if (line.empty() || !again.is_object()) {
     out.not_made.push_back(msg("{}: could not be simulated again; run the same command once more", name));
@@ -40,17 +41,18 @@ void compare_with_line(const FiledSession& s, const std::string& line, const std
   }
   if (text_in(again, "sha256") != s.file_sha256)
     out.findings.push_back(msg("{}: its file was changed while it was checked, or a log lies beside it", name));
-  for (const auto& f : member_of(again, "findings"))
-    if (f.is_string()) out.findings.push_back(msg("{}: {}", name, f.get<std::string>()));
+  if (const json& said = member_of(again, "said"); !said.is_null())
+    for (const Message& f : decode_messages(said)) out.findings.push_back(msg("{}: {}", name, f));
   const json& result = member_of(again, "result");
-  const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<std::string>();
+  const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<Message>();
   if (differ.empty()) return;
-  const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
+  List told{{differ[0]}, true};
+  if (differ.size() > 1) told.items.push_back(msg("and {} more", differ.size() - 1));
   if (s.grading_version == grading::k_grading_version)
-    out.findings.push_back(msg("{}: the result that was filed is not what marking it gives: filed {}{}", name, differ[0], more));
+    out.findings.push_back(msg("{}: the result that was filed is not what marking it gives: filed {}", name, told));
   else
-    out.remarks.push_back(msg("{}: was marked by grading version {}; version {} gives another result: filed {}{}", name, s.grading_version,
-                              grading::k_grading_version, differ[0], more));
+    out.remarks.push_back(msg("{}: was marked by grading version {}; version {} gives another result: filed {}", name, s.grading_version,
+                              grading::k_grading_version, told));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
@@ -76,13 +78,14 @@ void say_not_checked(const LedgerContent& content, const Registry& registry, boo
         msg("whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each"));
 }
 
-std::string name_of(const FiledSession& s) { return fmt::format("entry {} (session of {})", s.seq, s.candidate); }
+Message name_of(const FiledSession& s) { return msg("entry {} (session of {})", s.seq, s.candidate); }
 
 enum class Recording { there, changed, erased };
 
 /// One filed recording: there and unchanged, or erased as an entry says. `gone`: hashes of the recordings that nothing needs any more.
 Recording check_recording(const FiledSession& s, const LedgerPlaces& places, const std::set<std::string>& gone, LedgerCheck& out) {
-  const std::string name = name_of(s), path = places.session(s.file_sha256);
+  const Message name = name_of(s);
+  const std::string path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
       out.findings.push_back(msg("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it",
@@ -129,9 +132,10 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back(msg("{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
-                                  s.doubtful() && registry.chosen_instead_of(s) == nullptr ? msg("a person decides which counts")
-                                                                                           : msg("a person has chosen which counts")));
+        out.remarks.push_back(
+            s.doubtful() && registry.chosen_instead_of(s) == nullptr
+                ? msg("{}: is contested by entry {}, another ending of the same exam: a person decides which counts", name_of(s), other)
+                : msg("{}: is contested by entry {}, another ending of the same exam: a person has chosen which counts", name_of(s), other));
   }
   const pool::Work work = work_on(places, registry, pool::What::verify);
   if (by && !work.sessions.empty()) {
@@ -144,8 +148,9 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
   if (by && filed_with_findings > 0)
     out.not_checked.push_back(msg("{} sessions that were filed with findings are not simulated again", filed_with_findings));
   if (erased > 0)
-    out.not_checked.push_back(msg("{}{} erased, as entries say: whether motion gives their marks can no longer be shown", erased,
-                                  erased == 1 ? msg(" recording was") : msg(" recordings were")));
+    out.not_checked.push_back(msgn("{} recording was erased, as entries say: whether motion gives its mark can no longer be shown",
+                                   "{} recordings were erased, as entries say: whether motion gives their marks can no longer be shown",
+                                   static_cast<std::int64_t>(erased), erased));
 }
 
 /// Files that no entry knows.
@@ -168,7 +173,7 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
   for (const auto& [who, seq] : missing)
     out.findings.push_back(
         msg("identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
-            one_line(who), seq));
+            who, seq));
 }
 
 }  // namespace
@@ -217,7 +222,6 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
           msg("{}: is no school's public key, 64 hexadecimal digits; copy it again from the school's computer", public_key_path));
     }
   }
-  const std::string of_identities = "whether names were exchanged among the identities, or taken out: ";
   std::optional<SigningKey> key;
   if (std::filesystem::exists(key_path)) {
     known = true;
@@ -225,21 +229,24 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       key = load_school_key(key_path);
       must_be_ours(to_hex(key->public_key), key_path);
     } catch (const Error& e) {
-      check.not_checked.push_back(msg("the school's key cannot be used: {}", e.what()));
+      check.not_checked.push_back(msg("the school's key cannot be used: {}", e.message()));
     }
   }
   if (unread) {
     check.not_checked.push_back(
-        msg("whether the ledger is this school's, and {}the ledger's id and key could not be read, so nothing could be compared", of_identities));
+        msg("whether the ledger is this school's, and whether names were exchanged among the identities, or taken out: the ledger's id and key could "
+            "not be read, so nothing could be compared"));
     return;
   }
   if (!known)
     check.not_checked.push_back(msg("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path));
   if (!std::filesystem::exists(places.identities())) {
     check.not_checked.push_back(
-        msg("{}{} is not there; restore it from its backup if this is the school's own copy", of_identities, places.identities()));
+        msg("whether names were exchanged among the identities, or taken out: {} is not there; restore it from its backup if this is the school's "
+            "own copy",
+            places.identities()));
   } else if (!key || to_hex(key->public_key) != content.public_key) {
-    check.not_checked.push_back(msg("{}the key that made the pseudonyms is not here", of_identities));
+    check.not_checked.push_back(msg("whether names were exchanged among the identities, or taken out: the key that made the pseudonyms is not here"));
   } else {
     try {
       Identities identities(places.identities());
@@ -247,10 +254,10 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       for (const auto& e : content.entries)
         if (const auto* forgotten = e.as<ForgetEntry>(); forgotten != nullptr && identities.of_pseudonym(forgotten->candidate))
           check.findings.push_back(msg("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
-                                       one_line(forgotten->candidate), e.seq));
+                                       forgotten->candidate, e.seq));
       say_missing(places, content, identities, check);
     } catch (const Error& e) {
-      check.findings.emplace_back(e.what());
+      check.findings.push_back(e.message());
     }
   }
 }

@@ -73,9 +73,9 @@ std::vector<Message> check_begin(const LedgerContent& content, const SessionRead
   }
   const Begin b = parse_begin(text, "", "the ledger's word to begin");
   if (b.ledger != content.id || !content.has_key(b.public_key) || b.ticket != ticket.ticket.nonce)
-    return {"the word to begin in it is of another ledger or ticket"};
+    return {msg("the word to begin in it is of another ledger or ticket")};
   const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
-  if (found == ticket.begins.end()) return {"the ledger has not given the word to begin that is in it"};
+  if (found == ticket.begins.end()) return {msg("the ledger has not given the word to begin that is in it")};
   if (found + 1 != ticket.begins.end())
     findings.push_back(
         msg("it was begun with the ledger's word of {}, and the ledger let the exam begin again on {}: only the recording with the last word counts",
@@ -114,7 +114,7 @@ std::vector<Message> check_hand(const Registry& registry, const SessionReader& s
   if (session.fact(k_station_fact).empty())
     findings.emplace_back(msg("the recording does not say which station began it, and bears no signature of its beginning"));
   const std::string key = to_hex(session.seal()->public_key);
-  if (std::string why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns); !why.empty()) {
+  if (Message why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns); !why.empty()) {
     findings.push_back(std::move(why));
   } else if (const auto& known = registry.stations.of(key)->devices; !known.empty()) {
     for (const auto& [tick, source] : sources_of(session))
@@ -126,38 +126,39 @@ std::vector<Message> check_hand(const Registry& registry, const SessionReader& s
   return findings;
 }
 
-/// Where a recording was taken up again at or after this tick: "taken up again at tick N", or nothing.
-std::string resumed_from(const SessionReader& session, std::int64_t tick) {
+/// Where a recording ends that was perhaps taken up again at or after this tick.
+Message end_of(const SessionReader& session, std::int64_t tick) {
   for (const auto& e : session.event_rows())
-    if (e.as<RecordingGap>() != nullptr && e.tick >= tick) return fmt::format(", taken up again at tick {}", e.tick);
-  return {};
+    if (e.as<RecordingGap>() != nullptr && e.tick >= tick) return msg("at tick {}, taken up again at tick {}", session.ticks(), e.tick);
+  return msg("at tick {}", session.ticks());
 }
 
 /// How far a session and one that was filed with the same ticket are one recording: an exam that was ended twice is so up to where one was cut back.
-std::string other_ending(const SessionReader& session, std::uint64_t seq, const std::string& filed_path) {
-  const std::string entry = fmt::format("entry {}", seq);
+Message other_ending(const SessionReader& session, std::uint64_t seq, const std::string& filed_path) {
   try {
     const SessionReader filed(filed_path);
     const auto &mine = session.chunks(), &theirs = filed.chunks();
     std::size_t same = 0;
     while (same < std::min(mine.size(), theirs.size()) && mine[same].sha256 == theirs[same].sha256) ++same;
-    if (same == 0) return entry + " holds another recording";
+    if (same == 0) return msg("the ticket was used before: entry {} holds another recording", seq);
     const std::int64_t tick = mine[same - 1].first_tick + mine[same - 1].ticks;
-    return fmt::format("{} holds another ending of the same recording: both are the same up to tick {}; {} ends at tick {}{}, this one at tick {}{}",
-                       entry, tick, entry, filed.ticks(), resumed_from(filed, tick), session.ticks(), resumed_from(session, tick));
+    return msg(
+        "the ticket was used before: entry {} holds another ending of the same recording: both are the same up to tick {}; that one ends {}, this "
+        "one {}",
+        seq, tick, end_of(filed, tick), end_of(session, tick));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    return fmt::format("{}, whose file cannot be compared: {}", entry, e.what());
+    return msg("the ticket was used before: entry {}, whose file cannot be compared: {}", seq, Name{e.what()});
   }
 }
 
 /// What of the beginning is entered in the ledger.
-std::vector<std::pair<std::string, std::string>> texts_of(const SessionSetup& setup) {
-  return {{"candidate's name", setup.candidate},
-          {"kind of the source of motion", setup.source.kind},
-          {"name of the source of motion", setup.source.name},
-          {"serial number of the source of motion", setup.source.serial}};
+std::vector<std::pair<Message, std::string>> texts_of(const SessionSetup& setup) {
+  const std::string &name = setup.source.name, &serial = setup.source.serial;
+  return {{msg("the candidate's name holds a control character or bytes that are no UTF-8: '{}'", setup.candidate), setup.candidate},
+          {msg("the name of the source of motion holds a control character or bytes that are no UTF-8: '{}'", name), name},
+          {msg("the serial number of the source of motion holds a control character or bytes that are no UTF-8: '{}'", serial), serial}};
 }
 
 }  // namespace
@@ -171,8 +172,10 @@ std::string ticket_nonce_in(const SessionSetup& setup) {
 
 std::string simulated_by(const SessionReader& session, const SessionSetup& setup) {
   for (const auto& [tick, source] : sources_of(session)) {
-    if (source.kind == "operator") return source.name.empty() ? source.kind : source.name;
-    if (!source.is_hand()) return source.in_words();
+    if (source.kind == SourceKind::simulated_operator) return source.name.empty() ? text_of(source.kind) : source.name;
+    if (!source.is_hand())
+      return source.kind == SourceKind::unnamed ? "unnamed"
+                                                : fmt::format("{}{}{}", text_of(source.kind), source.name.empty() ? "" : " ", source.name);
   }
   for (const auto& [key, value] : setup.notes)  // beside a source that says otherwise
     if (key == "operator" || key == "practice" || key == "motion_file")
@@ -182,12 +185,12 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
 
 std::vector<Message> check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session, std::int64_t received_utc_ns,
                                   const FilingOptions& options, const LedgerPlaces* filed) {
-  if (!session.closed()) return {"the session was never closed"};
+  if (!session.closed()) return {msg("the session was never closed")};
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
   std::vector<Message> findings;
-  for (const auto& [what, text] : texts_of(setup))
-    if (!is_plain_text(text)) findings.push_back(msg("the {} holds a control character or bytes that are no UTF-8: '{}'", what, one_line(text)));
+  for (const auto& [finding, text] : texts_of(setup))
+    if (!is_plain_text(text)) findings.push_back(finding);
   for (auto& f : check_stations(session)) findings.push_back(std::move(f));
   for (const auto& s : registry.sessions)
     if (s.chain_sha256 == chain_sha256) findings.push_back(msg("this session was submitted before: entry {}", s.seq));
@@ -218,15 +221,14 @@ std::vector<Message> check_claims(const LedgerContent& content, const Registry& 
       if (t.used_by) {
         const auto other =
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });
-        findings.push_back("the ticket was used before: " +
-                           (filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
-                                ? fmt::format("entry {}", *t.used_by)
-                                : other_ending(session, *t.used_by, filed->session(other->file_sha256))));
+        findings.push_back(filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
+                               ? msg("the ticket was used before: entry {}", *t.used_by)
+                               : other_ending(session, *t.used_by, filed->session(other->file_sha256)));
       }
     }
     if (!issued) findings.emplace_back(msg("the ledger has not issued this ticket"));
   } catch (const Error& e) {
-    findings.emplace_back(e.what());
+    findings.push_back(e.message());
   }
   return findings;
 }

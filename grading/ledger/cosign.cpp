@@ -26,22 +26,22 @@ struct Request {
   std::string note;
 };
 
-[[noreturn]] void no_request(const std::string& where, const std::string& why) {
+[[noreturn]] void no_request(const std::string& where, const Message& why) {
   throw Error(where, msg("is no checkpoint to be cosigned: {}", why), msg("name a file that `cavum ledger checkpoint` wrote, unchanged"));
 }
 
 Request parse_request(const std::string& text, const std::string& where) {
   Request out;
   const auto gap = text.find("\n\n");
-  if (!text.starts_with(k_old) || gap == std::string::npos) no_request(where, "it does not begin with 'old SIZE', a proof and an empty line");
+  if (!text.starts_with(k_old) || gap == std::string::npos) no_request(where, msg("it does not begin with 'old SIZE', a proof and an empty line"));
   std::istringstream lines(text.substr(0, gap + 1));
   std::string line;
   std::getline(lines, line);
   const auto [end, error] = std::from_chars(line.data() + k_old.size(), line.data() + line.size(), out.since);
-  if (error != std::errc() || line != std::string(k_old) + std::to_string(out.since)) no_request(where, "its old size is no whole number");
+  if (error != std::errc() || line != std::string(k_old) + std::to_string(out.since)) no_request(where, msg("its old size is no whole number"));
   while (std::getline(lines, line)) {
     const auto hash = from_base64(line);
-    if (!hash || hash->size() != 32 || out.proof.size() == k_longest_proof) no_request(where, "its proof is not at most 63 hashes in base64");
+    if (!hash || hash->size() != 32 || out.proof.size() == k_longest_proof) no_request(where, msg("its proof is not at most 63 hashes in base64"));
     std::copy(hash->begin(), hash->end(), out.proof.emplace_back().begin());
   }
   out.note = text.substr(gap + 2);
@@ -78,21 +78,25 @@ std::string successor_of(std::string key, const std::string& ledger_id, const st
   return key;
 }
 
-std::string entries(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " entry" : " entries"); }
+Message entries(std::uint64_t n) { return msgn("{} entry", "{} entries", static_cast<std::int64_t>(n), n); }
 
 /// Why the checkpoint does not go on from what is remembered.
 std::vector<Message> fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
-  const std::string evidence = fmt::format("; keep this file and {}: both bear the school's signature", path);
   if (p.size < m.last.size)
-    return {fmt::format("the ledger was put back to an older copy, or this is an older file: it has {}, and {} were cosigned{}", entries(p.size),
-                        entries(m.last.size), evidence)};
-  if (!is_consistent(m.last.size, m.last.root, p.size, p.root, r.proof))
-    return {(p.size == m.last.size
-                 ? "the ledger has other entries than those that were cosigned: history was rewritten"
-                 : fmt::format("the proof does not lead from the {} that were cosigned to these: history was rewritten, or the file was damaged",
-                               entries(m.last.size))) +
-            evidence};
-  return {};
+    return {
+        msg("the ledger was put back to an older copy, or this is an older file: it has {}, and {} were cosigned; keep this file and {}: both bear "
+            "the school's signature",
+            entries(p.size), entries(m.last.size), path)};
+  if (is_consistent(m.last.size, m.last.root, p.size, p.root, r.proof)) return {};
+  if (p.size == m.last.size)
+    return {
+        msg("the ledger has other entries than those that were cosigned: history was rewritten; keep this file and {}: both bear the school's "
+            "signature",
+            path)};
+  return {
+      msg("the proof does not lead from the {} that were cosigned to these: history was rewritten, or the file was damaged; keep this file and {}: "
+          "both bear the school's signature",
+          entries(m.last.size), path)};
 }
 
 }  // namespace
@@ -147,7 +151,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
     throw Error(where, msg("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
                 msg("ask for `cavum ledger checkpoint LEDGER --since {}`", last));
   if (memory) out.findings = fork_of(*memory, p, request, path);
-  if (!memory && !request.proof.empty()) no_request(where, "it proves something of no earlier entries");
+  if (!memory && !request.proof.empty()) no_request(where, msg("it proves something of no earlier entries"));
   if (!out.findings.empty()) return out;
   SignedNote note{read.note.text, {}};
   const NoteKey own{cosigner.name, NoteKind::cosignature, cosigner.key.public_key};
@@ -198,9 +202,9 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
     }
     if (out.cosignatures.empty())
       out.not_checked.emplace_back(msg("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here"));
-    if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, "the cosigned note", out.findings);
+    if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, msg("the cosigned note"), out.findings);
   } catch (const Error& e) {
-    out.findings.push_back(english_text(e.without_advice()));
+    out.findings.push_back(e.without_advice());
   }
   return out;
 }
@@ -209,7 +213,7 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
                         std::vector<Message>& not_checked) {
   std::size_t strange = 0;
   for (const auto& s : ledger.cosignatures) {
-    const std::string name = fmt::format("cosignature of {} under {}", one_line(s.by.name), entries(s.size));
+    const Message name = msg("cosignature of {} under {}", s.by.name, entries(s.size));
     const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
     const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
     if (p == ledger.checkpoints.rend())
@@ -220,8 +224,9 @@ void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>&
       findings.push_back(msg("{}: does not hold", name));
   }
   if (strange > 0)
-    not_checked.push_back(msg("{}{} not known here: put the key lines into {}", strange,
-                              strange == 1 ? msg(" cosignature is of a cosigner") : msg(" cosignatures are of cosigners"), known_cosigners_path()));
+    not_checked.push_back(msgn("{} cosignature is of a cosigner not known here: put its key line into {}",
+                               "{} cosignatures are of cosigners not known here: put the key lines into {}", static_cast<std::int64_t>(strange),
+                               strange, known_cosigners_path()));
 }
 
 }  // namespace cavum::ledger

@@ -27,7 +27,7 @@ void or_damage(SessionExplanation& e, const Say& say) {
   try {
     say();
   } catch (const Error& damage) {
-    e.findings.emplace_back(damage.what());
+    e.findings.push_back(damage.message());
   }
 }
 
@@ -35,8 +35,12 @@ void or_damage(SessionExplanation& e, const Say& say) {
 void say_replay(SessionExplanation& e, const SessionReader& session, const grading::SchoolMark& mark) {
   const VerifyReport& report = mark.replay;
   if (report.intact) {
-    e.proved.push_back(msg("nothing in the file was changed since {}: {} seconds linked by SHA-256, each with its motion, forces, events and clocks",
-                           report.closed ? msg("station {} signed it", report.station_key) : msg("it was recorded"), session.chunks().size()));
+    e.proved.push_back(report.closed ? msg("nothing in the file was changed since station {} signed it: {} seconds linked by SHA-256, each with its "
+                                           "motion, forces, events and clocks",
+                                           report.station_key, session.chunks().size())
+                                     : msg("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its "
+                                           "motion, forces, events and clocks",
+                                           session.chunks().size()));
     e.proved.push_back(
         msg("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: {} ticks simulated", report.ticks_replayed));
   }
@@ -48,8 +52,10 @@ void say_replay(SessionExplanation& e, const SessionReader& session, const gradi
 /// When and by whom the recording was closed.
 void say_closing(SessionExplanation& e, const SessionReader& session, const VerifyReport& report) {
   if (report.closed && report.intact)
-    e.proved.push_back(msg("closed on {} by station {}{}", utc_text(session.seal()->clocks.utc_ns), report.station_key,
-                           session.fact(k_station_fact) == report.station_key ? msg(", which signed its beginning, too") : Message()));
+    e.proved.push_back(
+        session.fact(k_station_fact) == report.station_key
+            ? msg("closed on {} by station {}, which signed its beginning, too", utc_text(session.seal()->clocks.utc_ns), report.station_key)
+            : msg("closed on {} by station {}", utc_text(session.seal()->clocks.utc_ns), report.station_key));
 }
 
 /// What the school promised, and whether this is it.
@@ -84,8 +90,8 @@ void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
 /// What was tried to leave a locked exam.
 void say_attempts(SessionExplanation& e, const SessionReader& session) {
   for (const LockSummary& s : lock_summary(session.events()))
-    e.remarks.push_back(msg("during the exam, {} after its beginning: {}{}", as_s(static_cast<double>(s.first_tick) * 1e-3, 1), lock_words(s.first),
-                            s.times > 1 ? msg(" ({} times in all)", s.times) : Message()));
+    e.remarks.push_back(msgn("during the exam, {} after its beginning: {}", "during the exam, {} after its beginning: {} ({} times in all)", s.times,
+                             as_s(static_cast<double>(s.first_tick) * 1e-3, 1), lock_words(s.first), s.times));
 }
 
 /// Where it was recorded, how the clocks ran, and what lies beside the file.
@@ -160,19 +166,19 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   return e;
 }
 
-std::string to_text(const SessionExplanation& e) {
-  const char* verdict = e.holds         ? "holds"
-                        : e.interrupted ? "INTERRUPTED: what is recorded holds, and can be taken up or closed with `cavum exam --resume`"
-                                        : "DOES NOT HOLD";
-  std::string out = fmt::format("{}: {}\n", one_line(e.file), verdict);
-  const auto list = [&](const char* title, const std::vector<std::string>& lines) {
+Lines to_text(const SessionExplanation& e) {
+  Lines out;
+  out.add(e.holds         ? msg("{}: holds", e.file)
+          : e.interrupted ? msg("{}: INTERRUPTED: what is recorded holds, and can be taken up or closed with `cavum exam --resume`", e.file)
+                          : msg("{}: DOES NOT HOLD", e.file));
+  const auto list = [&](const Message& title, const std::vector<Message>& lines) {
     if (lines.empty()) return;
-    out += fmt::format("{}\n", title);
-    for (const auto& l : lines) out += fmt::format("  - {}\n", one_line(l));
+    out.add(title);
+    for (const auto& l : lines) out.add(msg("- {}", l), 2);
   };
-  list(e.interrupted ? "what is missing" : "what does not hold", e.findings);
-  list("what is proved", e.proved);
-  list("to be known", e.remarks);
+  list(e.interrupted ? msg("what is missing") : msg("what does not hold"), e.findings);
+  list(msg("what is proved"), e.proved);
+  list(msg("to be known"), e.remarks);
   return out;
 }
 

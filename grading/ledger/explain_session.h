@@ -5,6 +5,8 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
+
 namespace cavum::grading {
 class ExamGrounds;
 }
@@ -26,6 +28,6 @@ struct SessionExplanation {
 /// The same with tooth and zones out of `grounds`.
 [[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed,
                                                  grading::ExamGrounds& grounds);
-[[nodiscard]] std::string to_text(const SessionExplanation& explanation);
+[[nodiscard]] Lines to_text(const SessionExplanation& explanation);
 
 }  // namespace cavum::ledger

@@ -180,14 +180,14 @@ std::vector<Message> check_results(const std::string& text, const std::string& p
       const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, "results");
       if (key != ledger->key_of(seen.size)) findings.emplace_back(msg("the results are signed by a key that was not the school's at that time"));
       if (!is_signed_by_school(id, key, seen)) findings.emplace_back(msg("the school's signature on the checkpoint does not hold"));
-      check_history(*ledger, id, seen, "the export", findings);
+      check_history(*ledger, id, seen, msg("the export"), findings);
     }
   } catch (const json::exception&) {
     findings.emplace_back(msg("are no exported results: name a file that `cavum ledger export --format json` wrote"));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(msg("are no exported results: {}", e.what()));
+    findings.push_back(msg("are no exported results: {}", Name{e.what()}));
   }
   return findings;
 }

@@ -28,12 +28,6 @@ std::string scenario_id_of(const SessionSetup& setup, const grading::SchoolMark&
   }
 }
 
-/// What JSON can hold: a recording may bear any bytes.
-std::vector<std::string> on_lines(std::vector<std::string> texts) {
-  for (auto& t : texts) t = one_line(t);
-  return texts;
-}
-
 /// The entry, as far as the recording and its mark give it.
 SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, const grading::SchoolMark& mark, const std::string& file_sha256) {
   SessionEntry e;
@@ -48,7 +42,7 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
   e.begun_utc_ns = session.created().utc_ns;
   e.closed_utc_ns = session.seal()->clocks.utc_ns;
   e.ticks = mark.replay.ticks;
-  e.remarks = on_lines(mark.remarks);
+  e.remarks = mark.remarks;
   e.grading_version = grading::k_grading_version;
   e.physics_version = session.number("physics_version", 0);
   e.result = make_opening(mark.result);
@@ -71,7 +65,7 @@ auto claims_of(Ledger& ledger, const SessionReader& session, const FilingOptions
 
 /// Takes the marked image in: `out` holds the findings of reading it, `claimed` what the ledger has against it.
 void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, const grading::SchoolMark& mark, const FilingOptions& options,
-           std::vector<std::string> claimed, std::size_t seen, Filing& out) {
+           std::vector<Message> claimed, std::size_t seen, Filing& out) {
   const SessionSetup setup = session.setup();
   const std::string file_sha256 = to_hex(sha256(image));
   const auto claims = claims_of(ledger, session, options);
@@ -88,10 +82,10 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   SessionEntry entry = entry_of(session, setup, mark, file_sha256);
   const std::size_t entered = ledger.append_all([&](const LedgerContent& now) -> std::vector<Entry> {
     // again under the lock: somebody may have used the ticket meanwhile
-    auto late = now.entries.size() == seen ? std::vector<std::string>() : claims(now);
+    auto late = now.entries.size() == seen ? std::vector<Message>() : claims(now);
     if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
     if (refused()) return {};
-    entry.findings = on_lines(out.findings);
+    entry.findings = out.findings;
     return {std::move(entry)};
   });
   if (entered > 0) out.seq = ledger.content().entries.back().seq;

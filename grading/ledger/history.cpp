@@ -31,13 +31,14 @@ std::vector<RestoredHere> restores_of(const LedgerContent& c) {
   return out;
 }
 
-std::string in_words(const RestoredHere& r) {
-  const std::string begin = fmt::format("entry {}: on {} the ledger went on from a backup of {}{}", r.seq, utc_text(r.utc_ns), r.seq,
-                                        r.seq == 1 ? " entry; " : " entries; ");
-  if (r.lost_size == 0) return begin + "nothing was known to be lost";
-  const std::uint64_t lost = r.lost_size - std::min(r.lost_size, r.seq);
-  return fmt::format("{}{}{}, which the school accepted: {}", begin, lost, lost == 1 ? " later entry was lost" : " later entries were lost",
-                     one_line(r.reason));
+Message in_words(const RestoredHere& r) {
+  const Message backup =
+      msgn("entry {}: on {} the ledger went on from a backup of {} entry", "entry {}: on {} the ledger went on from a backup of {} entries",
+           static_cast<std::int64_t>(r.seq), r.seq, utc_text(r.utc_ns), r.seq);
+  if (r.lost_size == 0) return msg("{}; nothing was known to be lost", backup);
+  const auto lost = static_cast<std::int64_t>(r.lost_size - std::min(r.lost_size, r.seq));
+  return msgn("{}; {} later entry was lost, which the school accepted: {}", "{}; {} later entries were lost, which the school accepted: {}", lost,
+              backup, lost, r.reason);
 }
 
 const RestoredHere* History::recorded_loss(const Checkpoint& seen) const {
@@ -59,8 +60,7 @@ Standing History::standing_of(const Checkpoint& seen) const {
   return seen.size > roots_.size() ? Standing::older_copy : Standing::rewritten;
 }
 
-Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
-                       std::vector<Message>& findings) {
+Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const Message& what, std::vector<Message>& findings) {
   if (ledger.ledger_id() != id) {
     findings.push_back(msg("{} is of another ledger", what));
     return Standing::begins_with_it;
@@ -81,7 +81,7 @@ void check_checkpoints(LedgerContent& c) {
   }
   std::uint64_t expected = 0;
   for (const auto& p : c.checkpoints) {
-    const std::string name = fmt::format("checkpoint {}", p.size);
+    const Message name = msg("checkpoint {}", p.size);
     if (p.size != ++expected) {
       c.findings.push_back(msg("checkpoint {}: is missing", expected));
       expected = p.size;

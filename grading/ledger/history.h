@@ -21,7 +21,7 @@ struct RestoredHere {
 };
 [[nodiscard]] std::vector<RestoredHere> restores_of(const LedgerContent& content);
 /// For people who check the ledger.
-[[nodiscard]] std::string in_words(const RestoredHere& restored);
+[[nodiscard]] Message in_words(const RestoredHere& restored);
 /// How a ledger stands to a checkpoint that somebody saw.
 enum class Standing { begins_with_it, older_copy, rewritten, loss_on_record };
 /// A ledger's roots at every size, and what it says was lost; made once for many questions.
@@ -41,7 +41,7 @@ class History {
 };
 /// Adds to `findings` what is wrong when the ledger is not `id`, or no longer begins with the entries of the checkpoint `seen`, and no `restore`
 /// entry says so. `what`: what bears it ("the receipt"). Returns how it stands; begins_with_it for another ledger.
-Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what, std::vector<Message>& findings);
+Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const Message& what, std::vector<Message>& findings);
 
 /// Adds findings to `content`: checkpoints whose signature does not hold, that miss, or that are not of its entries.
 void check_checkpoints(LedgerContent& content);

@@ -30,7 +30,7 @@ LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256
     if (e.seq != seq) findings.push_back(msg("{}: was entered as number {}: entries were moved", name, e.seq));
     if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(msg("{}: begins a ledger a second time", name));
   } catch (const Error& wrong) {
-    findings.push_back(english_text(wrong.without_advice()));
+    findings.push_back(wrong.without_advice());
     e.text = text;
   }
   e.seq = seq;
@@ -50,7 +50,7 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
   for (auto& e : c.entries) {
     if (!e.what) continue;
     for (const auto& [part, opening] : openings_of(*e.what)) {
-      const std::string name = fmt::format("entry {}: its {}", e.seq, word_of(part));
+      const Message name = msg("entry {}: its {}", e.seq, word_of(part));
       const auto found = stored.find(opening->sha256);
       const bool there = found != stored.end();
       const auto by = erased_by(c.erased, e.seq, part);
@@ -125,7 +125,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
         c.findings.push_back(msg("{}: its note is not as the school wrote it", name));
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
-      c.findings.push_back(english_text(e.without_advice()));
+      c.findings.push_back(e.without_advice());
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
@@ -133,7 +133,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
-      c.findings.push_back(english_text(e.without_advice()));
+      c.findings.push_back(e.without_advice());
     }
   }
 }
@@ -237,14 +237,14 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
     } catch (const DatabaseError& e) {
       LedgerContent damaged;
       damaged.findings = schema_findings(copy);  // the cause, when tables were altered
-      if (damaged.findings.empty()) damaged.findings.emplace_back(e.what());
+      if (damaged.findings.empty()) damaged.findings.push_back(e.message());
       return damaged;
     }
   };
   LedgerContent c = from_copy();
   if (ask == AskWitness::no || c.id.size() != 32) return c;
   // The witness first, as above, for others may add meanwhile; it is known whose it is only now.
-  std::vector<std::string> changed;
+  std::vector<Message> changed;
   const auto witnessed = read_witness(c.id, changed);
   c = from_copy();
   c.findings.insert(c.findings.end(), changed.begin(), changed.end());

@@ -9,17 +9,16 @@
 
 namespace cavum::ledger {
 
-std::vector<FirstSitting> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now, std::string& why_not) {
-  const auto no = [&](std::string why) {
+std::vector<FirstSitting> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now, Message& why_not) {
+  const auto no = [&](Message why) {
     why_not = std::move(why);
     return std::vector<FirstSitting>();
   };
-  if (first.made_up_by) return no(fmt::format("has a makeup already (entry {})", *first.made_up_by));
-  if (first.cancelled_by && first.begins.empty()) return no("was cancelled before it was begun: issue a new ticket");
-  if (now < first.ticket.not_before_utc_ns) return no("is for a sitting that is still to come");
+  if (first.made_up_by) return no(msg("has a makeup already (entry {})", *first.made_up_by));
+  if (first.cancelled_by && first.begins.empty()) return no(msg("was cancelled before it was begun: issue a new ticket"));
+  if (now < first.ticket.not_before_utc_ns) return no(msg("is for a sitting that is still to come"));
   for (const auto& s : registry.sessions)
-    if (s.nonce == first.ticket.nonce && s.shown_seq != 0)
-      return no(fmt::format("has a released result (entry {}): take it back first", s.shown_seq));
+    if (s.nonce == first.ticket.nonce && s.shown_seq != 0) return no(msg("has a released result (entry {}): take it back first", s.shown_seq));
   std::vector<FirstSitting> out;
   if (now > first.ticket.not_after_utc_ns && !first.used_by && first.begins.empty()) out.push_back(FirstSitting::missed);
   out.push_back(FirstSitting::interrupted);
@@ -36,11 +35,12 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
         const IssuedTicket* first = registry.ticket(wish.first);
         if (first == nullptr) throw Error(where, msg("is none"), msg("look at the list of tickets again"));
         if (first->ticket.exam != ticket.exam) throw Error(where, msg("is of another exam"), msg("a makeup is of the same exam"));
-        std::string why_not;
+        Message why_not;
         const std::int64_t now = read_clocks().utc_ns;
         const auto may = makeup_reasons(registry, *first, now, why_not);
         if (std::find(may.begin(), may.end(), wish.became) == may.end())
-          throw Error(where, may.empty() ? why_not : "was not missed: it was begun, or its time is not over", "look at the list of tickets again");
+          throw Error(where, may.empty() ? why_not : msg("was not missed: it was begun, or its time is not over"),
+                      msg("look at the list of tickets again"));
         for (const auto& t : registry.tickets)
           if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
             throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),

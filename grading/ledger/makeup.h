@@ -12,7 +12,7 @@ namespace cavum::ledger {
 
 /// Which of the two may be said of a ticket now; none: it gets no makeup. `why_not` receives the reason, in words.
 [[nodiscard]] std::vector<FirstSitting> makeup_reasons(const Registry& registry, const IssuedTicket& first, std::int64_t now_utc_ns,
-                                                       std::string& why_not);
+                                                       Message& why_not);
 
 struct MakeupWish {
   std::uint64_t first = 0;  ///< entry of the ticket of the first sitting

@@ -62,7 +62,7 @@ json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t
 
 std::vector<Message> check_receipt(const json& receipt, const std::string& public_key, const LedgerContent* ledger) {
   std::vector<Message> findings;
-  if (!receipt.is_object()) return {"is no receipt, for it is not JSON text of an object: name a file that `cavum ledger add --receipts` wrote"};
+  if (!receipt.is_object()) return {msg("is no receipt, for it is not JSON text of an object: name a file that `cavum ledger add --receipts` wrote")};
   try {
     const std::string id = receipt.at("ledger"), key = receipt.at("public_key"), entry = receipt.at("entry");
     const Checkpoint p = checkpoint_in(receipt.at("checkpoint"), id, key, "receipt");
@@ -80,7 +80,7 @@ std::vector<Message> check_receipt(const json& receipt, const std::string& publi
     }
     if (ledger != nullptr) {
       const History history(*ledger);
-      if (check_history(history, id, p, "the receipt", findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
+      if (check_history(history, id, p, msg("the receipt"), findings) == Standing::loss_on_record && !is_filed_again(*ledger, entry))
         findings.push_back(msg("the entry on the receipt was lost when the ledger went on from a backup (entry {}): file its session again",
                                history.recorded_loss(p)->seq));
     }
@@ -89,7 +89,7 @@ std::vector<Message> check_receipt(const json& receipt, const std::string& publi
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(msg("is no receipt: {}", e.what()));
+    findings.push_back(msg("is no receipt: {}", Name{e.what()}));
   }
   return findings;
 }

@@ -44,23 +44,23 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    const auto say = [&](const std::string& what) { r.remarks.push_back(msg("entry {}: has not released entry {}, for {}", seq, s.seq, what)); };
+    const auto say = [&](const Message& what) { r.remarks.push_back(msg("entry {}: has not released entry {}, for {}", seq, s.seq, what)); };
     if (const FiledSession* other = r.chosen_instead_of(s)) {
-      say(fmt::format("entry {}, another ending of the same exam, was chosen before", other->seq));
+      say(msg("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;
     }
     if (s.made_up_by) {
-      say(fmt::format("the makeup sitting of entry {} counts in its place", *s.made_up_by));
+      say(msg("the makeup sitting of entry {} counts in its place", *s.made_up_by));
       continue;
     }
     if (const FiledSession* other = r.shown_beside(s)) {
-      say(fmt::format("entry {}, another sitting of the same exam, is released", other->seq));
+      say(msg("entry {}, another sitting of the same exam, is released", other->seq));
       continue;
     }
     const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
                                   [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
     if (both) {
-      say("it names two endings of the same exam, and one counts: choose it with --session");
+      say(msg("it names two endings of the same exam, and one counts: choose it with --session"));
       continue;
     }
     for (auto& o : r.sessions)  // released before anybody knew of this ending
@@ -168,11 +168,13 @@ class RegistryReader {
     try {
       std::visit(*this, *e.what);
     } catch (const std::out_of_range&) {
-      say("speaks of an entry that is not there");
+      say(msg("speaks of an entry that is not there"));
     } catch (const std::bad_alloc&) {
       throw;
+    } catch (const Error& error) {
+      say(error.message());
     } catch (const std::exception& error) {
-      say(error.what());
+      say(Name{error.what()});
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
@@ -188,21 +190,21 @@ class RegistryReader {
     IssuedTicket t{e_->seq, what.ticket, {}, {}, {}};
     t.first_sitting = e_->seq;
     if (what.makes_up) make_up(*what.makes_up, t);
-    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say("a ticket with a number that another one has");
+    if (!by_nonce_.emplace(t.ticket.nonce, r_.tickets.size()).second) say(msg("a ticket with a number that another one has"));
     by_ticket_[e_->seq] = r_.tickets.size();
     r_.tickets.push_back(std::move(t));
   }
 
   void operator()(const SeatsEntry& what) {
     for (const Seat& seat : what.seats) {
-      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say("seats a candidate at a station that is not enrolled");
+      if (!seat.station.empty() && r_.stations.of(seat.station) == nullptr) say(msg("seats a candidate at a station that is not enrolled"));
       r_.tickets.at(by_ticket_.at(seat.ticket)).seat = seat.station;
     }
   }
 
   void operator()(const CancelEntry& what) {
     IssuedTicket& t = r_.tickets.at(by_ticket_.at(what.ticket));
-    if (t.used_by || t.cancelled_by) say("cancels a ticket that was used or cancelled before");
+    if (t.used_by || t.cancelled_by) say(msg("cancels a ticket that was used or cancelled before"));
     if (!t.cancelled_by) {
       t.cancelled_by = e_->seq;
       unmake(t);
@@ -222,8 +224,8 @@ class RegistryReader {
     require_signed(b, what.signature, content_->key_of(e_->seq + 1), "begin");
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
-    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say("lets an exam begin at another time than it was entered");
-    if (b.ledger != content_->id) say("lets an exam of another ledger begin");
+    if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say(msg("lets an exam begin at another time than it was entered"));
+    if (b.ledger != content_->id) say(msg("lets an exam of another ledger begin"));
     t.begins.push_back({e_->seq, b.nonce, b.utc_ns});
   }
 
@@ -244,7 +246,7 @@ class RegistryReader {
     s.grading_version = what.grading_version;
     s.simulated = what.simulated;
     s.findings = what.findings;
-    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say("a session that was entered before");
+    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(msg("a session that was entered before"));
     if (!s.nonce.empty() && s.findings.empty()) use_ticket(s);
     if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
       const IssuedTicket& ticket = r_.tickets[t->second];
@@ -272,7 +274,7 @@ class RegistryReader {
     const std::set<std::uint64_t> results(what.results.begin(), what.results.end());
     for (const auto seq : results)
       if (std::none_of(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& s) { return s.result_seq == seq; }))
-        say("releases a result that does not count");
+        say(msg("releases a result that does not count"));
     release(r_, e_->seq, e_->utc_ns, results);
   }
 
@@ -280,7 +282,7 @@ class RegistryReader {
     for (const auto seq : std::set<std::uint64_t>(what.results.begin(), what.results.end())) {
       const auto s = std::find_if(r_.sessions.begin(), r_.sessions.end(), [&](const FiledSession& one) { return one.shown_seq == seq; });
       if (s == r_.sessions.end() || seq == 0) {
-        say("takes back a result that is not released");
+        say(msg("takes back a result that is not released"));
         continue;
       }
       s->released = false, s->shown = json(), s->shown_seq = 0, s->released_utc_ns = 0;
@@ -291,7 +293,7 @@ class RegistryReader {
 
   void operator()(const AppealEntry& what) {
     FiledSession& s = session(what.session);
-    if (s.open_appeal() != nullptr) say("an appeal beside one that is open");
+    if (s.open_appeal() != nullptr) say(msg("an appeal beside one that is open"));
     s.appeals.push_back({e_->seq, e_->utc_ns, e_->by.reason, {}, {}, {}});
   }
   void operator()(const AnswerEntry& what) {
@@ -300,12 +302,12 @@ class RegistryReader {
       a.closed_by = e_->seq, a.outcome = what.outcome, a.answer = e_->by.reason;
       return;
     }
-    say("answers an appeal that is not open");
+    say(msg("answers an appeal that is not open"));
   }
 
   void operator()(const PassbackEntry& what) {
     const FiledSession& s = session(what.session);
-    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say("sends a result that is not the session's");
+    if (what.result != 0 && what.result != s.seq && s.regrade(what.result) == nullptr) say(msg("sends a result that is not the session's"));
     r_.passbacks.push_back(what);
   }
 
@@ -323,22 +325,22 @@ class RegistryReader {
   void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
 
  private:
-  void say(const std::string& what) { r_.findings.push_back(msg("entry {}: {}", e_->seq, what)); }
+  void say(const Message& what) { r_.findings.push_back(msg("entry {}: {}", e_->seq, what)); }
   FiledSession& session(std::uint64_t seq) { return r_.sessions.at(by_session_.at(seq)); }
 
   /// Of the first sitting nothing counts from now on.
   void make_up(const MakesUp& what, IssuedTicket& t) {
     IssuedTicket& first = r_.tickets.at(by_ticket_.at(what.ticket));
     if (first.ticket.candidate != t.ticket.candidate || first.ticket.exam != t.ticket.exam)
-      say("makes up another candidate's ticket, or one of another exam");
-    if (first.made_up_by) say("makes up a ticket that another one makes up");
+      say(msg("makes up another candidate's ticket, or one of another exam"));
+    if (first.made_up_by) say(msg("makes up a ticket that another one makes up"));
     first.made_up_by = e_->seq;
     t.makes_up = what;
     t.why = e_->by.reason;
     t.first_sitting = first.first_sitting;
     for (auto& s : r_.sessions) {
       if (s.nonce.empty() || s.nonce != first.ticket.nonce) continue;
-      if (s.shown_seq != 0) say("makes up a sitting whose result is released");
+      if (s.shown_seq != 0) say(msg("makes up a sitting whose result is released"));
       s.made_up_by = e_->seq;
     }
   }
@@ -365,11 +367,11 @@ class RegistryReader {
 
   void use_ticket(const FiledSession& s) {
     const auto found = by_nonce_.find(s.nonce);
-    if (found == by_nonce_.end()) return say("a session with a ticket that was not issued");
+    if (found == by_nonce_.end()) return say(msg("a session with a ticket that was not issued"));
     IssuedTicket& t = r_.tickets[found->second];
-    if (t.used_by) return say("a ticket that was used before");
-    if (t.cancelled_by) say(fmt::format("a ticket that was cancelled by entry {}", *t.cancelled_by));
-    if (t.made_up_by) say(fmt::format("a ticket that entry {} makes up", *t.made_up_by));
+    if (t.used_by) return say(msg("a ticket that was used before"));
+    if (t.cancelled_by) say(msg("a ticket that was cancelled by entry {}", *t.cancelled_by));
+    if (t.made_up_by) say(msg("a ticket that entry {} makes up", *t.made_up_by));
     t.used_by = e_->seq;
   }
 

@@ -106,16 +106,15 @@ const Station* StationRegister::of(const std::string& key) const {
   return found == stations.end() ? nullptr : &*found;
 }
 
-std::string StationRegister::problem(const std::string& key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const {
+Message StationRegister::problem(const std::string& key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const {
   const Station* s = of(key);
-  if (s == nullptr)
-    return fmt::format("the station with the key {} is not enrolled: anybody can make such a recording", key.empty() ? "that is not named" : key);
-  const std::string name = fmt::format("station '{}'", s->name);
+  if (key.empty()) return msg("the recording names no station's key: anybody can make such a recording");
+  if (s == nullptr) return msg("the station with the key {} is not enrolled: anybody can make such a recording", key);
   if (s->revoked_utc_ns && received_utc_ns > *s->revoked_utc_ns)
-    return fmt::format("the key of {}{}{}", name, s->replaced_by.empty() ? " was revoked on " : " was replaced, and good until ",
-                       utc_text(*s->revoked_utc_ns));
+    return s->replaced_by.empty() ? msg("the key of station '{}' was revoked on {}", s->name, utc_text(*s->revoked_utc_ns))
+                                  : msg("the key of station '{}' was replaced, and good until {}", s->name, utc_text(*s->revoked_utc_ns));
   if (s->until_utc_ns > 0 && (closed_utc_ns > s->until_utc_ns || received_utc_ns > s->until_utc_ns + k_late_ns))
-    return fmt::format("the key of {} ran out on {}", name, utc_text(s->until_utc_ns));
+    return msg("the key of station '{}' ran out on {}", s->name, utc_text(s->until_utc_ns));
   return {};
 }
 

@@ -197,20 +197,21 @@ Made by_slurm(const Work& work, const Run& run, const Slurm& wanted) {
   Growing growing(folder);
   const std::size_t rows_before = growing.rows();
   bool stopped = false;
-  std::set<std::string> remarks(there.remarks.begin(), there.remarks.end());
+  std::vector<Message> remarks(there.remarks.begin(), there.remarks.end());
   for (int attempt = 1; attempt <= slurm.attempts && !there.missing().empty() && !stopped; ++attempt) {
     const auto missing = there.missing();
     if (attempt > 1)
-      remarks.insert(fmt::format("{} sessions are made again: their task died, or its part is damaged (attempt {})", missing.size(), attempt));
+      remarks.push_back(msg("{} sessions are made again: their task died, or its part is damaged (attempt {})", missing.size(), attempt));
     const std::string job = submit(slurm, work, missing, attempt);
     const std::size_t before = out.found > rows_before ? out.found - rows_before : 0;
     out.workers = std::max(out.workers, wait_for(job, slurm, run, growing, before, work.sessions.size()));
     stopped = run.stop && run.stop();
     there = read_parts(work, part_files(folder));
-    remarks.insert(there.remarks.begin(), there.remarks.end());
+    for (const Message& r : there.remarks)
+      if (std::find(remarks.begin(), remarks.end(), r) == remarks.end()) remarks.push_back(r);
   }
   out.missing = there.missing();
-  out.remarks.assign(remarks.begin(), remarks.end());
+  out.remarks = remarks;
   for (auto& line : there.lines) out.lines.push_back(line ? std::move(*line) : std::string());
   for (const auto& s : there.spent) out.spent += s;
   out.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();

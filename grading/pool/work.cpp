@@ -6,6 +6,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
 #include "engine/servo/servo.h"
@@ -26,9 +27,9 @@ constexpr JsonLimits k_work_limits{1U << 30, 20'000'000, 8};
 
 std::string dumped(const json& j) { return j.dump(-1, ' ', false, json::error_handler_t::replace); }
 
-json on_lines(const std::vector<std::string>& texts) {
+json on_lines(const std::vector<Message>& texts) {
   json list = json::array();
-  for (const auto& t : texts) list.push_back(one_line(t));
+  for (const auto& t : texts) list.push_back(one_line(english_text(t)));
   return list;
 }
 
@@ -120,6 +121,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
       line["verified"] = mark.holds() && findings.empty();
       line["ticks"] = mark.replay.ticks;
       line["findings"] = on_lines(findings);
+      if (!findings.empty()) line["said"] = encode(findings);  // for whoever tells them in another language
       line["remarks"] = on_lines(mark.remarks);
       line["result"] = mark.result;
     } else {

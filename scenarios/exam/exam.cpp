@@ -61,13 +61,12 @@ std::string force_model_path(const std::string& wanted, const std::string& near_
 
 std::string force_model_text(const std::string& wanted, const std::string& near_file) { return read_text_file(force_model_path(wanted, near_file)); }
 
-std::vector<std::string> check_servo(const std::string& servo_toml, const Scenario& scenario) {
+std::vector<Message> check_servo(const std::string& servo_toml, const Scenario& scenario) {
   const ServoConfig is = parse_servo_config(servo_toml, "servo.toml"), usual;
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   const auto same = [&](const char* name, double value, double wanted) {
     if (value != wanted)
-      findings.push_back(
-          fmt::format("servo.toml: {} is {}, and exams of this scenario run with {}", name, plain_number(value), plain_number(wanted)));
+      findings.push_back(msg("servo.toml: {} is {}, and exams of this scenario run with {}", name, as_number(value), as_number(wanted)));
   };
   const auto at_most = [&](const char* name, double value, double most) {
     if (!(value > 0 && value <= most)) same(name, value, most);

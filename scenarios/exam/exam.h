@@ -59,7 +59,7 @@ struct ExamSetup : ExamTask {
 };
 /// What of a session's servo settings is not what every exam of its scenario runs with, in words: another length of a tick, another speed of the
 /// handpiece, another watchdog. The device's own are its encoder and forces that are smaller than usual.
-[[nodiscard]] std::vector<std::string> check_servo(const std::string& servo_toml, const Scenario& scenario);
+[[nodiscard]] std::vector<Message> check_servo(const std::string& servo_toml, const Scenario& scenario);
 /// Reads all files. Throws Error on any that is missing or wrong.
 [[nodiscard]] std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const ExamOptions& options);
 /// The same from what a session holds: for resuming and regrading.

@@ -1,7 +1,5 @@
 #include "engine/explain/inference/explain.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -23,7 +21,7 @@ void list_not_testable(Explanation& e, const std::vector<Candidate>& candidates,
     if (c.testable) continue;
     const Mechanism& m = mechanism_at(c.hypothesis.term.mechanism);
     const bool lacks = starts(m, scene).empty();
-    e.not_testable.push_back({m.name, lacks ? "the recording lacks what it needs" : "k and c can take its place in these data"});
+    e.not_testable.push_back({m.name, lacks ? msg("the recording lacks what it needs") : msg("k and c can take its place in these data")});
   }
 }
 
@@ -71,29 +69,27 @@ void conclude(Explanation& e, bool one_way) {
     e.verdict = one_way || std::all_of(offsets.begin(), offsets.end(), [&](const Mechanism* m) { return is_untestable(e, m->name); }) ? "not_testable"
                                                                                                                                       : "clean";
 
-  const auto separate = [](const std::string& name) { return std::string(mechanism_at(known_mechanism(name)).separate); };
-  std::vector<std::string> wanted;
+  const auto separate = [](const std::string& name) { return msg("{}", cavum::Term{mechanism_at(known_mechanism(name)).separate}); };
+  List wanted{{}, true};
+  const auto want = [&wanted](const Message& experiment) {
+    if (std::find(wanted.items.begin(), wanted.items.end(), experiment) == wanted.items.end()) wanted.items.push_back(experiment);
+  };
   for (const auto& c : e.causes)
     if (!c.aliases.empty()) {
-      wanted.push_back(separate(mechanism_at(c.term.mechanism).name));
-      for (const auto& a : c.aliases) wanted.push_back(separate(a));
+      want(separate(mechanism_at(c.term.mechanism).name));
+      for (const auto& a : c.aliases) want(separate(a));
     }
   if (e.verdict == "not_testable")
-    for (const auto* m : offsets) wanted.emplace_back(m->separate);
-  std::string text;
-  for (std::size_t i = 0; i < wanted.size(); ++i)
-    if (std::find(wanted.begin(), wanted.begin() + static_cast<std::ptrdiff_t>(i), wanted[i]) == wanted.begin() + static_cast<std::ptrdiff_t>(i))
-      text += (text.empty() ? "" : "; ") + wanted[i];
-  if (text.empty() && e.unexplained)
-    text = fmt::format("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable);
-  if (text.empty() && !e.not_testable.empty()) {
-    for (const auto& n : e.not_testable)
-      if (mechanism_at(known_mechanism(n.mechanism)).in_recordings) {
-        text = fmt::format("to test {} too: {}", n.mechanism, separate(n.mechanism));
-        break;
-      }
+    for (const auto* m : offsets) want(separate(m->name));
+  if (wanted.items.empty() && e.unexplained)
+    want(msg("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable));
+  if (wanted.items.empty()) {
+    const auto open = std::find_if(e.not_testable.begin(), e.not_testable.end(),
+                                   [](const NotTestable& n) { return mechanism_at(known_mechanism(n.mechanism)).in_recordings; });
+    want(open == e.not_testable.end() ? msg("repeat the recording at another site, to see whether k, c and the causes stay the same")
+                                      : msg("to test {} too: {}", open->mechanism, separate(open->mechanism)));
   }
-  e.next_experiment = text.empty() ? "repeat the recording at another site, to see whether k, c and the causes stay the same" : text;
+  e.next_experiment = msg("{}", wanted);
 }
 
 /// k and c against those of the rig. A wrong clock leaves k as it is and changes c alone, when nothing else is wrong.
@@ -103,8 +99,8 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   if (e.verdict == "data_fault" || e.after->scene->touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
     e.verdict = "unexplained";
-    e.unexplained =
-        Unexplained{"x_mm", "the force falls as the tool goes deeper", -e.base.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
+    e.unexplained = Unexplained{"x_mm", msg("the force falls as the tool goes deeper"),
+                                -e.base.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
     return;
   }
   if (!rig.k_n_per_mm || !rig.c_n_s_per_mm || *rig.c_n_s_per_mm <= 0.0 || e.recording->relative_k.size() > 0) return;
@@ -113,35 +109,35 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
     return std::fabs(ratio - 1.0) > k_known && (i.low > (1.0 + k_known) * given || i.high < (1.0 - k_known) * given);
   };
   const bool k_off = off(k, e.k, *rig.k_n_per_mm), c_off = off(c, e.c, *rig.c_n_s_per_mm);
-  const std::string text = fmt::format("fitted k is {:.3g} times, c is {:.3g} times that of rig.toml", k, c);
+  const Message text = msg("fitted k is {} times, c is {} times that of rig.toml", as_number(k, 2), as_number(c, 2));
   if (e.verdict != "clean" && (k < 1.0 / k_absurd || k > k_absurd)) {  // causes beside it would only say what it lacks
     e.causes.clear();
     e.verdict = "unexplained";
-    e.unexplained = Unexplained{"x_mm", "k is not that of rig.toml by far: does the file count x from the surface, and into the tooth?",
+    e.unexplained = Unexplained{"x_mm", msg("k is not that of rig.toml by far: does the file count x from the surface, and into the tooth?"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
   }
   if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
   if (e.verdict != "clean") return;
   if (k_off) {
     e.verdict = "unexplained";
-    e.unexplained = Unexplained{"x_mm", "k differs from that of rig.toml",
+    e.unexplained = Unexplained{"x_mm", msg("k differs from that of rig.toml"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
-    e.next_experiment = "press a spring of known stiffness, and hang known weights on the load cell";
+    e.next_experiment = msg("press a spring of known stiffness, and hang known weights on the load cell");
     return;
   }
   if (!c_off || std::fabs(k - 1.0) > 0.5 * k_told) return;
   if (speed_known || c <= 0.0) {  // no clock does that
     e.verdict = "unexplained";
-    e.unexplained = Unexplained{"v_mm_s", "c differs from that of rig.toml",
+    e.unexplained = Unexplained{"v_mm_s", msg("c differs from that of rig.toml"),
                                 std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene->damper_mm_s.square().mean())};
     if (c < 1.0)
-      e.notes.push_back(fmt::format("a lag of {} s of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
-                                    plain_number((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm)));
-    e.next_experiment = "press and stop suddenly, several times: a lag shows after each stop, a wrong c does not";
+      e.notes.push_back(msg("a lag of {} of the force (delay or low_pass) takes as much from c: k and c alone cannot tell",
+                            as_s((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm, k_as_needed)));
+    e.next_experiment = msg("press and stop suddenly, several times: a lag shows after each stop, a wrong c does not");
   } else {
     e.verdict = "data_fault";
-    e.data_faults.push_back(fmt::format("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text));
-    e.next_experiment = "record the speed too, or check the sampling rate against a clock";
+    e.data_faults.push_back(msg("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text));
+    e.next_experiment = msg("record the speed too, or check the sampling rate against a clock");
   }
 }
 
@@ -155,10 +151,10 @@ Explanation opened(const Recording& given, const ExplainOptions& options) {
   e.recording = std::make_shared<const Recording>(cut ? *cut : e.data_faults.empty() && are_specimens(stamped) ? on_common_scale(stamped) : stamped);
   e.notes = e.recording->notes;
   if (options.surrogates == 0)
-    e.notes.emplace_back("without surrogates: judged as if independent noise were all that could mislead; causes may be false");
+    e.notes.push_back(msg("without surrogates: judged as if independent noise were all that could mislead; causes may be false"));
   if (!e.data_faults.empty()) {
     e.verdict = "data_fault";
-    e.next_experiment = "correct the recording: " + e.data_faults.front();
+    e.next_experiment = msg("correct the recording: {}", e.data_faults.front());
   }
   return e;
 }
@@ -238,40 +234,39 @@ std::optional<Unexplained> doubtful(const Step& first) {
   for (const auto& s : first.scores.structures)
     if (best == nullptr || s.gain > best->gain) best = &s;
   if (best == nullptr) return std::nullopt;
-  return Unexplained{best->variable, best->form + ", which does not hold from session to session", best->effect_n};
+  return Unexplained{best->variable, msg("{}, which does not hold from session to session", best->form), best->effect_n};
 }
 
 /// What sessions differ in, and whether the recorded speed was used, as notes.
 void say_what_differs(Explanation& e, const Motion& motion) {
-  if ((motion.x_mm <= 0.0).all()) e.notes.emplace_back("the tool never touches: only what acts in air can be found");
+  if ((motion.x_mm <= 0.0).all()) e.notes.push_back(msg("the tool never touches: only what acts in air can be found"));
   if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
-  if (motion.noise_mm > 0.0) e.notes.push_back(fmt::format("the positions are noisy: {:.2g} um from row to row", 1e3 * motion.noise_mm));
+  if (motion.noise_mm > 0.0)
+    e.notes.push_back(msg("the positions are noisy: {} from row to row", as_unit(1e3 * motion.noise_mm, cavum::Unit::um, 2)));
   const SessionSpread& s = e.spread;
-  std::vector<std::string> differ;
-  if (s[k_force_zero] > 0.5 * e.noise.sd_n) differ.push_back(fmt::format("the zero of the force by {:.2g} N", s[k_force_zero]));
-  if (s[k_surface_place] > 0.003) differ.push_back(fmt::format("the place of the surface by {:.2g} mm", s[k_surface_place]));
-  if (s[k_stiffness] > 0.01) differ.push_back(fmt::format("stiffness by {:.2g} %", 100.0 * s[k_stiffness]));
-  if (s[k_lateness] > 5e-4) differ.push_back(fmt::format("lateness of the force, or c, by {:.2g} ms", 1e3 * s[k_lateness]));
-  std::string list;
-  for (const auto& d : differ) list += (list.empty() ? "" : ", ") + d;
-  if (!list.empty()) e.notes.push_back(fmt::format("sessions differ (standard deviation): {}", list));
+  List differ;
+  if (s[k_force_zero] > 0.5 * e.noise.sd_n) differ.items.push_back(msg("the zero of the force by {}", as_n(s[k_force_zero], 3)));
+  if (s[k_surface_place] > 0.003) differ.items.push_back(msg("the place of the surface by {}", as_mm(s[k_surface_place], 3)));
+  if (s[k_stiffness] > 0.01) differ.items.push_back(msg("stiffness by {}", as_percent(100.0 * s[k_stiffness], 1)));
+  if (s[k_lateness] > 5e-4) differ.items.push_back(msg("lateness of the force, or c, by {}", as_unit(1e3 * s[k_lateness], cavum::Unit::ms, 1)));
+  if (!differ.items.empty()) e.notes.push_back(msg("sessions differ (standard deviation): {}", differ));
 }
 
 /// A zero of the force, a stiffness, or a lateness, that differs between sessions by what no simulation should miss; none where they are alike.
 std::optional<Unexplained> sessions_apart(const Explanation& e) {
   if (e.spread[k_force_zero] > k_zero_differs * e.noise.sd_n)
-    return Unexplained{"session", "a zero of the force that differs from session to session", e.spread[k_force_zero]};
+    return Unexplained{"session", msg("a zero of the force that differs from session to session"), e.spread[k_force_zero]};
   if (e.spread[k_stiffness] > k_stiffness_differs)
-    return Unexplained{"session", "a stiffness that differs from session to session",
+    return Unexplained{"session", msg("a stiffness that differs from session to session"),
                        e.spread[k_stiffness] * std::sqrt(static_cast<double>(e.after->effects->col(k_stiffness).squaredNorm()) /
                                                          static_cast<double>(e.after->effects->rows()))};
   const double late_n =
       e.spread[k_lateness] * std::sqrt(e.after->effects->col(k_lateness).squaredNorm() / static_cast<double>(e.after->effects->rows()));
   if (late_n > k_zero_differs * e.noise.sd_n)
-    return Unexplained{"session", "a lateness of the force, or c, that differs from session to session", late_n};
+    return Unexplained{"session", msg("a lateness of the force, or c, that differs from session to session"), late_n};
   const double known_n = std::hypot(e.gain.noise_floor_n, e.position_error_n);
   if (e.gain.base_rmse_n > k_more_than_noise * known_n)
-    return Unexplained{"session", "more than the noise, of no form that is looked for",
+    return Unexplained{"session", msg("more than the noise, of no form that is looked for"),
                        std::sqrt(e.gain.base_rmse_n * e.gain.base_rmse_n - known_n * known_n)};
   return std::nullopt;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/explain/inference/search.h"
 
 namespace cavum::explain {
@@ -38,12 +39,14 @@ struct Cause {
 };
 
 struct Unexplained {
-  std::string variable, form;
+  std::string variable;
+  Message form;
   double effect_n = 0;
 };
 
 struct NotTestable {
-  std::string mechanism, reason;
+  std::string mechanism;
+  Message reason;
 };
 
 struct Gain {
@@ -59,14 +62,14 @@ struct Explanation {
   std::vector<Cause> causes;
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
-  std::vector<std::string> data_faults, notes;
+  std::vector<Message> data_faults, notes;
   Gain gain;
   Base base;  ///< fitted with the causes
   Interval k, c;
   Noise noise;
   double position_error_n = 0;  ///< rms of the force that the errors of position and speed may make by k and c, N
   SessionSpread spread{};       ///< what sessions differ by, beside the causes
-  std::string next_experiment;
+  Message next_experiment;
   std::vector<Structure> structures;           ///< of the residual that is left
   std::vector<Candidate> candidates;           ///< of the first look, for the report
   std::shared_ptr<const Recording> recording;  ///< as it was explained; the views refer to it
@@ -85,11 +88,11 @@ struct ExplainOptions {
 
 /// The names of docs/contracts.md (JSON).
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
-[[nodiscard]] std::string to_text(const Explanation& explanation);
+[[nodiscard]] Lines to_text(const Explanation& explanation);
 /// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
-[[nodiscard]] std::vector<std::string> fold_names(const Explanation& explanation);
+[[nodiscard]] std::vector<Message> fold_names(const Explanation& explanation);
 /// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the
 /// position may make as much. Else empty.
-[[nodiscard]] std::string left_over_words(const Explanation& explanation);
+[[nodiscard]] Message left_over_words(const Explanation& explanation);
 
 }  // namespace cavum::explain

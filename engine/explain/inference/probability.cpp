@@ -45,12 +45,12 @@ void set_probabilities(Explanation& e) {
   }
 }
 
-const char* probability_words(double p) noexcept {
-  if (p >= 0.95) return "extremely likely";
-  if (p >= 0.9) return "very likely";
-  if (p >= 0.66) return "likely";
-  if (p >= 0.33) return "about as likely as not";
-  return "unlikely";
+Message probability_words(double p) {
+  if (p >= 0.95) return msg("extremely likely");
+  if (p >= 0.9) return msg("very likely");
+  if (p >= 0.66) return msg("likely");
+  if (p >= 0.33) return msg("about as likely as not");
+  return msg("unlikely");
 }
 
 }  // namespace cavum::explain

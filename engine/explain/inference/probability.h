@@ -1,6 +1,7 @@
 // How sure a named cause is: the share of causes named under like circumstances that were true, on three outside generators.
 #pragma once
 
+#include "engine/base/message.h"
 #include "engine/explain/inference/explain.h"
 
 namespace cavum::explain {
@@ -11,6 +12,6 @@ namespace cavum::explain {
 void set_probabilities(Explanation& e);
 
 /// "very likely" and so on; of IPCC's calibrated words (Mastrandrea et al. 2010).
-[[nodiscard]] const char* probability_words(double probability) noexcept;
+[[nodiscard]] Message probability_words(double probability);
 
 }  // namespace cavum::explain

@@ -1,7 +1,5 @@
 #include "engine/explain/inference/stiffness_table.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -77,47 +75,56 @@ TableFit fitted(const StiffnessTable& t, bool root, bool intercept, std::ptrdiff
 Interval interval(double value, double error) { return {value, value - k_95 * error, value + k_95 * error}; }
 
 /// What the table says about the law, sentence by sentence.
-std::vector<std::string> sentences(const TableExplanation& e) {
+std::vector<Message> sentences(const TableExplanation& e) {
   const double v = e.table.v_mm_s.front(), most = *std::max_element(e.table.k_n_per_mm.begin(), e.table.k_n_per_mm.end());
-  std::vector<std::string> out;
+  const bool one_speed = std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1;
+  const double share = 100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n));
+  std::vector<Message> out;
   out.push_back(
-      printed("The Voigt law has no intercept: cutting steadily at V = %.3g mm/s it gives F = k V τ + c V, which is 0 N at k = 0 (eq. 5 "
-              "makes c = 0 there too). The table has %.3f N at k = 0, and no τ and no c can make it.",
-              v, e.line.intercept_n));
+      msg("The Voigt law has no intercept: cutting steadily at V = {} it gives F = k V τ + c V, which is 0 N at k = 0 (eq. 5 makes c = 0 there "
+          "too). The table has {} at k = 0, and no τ and no c can make it.",
+          as_unit(v, cavum::Unit::mm_per_s), as_n(e.line.intercept_n, 3)));
   out.push_back(
-      printed("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at %s, always in contact and always cutting. "
-              "Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same amount.",
-              std::set<double>(e.table.v_mm_s.begin(), e.table.v_mm_s.end()).size() == 1 ? "one speed" : "speeds of one sign"));
+      one_speed
+          ? msg("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at one speed, always in contact and always "
+                "cutting. "
+                "Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same amount.")
+          : msg("Friction, bias and edge force cannot be told apart here: the crosshead goes one way, at speeds of one sign, always in contact and "
+                "always "
+                "cutting. Friction of the joints, a zero error of the load cell and a constant force of the cutting edges lift every row by the same "
+                "amount."));
   out.push_back(
-      printed("c V with c = 2 √k adds %.3f √k N, %.3f N at k = %.3g, and bends the row. A straight line laid through that bend alone "
-              "has a slope of %.3f mm and an intercept of %.3f N: so a line hides a √k as intercept and slope, yet it explains at most "
-              "%.0f %% of the intercept here.",
-              e.predicted_root, e.predicted_root * std::sqrt(most), most, e.of_root.slope_mm, e.of_root.intercept_n,
-              100.0 * std::min(1.0, e.of_root.intercept_n / std::max(1e-9, e.line.intercept_n))));
+      msg("c V with c = 2 √k adds {} √k N, {} at k = {}, and bends the row. A straight line laid through that bend alone has a slope of {} and an "
+          "intercept of {}: so a line hides a √k as intercept and slope, yet it explains at most {} of the intercept here.",
+          as_number(e.predicted_root, 3), as_n(e.predicted_root * std::sqrt(most), 3), as_number(most), as_mm(e.of_root.slope_mm, 3),
+          as_n(e.of_root.intercept_n, 3), as_percent(share)));
   out.push_back(
-      printed("Fitted without an intercept, k X + √k takes %.3f √k N and a slope of %.3f mm to imitate it, and still misses by %.3f N "
-              "rms and by %.3f N at k = 0; with all three the table asks for %.3f ± %.3f √k N, where the published c V needs %.3f.",
-              e.voigt.root, e.voigt.slope_mm, e.voigt.rms_n, e.line.intercept_n, e.all.root, k_95 * e.all.root_error, e.predicted_root));
+      msg("Fitted without an intercept, k X + √k takes {} √k N and a slope of {} to imitate it, and still misses by {} rms and by {} at k = 0; "
+          "with all three the table asks for {} √k N, where the published c V needs {}.",
+          as_number(e.voigt.root, 3), as_mm(e.voigt.slope_mm, 3), as_n(e.voigt.rms_n, 3), as_n(e.line.intercept_n, 3),
+          Number{e.all.root, cavum::Unit::none, 3, k_95 * e.all.root_error}, as_number(e.predicted_root, 3)));
   if (std::fabs(e.all.root - e.predicted_root) > std::max(k_95 * e.all.root_error, 0.1 * e.predicted_root))
     out.push_back(
-        printed("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be "
-                "%.3f mm, and τ %.2f s instead of %.2f s.",
-                e.line.slope_mm - e.of_root.slope_mm, (e.line.slope_mm - e.of_root.slope_mm) / v, e.line.slope_mm / v));
+        msg("A straight row speaks against a force of c V with c = 2 √k. If it were there all the same, the slope of k X would be {}, and τ {} "
+            "instead of {}.",
+            as_mm(e.line.slope_mm - e.of_root.slope_mm, 3), as_s((e.line.slope_mm - e.of_root.slope_mm) / v, 2), as_s(e.line.slope_mm / v, 2)));
   if (e.exact)
     out.push_back(
-        "The points lie on the line to a thousandth of a newton, as points taken from an equation do: the intervals say nothing about the scatter "
-        "of the measurement, and the straightness may be the equation's.");
+        msg("The points lie on the line to a thousandth of a newton, as points taken from an equation do: the intervals say nothing about the "
+            "scatter of the measurement, and the straightness may be the equation's."));
   return out;
 }
 
-constexpr const char* k_next =
-    "with the same cube and stylus: (1) read the load cell unloaded before and after: that is the bias; (2) stroke 20 mm to and fro in air at 0.25 "
-    "mm/s, "
-    "spindle off: what flips with the direction is friction, half the jump is its size; (3) the same at 0.05 and 1 mm/s: Stribeck or viscous "
-    "friction; "
-    "(4) press the k = 0 cube with the spindle off, then on: the step is the edge force; (5) repeat k = 0.2 and 1.2 at 0.1, 0.25 and 0.5 mm/s: c V "
-    "grows "
-    "with the speed, an intercept does not. Record time, position and force (cavum explain --protocol), not only the mean";
+Message next_experiment() {
+  return msg(
+      "with the same cube and stylus: (1) read the load cell unloaded before and after: that is the bias; (2) stroke 20 mm to and fro in air at 0.25 "
+      "mm/s, "
+      "spindle off: what flips with the direction is friction, half the jump is its size; (3) the same at 0.05 and 1 mm/s: Stribeck or viscous "
+      "friction; "
+      "(4) press the k = 0 cube with the spindle off, then on: the step is the edge force; (5) repeat k = 0.2 and 1.2 at 0.1, 0.25 and 0.5 mm/s: c V "
+      "grows "
+      "with the speed, an intercept does not. Record time, position and force (cavum explain --protocol), not only the mean");
+}
 
 }  // namespace
 
@@ -152,8 +159,8 @@ TableExplanation explain_table(const StiffnessTable& table) {
   Explanation& said = e.said;
   if (table.f_n.size() < 5 || std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
     said.verdict = "data_fault";
-    said.data_faults.push_back("a line, a root and an intercept need five rows of four stiffnesses at least");
-    said.next_experiment = "measure at more stiffnesses";
+    said.data_faults.push_back(msg("a line, a root and an intercept need five rows of four stiffnesses at least"));
+    said.next_experiment = msg("measure at more stiffnesses");
     return e;
   }
   e.line = fitted(table, false, true);
@@ -180,7 +187,8 @@ TableExplanation explain_table(const StiffnessTable& table) {
     const auto in_set = [&](const Cause& c) {
       return c.term.mechanism == find_mechanism(m.name) || std::find(c.aliases.begin(), c.aliases.end(), m.name) != c.aliases.end();
     };
-    if (std::none_of(said.causes.begin(), said.causes.end(), in_set)) said.not_testable.push_back({m.name, "a table of means at constant speed"});
+    if (std::none_of(said.causes.begin(), said.causes.end(), in_set))
+      said.not_testable.push_back({m.name, msg("a table of means at constant speed")});
   }
   said.gain.base_rmse_n = e.voigt.left_out_rms_n;
   said.gain.extended_rmse_n = e.line.left_out_rms_n;
@@ -188,27 +196,37 @@ TableExplanation explain_table(const StiffnessTable& table) {
   const double gained = 100.0 * (1.0 - e.line.left_out_rms_n / std::max(1e-12, e.voigt.left_out_rms_n));
   said.gain.percent = {gained, gained, gained};
   said.notes = sentences(e);
-  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), "The table says of itself: " + table.origin);
-  said.next_experiment = k_next;
+  if (!table.origin.empty()) said.notes.insert(said.notes.begin(), msg("The table says of itself: {}", table.origin));
+  said.next_experiment = next_experiment();
   return e;
 }
 
-std::string to_text(const TableExplanation& e) {
+Lines to_text(const TableExplanation& e) {
   const Explanation& said = e.said;
   if (said.verdict == "data_fault") return to_text(said);
-  std::string out = said.verdict == "alias" ? "verdict: alias. A force is missing that does not depend on k; the table cannot tell which.\n"
-                                            : "verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it.\n";
+  Lines out;
+  out.add(said.verdict == "alias" ? msg("verdict: alias. A force is missing that does not depend on k; the table cannot tell which.")
+                                  : msg("verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it."));
   for (const auto& c : said.causes) {
-    out += printed("\ncause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, %.4f N at every k\n", c.effect_n);
-    out += "  none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest\n";
+    out.gap();
+    out.add(msg("cause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, {} at every k", as_n(c.effect_n, 4)));
+    out.add(msg("none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest"), 2);
   }
-  const auto fit = [](const char* name, const TableFit& f) {
-    return printed("  %-26s F = %7.3f k %+7.3f √k %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n, f.rms_n,
-                   f.left_out_rms_n);
+  out.gap();
+  const auto fit = [&out](const Message& name, const TableFit& f) {
+    out.row({name,
+             msg("F = {} k {} √k {}", as_number(f.slope_mm, 3), Number{f.root, cavum::Unit::none, 3, 0, true},
+                 Number{f.intercept_n, cavum::Unit::newton, 3, 0, true}),
+             msg("rms {}, row left out {}", as_n(f.rms_n, 4), as_n(f.left_out_rms_n, 4))},
+            2);
   };
-  out += fmt::format("\n{}{}{}\n", fit("Voigt law, k X + c V", e.voigt), fit("k X and an intercept", e.line), fit("all three", e.all));
-  for (const auto& s : said.notes) out += wrapped("- " + s);
-  out += "\n" + wrapped("next experiment: " + said.next_experiment);
+  fit(msg("Voigt law, k X + c V"), e.voigt);
+  fit(msg("k X and an intercept"), e.line);
+  fit(msg("all three"), e.all);
+  out.gap();
+  for (const auto& s : said.notes) out.add(msg("- {}", s));
+  out.gap();
+  out.add(msg("next experiment: {}", said.next_experiment));
   return out;
 }
 

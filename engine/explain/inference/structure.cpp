@@ -37,7 +37,7 @@ std::vector<Structure> structures(const View& v) {
   for (const auto& c : v.curves) {
     const Fitted f = fit_beside(v, known, c);
     const double gain = f.gain - k_parameter_penalty * static_cast<double>(c.count - 1);
-    if (out.empty() || out.back().variable != c.variable) out.push_back({c.variable, "", -1e300, 0, 0});
+    if (out.empty() || out.back().variable != c.variable) out.push_back({c.variable, {}, -1e300, 0, 0});
     if (gain > out.back().gain) out.back() = {c.variable, c.form, gain, f.gain, effect_n(c, f.value)};
   }
   return out;

@@ -9,7 +9,7 @@ namespace cavum::explain {
 
 struct Structure {
   std::string variable;  ///< name of the column; `t_s` for steps and trends in time, `session` for offsets
-  std::string form;      ///< what kind of dependence, for a person
+  Message form;          ///< what kind of dependence, for a person
   double gain = 0;       ///< fall of chi², less the penalty for its parameters
   double raw_gain = 0;   ///< without the penalty
   double effect_n = 0;   ///< root mean square of the fitted dependence

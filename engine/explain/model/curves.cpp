@@ -1,7 +1,5 @@
 #include "engine/explain/model/curves.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <set>
 
@@ -61,13 +59,12 @@ class Curves {
   Curves(const Scene& scene, const std::function<void(Curve)>& take) : scene_(scene), take_(take) {}
 
   void over(const std::string& variable, const Series& u, bool with_force) {
-    add(variable, "a curve, in air too", over_quantiles(u, Series::Ones(u.size())));
-    add(variable, "a curve while in contact", over_quantiles(u, scene_.active));
-    if (with_force) add(variable, "a curve in proportion to the force", over_quantiles(u, scene_.force_n));
+    add(variable, msg("a curve, in air too"), over_quantiles(u, Series::Ones(u.size())));
+    add(variable, msg("a curve while in contact"), over_quantiles(u, scene_.active));
+    if (with_force) add(variable, msg("a curve in proportion to the force"), over_quantiles(u, scene_.force_n));
   }
   void later(const std::string& variable, const Series& u) {
-    for (const double lag : k_lags_s)
-      add(variable, fmt::format("in proportion, {} s later", std::to_string(lag).substr(0, 3)), {lagged_by(*scene_.recording, u, lag)});
+    for (const double lag : k_lags_s) add(variable, msg("in proportion, {} later", as_s(lag, 1)), {lagged_by(*scene_.recording, u, lag)});
   }
   /// A step that stays to the end of its session, or of the recording.
   void steps() {
@@ -83,14 +80,15 @@ class Curves {
           Series step = Series::Zero(r.rows());
           step.segment(at, (whole ? r.rows() : s.end) - at) = 1.0;
           add("t_s",
-              fmt::format("a step at about {} s of session {}{}", std::to_string(r.t_s[at]).substr(0, 5), s.name, whole ? "" : ", until its end"),
+              whole ? msg("a step at about {} of session {}", as_s(r.t_s[at], 1), s.name)
+                    : msg("a step at about {} of session {}, until its end", as_s(r.t_s[at], 1), s.name),
               {std::move(step)});
         }
       }
   }
 
  private:
-  void add(const std::string& variable, std::string form, std::vector<Series> columns) {
+  void add(const std::string& variable, Message form, std::vector<Series> columns) {
     if (!columns.empty()) take_({variable, std::move(form), std::move(columns)});
   }
   const Scene& scene_;

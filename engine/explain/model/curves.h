@@ -6,13 +6,14 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/explain/model/scene.h"
 
 namespace cavum::explain {
 
 struct Curve {
   std::string variable;  ///< name of the column; `t_s` for steps and trends in time
-  std::string form;      ///< what kind of dependence, for a person
+  Message form;          ///< what kind of dependence, for a person
   std::vector<Series> columns;
 };
 

@@ -1,6 +1,7 @@
 // What cutting adds: a constant edge force, wear of the diamond point, lines from the spindle or from chatter, water, heat.
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/force/cutting_terms.h"
 #include "engine/force/run_out.h"
@@ -103,9 +104,9 @@ std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{
 Mechanism edge_force() {
   return {
       .name = "edge_force",
-      .equation = "Fe while in contact and spinning",
-      .words = "a constant force of the cutting edges",
-      .separate = "press the same site with the spindle off and on",
+      .equation = said("Fe while in contact and spinning"),
+      .words = said("a constant force of the cutting edges"),
+      .separate = said("press the same site with the spindle off and on"),
       .seen_over = "spindle_rpm",
       .term = &k_edge_force,
       .grid = [](const Scene&) { return Grid{{}}; },
@@ -125,9 +126,9 @@ Mechanism edge_force() {
 Mechanism wear() {
   return {
       .name = "wear",
-      .equation = "F_sim w W, W removed volume since the point was new",
-      .words = "a diamond point that wears",
-      .separate = "cut the first site again last, with the worn and with a new point",
+      .equation = said("F_sim w W, W removed volume since the point was new"),
+      .words = said("a diamond point that wears"),
+      .separate = said("cut the first site again last, with the worn and with a new point"),
       .seen_over = "removed_mm3",
       .term = &k_wear,
       .needs = {"removed_mm3"},
@@ -155,9 +156,9 @@ Mechanism wear() {
 Mechanism run_out() {
   return {
       .name = "run_out",
-      .equation = "A sin(2 pi turns + phase) in contact and spinning",
-      .words = "a diamond point that turns off its axis",
-      .separate = "record the force at more than twice the spindle's rate",
+      .equation = said("A sin(2 pi turns + phase) in contact and spinning"),
+      .words = said("a diamond point that turns off its axis"),
+      .separate = said("record the force at more than twice the spindle's rate"),
       .term = &k_run_out,
       .needs = {"spindle_rpm"},
       .shape = {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
@@ -191,9 +192,9 @@ Mechanism run_out() {
 Mechanism chatter() {
   return {
       .name = "chatter",
-      .equation = "A sin(2 pi f t + phase) in contact",
-      .words = "a vibration at a rate that is not the spindle's",
-      .separate = "press at two depths and two spindle speeds: chatter keeps its rate",
+      .equation = said("A sin(2 pi f t + phase) in contact"),
+      .words = said("a vibration at a rate that is not the spindle's"),
+      .separate = said("press at two depths and two spindle speeds: chatter keeps its rate"),
       .term = &k_chatter,
       .shape = {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
       .grid =
@@ -220,9 +221,9 @@ Mechanism chatter() {
 Mechanism interference() {
   return {
       .name = "interference",
-      .equation = "A sin(2 pi f t + phase), in air too",
-      .words = "a pick-up of a fixed frequency, as from the mains; the frequency is the one that the sampling shows",
-      .separate = "record in air, the drive at rest: interference stays; at another sampling rate, an alias moves",
+      .equation = said("A sin(2 pi f t + phase), in air too"),
+      .words = said("a pick-up of a fixed frequency, as from the mains; the frequency is the one that the sampling shows"),
+      .separate = said("record in air, the drive at rest: interference stays; at another sampling rate, an alias moves"),
       .shape = {{"frequency_hz", 0.1, 1e5, false, true}},
       .grid =
           [](const Scene& s) {
@@ -244,9 +245,9 @@ Mechanism interference() {
 Mechanism coolant() {
   return {
       .name = "coolant",
-      .equation = "F_sim w wet",
-      .words = "water, which changes the cutting force",
-      .separate = "press one site dry, wet, and dry again",
+      .equation = said("F_sim w wet"),
+      .words = said("water, which changes the cutting force"),
+      .separate = said("press one site dry, wet, and dry again"),
       .seen_over = "wet",
       .term = &k_coolant,
       .needs = {"wet"},
@@ -265,9 +266,9 @@ Mechanism coolant() {
 Mechanism thermal_softening() {
   return {
       .name = "thermal_softening",
-      .equation = "-F_sim h (T - T0), T0 of the first row",
-      .words = "tissue that softens as it warms",
-      .separate = "cut for a minute, rest for a minute, cut again",
+      .equation = said("-F_sim h (T - T0), T0 of the first row"),
+      .words = said("tissue that softens as it warms"),
+      .separate = said("cut for a minute, rest for a minute, cut again"),
       .seen_over = "temperature_c",
       .term = &k_thermal_softening,
       .needs = {"temperature_c"},

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/force/coulomb_friction.h"
 #include "engine/force/friction_terms.h"
@@ -49,9 +50,9 @@ Grid as_grid(const std::vector<double>& values) {
 Mechanism coulomb_friction() {
   return {
       .name = "coulomb_friction",
-      .equation = "Fc tanh(V/v0), in air too",
-      .words = "dry friction of joints or guides",
-      .separate = "stroke to and fro in air: it flips with the direction",
+      .equation = said("Fc tanh(V/v0), in air too"),
+      .words = said("dry friction of joints or guides"),
+      .separate = said("stroke to and fro in air: it flips with the direction"),
       .seen_over = "v_mm_s",
       .term = &k_coulomb_friction,
       .shape = {{"v0_mm_s", 1e-5, 1000, true, true}},
@@ -80,9 +81,9 @@ Mechanism coulomb_friction() {
 Mechanism stribeck_friction() {
   return {
       .name = "stribeck_friction",
-      .equation = "[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too",
-      .words = "friction that falls as the motion becomes faster",
-      .separate = "stroke to and fro in air at five speeds, the slowest near 0.01 mm/s",
+      .equation = said("[Fc + (Fs - Fc) e^(-(V/vs)^2)] tanh(V/v0), in air too"),
+      .words = said("friction that falls as the motion becomes faster"),
+      .separate = said("stroke to and fro in air at five speeds, the slowest near 0.01 mm/s"),
       .seen_over = "v_mm_s",
       .term = &k_stribeck_friction,
       .shape = {{"vs_mm_s", 1e-5, 100, true, true}, {"v0_mm_s", 1e-5, 100, true, true}},
@@ -119,9 +120,9 @@ Mechanism stribeck_friction() {
 Mechanism viscous_friction() {
   return {
       .name = "viscous_friction",
-      .equation = "b V, in air too",
-      .words = "friction in proportion to speed",
-      .separate = "stroke in air at three speeds",
+      .equation = said("b V, in air too"),
+      .words = said("friction in proportion to speed"),
+      .separate = said("stroke in air at three speeds"),
       .seen_over = "v_mm_s",
       .term = &k_viscous_friction,
       .grid = [](const Scene&) { return Grid{{}}; },

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/explain/model/surface_offsets.h"
 
@@ -88,9 +89,9 @@ std::vector<ShapeRange> contact_shape() {
 Mechanism bias() {
   return {
       .name = "bias",
-      .equation = "B, in air too",
-      .words = "a constant offset of the load cell",
-      .separate = "read the unloaded load cell before and after each session",
+      .equation = said("B, in air too"),
+      .words = said("a constant offset of the load cell"),
+      .separate = said("read the unloaded load cell before and after each session"),
       .seen_over = "t_s",
       .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
@@ -108,9 +109,9 @@ Mechanism bias() {
 Mechanism drift() {
   return {
       .name = "drift",
-      .equation = "R t, or A (1 - e^(-t/tau)), in air too",
-      .words = "a load cell whose zero wanders with time",
-      .separate = "hold the tool in air for ten minutes after switching on",
+      .equation = said("R t, or A (1 - e^(-t/tau)), in air too"),
+      .words = said("a load cell whose zero wanders with time"),
+      .separate = said("hold the tool in air for ten minutes after switching on"),
       .seen_over = "t_s",
       .shape = {{"whole", 0, 1, false, false}, {"exponential", 0, 1, false, false}, {"tau_s", 0.5, 1e4, true, true}},
       .grid = drift_grid,
@@ -126,10 +127,10 @@ Mechanism drift() {
 Mechanism contact_offset() {
   return {
       .name = "contact_offset",
-      .equation = "F_sim(X + delta) - F_sim(X), one delta for each session",
-      .words = "the place of the surface, which lies nearer or further than the recording has it",
-      .separate =
-          "come to the surface from air several times, on tissues of several stiffnesses: k delta grows with k, an offset of the force does not",
+      .equation = said("F_sim(X + delta) - F_sim(X), one delta for each session"),
+      .words = said("the place of the surface, which lies nearer or further than the recording has it"),
+      .separate = said(
+          "come to the surface from air several times, on tissues of several stiffnesses: k delta grows with k, an offset of the force does not"),
       .seen_over = "x_mm",
       .shape = contact_shape(),
       .grid = contact_grid,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/force/loop_terms.h"
 #include "engine/force/term_laws.h"
@@ -61,9 +62,9 @@ Grid loop_grid(const Scene& s) {
 Mechanism backlash() {
   return {
       .name = "backlash",
-      .equation = "k (play(X, b) - X), b half of the whole play",
-      .words = "play between the measured position and the tip",
-      .separate = "reverse within contact, slowly, several times",
+      .equation = said("k (play(X, b) - X), b half of the whole play"),
+      .words = said("play between the measured position and the tip"),
+      .separate = said("reverse within contact, slowly, several times"),
       .term = &k_backlash,
       .shape = {{"variant", 0, 4, false, false}, {"b_mm", 1e-5, 100, true, true}},
       .grid = play_grid,
@@ -95,9 +96,9 @@ Mechanism backlash() {
 Mechanism hysteresis() {
   return {
       .name = "hysteresis",
-      .equation = "alpha z, z' = V - (beta |V| z + gamma V |z|)/d in contact",
-      .words = "a loop that does not depend on speed",
-      .separate = "reverse within contact at two speeds, with strokes of several lengths",
+      .equation = said("alpha z, z' = V - (beta |V| z + gamma V |z|)/d in contact"),
+      .words = said("a loop that does not depend on speed"),
+      .separate = said("reverse within contact at two speeds, with strokes of several lengths"),
       .term = &k_hysteresis,
       .shape = {{"variant", 0, 2, false, false}, {"d_mm", 2e-3, 100, true, true}},
       .grid = loop_grid,

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/lags.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/statistics/order.h"
@@ -57,9 +58,9 @@ Columns saturation_columns(const Scene& s, const Shape& p) {
 Mechanism gravity_posture() {
   return {
       .name = "gravity_posture",
-      .equation = "w (sin theta - sin theta0), in air too",
-      .words = "the weight of the handpiece, which changes with posture",
-      .separate = "hold the tool in air in three postures",
+      .equation = said("w (sin theta - sin theta0), in air too"),
+      .words = said("the weight of the handpiece, which changes with posture"),
+      .separate = said("hold the tool in air in three postures"),
       .seen_over = "posture_deg",
       .needs = {"posture_deg"},
       .grid = no_shape,
@@ -79,9 +80,9 @@ Mechanism gravity_posture() {
 Mechanism inertia() {
   return {
       .name = "inertia",
-      .equation = "m a, in air too",
-      .words = "the mass that is accelerated with the load cell",
-      .separate = "shake the tool in air at two rates",
+      .equation = said("m a, in air too"),
+      .words = said("the mass that is accelerated with the load cell"),
+      .separate = said("shake the tool in air at two rates"),
       .seen_over = "a_mm_s2",
       .grid = no_shape,
       .columns =
@@ -99,9 +100,9 @@ Mechanism inertia() {
 Mechanism gain_error() {
   return {
       .name = "gain_error",
-      .equation = "g F_sim",
-      .words = "a load cell whose gain is off",
-      .separate = "hang known weights on the load cell: no recording of k and c can show its gain",
+      .equation = said("g F_sim"),
+      .words = said("a load cell whose gain is off"),
+      .separate = said("hang known weights on the load cell: no recording of k and c can show its gain"),
       .seen_over = "simulated_n",
       .grid = no_shape,
       .columns =
@@ -119,9 +120,9 @@ Mechanism gain_error() {
 Mechanism cross_talk() {
   return {
       .name = "cross_talk",
-      .equation = "a Fy + b Fz",
-      .words = "lateral force that leaks into the feed's channel",
-      .separate = "press sideways in air",
+      .equation = said("a Fy + b Fz"),
+      .words = said("lateral force that leaks into the feed's channel"),
+      .separate = said("press sideways in air"),
       .seen_over = "fy_n",
       .needs = {"fy_n", "fz_n"},
       .grid = no_shape,
@@ -145,9 +146,9 @@ Mechanism cross_talk() {
 Mechanism delay() {
   return {
       .name = "delay",
-      .equation = "F_sim(t - tau) - F_sim(t)",
-      .words = "a force channel that comes later than the position",
-      .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .equation = said("F_sim(t - tau) - F_sim(t)"),
+      .words = said("a force channel that comes later than the position"),
+      .separate = said("press in fast ramps at two speeds, with sharp reversals"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
@@ -164,9 +165,9 @@ Mechanism delay() {
 Mechanism low_pass() {
   return {
       .name = "low_pass",
-      .equation = "lag(F_sim, tau) - F_sim",
-      .words = "a force channel that is smoothed by a filter",
-      .separate = "press in fast ramps at two speeds, with sharp reversals",
+      .equation = said("lag(F_sim, tau) - F_sim"),
+      .words = said("a force channel that is smoothed by a filter"),
+      .separate = said("press in fast ramps at two speeds, with sharp reversals"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = lag_grid,
@@ -184,9 +185,10 @@ Mechanism low_pass() {
 Mechanism position_late() {
   return {
       .name = "position_late",
-      .equation = "F_sim(t + tau) - F_sim(t)",
-      .words = "a position channel that comes later than the force",
-      .separate = "press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not",
+      .equation = said("F_sim(t + tau) - F_sim(t)"),
+      .words = said("a position channel that comes later than the force"),
+      .separate =
+          said("press in fast ramps at two speeds with sharp reversals, and shake the tool in air: a mass shows there, a late position does not"),
       .seen_over = "v_mm_s",
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
@@ -213,9 +215,9 @@ Grid ringing_grid(const Scene& s) {
 Mechanism ringing() {
   return {
       .name = "ringing",
-      .equation = "s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too",
-      .words = "a load cell or holder that swings at its own frequency after each jerk",
-      .separate = "tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each",
+      .equation = said("s (y - F_sim) + m y_a, y and y_a the response of a resonance at f to F_sim and to the acceleration, in air too"),
+      .words = said("a load cell or holder that swings at its own frequency after each jerk"),
+      .separate = said("tap the holder in air, and press in ramps that end suddenly: the same frequency rings down after each"),
       .shape = {{"frequency_hz", 1.0, 1e4, true, true}, {"damping_ratio", 0.003, 0.7, true, true}},
       .grid = ringing_grid,
       .columns =
@@ -233,9 +235,9 @@ Mechanism ringing() {
 Mechanism saturation() {
   return {
       .name = "saturation",
-      .equation = "min(F_sim, Fmax) - F_sim",
-      .words = "a force channel that saturates",
-      .separate = "press harder, with a load cell of a larger range",
+      .equation = said("min(F_sim, Fmax) - F_sim"),
+      .words = said("a force channel that saturates"),
+      .separate = said("press harder, with a load cell of a larger range"),
       .seen_over = "simulated_n",
       .shape = {{"f_max_n", 1e-4, 1e4, true, true}},
       .grid = saturation_grid,

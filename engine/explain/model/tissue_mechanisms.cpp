@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/explain/model/lags.h"
 #include "engine/explain/model/mechanism.h"
 #include "engine/force/series_compliance.h"
@@ -94,9 +95,9 @@ Columns anisotropy_columns(const Scene& s, const Shape& p) {
 Mechanism series_compliance() {
   return {
       .name = "series_compliance",
-      .equation = "k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)",
-      .words = "something elastic between the tool and the tooth",
-      .separate = "press a block of steel in the same holder",
+      .equation = said("k (X - F/ks) + c (V - F'/ks), or softening k X/(1 + k X/Fs)"),
+      .words = said("something elastic between the tool and the tooth"),
+      .separate = said("press a block of steel in the same holder"),
       .seen_over = "simulated_n",
       .term = &k_series_compliance,
       .shape = {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
@@ -134,9 +135,9 @@ Mechanism series_compliance() {
 Mechanism nonlinear_stiffness() {
   return {
       .name = "nonlinear_stiffness",
-      .equation = "k (X^m - X), X in mm",
-      .words = "a stiffness that grows or falls as a power of the depth",
-      .separate = "press slowly to twice the depth",
+      .equation = said("k (X^m - X), X in mm"),
+      .words = said("a stiffness that grows or falls as a power of the depth"),
+      .separate = said("press slowly to twice the depth"),
       .seen_over = "x_mm",
       .term = &k_nonlinear_stiffness,
       .shape = {{"m", 0.1, 5.0, false, true}},
@@ -162,9 +163,9 @@ Mechanism nonlinear_stiffness() {
 Mechanism hidden_layer() {
   return {
       .name = "hidden_layer",
-      .equation = "dk (X - d0)+",
-      .words = "a layer below the surface with another stiffness",
-      .separate = "press slowly through the depth of the kink, at two sites",
+      .equation = said("dk (X - d0)+"),
+      .words = said("a layer below the surface with another stiffness"),
+      .separate = said("press slowly through the depth of the kink, at two sites"),
       .seen_over = "x_mm",
       .term = &k_hidden_layer,
       .shape = {{"d0_mm", 1e-4, 100, false, true}},
@@ -193,9 +194,9 @@ Mechanism hidden_layer() {
 Mechanism graded_stiffness() {
   return {
       .name = "graded_stiffness",
-      .equation = "-k alpha X^2",
-      .words = "a stiffness that changes evenly with depth",
-      .separate = "press slowly to twice the depth",
+      .equation = said("-k alpha X^2"),
+      .words = said("a stiffness that changes evenly with depth"),
+      .separate = said("press slowly to twice the depth"),
       .seen_over = "x_mm",
       .term = &k_graded_stiffness,
       .grid = [](const Scene&) { return Grid{{}}; },
@@ -218,9 +219,9 @@ Mechanism graded_stiffness() {
 Mechanism anisotropy() {
   return {
       .name = "anisotropy",
-      .equation = "F_sim e cos 2(phi - phi0)",
-      .words = "a stiffness that depends on the angle of approach",
-      .separate = "approach one site at 0, 45, 90 and 135 degrees",
+      .equation = said("F_sim e cos 2(phi - phi0)"),
+      .words = said("a stiffness that depends on the angle of approach"),
+      .separate = said("approach one site at 0, 45, 90 and 135 degrees"),
       .seen_over = "approach_deg",
       .term = &k_anisotropy,
       .needs = {"approach_deg"},
@@ -247,9 +248,9 @@ Mechanism anisotropy() {
 Mechanism relaxation() {
   return {
       .name = "relaxation",
-      .equation = "sum k_i integral of e^(-(t-s)/tau_i) V ds in contact",
-      .words = "a force that decays while the tool is held still",
-      .separate = "hold for ten seconds at constant depth, three depths",
+      .equation = said("sum k_i integral of e^(-(t-s)/tau_i) V ds in contact"),
+      .words = said("a force that decays while the tool is held still"),
+      .separate = said("hold for ten seconds at constant depth, three depths"),
       .seen_over = "t_s",
       .term = &k_relaxation,
       .shape = {{"tau1_s", 5e-3, 1e3, true, true},
@@ -293,9 +294,9 @@ Mechanism relaxation() {
 Mechanism feed_power_law() {
   return {
       .name = "feed_power_law",
-      .equation = "c (|V|^n sign V - V), V in mm/s",
-      .words = "a force that grows with another power of the speed",
-      .separate = "press at five speeds over two decades",
+      .equation = said("c (|V|^n sign V - V), V in mm/s"),
+      .words = said("a force that grows with another power of the speed"),
+      .separate = said("press at five speeds over two decades"),
       .seen_over = "v_mm_s",
       .term = &k_feed_power_law,
       .shape = {{"n", 0.05, 4.0, false, true}},

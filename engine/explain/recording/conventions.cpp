@@ -142,13 +142,18 @@ std::optional<ContactSeen> find_contact(const Recording& r) {
 void judge_signs(const ContactSeen& seen, bool has_speed, double speed_agrees, std::vector<Doubt>& doubts) {
   const bool force = seen.reached_n < 0.0, position = seen.towards < 0;
   if (!force && !position) return;
-  const std::string where = fmt::format("from x = {} mm {} the force {} to {} N", plain_number(seen.at_mm), position ? "downwards" : "on",
-                                        force ? "falls" : "rises", plain_number(seen.air_n + seen.reached_n));
+  const Number at = as_mm(seen.at_mm, k_as_needed), to = as_n(seen.air_n + seen.reached_n, k_as_needed);
+  const Message where =
+      position ? force ? msg("from x = {} downwards the force falls to {}", at, to) : msg("from x = {} downwards the force rises to {}", at, to)
+      : force ? msg("from x = {} on the force falls to {}", at, to)
+               : msg("from x = {} on the force rises to {}", at, to);
   std::string options = force ? "--negate f" : "";
   if (position) options += fmt::format("{}--negate x{}", force ? " " : "", has_speed && speed_agrees > 0.0 ? " --negate v" : "");
-  std::string what = force ? "compression is counted negative" : "";
-  if (position) what += fmt::format("{}the position grows out of the material", force ? ", and " : "");
-  doubts.push_back({true, fmt::format("{}: {}", what, where), options});
+  doubts.push_back({true,
+                    !position ? msg("compression is counted negative: {}", where)
+                    : force   ? msg("compression is counted negative, and the position grows out of the material: {}", where)
+                              : msg("the position grows out of the material: {}", where),
+                    options});
 }
 
 void judge_origin(const Recording& r, const ContactSeen& seen, std::vector<Doubt>& doubts) {
@@ -158,11 +163,10 @@ void judge_origin(const Recording& r, const ContactSeen& seen, std::vector<Doubt
   const double before = r.reading && r.reading->surface_mm ? *r.reading->surface_mm : 0.0;
   const bool negated = r.reading && r.reading->columns.of(Role::position) != nullptr && r.reading->columns.of(Role::position)->negated;
   const double surface = negated ? before - seen.at_mm : before + seen.at_mm;
-  doubts.push_back(
-      {true,
-       fmt::format("contact begins at x = {} mm and goes {} mm deep: x is a machine's own position, not the penetration from the surface",
-                   plain_number(seen.at_mm), plain_number(depth)),
-       fmt::format("--surface-mm {:.3f}", surface)});
+  doubts.push_back({true,
+                    msg("contact begins at x = {} and goes {} deep: x is a machine's own position, not the penetration from the surface",
+                        as_mm(seen.at_mm, k_as_needed), as_mm(depth, k_as_needed)),
+                    fmt::format("--surface-mm {:.3f}", surface)});
 }
 
 /// A force that no hand and no small press reaches: nothing but k of a rig.toml tells it from another unit.
@@ -171,8 +175,7 @@ void judge_size(const Recording& r, const ContactSeen& seen, std::vector<Doubt>&
   if (most < k_large_n || r.rig.k_n_per_mm) return;
   const ColumnReading* column = r.reading ? r.reading->columns.of(Role::force) : nullptr;
   if (column != nullptr && column->declared && column->unit.factor != 1.0) return;
-  doubts.push_back(
-      {false, fmt::format("the force reaches {} N: if it is in mN or in grams, say so", plain_number(most)), "--unit f=mN or --unit f=gf"});
+  doubts.push_back({false, msg("the force reaches {}: if it is in mN or in grams, say so", as_n(most, k_as_needed)), "--unit f=mN or --unit f=gf"});
 }
 
 /// A speed that is counted against the position, where the position itself is not to be turned.
@@ -180,7 +183,7 @@ void judge_speed(const Conventions& c, std::vector<Doubt>& doubts) {
   const bool turned = c.contact && c.contact->towards < 0;
   if (c.speed_agrees >= k_against_speed || turned) return;
   doubts.push_back(
-      {true, fmt::format("the speed is counted against the position (correlation {} with its change)", plain_number(c.speed_agrees)), "--negate v"});
+      {true, msg("the speed is counted against the position (correlation {} with its change)", as_number(c.speed_agrees)), "--negate v"});
 }
 
 }  // namespace
@@ -205,19 +208,20 @@ Conventions judge_conventions(const Recording& r) {
   return out;
 }
 
-std::vector<std::string> require_conventions(const Recording& r, const std::string& where, bool as_it_is) {
+std::vector<Message> require_conventions(const Recording& r, const std::string& where, bool as_it_is) {
   const Conventions found = judge_conventions(r);
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
   for (const Doubt& d : found.doubts)
-    if (!d.clear || as_it_is) notes.push_back(fmt::format("doubt: {}; give {}", d.what, d.options));
+    if (!d.clear || as_it_is) notes.push_back(msg("doubt: {}; give {}", d.what, d.options));
   if (as_it_is || found.first_clear() == nullptr) return notes;
-  std::string what, options;
+  List what{{}, true};
+  std::string options;
   for (const Doubt& d : found.doubts)
     if (d.clear) {
-      what += fmt::format("{}{}", what.empty() ? "" : "; ", d.what);
+      what.items.push_back(d.what);
       options += fmt::format("{}{}", options.empty() ? "" : " ", d.options);
     }
-  throw Error(where, what,
+  throw Error(where, msg("{}", what),
               msg("give {}, or --as-it-is where nothing is to be turned (a joint in air may look so); look first with --dry-run", options));
 }
 

@@ -13,7 +13,7 @@ namespace cavum::explain {
 /// Something that does not look as a recording should.
 struct Doubt {
   bool clear = false;   ///< an analysis would be of another thing: `explain` refuses
-  std::string what;     ///< in words, with figures
+  Message what;         ///< with figures
   std::string options;  ///< what puts it right: "--negate f"
 };
 
@@ -35,6 +35,6 @@ struct Conventions {
 /// Looks at no more than 200,000 rows, evenly spaced. Nothing is judged below 50 rows.
 [[nodiscard]] Conventions judge_conventions(const Recording& recording);
 /// Throws Error(where, what, options) when a doubt is clear and nobody said that all is well (`as_it_is`); the others in words, as notes.
-[[nodiscard]] std::vector<std::string> require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
+[[nodiscard]] std::vector<Message> require_conventions(const Recording& recording, const std::string& where, bool as_it_is = false);
 
 }  // namespace cavum::explain

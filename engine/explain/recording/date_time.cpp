@@ -1,7 +1,5 @@
 #include "engine/explain/recording/date_time.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -216,18 +214,18 @@ std::optional<double> StampReader::seconds(std::string_view cell) {
   return stamp ? of_stamp(*stamp) : std::nullopt;
 }
 
-std::string StampReader::words() const {
+Message StampReader::words() const {
   switch (kind_) {
     case Kind::date:
-      return "date stamps, from the first row";
+      return msg("date stamps, from the first row");
     case Kind::clock:
-      return "times of day, from the first row";
+      return msg("times of day, from the first row");
     case Kind::epoch:
-      return fmt::format("Unix time in {}, from the first row", epoch_unit_);
+      return msg("Unix time in {}, from the first row", epoch_unit_);
     case Kind::seconds:
       break;
   }
-  return fmt::format("numbers × {} s", plain_number(factor_));
+  return msg("numbers × {}", as_s(factor_, k_as_needed));
 }
 
 }  // namespace cavum::explain

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/message.h"
 #include "engine/explain/recording/number_form.h"
 
 namespace cavum::explain {
@@ -42,7 +43,7 @@ class StampReader {
   [[nodiscard]] bool ambiguous() const noexcept { return ambiguous_; }
   [[nodiscard]] Kind kind() const noexcept { return kind_; }
   /// In words: "s", "date stamps, from the first row", "Unix time in ms, from the first row".
-  [[nodiscard]] std::string words() const;
+  [[nodiscard]] Message words() const;
 
  private:
   void begin(std::string_view cell);

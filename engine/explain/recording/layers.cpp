@@ -1,7 +1,5 @@
 #include "engine/explain/recording/layers.h"
 
-#include <fmt/core.h>
-
 #include <Eigen/Dense>
 #include <cmath>
 #include <map>
@@ -65,12 +63,13 @@ void set_layers(Recording& r) {
     r.relative_k[i] = found->second[0] / by[0];
     if (by[1] > 0.0 && found->second[1] > 0.0) r.relative_c[i] = found->second[1] / by[1];
   }
-  std::string text;
-  for (const auto& [name, kc] : fitted)
-    text += fmt::format("{}{}{}: k {} N/mm, c {} N s/mm", text.empty() ? "" : "; ", "layer " + plain_number(name),
-                        name == reference ? " (k and c below)" : "", plain_number(std::round(1e4 * kc[0]) / 1e4),
-                        plain_number(std::round(1e4 * kc[1]) / 1e4));
-  r.notes.push_back("layers have k and c of their own, words numbered in order of appearance: " + text);
+  List layers{{}, true};
+  for (const auto& [name, kc] : fitted) {
+    const Number k = as_unit(std::round(1e4 * kc[0]) / 1e4, cavum::Unit::n_per_mm), c = as_number(std::round(1e4 * kc[1]) / 1e4);
+    layers.items.push_back(name == reference ? msg("layer {} (k and c below): k {}, c {} N s/mm", as_number(name), k, c)
+                                             : msg("layer {}: k {}, c {} N s/mm", as_number(name), k, c));
+  }
+  r.notes.push_back(msg("layers have k and c of their own, words numbered in order of appearance: {}", layers));
 }
 
 }  // namespace cavum::explain

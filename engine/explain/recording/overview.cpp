@@ -52,7 +52,7 @@ void look_at_columns(const Recording& r, Overview& out) {
       seen.header = column->header.whole;
       seen.unit = column->unit.shown;
       seen.factor = column->unit.factor;
-      seen.declared = column->declared || (role == Role::time && !r.reading->time_words.starts_with("numbers"));
+      seen.declared = column->declared || (role == Role::time && r.reading->stamped);
       seen.negated = column->negated;
     }
     out.columns.push_back(seen);

@@ -29,15 +29,16 @@ struct Overview {
   double rate_hz = 0.0;  ///< of the median interval; 0 where there is none
   double uneven = 0.0;   ///< scatter of the intervals over their mean
   double longest_gap_s = 0.0;
-  std::string separator, decimal, time_words;
+  std::string separator, decimal;
+  Message time_words;
   int header_line = 0;
   std::size_t lines_before = 0;
   bool unit_line = false;
   std::vector<ColumnSeen> columns;                          ///< the motion first
   double position_quantum_mm = 0.0, force_quantum_n = 0.0;  ///< seen in the data; 0 = none
   Conventions conventions;
-  std::vector<std::string> faults;  ///< data_faults; not looked for where a doubt is clear
-  std::vector<std::string> notes;
+  std::vector<Message> faults;  ///< data_faults; not looked for where a doubt is clear
+  std::vector<Message> notes;
   /// `explain` would refuse it, or call it a data fault.
   [[nodiscard]] bool refused() const { return conventions.first_clear() != nullptr || !faults.empty(); }
 };

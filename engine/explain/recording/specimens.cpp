@@ -83,9 +83,9 @@ Recording on_common_scale(const Recording& r) {
   out.rig.force_quantum_n = 0.0;
   out.rig.force_limit_n.reset();
   out.notes.push_back(
-      fmt::format("{} sessions differ in stiffness as different specimens do: each counts from its own surface, at the mean depth of {} mm and the "
-                  "mean peak of {} N; k, c and forces are on that scale",
-                  r.sessions.size(), fixed(depth, 3), fixed(peak, 3)));
+      msg("{} sessions differ in stiffness as different specimens do: each counts from its own surface, at the mean depth of {} and the mean peak of "
+          "{}; k, c and forces are on that scale",
+          r.sessions.size(), as_mm(depth, 3), as_n(peak, 3)));
   return out;
 }
 

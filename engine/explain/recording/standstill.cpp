@@ -1,7 +1,5 @@
 #include "engine/explain/recording/standstill.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -76,12 +74,11 @@ double force_due(const Recording& r, const Still& still, const ForceOver& over) 
   return std::max(0.0, high - low);
 }
 
-std::string where_words(const Recording& r, const Still& s) {
-  return fmt::format("in session {} from {} to {} s", one_line(r.sessions[s.session].name), plain_number(r.t_s[s.begin]),
-                     plain_number(r.t_s[s.end - 1]));
+Message where_words(const Recording& r, const Still& s) {
+  return msg("in session {} from {} to {}", r.sessions[s.session].name, as_number(r.t_s[s.begin]), as_s(r.t_s[s.end - 1], k_as_needed));
 }
 
-void stuck_force(const Recording& r, std::vector<std::string>& faults) {
+void stuck_force(const Recording& r, std::vector<Message>& faults) {
   const std::vector<Still> runs = long_runs(r, r.f_n);
   if (runs.empty()) return;
   const ForceOver over = force_over_position(r, runs);
@@ -95,12 +92,15 @@ void stuck_force(const Recording& r, std::vector<std::string>& faults) {
     if (first == nullptr) first = &run;
   }
   if (first != nullptr)
-    faults.push_back(
-        fmt::format("stuck force: f_n stands still at {} N {}{} while x_mm moves to where it differs; leave those rows out, or record anew",
-                    plain_number(r.f_n[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : ""));
+    faults.push_back(stuck > 1
+                         ? msg("stuck force: f_n stands still at {} {}, and {} times more, while x_mm moves to where it differs; leave those rows "
+                               "out, or record anew",
+                               as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first), stuck - 1)
+                         : msg("stuck force: f_n stands still at {} {} while x_mm moves to where it differs; leave those rows out, or record anew",
+                               as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first)));
 }
 
-void stuck_position(const Recording& r, std::vector<std::string>& faults) {
+void stuck_position(const Recording& r, std::vector<Message>& faults) {
   if (r.v_mm_s.size() != r.rows()) return;
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff(), usual = std::sqrt(r.v_mm_s.square().mean());
   const double quantum = std::max(r.rig.position_quantum_mm, seen_quantum_mm(r));
@@ -121,9 +121,11 @@ void stuck_position(const Recording& r, std::vector<std::string>& faults) {
   }
   if (first)
     faults.push_back(
-        fmt::format("stuck position: x_mm stands still at {} mm {}{} while v_mm_s goes on over {} mm; leave those rows out, or record anew",
-                    plain_number(r.x_mm[first->begin]), where_words(r, *first), stuck > 1 ? fmt::format(", and {} times more,", stuck - 1) : "",
-                    plain_number(gone)));
+        stuck > 1
+            ? msg("stuck position: x_mm stands still at {} {}, and {} times more, while v_mm_s goes on over {}; leave those rows out, or record anew",
+                  as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), stuck - 1, as_mm(gone, k_as_needed))
+            : msg("stuck position: x_mm stands still at {} {} while v_mm_s goes on over {}; leave those rows out, or record anew",
+                  as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), as_mm(gone, k_as_needed)));
 }
 
 /// Fourth differences over the range: a motion has hardly any, a force has its noise.
@@ -160,15 +162,15 @@ bool goes_on(const Recording& r, Eigen::Index i, const Stride& usual) {
 
 }  // namespace
 
-std::vector<std::string> standstill_faults(const Recording& r) {
+std::vector<Message> standstill_faults(const Recording& r) {
   if (!std::isfinite(r.x_mm.maxCoeff() - r.x_mm.minCoeff())) return {};
-  std::vector<std::string> faults;
+  std::vector<Message> faults;
   stuck_force(r, faults);
   stuck_position(r, faults);
   return faults;
 }
 
-std::vector<std::string> jump_faults(const Recording& r) {
+std::vector<Message> jump_faults(const Recording& r) {
   std::vector<double> intervals;
   for (const SessionRows& s : r.sessions)
     for (Eigen::Index i = s.begin + 1; i < s.end; ++i) intervals.push_back(r.t_s[i] - r.t_s[i - 1]);
@@ -176,30 +178,32 @@ std::vector<std::string> jump_faults(const Recording& r) {
   const double limit = std::max(k_gap_s, k_gap_intervals * in_order(intervals, quantile_place(intervals.size(), 0.99)));
   const Stride usual{median(std::move(intervals)), usual_speed_mm_s(r)};
   std::size_t jumps = 0;
-  std::string first;
+  Message first;
   for (const SessionRows& s : r.sessions)
     for (Eigen::Index i = s.begin + 4; i + 3 < s.end; ++i) {
       if (r.t_s[i] - r.t_s[i - 1] <= limit || !goes_on(r, i, usual)) continue;
       if (++jumps == 1)
-        first =
-            fmt::format("{} s pass in session {} after {} s", plain_number(r.t_s[i] - r.t_s[i - 1]), one_line(s.name), plain_number(r.t_s[i - 1]));
+        first = msg("{} pass in session {} after {}", as_s(r.t_s[i] - r.t_s[i - 1], k_as_needed), s.name, as_s(r.t_s[i - 1], k_as_needed));
     }
   if (jumps == 0) return {};
-  return {fmt::format(
-      "time stamps: {}, while the motion goes on as if from one row to the next{}; the clock jumped: take that time off, or give what follows "
-      "a session of its own",
-      first, jumps > 1 ? fmt::format(", and {} times more", jumps - 1) : "")};
+  return {jumps > 1
+              ? msg("time stamps: {}, while the motion goes on as if from one row to the next, and {} times more; the clock jumped: take that "
+                    "time off, or give what follows a session of its own",
+                    first, jumps - 1)
+              : msg("time stamps: {}, while the motion goes on as if from one row to the next; the clock jumped: take that time off, or give what "
+                    "follows a session of its own",
+                    first)};
 }
 
-std::vector<std::string> swap_faults(const Recording& r) {
+std::vector<Message> swap_faults(const Recording& r) {
   if (r.rows() < 50 || judge_conventions(r).contact) return {};
   Recording swapped = r;
   std::swap(swapped.x_mm, swapped.f_n);
   swapped.v_mm_s.resize(0);
   if (!judge_conventions(swapped).contact || roughness(r, r.x_mm) < k_smoother_by * roughness(r, r.f_n)) return {};
   return {
-      "columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, name them "
-      "with --column"};
+      msg("columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, "
+          "name them with --column")};
 }
 
 }  // namespace cavum::explain
