@@ -183,52 +183,52 @@ template <class T>
 /// `field` is its name as a refusal says it: "sitting.exam". Throws Error when `from` is none, or beyond a limit.
 template <class T>
 void read_json_value(const nlohmann::json& from, const std::string& field, T& into) {
-  const auto require = [&field](bool good, const std::string& is) {
-    if (!good) throw Error(fmt::format("'{}'", field), is, "send it as docs/office.md says");
+  const auto require = [&field](bool good, const Message& is) {
+    if (!good) throw Error(Name{fmt::format("'{}'", field)}, is, msg("send it as docs/office.md says"));
   };
   if constexpr (JsonStruct<T>) {
-    require(from.is_object(), "is no object");
+    require(from.is_object(), msg("is no object"));
     each_field(into, [&](const std::string& name, auto& member, bool optional) {
       const auto found = from.find(name);
       const std::string whole = field.empty() ? name : field + "." + name;
       if (found != from.end() && !found->is_null()) return read_json_value(*found, whole, member);
-      if (!optional) throw Error(fmt::format("'{}'", whole), "is missing", "send it as docs/office.md says");
+      if (!optional) throw Error(fmt::format("'{}'", whole), msg("is missing"), msg("send it as docs/office.md says"));
     });
   } else if constexpr (k_is_optional<T>) {
     read_json_value(from, field, into.emplace());
   } else if constexpr (NamedEnum<T>) {
     const auto names = names_of(into);
     const auto found = std::find(names.begin(), names.end(), from.is_string() ? from.template get<std::string>() : "");
-    require(found != names.end(), fmt::format("is none of: {}", fmt::join(names, ", ")));
+    require(found != names.end(), msg("is none of: {}", list_of(names)));
     into = static_cast<T>(found - names.begin());
   } else if constexpr (JsonMap<T>) {
-    require(from.is_object(), "is no object");
+    require(from.is_object(), msg("is no object"));
     for (const auto& [name, one] : from.items()) read_json_value(one, field + "." + name, into[name]);
   } else if constexpr (JsonList<T>) {
-    require(from.is_array(), "is no list");
-    if constexpr (requires { T::k_most; }) require(from.size() <= T::k_most, fmt::format("has more than {} elements", T::k_most));
+    require(from.is_array(), msg("is no list"));
+    if constexpr (requires { T::k_most; }) require(from.size() <= T::k_most, msg("has more than {} elements", T::k_most));
     for (const auto& one : from) {
       const std::string place = fmt::format("{}[{}]", field, into.size());
       read_json_value(one, place, into.emplace_back());
     }
   } else if constexpr (std::derived_from<T, std::string>) {
-    require(from.is_string(), "is no text");
+    require(from.is_string(), msg("is no text"));
     static_cast<std::string&>(into) = from.template get<std::string>();
-    if constexpr (requires { T::k_most; }) require(into.size() <= T::k_most, fmt::format("is longer than {} bytes", T::k_most));
+    if constexpr (requires { T::k_most; }) require(into.size() <= T::k_most, msg("is longer than {} bytes", T::k_most));
     if constexpr (requires { into.problem(); }) require(into.problem().empty(), into.problem());
   } else if constexpr (std::same_as<T, bool>) {
-    require(from.is_boolean(), "is neither true nor false");
+    require(from.is_boolean(), msg("is neither true nor false"));
     into = from;
   } else if constexpr (std::integral<T>) {
     const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
                                                 : from.is_number_integer() && std::in_range<T>(from.template get<std::int64_t>());
-    require(fits, "is no whole number in its range");
+    require(fits, msg("is no whole number in its range"));
     into = from;
   } else if constexpr (requires { T::k_least; }) {
     read_json_value(from, field, into.value);
-    require(into.value >= T::k_least && into.value <= T::k_most, fmt::format("is not between {} and {}", T::k_least, T::k_most));
+    require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most));
   } else if constexpr (std::floating_point<T>) {
-    require(from.is_number(), "is no number");
+    require(from.is_number(), msg("is no number"));
     into = from;
   } else {
     static_assert(std::same_as<T, nlohmann::json>);

@@ -1,6 +1,5 @@
 #include "engine/session/chunk_codec.h"
 
-#include <fmt/core.h>
 #include <zstd.h>
 #include <zstd_errors.h>
 
@@ -20,7 +19,7 @@ constexpr std::uint64_t k_largest_removed = 1u << 24;  // bytes unpacked, 4 to 1
 using InputWords = std::array<std::uint32_t, 10>;
 using RecordWords = std::array<std::uint32_t, 11>;
 
-[[noreturn]] void damaged(const std::string& where, const std::string& what) {
+[[noreturn]] void damaged(const std::string& where, const Message& what) {
   throw Error(where, what, msg("the recording is damaged here: use an intact copy"));
 }
 
@@ -29,7 +28,7 @@ std::int32_t number(std::uint32_t v) { return static_cast<std::int32_t>(v); }
 
 template <class T>
 T narrow(std::uint32_t v, const std::string& where) {
-  if (v > std::numeric_limits<T>::max()) damaged(where, "a value is out of its range");
+  if (v > std::numeric_limits<T>::max()) damaged(where, msg("a value is out of its range"));
   return static_cast<T>(v);
 }
 
@@ -89,20 +88,20 @@ std::uint32_t unfold(std::uint32_t f) { return (f >> 1) ^ (0u - (f & 1u)); }
 Bytes compress(const Bytes& raw) {
   Bytes packed(ZSTD_compressBound(raw.size()));
   const auto n = ZSTD_compress(packed.data(), packed.size(), raw.data(), raw.size(), k_level);
-  if (ZSTD_isError(n)) throw Error("recording", ZSTD_getErrorName(n), "free some memory and try again");
+  if (ZSTD_isError(n)) throw Error(msg("recording"), Name{ZSTD_getErrorName(n)}, msg("free some memory and try again"));
   packed.resize(n);
   return packed;
 }
 
 Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most, const std::string& where) {
   const auto size = ZSTD_getFrameContentSize(packed.data(), packed.size());
-  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, "the packed data have no valid beginning");
-  if (size < least || size > most) damaged(where, fmt::format("the packed data claim {} bytes, which does not fit the ticks", size));
-  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, "the packed data are not one frame");
+  if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, msg("the packed data have no valid beginning"));
+  if (size < least || size > most) damaged(where, msg("the packed data claim {} bytes, which does not fit the ticks", size));
+  if (ZSTD_findFrameCompressedSize(packed.data(), packed.size()) != packed.size()) damaged(where, msg("the packed data are not one frame"));
   Bytes raw(size);
   const auto n = ZSTD_decompress(raw.data(), raw.size(), packed.data(), packed.size());
   if (ZSTD_getErrorCode(n) == ZSTD_error_memory_allocation) throw std::bad_alloc();  // nothing is wrong with the recording
-  if (ZSTD_isError(n) || n != size) damaged(where, "the packed data do not unpack");
+  if (ZSTD_isError(n) || n != size) damaged(where, msg("the packed data do not unpack"));
   return raw;
 }
 
@@ -127,7 +126,7 @@ Bytes pack_columns(std::span<const T> ticks) {
 template <class T, class Words>
 std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
   constexpr std::size_t columns = std::tuple_size_v<Words>;
-  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, fmt::format("{} ticks in one chunk", ticks));
+  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const auto n = static_cast<std::size_t>(ticks);
   const Bytes raw = decompress(packed, n * columns * 4, n * columns * 4, where);
   std::vector<T> out;
@@ -177,14 +176,14 @@ std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std
 }
 
 RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
-  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, fmt::format("{} ticks in one chunk", ticks));
+  if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const Bytes raw = decompress(packed, static_cast<std::uint64_t>(ticks), k_largest_removed, where);
   ByteReader in(raw, where);
   RemovedTicks removed;
   std::uint64_t total = 0;
   for (std::int64_t i = 0; i < ticks; ++i) {
     const auto count = in.get_varint();
-    if (count > raw.size() || (total += count) > raw.size() / 4) damaged(where, "more removed leaves than the data hold");
+    if (count > raw.size() || (total += count) > raw.size() / 4) damaged(where, msg("more removed leaves than the data hold"));
     removed.counts.push_back(static_cast<std::uint32_t>(count));
   }
   removed.leaves.resize(total);
@@ -192,13 +191,13 @@ RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t t
     std::uint16_t now = 0;
     for (auto& leaf : removed.leaves) {
       const auto difference = in.get_signed_varint();
-      if (difference < -32768 || difference > 32767) damaged(where, "a removed leaf lies outside every tooth");
+      if (difference < -32768 || difference > 32767) damaged(where, msg("a removed leaf lies outside every tooth"));
       now = static_cast<std::uint16_t>(now + static_cast<std::uint16_t>(difference));
       (axis == 0 ? leaf.x : axis == 1 ? leaf.y : leaf.z) = static_cast<std::int16_t>(now);
     }
   }
   for (auto& leaf : removed.leaves) leaf.tissue = in.get<std::uint8_t>();
-  if (in.left() != 0) damaged(where, "data after the end");
+  if (in.left() != 0) damaged(where, msg("data after the end"));
   return removed;
 }
 

@@ -52,17 +52,17 @@ std::string name_of(long process) {
   std::ifstream in(fmt::format("/proc/{}/comm", process));
   std::string name;
   std::getline(in, name);
-  return fmt::format("{}(process {})", name.empty() ? "" : one_line(name) + " ", process);
+  return name;
 }
 
 }  // namespace
 
-std::string holder_of(const std::string& database_path) {
+Message holder_of(const std::string& database_path) {
   std::vector<long> writers;
   for (const char* end : {"", "-shm"}) add_writers(database_path + end, writers);
   const auto other = std::find_if(writers.begin(), writers.end(), [](long p) { return p != ::getpid(); });
-  if (other != writers.end()) return "another program: " + name_of(*other);
-  return writers.empty() ? "another program" : "this program itself";
+  if (other != writers.end()) return msg("is held by another program: {} (process {})", name_of(*other), *other);
+  return writers.empty() ? msg("is held by another program") : msg("is held by this program itself");
 }
 
 }  // namespace cavum

@@ -3,10 +3,12 @@
 
 #include <string>
 
+#include "engine/base/message.h"
+
 namespace cavum {
 
 /// "another program: cavum (process 1234)", "another program" when nobody can be named, and "this program itself" when it is another connection of
 /// our own.
-[[nodiscard]] std::string holder_of(const std::string& database_path);
+[[nodiscard]] Message holder_of(const std::string& database_path);
 
 }  // namespace cavum

@@ -127,15 +127,15 @@ Recorder::Recorder(std::string path, SigningKey key, ReadClocks clocks)
     : path_(std::move(path)), key_(key), clocks_(std::move(clocks)), pending_(1) {}
 
 Recorder Recorder::create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks) {
-  const auto need = [&](bool there, const std::string& what) {
+  const auto need = [&](bool there, const Message& what) {
     if (!there) throw Error(path, msg("a session needs {}", what), msg("give it in the setup"));
   };
-  need(!setup.tooth.empty(), "a tooth");
-  need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, "between 1 and 255 diamond points");
-  need(!setup.force_model_toml.empty(), "a force model");
-  need(!setup.servo_toml.empty(), "servo settings");
-  need(!setup.candidate.empty(), "the candidate's pseudonym");
-  need(setup.source.kind != SourceKind::unnamed, "what moves the stylus");
+  need(!setup.tooth.empty(), msg("a session needs a tooth"));
+  need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, msg("a session needs between 1 and 255 diamond points"));
+  need(!setup.force_model_toml.empty(), msg("a session needs a force model"));
+  need(!setup.servo_toml.empty(), msg("a session needs servo settings"));
+  need(!setup.candidate.empty(), msg("a session needs the candidate's pseudonym"));
+  need(setup.source.kind != SourceKind::unnamed, msg("a session needs what moves the stylus"));
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
     if (!attached.insert(name).second) throw Error(path, msg("two attachments are named '{}'", name), msg("give each its own name"));

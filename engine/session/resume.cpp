@@ -1,7 +1,5 @@
 #include "engine/session/resume.h"
 
-#include <fmt/core.h>
-
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
 
@@ -34,7 +32,7 @@ void require_intact(const SessionReader& session) {
   session.require_readable();
   if (session.closed()) throw Error(session.path(), msg("is closed"), msg("there is nothing to resume: start a new exam"));
   const auto findings = check_chain(session);
-  if (!findings.empty()) throw Error(session.path(), findings.front(), "it is evidence now: keep it, and start a new exam");
+  if (!findings.empty()) throw Error(session.path(), findings.front(), msg("it is evidence now: keep it, and start a new exam"));
   if (session.number("physics_version", 0) != k_physics_version)
     throw Error(session.path(), msg("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
                 msg("resume it with the program that recorded it"));

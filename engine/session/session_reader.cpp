@@ -33,7 +33,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(msg("table {}, row {}: {}", table, rows, english_text(e.without_advice())));
+    findings.push_back(msg("table {}, row {}: {}", table, rows, e.without_advice()));
   }
 }
 

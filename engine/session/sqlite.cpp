@@ -1,7 +1,5 @@
 #include "engine/session/sqlite.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstring>
 #include <filesystem>
@@ -22,31 +20,30 @@ constexpr int k_most_calls = 2000;
   if ((code & 0xff) == SQLITE_NOMEM) throw std::bad_alloc();  // nothing is wrong with the file
   const std::string what = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
   const int system_error = db != nullptr ? sqlite3_system_errno(db) : 0;
-  std::string detail = what;
-  std::string to_do = "try again; if it stays, copy the file elsewhere and report this";
+  Message detail = Name{what}, to_do = msg("try again; if it stays, copy the file elsewhere and report this");
   switch (code & 0xff) {
     case SQLITE_FULL:
-      to_do = "make room on the disk and try again: nothing recorded so far is lost";
+      to_do = msg("make room on the disk and try again: nothing recorded so far is lost");
       break;
     case SQLITE_IOERR:
-      if (system_error != 0) detail += fmt::format(" ({})", std::strerror(system_error));
-      to_do = "make room on the disk, check that it is still there, and try again: nothing recorded so far is lost";
+      if (system_error != 0) detail = msg("{} ({})", what, std::strerror(system_error));
+      to_do = msg("make room on the disk, check that it is still there, and try again: nothing recorded so far is lost");
       break;
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
-      detail = "is held by " + holder_of(where);
-      to_do = "try again when it is done, or close it";
+      detail = holder_of(where);
+      to_do = msg("try again when it is done, or close it");
       break;
     case SQLITE_CANTOPEN:
-      to_do = "check that the path exists and is writable";
+      to_do = msg("check that the path exists and is writable");
       break;
     case SQLITE_READONLY:
     case SQLITE_PERM:
-      to_do = "make the file and its folder writable";
+      to_do = msg("make the file and its folder writable");
       break;
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
-      to_do = "use an intact copy";
+      to_do = msg("use an intact copy");
       break;
     default:
       break;
@@ -95,7 +92,7 @@ void Statement::run() {
 void Statement::wrong_type(int column, const std::string& wanted) const {
   const char* name = sqlite3_column_name(statement_.get(), column);
   if (name == nullptr) throw std::bad_alloc();
-  throw DatabaseError(where_, fmt::format("column {} does not hold {}", name, wanted), "the file was damaged or edited: use an intact copy",
+  throw DatabaseError(where_, msg("column {} does not hold {}", name, wanted), msg("the file was damaged or edited: use an intact copy"),
                       SQLITE_CORRUPT);
 }
 
@@ -139,7 +136,7 @@ Database Database::open(const std::string& path, bool make, std::chrono::millise
       std::error_code none;
       const auto type = std::filesystem::status(path + end, none).type();
       if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::none)
-        throw DatabaseError(path + end, "is no regular file", "remove it, or name another place", SQLITE_CANTOPEN);
+        throw DatabaseError(path + end, msg("is no regular file"), msg("remove it, or name another place"), SQLITE_CANTOPEN);
     }
   database.connect(path, SQLITE_OPEN_READWRITE);
   sqlite3_busy_timeout(database.db_.get(), static_cast<int>(wait.count()));

@@ -21,8 +21,8 @@ namespace cavum {
 /// SQLite said no. `code()` is its primary result code.
 class DatabaseError : public Error {
  public:
-  DatabaseError(const std::string& where, const std::string& what_happened, const std::string& what_to_do, int code)
-      : Error(where, what_happened, what_to_do), code_(code) {}
+  DatabaseError(const std::string& where, Message what_happened, Message what_to_do, int code)
+      : Error(Name{where}, std::move(what_happened), std::move(what_to_do)), code_(code) {}
   /// A file of a database that the system refused before SQLite saw it.
   DatabaseError(const Error& refusal, int code) : Error(refusal), code_(code) {}
   [[nodiscard]] int code() const noexcept { return code_; }

@@ -25,7 +25,7 @@ void start_sodium() {
 
 // link() makes the complete file appear in one step and never replaces a key that another process just made.
 void make_key(const std::string& path, const std::string& owner) {
-  const auto fail = [&](const std::string& what) {
+  const auto fail = [&](const Message& what) {
     throw Error(path, msg("{} ({})", what, std::strerror(errno)), msg("make its folder writable, or set CAVUM_HOME to a folder that is"));
   };
   make_private_folder(std::filesystem::path(path).parent_path().string());
@@ -34,14 +34,14 @@ void make_key(const std::string& path, const std::string& owner) {
   const std::string text = fmt::format("{}{}\n", heading_of(owner), to_hex(seed));
   const std::string temporary = temporary_name_beside(path);
   const int fd = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
-  if (fd < 0) fail(fmt::format("the {}'s key cannot be made", owner));
+  if (fd < 0) fail(msg("the {}'s key cannot be made", owner));
   const bool written = ::write(fd, text.data(), text.size()) == static_cast<ssize_t>(text.size()) && ::fsync(fd) == 0;
   ::close(fd);
   const bool placed = written && (::link(temporary.c_str(), path.c_str()) == 0 || errno == EEXIST);
   const int why = errno;
   ::unlink(temporary.c_str());
   errno = why;
-  if (!placed) fail(fmt::format("the {}'s key cannot be written", owner));
+  if (!placed) fail(msg("the {}'s key cannot be written", owner));
   sync_folder_of(path);
 }
 
@@ -83,11 +83,11 @@ std::string enrolled_path(const std::string& path) { return path + ".enrolled"; 
 SigningKey load_station_key(const std::string& path) {
   const std::string enrolled = enrolled_path(path);
   if (!std::filesystem::exists(enrolled)) return load_signing_key(path, "station");
-  const std::string advice = fmt::format(
-      "restore the key from its backup, or have the station enrolled anew: remove {} and ask with `cavum station --enrol CODE`", enrolled);
-  if (!std::filesystem::exists(path)) throw Error(path, "the key that this station was enrolled with is gone", advice);
+  const Message advice =
+      msg("restore the key from its backup, or have the station enrolled anew: remove {} and ask with `cavum station --enrol CODE`", enrolled);
+  if (!std::filesystem::exists(path)) throw Error(path, msg("the key that this station was enrolled with is gone"), advice);
   const SigningKey key = load_signing_key(path, "station");
-  if (read_text_file(enrolled) != to_hex(key.public_key) + "\n") throw Error(path, "is not the key that this station was enrolled with", advice);
+  if (read_text_file(enrolled) != to_hex(key.public_key) + "\n") throw Error(path, msg("is not the key that this station was enrolled with"), advice);
   return key;
 }
 

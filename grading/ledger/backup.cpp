@@ -1,6 +1,5 @@
 #include "grading/ledger/backup.h"
 
-#include <fmt/core.h>
 #include <sys/stat.h>
 
 #include <algorithm>
@@ -159,7 +158,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
 
 Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_identities) {
   const LedgerPlaces to{folder};
-  if (!fs::exists(from.database())) throw Error(from.folder, "holds no ledger", instead_of_none(from.database()));
+  if (!fs::exists(from.database())) throw Error(from.folder, msg("holds no ledger"), instead_of_none(from.database()));
   std::error_code none;
   if (fs::weakly_canonical(folder, none) == fs::weakly_canonical(from.folder, none))
     throw Error(folder, msg("is the ledger itself"), msg("name another folder"));

@@ -57,11 +57,11 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
         const std::int64_t utc_ns = read_clocks().utc_ns;
         const auto t =
             std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
-        const auto refuse = [](const std::string& why, const std::string& advice) { throw Error("the ticket", why, advice); };
-        if (t == registry.tickets.end()) refuse("was not issued by this ledger", "name a ticket of it");
-        if (t->cancelled_by) refuse(fmt::format("was cancelled by entry {}", *t->cancelled_by), "give the candidate another");
-        if (t->made_up_by) refuse(fmt::format("was made up by entry {}", *t->made_up_by), "the makeup's ticket is good");
-        if (t->used_by) refuse(fmt::format("was used: its exam is filed as entry {}", *t->used_by), "give the candidate another");
+        const auto refuse = [](const Message& why, const Message& advice) { throw Error(msg("the ticket"), why, advice); };
+        if (t == registry.tickets.end()) refuse(msg("was not issued by this ledger"), msg("name a ticket of it"));
+        if (t->cancelled_by) refuse(msg("was cancelled by entry {}", *t->cancelled_by), msg("give the candidate another"));
+        if (t->made_up_by) refuse(msg("was made up by entry {}", *t->made_up_by), msg("the makeup's ticket is good"));
+        if (t->used_by) refuse(msg("was used: its exam is filed as entry {}", *t->used_by), msg("give the candidate another"));
         if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
           refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
                  "wait, or give another");

@@ -1,7 +1,5 @@
 #include "grading/ledger/ledger.h"
 
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "engine/base/memory_reserve.h"
@@ -19,7 +17,7 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   const LedgerPlaces places{folder};
   if (std::filesystem::exists(places.database())) throw Error(folder, msg("holds a ledger already"), msg("choose another folder"));
   if (holds_parts_of_a_ledger(places))
-    throw Error(folder, "holds sessions or identities of a ledger whose ledger.db is gone", instead_of_none(places.database()));
+    throw Error(folder, msg("holds sessions or identities of a ledger whose ledger.db is gone"), instead_of_none(places.database()));
   make_private_folder(folder + "/sessions");
   // complete under another name first: a process killed here leaves no half a ledger
   const std::string fresh = temporary_name_beside(places.database());

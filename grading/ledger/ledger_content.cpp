@@ -221,7 +221,7 @@ bool holds_parts_of_a_ledger(const LedgerPlaces& places) {
 }
 
 LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
-  if (!std::filesystem::exists(places.database())) throw Error(places.folder, "holds no ledger", instead_of_none(places.database()));
+  if (!std::filesystem::exists(places.database())) throw Error(places.folder, msg("holds no ledger"), instead_of_none(places.database()));
   try {
     Database live = Database::open(places.database(), false, k_long_wait);
     return read_content(live, places.database(), ask);

@@ -21,17 +21,17 @@ std::map<std::string, std::string> schema_of(Database& db) {
 
 }  // namespace
 
-std::string instead_of_none(const std::string& path) {
+Message instead_of_none(const std::string& path) {
   if (holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}))
-    return "restore ledger.db from its backup: the ledger's sessions or identities are still here";
-  return "make one with `cavum ledger init FOLDER`";
+    return msg("restore ledger.db from its backup: the ledger's sessions or identities are still here");
+  return msg("make one with `cavum ledger init FOLDER`");
 }
 
 void require_ledger(Database& db, const std::string& where) {
   if (db.integer("PRAGMA application_id") != k_ledger_application_id) {
     std::error_code none;
     const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
-    throw Error(where, empty ? "is empty" : "is no ledger", instead_of_none(where));
+    throw Error(where, empty ? msg("is empty") : msg("is no ledger"), instead_of_none(where));
   }
   if (const auto format = db.integer("PRAGMA user_version"); format != k_ledger_format)
     throw Error(where, msg("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
@@ -72,9 +72,9 @@ void make_tables(Database& db) {
 }
 
 Database open_for_adding(const std::string& path, bool make) {
-  if (!make && !std::filesystem::exists(path)) throw Error(path, "there is no ledger", instead_of_none(path));
+  if (!make && !std::filesystem::exists(path)) throw Error(path, msg("there is no ledger"), instead_of_none(path));
   std::error_code none;  // an empty file would become a database below
-  if (!make && std::filesystem::file_size(path, none) == 0 && !none) throw Error(path, "is empty", instead_of_none(path));
+  if (!make && std::filesystem::file_size(path, none) == 0 && !none) throw Error(path, msg("is empty"), instead_of_none(path));
   Database db = Database::open(path, make, k_long_wait);
   db.run("PRAGMA journal_mode = WAL");
   db.run("PRAGMA synchronous = FULL");

@@ -43,8 +43,8 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
                       msg("look at the list of tickets again"));
         for (const auto& t : registry.tickets)
           if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
-            throw AnotherTicket("candidate " + first->ticket.candidate, fmt::format("has another ticket that is good (entry {})", t.seq),
-                                "cancel that one first");
+            throw AnotherTicket("candidate " + first->ticket.candidate, msg("has another ticket that is good (entry {})", t.seq),
+                                msg("cancel that one first"));
         ticket.candidate = first->ticket.candidate;
         ticket.nonce = random_hex(16);
         SignedTicket signed_ticket = sign_ticket(std::move(ticket), ledger.key());

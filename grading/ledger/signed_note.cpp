@@ -46,7 +46,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) { return {reinte
 /// What a cosigner signs.
 std::string cosigned_text(const std::string& text, std::uint64_t utc_s) { return fmt::format("cosignature/v1\ntime {}\n{}", utc_s, text); }
 
-[[noreturn]] void no_note(const std::string& where, const std::string& why) {
+[[noreturn]] void no_note(const std::string& where, const Message& why) {
   throw Error(where, msg("is no signed note: {}", why), msg("name a note that `cavum ledger` wrote, unchanged"));
 }
 
@@ -106,9 +106,9 @@ NoteKey parse_key_line(const std::string& line, const std::string& where) {
 NoteSignature parse_signature_line(const std::string& line, const std::string& where) {
   const auto name_end = line.find(' ', k_dash.size());
   if (!line.starts_with(k_dash) || name_end == std::string::npos || line.empty() || line.back() != '\n')
-    no_note(where, "a line of a signature is none");
+    no_note(where, msg("a line of a signature is none"));
   const auto bytes = from_base64(line.substr(name_end + 1, line.size() - name_end - 2));
-  if (!bytes || bytes->size() < 5) no_note(where, "a signature is no base64 of a key id and a signature");
+  if (!bytes || bytes->size() < 5) no_note(where, msg("a signature is no base64 of a key id and a signature"));
   NoteSignature s{line.substr(k_dash.size(), name_end - k_dash.size()), {}, Bytes(bytes->begin() + 4, bytes->end())};
   std::copy_n(bytes->begin(), 4, s.key_id.begin());
   require_note_name(s.name, where);
@@ -122,21 +122,21 @@ std::string signature_line(const NoteSignature& s) {
 }
 
 SignedNote parse_note(const std::string& note, const std::string& where) {
-  if (note.size() > k_longest_note) no_note(where, "it is longer than 1 MB");
+  if (note.size() > k_longest_note) no_note(where, msg("it is longer than 1 MB"));
   const auto gap = note.rfind("\n\n");
-  if (gap == std::string::npos || note.back() != '\n') no_note(where, "it has no empty line between text and signatures, or no line end");
+  if (gap == std::string::npos || note.back() != '\n') no_note(where, msg("it has no empty line between text and signatures, or no line end"));
   SignedNote out{note.substr(0, gap + 1), {}};
   for (std::size_t from = 0; from < note.size();) {
     const auto end = note.find('\n', from);
     const std::string line = note.substr(from, end - from);
-    if (!is_plain_text(line)) no_note(where, "it holds a control character or bytes that are no UTF-8");
+    if (!is_plain_text(line)) no_note(where, msg("it holds a control character or bytes that are no UTF-8"));
     if (from >= gap + 2) {
       out.signatures.push_back(parse_signature_line(line + "\n", where));
-      if (out.signatures.size() > k_most_signatures) no_note(where, fmt::format("it has more than {} signatures", k_most_signatures));
+      if (out.signatures.size() > k_most_signatures) no_note(where, msg("it has more than {} signatures", k_most_signatures));
     }
     from = end + 1;
   }
-  if (out.signatures.empty()) no_note(where, "nobody has signed it");
+  if (out.signatures.empty()) no_note(where, msg("nobody has signed it"));
   return out;
 }
 

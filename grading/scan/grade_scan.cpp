@@ -1,7 +1,5 @@
 #include "grading/scan/grade_scan.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -31,15 +29,13 @@ void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const O
   constexpr double k_least = 0.6, k_most = 1.6;
   const double size = radius_of(scan), least = k_least * radius_of(tooth.crown()), most = k_most * radius_of(tooth.points());
   if (size >= least && size <= most) return;
-  std::string hint = "scan one tooth, cut out of its neighbours";
+  Message hint = msg("scan one tooth, cut out of its neighbours");
   for (const MeshUnit& unit : k_mesh_units)
-    if (const double so = size / unit_mm * unit.mm; so >= least && so <= most)
-      hint = fmt::format("it is likely in {}: say --units {}", unit.text, unit.name);
-  throw Error(
-      path,
-      fmt::format("is no scan of this tooth by its size: on average its surface lies {} mm from its middle, and the tooth's {} (crown alone {}) mm",
-                  fmt::format("{:.2g}", size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
-      hint);
+    if (const double so = size / unit_mm * unit.mm; so >= least && so <= most) hint = msg("it is likely in {}: say --units {}", unit.text, unit.name);
+  throw Error(path,
+              msg("is no scan of this tooth by its size: on average its surface lies {} from its middle, and the tooth's {} (crown alone {})",
+                  as_mm(size, k_as_needed), as_mm(radius_of(tooth.points()), 1), as_mm(radius_of(tooth.crown()), 1)),
+              hint);
 }
 
 /// Where a scan does not fit: throws Error when it does in another size, or in a mirror, and says so.
@@ -143,7 +139,7 @@ constexpr double k_nearly_as_well = 0.92;
 /// What a reader must know; what is doubtful asks for a person.
 void put_notes(const ScanFacts& f, Result& r) {
   constexpr double k_sure_agreement = 0.93, k_sure_crown = 0.55, k_sure_form_mm = 0.012;
-  for (const std::string& note : f.notes) r.notes.push_back(finding<FindingKind::scan_note>(note));
+  for (const Message& note : f.notes) r.notes.push_back(finding<FindingKind::scan_note>(note));
   if (f.cavities == 0) r.notes.push_back(finding<FindingKind::scan_shows_nothing>());
   if (f.cavities > 1) r.notes.push_back(finding<FindingKind::scan_cavities>(f.cavities));
   if (!f.apart.empty()) {

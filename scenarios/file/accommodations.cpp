@@ -1,7 +1,5 @@
 #include "scenarios/file/accommodations.h"
 
-#include <fmt/core.h>
-
 #include <array>
 #include <charconv>
 
@@ -39,11 +37,11 @@ bool truth_in(const std::string& text, const std::string& where) {
 }  // namespace
 
 void require_sound(const Grant& g, const std::string& where) {
-  const auto within = [&](const std::optional<double>& v, double most, const char* name) {
+  const auto within = [&](const std::optional<double>& v, double most, const Message& name) {
     if (v && !(*v >= 0 && *v <= most)) throw Error(where, msg("{} cannot be {}", name, as_number(*v)), msg("use 0 to {}", as_number(most)));
   };
-  within(g.extra_time_percent, k_most_percent, "extra time in percent");
-  within(g.extra_time_s, k_most_s, "extra time in seconds");
+  within(g.extra_time_percent, k_most_percent, msg("extra time in percent"));
+  within(g.extra_time_s, k_most_s, msg("extra time in seconds"));
   if (g.extra_time_percent && *g.extra_time_percent > 0 && *g.extra_time_percent < 1)
     throw Error(
         where, msg("extra time of {} is less than one percent", as_percent(*g.extra_time_percent, k_as_needed)),
@@ -70,18 +68,18 @@ Accommodations granted(const Accommodations& by_file, const std::vector<std::pai
   return a;
 }
 
-std::string accommodations_text(const Accommodations& a) {
-  std::string text;
-  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+List accommodations_text(const Accommodations& a) {
+  List all;
+  const Number percent = as_percent(a.extra_time_percent, k_as_needed), seconds = as_s(a.extra_time_s, k_as_needed);
   if (a.extra_time_percent > 0 && a.extra_time_s > 0)
-    add(fmt::format("{} % and {} s extra time", plain_number(a.extra_time_percent), plain_number(a.extra_time_s)));
+    all.items.push_back(msg("{} and {} extra time", percent, seconds));
   else if (a.extra_time_percent > 0)
-    add(plain_number(a.extra_time_percent) + " % extra time");
+    all.items.push_back(msg("{} extra time", percent));
   else if (a.extra_time_s > 0)
-    add(plain_number(a.extra_time_s) + " s extra time");
-  if (a.left_handed) add("left-handed");
-  if (a.high_contrast) add("high-contrast colours");
-  return text;
+    all.items.push_back(msg("{} extra time", seconds));
+  if (a.left_handed) all.items.push_back(msg("left-handed"));
+  if (a.high_contrast) all.items.push_back(msg("high-contrast colours"));
+  return all;
 }
 
 }  // namespace cavum::scenarios

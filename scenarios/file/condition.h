@@ -6,6 +6,8 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/message.h"
+
 namespace cavum::scenarios {
 
 /// Values that a live quantity can have.

@@ -348,22 +348,23 @@ const char* wall_figure_name(WallFigure figure) noexcept {
   return k_names[static_cast<std::size_t>(figure)];
 }
 
-std::string counts_text(unsigned counts) {
-  static constexpr std::pair<unsigned, const char*> k_words[] = {{k_counts_target, "what is left of the target"},
-                                                                 {k_counts_sides, "damage beside it"},
-                                                                 {k_counts_bottom, "damage below it"},
-                                                                 {k_counts_outside, "what is removed elsewhere"},
-                                                                 {k_counts_protected, "protected tissue"},
-                                                                 {k_counts_faults, "opened faults"},
-                                                                 {k_counts_leeway, "the leeway"},
-                                                                 {k_counts_time, "time"},
-                                                                 {k_counts_force, "force"},
-                                                                 {k_counts_neighbour, "the teeth beside it"},
-                                                                 {k_counts_gum, "the gum"}};
-  std::string text;
-  for (const auto& [bit, words] : k_words)
-    if ((counts & bit) != 0) text += (text.empty() ? "" : ", ") + std::string(words);
-  return text;
+List counts_text(unsigned counts) {
+  List kinds;
+  const auto name = [&](unsigned bit, const Message& words) {
+    if ((counts & bit) != 0) kinds.items.push_back(words);
+  };
+  name(k_counts_target, msg("what is left of the target"));
+  name(k_counts_sides, msg("damage beside it"));
+  name(k_counts_bottom, msg("damage below it"));
+  name(k_counts_outside, msg("what is removed elsewhere"));
+  name(k_counts_protected, msg("protected tissue"));
+  name(k_counts_faults, msg("opened faults"));
+  name(k_counts_leeway, msg("the leeway"));
+  name(k_counts_time, msg("time"));
+  name(k_counts_force, msg("force"));
+  name(k_counts_neighbour, msg("the teeth beside it"));
+  name(k_counts_gum, msg("the gum"));
+  return kinds;
 }
 
 Measure tissue_measure(const std::string& tissue) {

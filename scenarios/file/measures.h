@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "scenarios/file/extent.h"
 #include "scenarios/file/wall.h"
 
@@ -49,7 +50,7 @@ enum Counts : unsigned {
   k_counts_gum = 1024,       ///< removed of the gum
 };
 /// "what is left of the target, damage beside it": how docs/measures.md says it; empty for nothing.
-[[nodiscard]] std::string counts_text(unsigned counts);
+[[nodiscard]] List counts_text(unsigned counts);
 
 /// What is said of a wall.
 enum class WallFigure { mean, p95, max_over, max_under };

@@ -1,7 +1,5 @@
 #include "scenarios/file/rubric_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <stdexcept>
 
@@ -22,36 +20,37 @@ bool any_of(const TissueSet& set) {
 }
 
 /// What a measure needs and this exam lacks; empty when nothing.
-std::string lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
+Message lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
   const MarginSpec &leeway = s.zones.leeway, &container = s.zones.container;
   const bool sides = container.sides_mm > leeway.sides_mm, bottom = container.bottom_mm > leeway.bottom_mm;
   switch (needs) {
     case Needs::nothing:
-      return "";
+      return {};
     case Needs::protection:
-      return s.zones.protected_shapes.empty() ? "nothing is protected" : "";
+      return s.zones.protected_shapes.empty() ? msg("nothing is protected") : Message();
     case Needs::leeway_sides:
-      return leeway.sides_mm > 0 ? "" : "there is no leeway at the sides";
+      return leeway.sides_mm > 0 ? Message() : msg("there is no leeway at the sides");
     case Needs::leeway_bottom:
-      return leeway.bottom_mm > 0 ? "" : "there is no leeway below";
+      return leeway.bottom_mm > 0 ? Message() : msg("there is no leeway below");
     case Needs::container_sides:
-      return sides ? "" : "there is no container at the sides";
+      return sides ? Message() : msg("there is no container at the sides");
     case Needs::container_bottom:
-      return bottom ? "" : "there is no container below";
+      return bottom ? Message() : msg("there is no container below");
     case Needs::container:
-      return sides || bottom ? "" : "there is no container";
+      return sides || bottom ? Message() : msg("there is no container");
     case Needs::aim:
-      return s.perforation.aims.empty() ? "no tissue is an aim" : "";
+      return s.perforation.aims.empty() ? msg("no tissue is an aim") : Message();
     case Needs::fault:
-      return s.perforation.faults.empty() ? "no tissue is a fault" : "";
+      return s.perforation.faults.empty() ? msg("no tissue is a fault") : Message();
     case Needs::force_limit:
-      return s.force_limit_n > 0 ? "" : "there is no force limit";
+      return s.force_limit_n > 0 ? Message() : msg("there is no force limit");
     case Needs::pulp:
-      return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return t.name == "pulp"; }) ? "" : "the tooth has no pulp";
+      return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return t.name == "pulp"; }) ? Message()
+                                                                                                                       : msg("the tooth has no pulp");
     case Needs::neighbour:
-      return any_of(tissues_of_neighbours(tooth)) ? "" : "no tooth stands beside this one";
+      return any_of(tissues_of_neighbours(tooth)) ? Message() : msg("no tooth stands beside this one");
     case Needs::gum:
-      return any_of(tissues_of_gum(tooth)) ? "" : "the tooth has no gum";
+      return any_of(tissues_of_gum(tooth)) ? Message() : msg("the tooth has no gum");
   }
   throw std::logic_error("rubric_check: a need that nothing is said of");
 }
@@ -65,11 +64,10 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
   for (const auto& c : rubric.criteria) {
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
-      problems.push_back(
-          problem_of(rubric, c.metric_at, fmt::format("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known)));
-    if (const std::string what = lacking(measure.needs, scenario, tooth); !what.empty())
-      problems.push_back(problem_of(rubric, c.metric_at, fmt::format("'{}' measures nothing in this exam: {}", c.metric, what),
-                                    "take the criterion out, or choose a measure of what there is"));
+      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known)));
+    if (const Message what = lacking(measure.needs, scenario, tooth); !what.empty())
+      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures nothing in this exam: {}", c.metric, what),
+                                    msg("take the criterion out, or choose a measure of what there is")));
   }
   return problems;
 }
@@ -79,10 +77,12 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
   for (const auto& c : rubric.criteria) {
     const Better better = known_measure(c.metric).better;
     if (better == Better::by_task || c.full == c.zero || (c.full > c.zero) == (better == Better::more)) continue;
-    problems.push_back(problem_of(rubric, c.zero_at,
-                                  fmt::format("the criterion gives full marks at {} and none at {}, but {} of '{}' is better", plain_number(c.full),
-                                              plain_number(c.zero), better == Better::more ? "more" : "less", c.metric),
-                                  "exchange 'full' and 'zero'"));
+    problems.push_back(problem_of(
+        rubric, c.zero_at,
+        better == Better::more
+            ? msg("the criterion gives full marks at {} and none at {}, but more of '{}' is better", as_number(c.full), as_number(c.zero), c.metric)
+            : msg("the criterion gives full marks at {} and none at {}, but less of '{}' is better", as_number(c.full), as_number(c.zero), c.metric),
+        msg("exchange 'full' and 'zero'")));
     problems.back().warning = true;
   }
   return problems;
@@ -99,10 +99,10 @@ std::vector<Problem> charged_twice(const RubricSpec& rubric) {
       if (!(first.points > 0) || !(second.points > 0) || names(first, second.id) || names(second, first.id)) continue;
       const unsigned both = known_measure(first.metric).counts & known_measure(second.metric).counts;
       if (both == 0) continue;
-      problems.push_back(problem_of(rubric, second.metric_at,
-                                    fmt::format("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id, second.metric,
-                                                first.metric, counts_text(both)),
-                                    fmt::format("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id)));
+      problems.push_back(problem_of(
+          rubric, second.metric_at,
+          msg("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id, second.metric, first.metric, counts_text(both)),
+          msg("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id)));
       problems.back().warning = true;
     }
   return problems;

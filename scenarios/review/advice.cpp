@@ -66,7 +66,7 @@ class Adviser {
     problems_.push_back(problem_at(s_, place, what, what_to_do));
     problems_.back().warning = true;
   }
-  [[nodiscard]] std::string mm3(std::uint64_t leaves) const { return fixed(static_cast<double>(leaves) * zones_.leaf_volume_mm3(), 2) + " mm3"; }
+  [[nodiscard]] Number mm3(std::uint64_t leaves) const { return as_mm3(static_cast<double>(leaves) * zones_.leaf_volume_mm3(), 2); }
   [[nodiscard]] double volume(std::initializer_list<Zone> list) const {
     double sum = 0;
     for (const Zone z : list) sum += static_cast<double>(zones_.count(z)) * zones_.leaf_volume_mm3();
@@ -98,13 +98,19 @@ void Adviser::target() {
   });
   for (const auto& t : tooth_.tissues) {
     if (t.id == k_air || role_[t.id] == 1 || (role_[t.id] == 0 && tree.is_solid(t.id))) continue;
-    const std::string stays = role_[t.id] == 2 ? ", which must not be opened" : ", which is neither an aim nor a fault";
-    const std::string remedy = role_[t.id] == 2 ? fmt::format("make the target smaller, or list '{}' under aims", t.name)
-                                                : fmt::format("list '{}' under aims or faults of [perforation]", t.name);
+    const bool fault = role_[t.id] == 2;
+    const Message remedy =
+        fault ? msg("make the target smaller, or list '{}' under aims", t.name) : msg("list '{}' under aims or faults of [perforation]", t.name);
     if (inside[t.id] > 0)
-      warn("zones/target/0", msg("the target holds {} of {}{}", mm3(inside[t.id]), t.name, stays), remedy);
+      warn("zones/target/0",
+           fault ? msg("the target holds {} of {}, which must not be opened", mm3(inside[t.id]), t.name)
+                 : msg("the target holds {} of {}, which is neither an aim nor a fault", mm3(inside[t.id]), t.name),
+           remedy);
     else if (beside[t.id] > 0)
-      warn("zones/target/0", msg("the target touches the {}{}", t.name, stays), remedy);
+      warn("zones/target/0",
+           fault ? msg("the target touches the {}, which must not be opened", t.name)
+                 : msg("the target touches the {}, which is neither an aim nor a fault", t.name),
+           remedy);
   }
   if (zones_.guarded_in_target() > 0)
     warn("zones/target/0", msg("the target reaches {} of what is protected, and the protection counts there", mm3(zones_.guarded_in_target())),
@@ -212,7 +218,7 @@ void Adviser::time(ExpertsPart& expert) {
   double best = 0;
   for (const double share : covers) best = std::max(best, share);
   expert.reach = best;
-  const auto percent = [](double share) { return fixed(100 * share, 0) + " %"; };
+  const auto percent = [](double share) { return as_percent(100 * share); };
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
       warn(fmt::format("points/{}", i), msg("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
@@ -301,11 +307,9 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
   const std::string place = fmt::format("rubric/criteria/{}", i);
   const auto share = [&](double v) { return std::clamp((v - c.zero) / (c.full - c.zero), 0.0, 1.0); };
   const double best = std::max(share(range.low), share(range.high)), worst = std::min(share(range.low), share(range.high));
-  const std::string runs =
-      fmt::format("'{}' {}", c.metric,
-                  range.high >= k_no_end    ? "never falls below " + plain_number(range.low)
-                  : range.low == range.high ? fmt::format("is always {} here", plain_number(range.low))
-                                            : fmt::format("runs from {} to {} here", plain_number(range.low), plain_number(range.high)));
+  const Message runs = range.high >= k_no_end    ? msg("'{}' never falls below {}", c.metric, as_number(range.low))
+                       : range.low == range.high ? msg("'{}' is always {} here", c.metric, as_number(range.low))
+                                                 : msg("'{}' runs from {} to {} here", c.metric, as_number(range.low), as_number(range.high));
   if (c.points > 0 && best <= 0)
     warn(place + "/zero", msg("nobody can win these points: {}", runs), msg("set 'full' and 'zero' within that"));
   else if (c.points > 0 && worst >= 1)

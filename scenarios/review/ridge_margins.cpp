@@ -73,16 +73,18 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
     for (std::size_t e = 0; e < ends.size(); ++e) {
       may = may && laid.left_mm[e] >= k_least_left_mm && (laid.takes_in[e] || !can[e]);
       if (laid.left_mm[e] < k_least_left_mm && margins.why_none.empty())
-        margins.why_none = fmt::format("the crest of its {} ridge, as it was found, comes within {} mm of the fissure's cavity", ends[e].word,
-                                       laid.left_mm[e] > 0 ? fmt::format("{:.1f}", laid.left_mm[e]) : "0");
+        margins.why_none = e == 0 ? msg("the crest of its mesial ridge, as it was found, comes within {} of the fissure's cavity",
+                                        as_mm(std::max(0.0, laid.left_mm[e]), 1))
+                                  : msg("the crest of its distal ridge, as it was found, comes within {} of the fissure's cavity",
+                                        as_mm(std::max(0.0, laid.left_mm[e]), 1));
     }
     if (may) margins.may.push_back({laid.margin_mm, std::min({laid.margin_mm, laid.left_mm[0], laid.left_mm[1]})});
   }
   if (margins.may.empty()) {
-    if (margins.why_none.empty()) margins.why_none = "nothing of its fissure is far enough from both marginal ridges";
+    if (margins.why_none.empty()) margins.why_none = msg("nothing of its fissure is far enough from both marginal ridges");
     return margins;
   }
-  margins.why_none.clear();
+  margins.why_none = {};
   for (std::size_t e = 0; e < ends.size(); ++e)
     if (!can[e]) margins.pits_left += fmt::format("; the {} pit lies beside the cavity and stays", ends[e].word);
   return margins;

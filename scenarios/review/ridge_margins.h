@@ -15,7 +15,7 @@ struct RidgeMargin {
 struct RidgeMargins {
   std::vector<RidgeMargin> may;  ///< best first
   std::string pits_left;         ///< of all of them, for the candidate: which pit lies outside; empty: none
-  std::string why_none;          ///< where there is none
+  Message why_none;              ///< where there is none
 };
 
 /// Of an outline `width_mm` wide that goes `through` the mesial (+1), the distal (-1) or neither ridge (0). Only what takes in the pits that can be

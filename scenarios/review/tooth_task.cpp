@@ -11,7 +11,6 @@
 #include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
-#include "engine/tooth/tooth_notes.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
@@ -43,7 +42,7 @@ struct ToothTask {
   const char *word, *title, *points;
   bool access;
   const char *aims, *faults;
-  std::function<std::string(const Tooth&, const Landmarks&)> why_not;
+  std::function<Message(const Tooth&, const Landmarks&)> why_not;
   std::function<std::vector<TaskChoice>(const Tooth&, const Landmarks&)> choices;
   int opens = 0;                    // the side on which it opens the contact: mesial 1, distal -1
   std::string steps{}, criteria{};  // of its own; else as all cavities or accesses have them
@@ -106,10 +105,10 @@ std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
   return list;
 }
 
-std::string no_fissure(const Landmarks& l, int through) {
-  if (l.central_fissure_mm.size() < 2) return "no central fissure is found on it";
-  const std::string why = ridge_margins(l, isthmus_mm(l), through).why_none;
-  return why.empty() ? "" : why + "; see `cavum tooth show`, and put ridge or pits by hand where they are wrong";
+Message no_fissure(const Landmarks& l, int through) {
+  if (l.central_fissure_mm.size() < 2) return msg("no central fissure is found on it");
+  const Message why = ridge_margins(l, isthmus_mm(l), through).why_none;
+  return why.empty() ? Message() : msg("{}; see `cavum tooth show`, and put ridge or pits by hand where they are wrong", why);
 }
 
 std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
@@ -133,7 +132,7 @@ std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
   return list;
 }
 
-std::string no_contact(const Landmarks& l, int side) {
+Message no_contact(const Landmarks& l, int side) {
   return furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0}) == nullptr || furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0}) == nullptr
              ? "its contact area or its neck is not found"
              : "";
@@ -227,13 +226,13 @@ constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1
 const std::vector<ToothTask>& tasks() {
   const auto no_step = [](int side) {
     return [side](const Tooth&, const Landmarks& l) {
-      const std::string fissure = no_fissure(l, side);
+      const Message fissure = no_fissure(l, side);
       return fissure.empty() ? no_contact(l, side) : fissure;
     };
   };
   const auto no_box = [](int side) {
     return [side](const Tooth&, const Landmarks& l) {
-      if (!l.incisal_edge_mm.empty()) return std::string("a front tooth has no such box");
+      if (!l.incisal_edge_mm.empty()) return msg("a front tooth has no such box");
       return no_contact(l, side);
     };
   };
@@ -250,15 +249,15 @@ const std::vector<ToothTask>& tasks() {
       {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
       {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
        R"(["periodontium"])",
-       [](const Tooth& tooth, const Landmarks& l) -> std::string {
-         if (!has_tissue(tooth, "pulp")) return "it has no pulp";
+       [](const Tooth& tooth, const Landmarks& l) -> Message {
+         if (!has_tissue(tooth, "pulp")) return msg("it has no pulp");
          if (!l.incisal_edge_mm.empty()) return why_no_front_access(tooth, l);
-         return l.chamber_roof_mm ? "" : "no pulp chamber is found in it";
+         return l.chamber_roof_mm ? Message() : msg("no pulp chamber is found in it");
        },
        access},
       {"lesion", "Removal of a hidden lesion", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       [](const Tooth& tooth, const Landmarks&) -> std::string {
-         return has_tissue(tooth, "lesion") ? "" : "it has no lesion: `cavum tooth lesion` grows one";
+       [](const Tooth& tooth, const Landmarks&) -> Message {
+         return has_tissue(tooth, "lesion") ? Message() : msg("it has no lesion: `cavum tooth lesion` grows one");
        },
        lesion},
       {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0, side_steps_text()},
@@ -293,9 +292,8 @@ std::string present(const Tooth& tooth, const std::string& list) {
 /// The tooth, and what of it is only guessed or was not checked: lines of a comment.
 std::string about(const Tooth& tooth) {
   std::string text = one_line(tooth.name);
-  const ToothNotes notes = notes_of(tooth);
-  for (const auto& guess : notes.guesses) text += "\n# Guessed by its shape: " + one_line(guess);
-  for (const auto& warning : notes.warnings) text += "\n# Notice: " + one_line(warning);
+  for (const auto& guess : tooth.notes_of(ToothNote::Kind::guess)) text += "\n# Guessed by its shape: " + one_line(english_text(guess));
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) text += "\n# Notice: " + one_line(english_text(warning));
   return text;
 }
 
@@ -333,7 +331,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
       words += (words.empty() ? "" : ", ") + std::string(t.word);
   }
   if (asked == nullptr) throw Error("--task " + task, msg("there is no such task"), msg("choose one of {}", words));
-  if (const std::string why = asked->why_not(tooth, landmarks); !why.empty())
+  if (const Message why = asked->why_not(tooth, landmarks); !why.empty())
     throw Error("--task " + task, msg("'{}' is not fit for it: {}", tooth.name, why),
                 msg("see `cavum tooth landmarks`, or choose another of {}", words));
 

@@ -16,7 +16,7 @@ namespace cavum::scenarios {
 
 struct OfferedTask {
   std::string task, title;
-  std::string why_not;  ///< what the tooth lacks for it; empty: it is offered
+  Message why_not;  ///< what the tooth lacks for it; empty: it is offered
 };
 [[nodiscard]] std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& landmarks);
 

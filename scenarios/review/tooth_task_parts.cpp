@@ -58,9 +58,9 @@ std::string pulp_guard_text(double offset_mm) {
       fixed(offset_mm, 1));
 }
 
-std::string why_no_front_access(const Tooth&, const Landmarks& l) {
-  if (l.neck_mm.empty()) return "its neck is not found";
-  return l.canal_mouths.empty() ? "no canal is found in it" : "";
+Message why_no_front_access(const Tooth&, const Landmarks& l) {
+  if (l.neck_mm.empty()) return msg("its neck is not found");
+  return l.canal_mouths.empty() ? msg("no canal is found in it") : Message();
 }
 
 std::vector<TaskChoice> front_access(const Tooth&, const Landmarks&) {
@@ -78,7 +78,7 @@ std::vector<TaskChoice> front_access(const Tooth&, const Landmarks&) {
   return list;
 }
 
-std::string why_no_class_5(const Tooth&, const Landmarks& l) { return l.neck_mm.empty() ? "its neck is not found" : ""; }
+Message why_no_class_5(const Tooth&, const Landmarks& l) { return l.neck_mm.empty() ? msg("its neck is not found") : Message(); }
 
 std::vector<TaskChoice> class_5(const Tooth&, const Landmarks& l) {
   std::vector<TaskChoice> list;
@@ -101,10 +101,10 @@ std::vector<TaskChoice> class_5(const Tooth&, const Landmarks& l) {
   return list;
 }
 
-std::string why_no_crown(const Tooth&, const Landmarks& l) {
-  if (l.neck_mm.empty()) return "its neck is not found";
-  if (l.cusps.empty() && l.incisal_edge_mm.empty()) return "neither cusps nor an incisal edge are found";
-  return buccal_crown_mm(l) < k_least_crown_mm ? "its crown is too low for a stump" : "";
+Message why_no_crown(const Tooth&, const Landmarks& l) {
+  if (l.neck_mm.empty()) return msg("its neck is not found");
+  if (l.cusps.empty() && l.incisal_edge_mm.empty()) return msg("neither cusps nor an incisal edge are found");
+  return buccal_crown_mm(l) < k_least_crown_mm ? msg("its crown is too low for a stump") : Message();
 }
 
 // Total occlusal convergence 10 to 20 degrees, a stump at least 4 mm high on molars and 3 mm on others (Goodacre, Campagni and Aquilino, J Prosthet
@@ -131,10 +131,10 @@ std::vector<TaskChoice> crown_preparation(const Tooth&, const Landmarks& l) {
   return list;
 }
 
-std::string why_no_dexterity(const Tooth&, const Landmarks& l) {
-  if (l.neck_mm.empty()) return "its neck is not found";
-  if (buccal_crown_mm(l) <= 0) return "neither a buccal cusp nor an incisal edge is found";
-  return buccal_crown_mm(l) < k_least_crown_mm ? "its buccal surface is too low" : "";
+Message why_no_dexterity(const Tooth&, const Landmarks& l) {
+  if (l.neck_mm.empty()) return msg("its neck is not found");
+  if (buccal_crown_mm(l) <= 0) return msg("neither a buccal cusp nor an incisal edge is found");
+  return buccal_crown_mm(l) < k_least_crown_mm ? msg("its buccal surface is too low") : Message();
 }
 
 std::vector<TaskChoice> dexterity(const Landmarks& l, DexterityShape shape) {

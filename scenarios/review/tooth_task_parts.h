@@ -18,20 +18,20 @@ struct TaskChoice {
 [[nodiscard]] std::string pulp_guard_text(double offset_mm);
 
 /// A front tooth's access, leaning towards lingual. Empty `why_not`: the tooth shows what it needs.
-[[nodiscard]] std::string why_no_front_access(const Tooth& tooth, const Landmarks& landmarks);
+[[nodiscard]] Message why_no_front_access(const Tooth& tooth, const Landmarks& landmarks);
 [[nodiscard]] std::vector<TaskChoice> front_access(const Tooth& tooth, const Landmarks& landmarks);
 
 /// A cervical cavity in the buccal surface.
-[[nodiscard]] std::string why_no_class_5(const Tooth& tooth, const Landmarks& landmarks);
+[[nodiscard]] Message why_no_class_5(const Tooth& tooth, const Landmarks& landmarks);
 [[nodiscard]] std::vector<TaskChoice> class_5(const Tooth& tooth, const Landmarks& landmarks);
 
 /// A full crown's preparation.
-[[nodiscard]] std::string why_no_crown(const Tooth& tooth, const Landmarks& landmarks);
+[[nodiscard]] Message why_no_crown(const Tooth& tooth, const Landmarks& landmarks);
 [[nodiscard]] std::vector<TaskChoice> crown_preparation(const Tooth& tooth, const Landmarks& landmarks);
 
 /// Shapes of one depth in the buccal surface: manual dexterity.
 enum class DexterityShape { groove, circle, cross };
-[[nodiscard]] std::string why_no_dexterity(const Tooth& tooth, const Landmarks& landmarks);
+[[nodiscard]] Message why_no_dexterity(const Tooth& tooth, const Landmarks& landmarks);
 [[nodiscard]] std::vector<TaskChoice> dexterity(const Landmarks& landmarks, DexterityShape shape);
 
 /// Steps of a cavity in a side, TOML: its axial wall is curved, so a straight point leaves a little more of it.

@@ -225,7 +225,7 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   else
     source << "no periodontium";
   for (const auto* m : {&enamel, &dentin, &pulp})
-    for (const auto& note : m->notes) source << "; " << note;
+    for (const auto& note : m->notes) source << "; " << english_text(note);
   out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
   out.tooth.source = source.str();
   sense_tooth(out.tooth, settled, options.sense, paths.enamel, out.sense);

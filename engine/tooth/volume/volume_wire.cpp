@@ -1,6 +1,5 @@
 #include "engine/tooth/volume/volume_wire.h"
 
-#include <fmt/core.h>
 #include <poll.h>
 #include <unistd.h>
 
@@ -10,6 +9,8 @@
 #include <chrono>
 
 #include "engine/base/bytes.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -81,7 +82,8 @@ class Incoming {
 
 bool send_volume_error(int fd, const Error& error) {
   ByteWriter out = begun(k_error);
-  for (const Message* part : {&error.where(), &error.problem(), &error.advice()}) out.put_string(english_text(*part).substr(0, k_longest_text));
+  for (const Message* part : {&error.where(), &error.problem(), &error.advice()})
+    out.put_string(encode(*part).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   return send(fd, out.bytes());
 }
 
@@ -104,15 +106,19 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
   if (!std::equal(magic.begin(), magic.end(), k_magic.begin())) in.fail(msg("gave no volume"));
   const auto kind = first.get<std::uint32_t>();
   if (kind == k_error) {
-    std::array<Name, 3> parts;
+    std::array<Message, 3> parts;
     std::uint32_t length = first.get<std::uint32_t>();
     for (std::size_t i = 0; i < parts.size(); ++i) {
       if (i > 0) in.fill({reinterpret_cast<std::uint8_t*>(&length), sizeof length});
       std::string text(std::min(length, k_longest_text), ' ');
       in.fill({reinterpret_cast<std::uint8_t*>(text.data()), text.size()});
-      parts[i].text = one_line(text);
+      try {
+        parts[i] = decode_message(parse_json_or_null(text, k_json_part));
+      } catch (const std::invalid_argument&) {
+        in.fail(msg("gave no volume"));
+      }
     }
-    throw Error(Message(parts[0]), parts[1], parts[2]);
+    throw Error(parts[0], parts[1], parts[2]);
   }
   if (kind != k_volume) in.fail(msg("gave no volume"));
   std::copy_n(head.begin() + k_magic.size() + 4, 4, head.begin());  // of the size, which has come already

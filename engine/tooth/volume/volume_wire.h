@@ -1,6 +1,6 @@
 // A volume, or why there is none, from the process that reads it to the one that uses it: 8 bytes "CVVOLUME", then
-//   u32 0, three times u32 length and that many bytes of text (at most 4096): where, problem and advice of an Error; or
-//   u32 1, i32 x 3 size, f64 x 3 spacing, f64 x 9 axes, f64 x 3 origin, f32 for each voxel, x fastest.
+//   u32 0, three times u32 length and that many bytes (at most 4096) of a message as JSON (engine/base/message_json.h): where, problem and advice of
+//   an Error; or u32 1, i32 x 3 size, f64 x 3 spacing, f64 x 9 axes, f64 x 3 origin, f32 for each voxel, x fastest.
 // Little-endian. The receiver trusts nothing of it: the sender is a process that damaged files may have led astray.
 #pragma once
 

@@ -263,7 +263,9 @@ TEST(ReadVolume, TheOtherProcessMayEndInAnyWay) {
   EXPECT_NE(told_by("exit 3").find("ended with status 3"), std::string::npos);
   EXPECT_NE(told_by("printf 'CVVOLUME\\001\\000\\000\\000\\004' >&3").find("ended with status 0"), std::string::npos);
   EXPECT_NE(told_by("echo some other words than ours >&3").find("gave no volume"), std::string::npos);
-  EXPECT_EQ(told_by("printf 'CVVOLUME\\000\\000\\000\\000\\005\\000\\000\\000where\\001\\000\\000\\000a\\003\\000\\000\\000do!' >&3"),
+  EXPECT_EQ(told_by("printf "
+                    "'CVVOLUME\\000\\000\\000\\000\\017\\000\\000\\000{\"say\":\"where\"}\\013\\000\\000\\000{\"say\":\"a\"}\\015\\000\\000\\000{"
+                    "\"say\":\"do!\"}' >&3"),
             "where: a; do!");
   ::setenv("CAVUM_READ_VOLUME", "/nowhere/cavum-read-volume", 1);
   EXPECT_NE(refused(write_nrrd(fresh_folder() / "l.nrrd", ramp())).find("/nowhere/cavum-read-volume: is not there"), std::string::npos);
