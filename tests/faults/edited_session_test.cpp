@@ -39,7 +39,7 @@ class EditedSession : public testing::Test {
     std::string all;
     for (const auto& f : report.findings) {
       all += "  " + f + "\n";
-      if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return f.find(w) != std::string::npos; })) return;
+      if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return text_of(f).find(w) != std::string::npos; })) return;
     }
     ADD_FAILURE() << "no finding with '" << words.front() << "' in\n" << all;
   }

@@ -107,7 +107,7 @@ void fuzz_ledger(Data data) {
   write(places.database() + "-wal", files.log);
   try {
     if ((flags & 2) != 0) {
-      std::vector<std::string> findings;
+      std::vector<Message> findings;
       Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
       static_cast<void>(ledger::read_registry(ledger::read_content(copy, places.database(), ledger::AskWitness::no)));
     } else {

@@ -35,15 +35,15 @@ grading::ExamGrounds& grounds() {
   return shared;
 }
 
-bool holds(const std::vector<std::string>& findings, const std::string& words) {
+bool holds(const std::vector<Message>& findings, const std::string& words) {
   for (const auto& f : findings)
-    if (f.find(words) != std::string::npos) return true;
+    if (english_text(f).find(words) != std::string::npos) return true;
   return false;
 }
 
-std::string all(const std::vector<std::string>& findings) {
+std::string all(const std::vector<Message>& findings) {
   std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + f;
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
   return out;
 }
 

@@ -21,19 +21,21 @@ using nlohmann::json;
 
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
 
-std::string all(const std::vector<std::string>& findings) {
+std::string all(const std::vector<Message>& findings) {
   std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + f;
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
   return out;
 }
 
 std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("utc_ns").get<std::int64_t>(); }
 
 /// "entry 7: ..." of remarks that name a clock which was set back.
-bool names_clock(const std::vector<std::string>& remarks, std::uint64_t after, std::uint64_t until) {
+bool names_clock(const std::vector<Message>& remarks, std::uint64_t after, std::uint64_t until) {
   for (std::uint64_t k = after + 1; k <= until; ++k)
     for (const auto& r : remarks)
-      if (r.starts_with("entry " + std::to_string(k) + ": ") && r.find("the clock was set back") != std::string::npos) return true;
+      if (const std::string text = english_text(r);
+          text.starts_with("entry " + std::to_string(k) + ": ") && text.find("the clock was set back") != std::string::npos)
+        return true;
   return false;
 }
 
@@ -51,7 +53,7 @@ void SchoolDay::check_end() {
     check_clocks(check.remarks);
     check_identities();
     check_backup();
-    std::vector<std::string> findings, not_checked;
+    std::vector<Message> findings, not_checked;
     ledger::check_cosignatures(content, ledger::read_cosigners(ledger::known_cosigners_path()), findings, not_checked);
     if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
   });
@@ -69,7 +71,7 @@ void SchoolDay::check_end() {
 }
 
 void SchoolDay::check_entries(const ledger::LedgerContent& content) {
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   const auto witnessed = ledger::read_witness(content.id, findings);
   if (!findings.empty()) wrong("the witness: " + all(findings));
   std::set<std::uint64_t> seen;
@@ -109,7 +111,7 @@ void SchoolDay::check_entries(const ledger::LedgerContent& content) {
       wrong("a cosignature that was kept is lost, under " + std::to_string(size) + " entries");
 }
 
-void SchoolDay::check_clocks(const std::vector<std::string>& remarks) {
+void SchoolDay::check_clocks(const std::vector<Message>& remarks) {
   std::vector<std::pair<std::uint64_t, std::int64_t>> times;
   for (const Entered& e : entries_) times.emplace_back(e.seq, utc_in(e.text));
   std::sort(times.begin(), times.end());
@@ -125,7 +127,8 @@ void SchoolDay::check_clocks(const std::vector<std::string>& remarks) {
   for (const auto& [seq, utc_ns] : times)
     if (utc_ns > k_begin_utc_ns + world_.true_ns() + k_patience_ns) {
       ++counts_["ledger's clock ahead"];
-      if (std::none_of(remarks.begin(), remarks.end(), [](const std::string& r) { return r.find("has not come yet") != std::string::npos; }))
+      if (std::none_of(remarks.begin(), remarks.end(),
+                       [](const Message& r) { return english_text(r).find("has not come yet") != std::string::npos; }))
         wrong("entry " + std::to_string(seq) + " bears a time that is still to come, and nothing says so");
     }
 }

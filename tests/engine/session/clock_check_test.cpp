@@ -21,9 +21,9 @@ class ClockCheck : public testing::Test {
     return check_clocks(SessionReader(path_));
   }
   void expect_one(const std::vector<ClockRemark>& remarks, std::int64_t tick, const std::string& words) {
-    ASSERT_EQ(remarks.size(), 1u) << (remarks.size() > 1 ? remarks[1].what : "");
+    ASSERT_EQ(remarks.size(), 1u) << (remarks.size() > 1 ? remarks[1].what : Message());
     EXPECT_EQ(remarks[0].first_tick, tick);
-    EXPECT_NE(remarks[0].what.find(words), std::string::npos) << remarks[0].what;
+    EXPECT_NE(english_text(remarks[0].what).find(words), std::string::npos) << remarks[0].what;
   }
   test::Folder folder_;
   std::string path_ = folder_.file("exam.cavum");
@@ -43,7 +43,7 @@ TEST_F(ClockCheck, SlowMotionIsNamedAndLongerIsDoubtful) {
   EXPECT_FALSE(once[0].doubtful) << "a station may be slow for a moment";
   const auto twice = after(slow("1500000000"));
   ASSERT_EQ(twice.size(), 2u);
-  EXPECT_NE(twice[1].what.find("3.0 s passed that the recording does not account for"), std::string::npos) << twice[1].what;
+  EXPECT_NE(english_text(twice[1].what).find("3.0 s passed that the recording does not account for"), std::string::npos) << twice[1].what;
   EXPECT_TRUE(twice[1].doubtful);
 }
 TEST_F(ClockCheck, AWallClockThatWasSetIsNamed) {

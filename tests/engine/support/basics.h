@@ -9,6 +9,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <optional>
+#include <ostream>
 #include <random>
 #include <stdexcept>
 #include <string>
@@ -16,6 +17,13 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
+
+namespace cavum {
+
+/// For what a failed test prints.
+inline std::ostream& operator<<(std::ostream& out, const Message& message) { return out << english_text(message); }
+
+}  // namespace cavum
 
 namespace cavum::testing_basics {
 
@@ -60,6 +68,13 @@ std::optional<ErrorCode> code_of(const Action& action) {
 }
 inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) { return problem ? std::optional(problem->code()) : std::nullopt; }
 inline std::string text_of(const std::optional<Error>& problem) { return problem ? problem->what() : ""; }
+inline std::string text_of(const Message& message) { return english_text(message); }
+/// Of several, each on a line.
+inline std::string text_of(const std::vector<Message>& messages) {
+  std::string all;
+  for (const Message& m : messages) all += english_text(m) + "\n";
+  return all;
+}
 
 /// `what`, `times` times in a row.
 inline std::string repeated(const std::string& what, std::size_t times) {

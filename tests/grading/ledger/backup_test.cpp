@@ -225,7 +225,7 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   ASSERT_TRUE(file_session(ledger, later()).seq);
   EXPECT_TRUE(check_receipt(receipt, c.public_key, &ledger.content()).empty());
   // the witness remembers both, and the ledger that was left is no longer added to
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   EXPECT_EQ(read_witness(c.id, findings).size(), 12u) << "ten of before, the restore and what was added since";
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
   expect_finding(check_ledger(school_.places(), false).findings, {"history was rewritten"});

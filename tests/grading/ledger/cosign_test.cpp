@@ -265,7 +265,7 @@ TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
   }
   const std::string note = make_receipt(content(), 0).at("checkpoint");
   EXPECT_EQ(check_note(parse_note(note, "receipt"), known()[0]), NoteVerdict::holds);
-  std::vector<std::string> findings, not_checked;
+  std::vector<Message> findings, not_checked;
   check_cosignatures(content(), known(), findings, not_checked);
   EXPECT_TRUE(findings.empty() && not_checked.empty());
   check_cosignatures(content(), {}, findings, not_checked);
@@ -307,7 +307,7 @@ TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
   write_text_file(path, sound.substr(0, sound.size() - 40));
   EXPECT_TRUE(content().findings.empty());
   add(1);
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   const auto seen = read_witness(content().id, findings);
   ASSERT_EQ(seen.size(), 3u);
   EXPECT_EQ(seen.back().size, 4u);

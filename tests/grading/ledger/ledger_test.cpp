@@ -359,8 +359,8 @@ LedgerCheck check_all(const School& school) {
   check_owner(check, school.places(), read_ledger(school.places()), school_key_path(), school_public_key_path());
   return check;
 }
-bool says(const std::vector<std::string>& lines, const std::string& words) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& l) { return l.find(words) != std::string::npos; });
+bool says(const std::vector<Message>& lines, const std::string& words) {
+  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return text_of(l).find(words) != std::string::npos; });
 }
 
 TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
@@ -466,7 +466,7 @@ TEST(Receipt, ThatIsNoneIsNamedInOurWords) {
     const auto findings = check_receipt(none, "", nullptr);
     ASSERT_EQ(findings.size(), 1u);
     EXPECT_TRUE(findings[0].starts_with("is no receipt")) << findings[0];
-    EXPECT_EQ(findings[0].find("json.exception"), std::string::npos) << findings[0];
+    EXPECT_EQ(text_of(findings[0]).find("json.exception"), std::string::npos) << findings[0];
   }
 }
 

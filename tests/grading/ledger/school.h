@@ -111,11 +111,11 @@ class School {
 };
 
 /// Expects one of `findings` to hold all of `words`.
-inline void expect_finding(const std::vector<std::string>& findings, const std::vector<std::string>& words) {
+inline void expect_finding(const std::vector<Message>& findings, const std::vector<std::string>& words) {
   std::string all;
   for (const auto& f : findings) {
     all += "  " + f + "\n";
-    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return f.find(w) != std::string::npos; })) return;
+    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return text_of(f).find(w) != std::string::npos; })) return;
   }
   ADD_FAILURE() << "no finding with '" << words.front() << "' among\n" << all;
 }

@@ -53,7 +53,7 @@ TEST(Shares, MeasuresOfTheSameUnitSayWhatTheyCount) {
   for (const auto& m : measures())
     if (m.unit == std::string("mm3") && m.tissue.empty() && m.name != "soft_tissue_outside_mm3") {
       EXPECT_NE(m.counts, k_counts_nothing) << m.name;
-      EXPECT_FALSE(counts_text(m.counts).empty());
+      EXPECT_FALSE(counts_text(m.counts).items.empty());
     }
 }
 

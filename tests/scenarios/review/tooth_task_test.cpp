@@ -5,7 +5,6 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/make/make_premolar.h"
-#include "engine/tooth/tooth_notes.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/ridge_margins.h"
 #include "tests/engine/support/basics.h"
@@ -90,8 +89,8 @@ TEST(RidgeMargins, ACrestThatRunsIntoTheFissureIsNoRidgeThatIsLeft) {
 
 TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
   Tooth tooth = load_tooth_file(file_of("upper_premolar.cvt"));
-  add_guess(tooth, "mesial towards +x: by three signs");
-  add_warning(tooth, "whether it is tooth 15 could not be checked");
+  tooth.notes.push_back({ToothNote::Kind::guess, msg("mesial towards +x: by three signs")});
+  tooth.notes.push_back({ToothNote::Kind::warning, msg("whether it is tooth 15 could not be checked")});
   const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml", "slot_mesial").text;
   EXPECT_NE(text.find("\n# Guessed by its shape: mesial towards +x: by three signs\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\n# Notice: whether it is tooth 15 could not be checked\n"), std::string::npos) << text;

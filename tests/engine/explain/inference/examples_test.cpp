@@ -24,7 +24,7 @@ TableExplanation fig6() {
 }
 
 bool says(const TableExplanation& e, const std::string& what) {
-  std::string all = e.said.next_experiment;
+  std::string all = english_text(e.said.next_experiment);
   for (const auto& n : e.said.notes) all += n;
   return all.find(what) != std::string::npos;
 }

@@ -14,8 +14,8 @@ std::pair<Eigen::Index, Eigen::Index> middle_of(const Recording& r, std::size_t 
   return {s.begin + (s.end - s.begin) / 4, s.begin + (s.end - s.begin) / 2};
 }
 
-bool says(const std::vector<std::string>& faults, const std::string& word) {
-  return std::any_of(faults.begin(), faults.end(), [&](const std::string& f) { return f.find(word) != std::string::npos; });
+bool says(const std::vector<Message>& faults, const std::string& word) {
+  return std::any_of(faults.begin(), faults.end(), [&](const Message& f) { return text_of(f).find(word) != std::string::npos; });
 }
 
 Recording with_speed() {

@@ -16,7 +16,6 @@
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
 #include "engine/tooth/make/periodontium.h"
-#include "engine/tooth/tooth_notes.h"
 #include "tests/engine/tooth/import/import_testing.h"
 #include "tests/engine/tooth/import/imported_surfaces.h"
 #include "tests/engine/tooth/tooth_testing.h"
@@ -46,8 +45,8 @@ std::string refusal(const Surfaces& s, const MeshImportOptions& o) {
   return error_of([&] { (void)import_meshes(paths, o); });
 }
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
-bool says(const std::vector<std::string>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(), [&](const std::string& l) { return says(l, part); });
+bool says(const std::vector<Message>& lines, const std::string& part) {
+  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return says(text_of(l), part); });
 }
 
 TEST(Sense, NumbersOfBothSystemsAreTheSameTeeth) {
@@ -353,9 +352,10 @@ TEST(Sense, AToothOfTheOtherSideIsTakenAsItsMirrorImageAndSaysSo) {
   const auto mirrored = import_meshes(in_a_mirror(molar()).write(fresh_folder()), o);
   EXPECT_TRUE(says(mirrored.sense.warnings, "mirror image"));
   EXPECT_TRUE(says(mirrored.tooth.name, "tooth 46 (universal 30), lower right first molar, mirror image")) << mirrored.tooth.name;
-  const ToothNotes notes = notes_of(mirrored.tooth);
-  EXPECT_TRUE(notes.mirror_image);
-  EXPECT_EQ(notes.warnings, mirrored.sense.warnings);
+  EXPECT_EQ(mirrored.tooth.notes_of(ToothNote::Kind::mirror_image).size(), 1u);
+  EXPECT_EQ(mirrored.tooth.notes_of(ToothNote::Kind::warning), mirrored.sense.warnings);
+  const Tooth again = load_tooth(save_tooth(mirrored.tooth), "again");
+  EXPECT_EQ(again.notes, mirrored.tooth.notes);
   const Landmarks ours = find_landmarks(import_meshes(molar().write(fresh_folder()), upright(k_sensed_mm)).tooth),
                   theirs = find_landmarks(mirrored.tooth);
   ASSERT_EQ(ours.cusps.size(), theirs.cusps.size());
@@ -393,15 +393,15 @@ TEST(Sense, AMolarTurnedAboutItsLongAxisIsRefusedWithTheTurnThatMendsIt) {
     EXPECT_EQ(refusal(grown_molar(), turned), "") << deg;
     turned.frame.rotate_deg = deg;
     turned.sense.confirmed = {"mesial"};
-    EXPECT_TRUE(says(notes_of(import_meshes(grown_molar().write(fresh_folder()), turned).tooth).warnings, "confirmed")) << deg;
+    EXPECT_TRUE(says(import_meshes(grown_molar().write(fresh_folder()), turned).tooth.notes_of(ToothNote::Kind::warning), "confirmed")) << deg;
   }
   // where nothing is said of sides there is nothing to contradict: it is taken, and the tooth bears the warning
   MeshImportOptions silent = o;
   silent.sense.number.reset();
   silent.frame.mesial_axis.reset();
   const auto taken = import_meshes(grown_molar().changed([](Vec3 p) { return Vec3{p.y, -p.x, p.z}; }).write(fresh_folder()), silent);
-  EXPECT_TRUE(says(notes_of(taken.tooth).warnings, "nothing was said of mesial")) << taken.tooth.source;
-  EXPECT_TRUE(says(notes_of(taken.tooth).warnings, "--rotate-deg"));
+  EXPECT_TRUE(says(taken.tooth.notes_of(ToothNote::Kind::warning), "nothing was said of mesial")) << taken.tooth.source;
+  EXPECT_TRUE(says(taken.tooth.notes_of(ToothNote::Kind::warning), "--rotate-deg"));
   // the plain molar is alike on both sides: its canals tell the line
   o.frame.mesial_axis = Vec3{0, 1, 0};
   EXPECT_TRUE(says(refusal(molar(), o), "the canals leave the chamber along it")) << refusal(molar(), o);
