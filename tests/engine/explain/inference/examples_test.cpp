@@ -25,7 +25,7 @@ TableExplanation fig6() {
 
 bool says(const TableExplanation& e, const std::string& what) {
   std::string all = english_text(e.said.next_experiment);
-  for (const auto& n : e.said.notes) all += n;
+  for (const auto& n : e.said.notes) all += english_text(n);
   return all.find(what) != std::string::npos;
 }
 
