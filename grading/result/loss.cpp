@@ -9,6 +9,19 @@ namespace cavum::grading {
 
 Message when(const Trace& t) { return msg("{} (tick {})", as_s(t.t_s(), 2), t.tick); }
 
+Message without_ticks(const Message& m) {
+  static const Message k_when = when({});
+  if (m.empty()) return m;
+  if (m.english() == k_when.english()) return msg("{}", m.values()[0]);
+  std::vector<Value> values = m.values();
+  for (Value& v : values) {
+    if (auto* message = std::get_if<Message>(&v)) *message = without_ticks(*message);
+    if (auto* list = std::get_if<List>(&v))
+      for (Message& item : list->items) item = without_ticks(item);
+  }
+  return {m.english(), m.plural(), m.count(), std::move(values)};
+}
+
 Message place_and_time(const Trace& t) { return t.timed() ? msg("{}, at {}", t.site_mm, when(t)) : msg("{}", t.site_mm); }
 
 Message wall_text(std::size_t wall, scenarios::Facing facing) {

@@ -49,6 +49,8 @@ namespace reason {
 [[nodiscard]] Message value_text(const scenarios::Measure& measure, double value, double bound, int digits);
 /// "12.34 s (tick 12340)".
 [[nodiscard]] Message when(const Trace& t);
+/// The same message with each when() in it as its seconds alone.
+[[nodiscard]] Message without_ticks(const Message& message);
 /// The place, and when it was where that is known.
 [[nodiscard]] Message place_and_time(const Trace& t);
 /// "the mesial wall"

@@ -110,9 +110,10 @@ void LossFinder::missed(double points) {
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
     const Message wall = wall_text(w, r_.shape.facing);
-    const Message left = p.sum > 0 ? msg("of the target left towards {}, its middle at {}", wall, p.middle / p.sum)
-                                   : msg("of the target left towards {}", wall);
-    fact(last.tick >= 0 ? msg("{}; the target was last cut there at {}", left, when(last)) : msg("{}; nothing of the target was cut there", left), mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
+    const Message left =
+        p.sum > 0 ? msg("of the target left towards {}, its middle at {}", wall, p.middle / p.sum) : msg("of the target left towards {}", wall);
+    fact(last.tick >= 0 ? msg("{}; the target was last cut there at {}", left, when(last)) : msg("{}; nothing of the target was cut there", left),
+         mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
     if (mm3 >= k_least_moment_mm3) continue;
     leave_out(why_.items.back());
@@ -218,18 +219,15 @@ void LossFinder::steps() {
     std::string kind = kind_of(e.event);
     std::replace(kind.begin(), kind.end(), '_', ' ');
     const Term word{kind};
-    const Message what =
-        std::visit(EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) {
-                              const auto at = static_cast<std::size_t>(of.step);
-                              return at < in_.scenario.steps.size() ? msg("{} ({})", word, in_.scenario.steps[at].id) : msg("{}", word);
-                            },
-                            [&](const AnyOf<AimReached, Perforated> auto& of) { return msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}); },
-                            [&](const Finished& of) { return msg("{} ({})", word, Term{finish_name(of.how)}); },
-                            [&](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded,
-                                            RecordingGap, RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack,
-                                            ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased,
-                                            Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return msg("{}", word); }},
-                   e.event);
+    const Message what = std::visit(
+        EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return msg("{} ({})", word, of.step + 1LL); },
+                 [&](const AnyOf<AimReached, Perforated> auto& of) { return msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}); },
+                 [&](const Finished& of) { return msg("{} ({})", word, Term{finish_name(of.how)}); },
+                 [&](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded, RecordingGap,
+                                 RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees,
+                                 ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep,
+                                 MeasuredForce> auto&) { return msg("{}", word); }},
+        e.event);
     WhyItem item;
     item.tick = item.end_tick = e.tick;
     item.what = msg("{}, so long after the event before", what);
@@ -244,8 +242,7 @@ void LossFinder::steps() {
 void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
   const auto truth = [&](const Message& kind, const PerforationTruth& t) {
-    if (t.outside_mm3 > 0)
-      fact(msg("tissue: removed from outside the tooth, which is no perforation"), t.outside_mm3, "mm3", t.first_outside);
+    if (t.outside_mm3 > 0) fact(msg("tissue: removed from outside the tooth, which is no perforation"), t.outside_mm3, "mm3", t.first_outside);
     if (!t.perforated) return fact(msg("tissue: {} not opened", kind));
     fact(msg("tissue: {}, {} first opened here; of its wall in all", kind, Term{t.tissue}), t.area_mm2, "mm2", t.first, t.area_bound_mm2);
     fact(msg("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
@@ -268,14 +265,8 @@ void LossFinder::perforation() {
 
 void LossFinder::shape(Extent extent, std::optional<double> found, double wanted, std::optional<double> error) {
   const bool deep = extent == Extent::depth, along_x = extent == Extent::length;
-  fact(deep      ? msg("depth of the cavity")
-       : along_x ? msg("length of the cavity")
-                 : msg("width of the cavity"),
-       found, "mm", {}, r_.shape.bound_mm);
-  fact(deep      ? msg("depth of the target")
-       : along_x ? msg("length of the target")
-                 : msg("width of the target"),
-       wanted, "mm");
+  fact(deep ? msg("depth of the cavity") : along_x ? msg("length of the cavity") : msg("width of the cavity"), found, "mm", {}, r_.shape.bound_mm);
+  fact(deep ? msg("depth of the target") : along_x ? msg("length of the target") : msg("width of the target"), wanted, "mm");
   // the leaves at the ends tell when that was cut
   struct End {
     scenarios::Wall wall;
@@ -297,7 +288,8 @@ void LossFinder::shape(Extent extent, std::optional<double> found, double wanted
       t = {r.tick, at};
     }
     if (t.tick >= 0)
-      fact(deep ? msg("deepest place removed, from the tooth's origin") : msg("furthest {} place removed, from the tooth's origin", name), most, "mm", t);
+      fact(deep ? msg("deepest place removed, from the tooth's origin") : msg("furthest {} place removed, from the tooth's origin", name), most, "mm",
+           t);
     if (deep || !error) continue;
     const auto& e = r_.shape.end_error[static_cast<std::size_t>(end.wall)];
     const Number beyond = as_mm(std::fabs(e.beyond_mm), 2);
@@ -357,8 +349,8 @@ void LossFinder::clearance() {
   const BesideMeasures& b = r_.beside;
   if (!b.clearance_mm) return;
   const Trace last = last_cut_near(in_, end_, b.clearance_from_mm);
-  fact(msg("from {} to the neighbour's {}; {}", b.clearance_from_mm, b.clearance_to_mm, last_cut_text(last)), b.clearance_mm,
-       "mm", last, b.clearance_bound_mm);
+  fact(msg("from {} to the neighbour's {}; {}", b.clearance_from_mm, b.clearance_to_mm, last_cut_text(last)), b.clearance_mm, "mm", last,
+       b.clearance_bound_mm);
 }
 
 void LossFinder::gum() {
@@ -395,8 +387,8 @@ void LossFinder::force_over_limit() { pressed_above(in_.scenario.force_limit_n);
 void LossFinder::pressed_above(double force) {
   if (r_.motion.force_peak.tick >= 0) fact(msg("pressed hardest"), r_.motion.force_peak_n, "N", r_.motion.force_peak);
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks,
-      msg("pressed with more than {}", as_n(force, 2)), Stretch::peak_force));
+      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks, msg("pressed with more than {}", as_n(force, 2)),
+      Stretch::peak_force));
 }
 
 }  // namespace cavum::grading

@@ -64,7 +64,7 @@ Lines to_text(const Why& w) {
   if (!w.items.empty()) out.gap();
   const auto seconds = [](std::int64_t tick) { return as_s(static_cast<double>(tick) * k_tick_s, 3); };
   for (const auto& i : w.items)
-    out.row({i.tick < 0              ? Message()
+    out.row({i.tick < 0            ? Message()
              : i.end_tick > i.tick ? msg("{} to {}", seconds(i.tick), seconds(i.end_tick))
                                    : msg("{}", seconds(i.tick)),
              i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit), 3, i.bound.value_or(0)}) : Message(), i.what,
