@@ -404,20 +404,20 @@ std::string floor_words() {
       "the instrument went on. An opened pulp is told as a perforation, not as overcut.");
 }
 
-std::string finish_words(Finish finish) {
+Message finish_words(Finish finish) {
   switch (finish) {
     case Finish::completed:
-      return tr("its last step was completed");
+      return msg("its last step was completed");
     case Finish::failed:
-      return tr("a step was failed");
+      return msg("a step was failed");
     case Finish::time:
-      return tr("time was up");
+      return msg("time was up");
     case Finish::ended:
-      return tr("it was handed in before its steps were completed");
+      return msg("it was handed in before its steps were completed");
     case Finish::running:
       break;
   }
-  return tr("it was not finished");
+  return msg("it was not finished");
 }
 
 Message for_reader(const Message& message, const ReportSource& s) {

@@ -34,7 +34,7 @@ void add_integrity(Document& document, const ReportSource& source);
 /// Of every figure of a floor's overcut, in the reader's language.
 [[nodiscard]] std::string floor_words();
 /// How an exam came to its end: "time was up".
-[[nodiscard]] std::string finish_words(Finish finish);
+[[nodiscard]] Message finish_words(Finish finish);
 /// What the rooms below say of an exam, as a report's reader takes it: for a student without ticks.
 [[nodiscard]] Message for_reader(const Message& message, const ReportSource& source);
 
