@@ -1,12 +1,10 @@
 #include "grading/scan/grade_scan.h"
 
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 #include "engine/scan/read_scan.h"
 #include "engine/scan/scale_fit.h"
 #include "engine/scan/smoothed.h"
@@ -31,15 +29,14 @@ void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const O
   constexpr double k_least = 0.6, k_most = 1.6;
   const double size = radius_of(scan), least = k_least * radius_of(tooth.crown()), most = k_most * radius_of(tooth.points());
   if (size >= least && size <= most) return;
-  std::string hint = "scan one tooth, cut out of its neighbours";
+  Message hint = msg("scan one tooth, cut out of its neighbours");
   for (const MeshUnit& unit : k_mesh_units)
     if (const double so = size / unit_mm * unit.mm; so >= least && so <= most)
-      hint = fmt::format("it is likely in {}: say --units {}", unit.text, unit.name);
-  throw Error(
-      path,
-      fmt::format("is no scan of this tooth by its size: on average its surface lies {} mm from its middle, and the tooth's {} (crown alone {}) mm",
-                  fmt::format("{:.2g}", size), fixed(radius_of(tooth.points()), 1), fixed(radius_of(tooth.crown()), 1)),
-      hint);
+      hint = msg("it is likely in {}: say --units {}", Term{unit.text}, unit.name);
+  throw Error(path,
+              msg("is no scan of this tooth by its size: on average its surface lies {} from its middle, and the tooth's {} (crown alone {})",
+                  as_mm(size, k_as_needed), as_mm(radius_of(tooth.points()), 1), as_mm(radius_of(tooth.crown()), 1)),
+              hint);
 }
 
 /// Where a scan does not fit: throws Error when it does in another size, or in a mirror, and says so.
@@ -210,7 +207,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
     List reasons{{}, true};
     for (const Finding& reason : all.verdict_reasons) reasons.items.push_back(reason.message());
     facts.were_they_counted =
-        finding<FindingKind::scan_apart_counted>(Term{verdict_name(all.verdict)}, as_points(all.points), as_points(all.max_points), reasons);
+        finding<FindingKind::scan_apart_counted>(word_of(all.verdict), as_points(all.points), as_points(all.max_points), reasons);
   }
   GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);

@@ -70,18 +70,16 @@ Accommodations granted(const Accommodations& by_file, const std::vector<std::pai
   return a;
 }
 
-std::string accommodations_text(const Accommodations& a) {
-  std::string text;
-  const auto add = [&text](const std::string& what) { text += (text.empty() ? "" : ", ") + what; };
+Message accommodations_text(const Accommodations& a) {
+  List list;
+  const Number percent = as_percent(a.extra_time_percent, k_as_needed), seconds = as_s(a.extra_time_s, k_as_needed);
   if (a.extra_time_percent > 0 && a.extra_time_s > 0)
-    add(fmt::format("{} % and {} s extra time", plain_number(a.extra_time_percent), plain_number(a.extra_time_s)));
-  else if (a.extra_time_percent > 0)
-    add(plain_number(a.extra_time_percent) + " % extra time");
-  else if (a.extra_time_s > 0)
-    add(plain_number(a.extra_time_s) + " s extra time");
-  if (a.left_handed) add("left-handed");
-  if (a.high_contrast) add("high-contrast colours");
-  return text;
+    list.items.push_back(msg("{} and {} extra time", percent, seconds));
+  else if (a.extra_time_percent > 0 || a.extra_time_s > 0)
+    list.items.push_back(msg("{} extra time", a.extra_time_percent > 0 ? percent : seconds));
+  if (a.left_handed) list.items.push_back(msg("left-handed"));
+  if (a.high_contrast) list.items.push_back(msg("high-contrast colours"));
+  return list.items.empty() ? Message() : msg("{}", list);
 }
 
 }  // namespace cavum::scenarios
