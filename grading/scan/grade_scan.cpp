@@ -1,6 +1,5 @@
 #include "grading/scan/grade_scan.h"
 
-
 #include <algorithm>
 #include <cmath>
 
@@ -49,8 +48,8 @@ void require_size_and_side(const Scan& scan, const Registration& found, const Sc
     if (!sized || !fits_tooth(fit_of(in_size(scan.points, sized->scale), sized->to_tooth, outer))) continue;
     const double percent = 100 * (1 / sized->scale - 1);
     throw Error(path,
-                msg("is of this tooth by its form, but {} too {}: in the tooth's size it fits", as_percent(std::fabs(percent), 1),
-                    percent > 0 ? msg("large") : msg("small")),
+                percent > 0 ? msg("is of this tooth by its form, but {} too large: in the tooth's size it fits", as_percent(percent, 1))
+                            : msg("is of this tooth by its form, but {} too small: in the tooth's size it fits", as_percent(-percent, 1)),
                 msg("calibrate the scanner (or the printer), or multiply the file's lengths by {}", as_number(sized->scale, 4)));
   }
   const Scan other = mirrored(scan);

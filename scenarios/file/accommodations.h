@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "scenarios/file/scenario.h"
 
 namespace cavum::scenarios {
