@@ -1,12 +1,9 @@
 #include "scenarios/file/accommodations.h"
 
-#include <fmt/core.h>
-
 #include <array>
 #include <charconv>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 
 namespace cavum::scenarios {
 namespace {
