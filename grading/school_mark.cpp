@@ -132,7 +132,8 @@ List marks_then_and_now(const json& sealed, const json& marked, std::size_t part
 
 }  // namespace
 
-std::vector<Message> result_differences(const json& sealed, const json& marked) {
+std::vector<Message> result_differences(const json& sealed_result, const json& marked_result) {
+  const json sealed = without_words(sealed_result), marked = without_words(marked_result);
   std::vector<Message> out;
   const auto compare = [&](const Message& name, const json& was, const json& is) {
     if (was != is) out.push_back(msg("{} {}, marked {}", name, in_words(was), in_words(is)));

@@ -57,14 +57,14 @@ bool needs_physics(const std::string& metric) {
   return k_all.contains(metric);
 }
 
-std::vector<std::string> caught_by(const Result& r) {
-  std::vector<std::string> critical, all_points;
+std::vector<Message> caught_by(const Result& r) {
+  std::vector<Message> critical, all_points;
   for (const auto& c : r.criteria) {
-    if (c.critical_failed) critical.push_back(c.id);
-    if (c.max > 0 && c.points <= 0) all_points.push_back(c.id);
+    if (c.critical_failed) critical.emplace_back(Name{c.id});
+    if (c.max > 0 && c.points <= 0) all_points.emplace_back(Name{c.id});
   }
   if (!critical.empty()) return critical;
-  if (r.verdict == Verdict::review && !r.progress.open_last_step.empty()) return {"step " + r.progress.open_last_step};
+  if (r.verdict == Verdict::review && !r.progress.open_last_step.empty()) return {msg("step {}", r.progress.open_last_step)};
   return all_points;
 }
 
@@ -81,7 +81,10 @@ struct Should {
   std::string metric;                               ///< empty: none that is known
   const scenarios::CriterionSpec* there = nullptr;  ///< a criterion on it
   MetricValue wrong;
-  [[nodiscard]] std::string text() const { return there != nullptr ? fmt::format("{} ({})", there->id, metric) : metric; }
+  [[nodiscard]] Message text() const {
+    if (metric.empty()) return {};
+    return there != nullptr ? msg("{} ({})", there->id, metric) : msg("{}", metric);
+  }
 };
 
 Should should_catch(const Task& task, const WrongWork& work, const Result& r, const Result& honest) {
@@ -104,13 +107,15 @@ Should should_catch(const Task& task, const WrongWork& work, const Result& r, co
 }
 
 /// What to do about a wrong piece of work that passes.
-std::string advice_against(const Should& should) {
-  if (should.metric.empty()) return "add a criterion that tells it from honest work";
+Message advice_against(const Should& should) {
+  if (should.metric.empty()) return msg("add a criterion that tells it from honest work");
+  const Message value = should.wrong.value ? msg("{}", as_number(*should.wrong.value, 2)) : msg("what honest work has");
   const bool more = scenarios::known_measure(should.metric).better == scenarios::Better::more;
-  const std::string limit = fmt::format("{} {} {}", more ? "critical_below" : "critical_above", more ? "above" : "below",
-                                        should.wrong.value ? fixed(*should.wrong.value, 2) : "what honest work has");
-  return should.there != nullptr ? fmt::format("give '{}', which measures {}, a {}", should.there->id, should.metric, limit)
-                                 : fmt::format("add a criterion on {} with a {}", should.metric, limit);
+  if (should.there == nullptr)
+    return more ? msg("add a criterion on {} with a critical_below above {}", should.metric, value)
+                : msg("add a criterion on {} with a critical_above below {}", should.metric, value);
+  return more ? msg("give '{}', which measures {}, a critical_below above {}", should.there->id, should.metric, value)
+              : msg("give '{}', which measures {}, a critical_above below {}", should.there->id, should.metric, value);
 }
 
 /// Beside the target's volume, how much of the work is wrong: left or removed beyond.
@@ -120,8 +125,8 @@ bool is_wrong(const Result& r) {
   return r.volumes.missed.mm3 >= k_share * r.volumes.target.mm3 || beyond >= k_share * r.volumes.target.mm3;
 }
 
-BatteryRow row_of(const std::string& name, const std::string& what, const Result& r) {
-  return {name, what, r.verdict, r.points, r.max_points, caught_by(r), ""};
+BatteryRow row_of(const std::string& name, const Message& what, const Result& r) {
+  return {name, what, r.verdict, r.points, r.max_points, caught_by(r), {}};
 }
 
 /// A mistake when exactly the target does not pass, or loses points that have nothing to do with the hand.
@@ -136,13 +141,12 @@ void judge_honest(const scenarios::Scenario& scenario, const Result& r, std::vec
   }
   const bool enough = points >= 0.01 * k_honest_percent * max;
   if (r.verdict == Verdict::pass && enough) return;
-  const std::string to_do = !r.progress.open_last_step.empty()
-                                ? fmt::format("make the condition of step '{}' one that this completes", r.progress.open_last_step)
-                            : worst != nullptr ? fmt::format("begin with '{}': {}", worst->id, worst->reason)
-                                               : "give the rubric criteria";
+  const Message to_do = !r.progress.open_last_step.empty() ? msg("make the condition of step '{}' one that this completes", r.progress.open_last_step)
+                        : worst != nullptr                 ? msg("begin with '{}': {}", worst->id, worst->reason)
+                                                           : msg("give the rubric criteria");
   problems.push_back(scenarios::problem_at(scenario, "rubric",
                                            msg("who removes exactly the target gets {} of {} points that need no hand, and the verdict is {}",
-                                               as_number(points, 1), as_number(max, 1), verdict_name(r.verdict)),
+                                               as_number(points, 1), as_number(max, 1), word_of(r.verdict)),
                                            to_do));
 }
 
@@ -200,7 +204,7 @@ class BatteryRun {
       wait_ = limit_;
       honest_ = fine_.honest(wait_);
     }
-    battery_.honest = row_of("honest", "exactly the target", honest_);
+    battery_.honest = row_of("honest", msg("exactly the target"), honest_);
     judge_honest(scenario_, honest_, battery_.problems);
     try_works();
     grow_errors();
@@ -242,11 +246,12 @@ void BatteryRun::put(const WrongWork& work, const Result& r) {
   BatteryRow& row = battery_.rows.emplace_back(row_of(work.name, work.what, r));
   row.should = should.text();
   if (r.verdict != Verdict::pass) return;
-  battery_.problems.push_back(
-      scenarios::problem_at(scenario_, "rubric",
-                            msg("wrong work passes: '{}' ({}) gets {} of {} points{}", row.name, row.what, as_number(row.points, 1),
-                                as_number(row.max, 1), row.should.empty() ? Message() : msg(", and {} should have caught it", row.should)),
-                            advice_against(should)));
+  battery_.problems.push_back(scenarios::problem_at(
+      scenario_, "rubric",
+      row.should.empty() ? msg("wrong work passes: '{}' ({}) gets {} of {} points", row.name, row.what, as_points(row.points), as_points(row.max))
+                         : msg("wrong work passes: '{}' ({}) gets {} of {} points, and {} should have caught it", row.name, row.what,
+                               as_points(row.points), as_points(row.max), row.should),
+      advice_against(should)));
 }
 
 std::vector<scenarios::Problem> BatteryRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {

@@ -11,11 +11,12 @@
 namespace cavum::grading {
 
 struct BatteryRow {
-  std::string name, what;
+  std::string name;
+  Message what;
   Verdict verdict = Verdict::fail;
   double points = 0.0, max = 0.0;
-  std::vector<std::string> caught_by;  ///< criteria that failed it by a critical limit; else the last step, left open; else criteria without points
-  std::string should;                  ///< measure that should catch it, and the criterion on it where there is one
+  std::vector<Message> caught_by;  ///< criteria that failed it by a critical limit; else the last step, left open; else criteria without points
+  Message should;                  ///< measure that should catch it, and the criterion on it where there is one
 };
 
 struct Battery {

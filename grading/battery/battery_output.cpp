@@ -1,35 +1,35 @@
 #include "grading/battery/battery_output.h"
 
-#include <fmt/core.h>
-
-#include "engine/base/text.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
 
-std::string battery_text(const Battery& battery) {
-  std::string s;
-  const auto line = [&](const BatteryRow& row, const char* mark) {
-    std::string by;
-    for (const auto& id : row.caught_by) by += (by.empty() ? "" : ", ") + id;
-    s += fmt::format("{} {:<34} {:<6} {:>5} of {}  {}\n", mark, row.name, verdict_name(row.verdict), fixed(row.points, 1), fixed(row.max, 1),
-                     by.empty() ? (row.should.empty() ? "" : "should: " + row.should) : "by " + by);
+Lines battery_text(const Battery& battery) {
+  Lines out;
+  const auto line = [&](const BatteryRow& row, bool wrong) {
+    const Message by = !row.caught_by.empty() ? msg("by {}", List{row.caught_by, false})
+                       : row.should.empty()   ? Message()
+                                              : msg("should: {}", row.should);
+    out.row({wrong ? msg("!") : Message(), Name{row.name}, word_of(row.verdict), msg("{} of {}", as_points(row.points), as_points(row.max)), by});
   };
-  line(battery.honest, battery.honest.verdict == Verdict::pass ? " " : "!");
-  for (const auto& row : battery.rows) line(row, row.verdict == Verdict::pass ? "!" : " ");
-  return s;
+  line(battery.honest, battery.honest.verdict != Verdict::pass);
+  for (const auto& row : battery.rows) line(row, row.verdict == Verdict::pass);
+  return out;
 }
 
 nlohmann::ordered_json battery_json(const Battery& battery) {
   auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : battery.rows)
+  for (const auto& row : battery.rows) {
+    auto caught_by = nlohmann::ordered_json::array();
+    for (const Message& by : row.caught_by) caught_by.push_back(english_text(by));
     rows.push_back({{"name", row.name},
-                    {"what", row.what},
+                    {"what", english_text(row.what)},
                     {"verdict", verdict_name(row.verdict)},
                     {"points", rounded(row.points)},
                     {"max", rounded(row.max)},
-                    {"caught_by", row.caught_by},
-                    {"should", row.should}});
+                    {"caught_by", caught_by},
+                    {"should", english_text(row.should)}});
+  }
   return rows;
 }
 

@@ -4,12 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/base/lines.h"
 #include "grading/battery/battery.h"
 
 namespace cavum::grading {
 
 /// A line for each piece of work, the honest one first; what passes is marked by "!".
-[[nodiscard]] std::string battery_text(const Battery& battery);
+[[nodiscard]] Lines battery_text(const Battery& battery);
 /// `battery` of `scenario solve --json`: the wrong ones.
 [[nodiscard]] nlohmann::ordered_json battery_json(const Battery& battery);
 

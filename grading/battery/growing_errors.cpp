@@ -31,12 +31,12 @@ std::size_t let_go(const Result& less, const Result& more) {
 std::vector<scenarios::Problem> judge_growth(const scenarios::Scenario& scenario, const Ladder& ladder, const Result& honest,
                                              const std::vector<Result>& grown) {
   std::vector<scenarios::Problem> problems;
-  const auto amount = [&](std::size_t i) { return fmt::format("{} {}", plain_number(ladder.amount[i]), ladder.unit); };
+  const auto amount = [&](std::size_t i) { return msg("{}", as_unit(ladder.amount[i], ladder.unit)); };
   const auto at = [&](std::size_t criterion) { return fmt::format("rubric/criteria/{}/metric", criterion); };
   const Result* before = &honest;
-  std::string before_text = "none of it";
+  Message before_text = msg("none of it");
   bool failed = false, told = false;
-  std::string failed_at;
+  Message failed_at;
   const Result* failing = nullptr;
   for (std::size_t i = 0; i < grown.size(); ++i) {
     const Result& r = grown[i];

@@ -69,15 +69,16 @@ std::vector<Rod> bites(const TargetField& f, double share, Random& random) {
 
 std::vector<WrongWork> random_works(const Task&, const TargetField& field) {
   struct Kind {
-    const char *name, *what;
+    const char* name;
+    Message what;
     double left, beyond;
   };
-  constexpr Kind k_kinds[] = {{"pillars", "the target with pillars left in it, a quarter of its volume", 0.27, 0},
-                              {"bites", "the target and bites around it, a third of its volume", 0, 0.36},
-                              {"ragged", "pillars left, a quarter of the target, and bites around it, a third", 0.27, 0.36}};
+  const Kind kinds[] = {{"pillars", msg("the target with pillars left in it, a quarter of its volume"), 0.27, 0},
+                        {"bites", msg("the target and bites around it, a third of its volume"), 0, 0.36},
+                        {"ragged", msg("pillars left, a quarter of the target, and bites around it, a third"), 0.27, 0.36}};
   std::vector<WrongWork> list;
   for (int i = 0; i < k_works; ++i) {
-    const Kind& kind = k_kinds[i % 3];
+    const Kind& kind = kinds[i % 3];
     Random random(k_seed + static_cast<std::uint64_t>(i));
     const auto left = pillars(field, kind.left, random);
     const auto beyond = bites(field, kind.beyond, random);

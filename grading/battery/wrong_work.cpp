@@ -53,9 +53,7 @@ class Works {
   [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
 
  private:
-  void add(std::string name, std::string what, Mistake mistake, Cut cut) {
-    list_.push_back({std::move(name), std::move(what), mistake, std::move(cut)});
-  }
+  void add(std::string name, Message what, Mistake mistake, Cut cut) { list_.push_back({std::move(name), std::move(what), mistake, std::move(cut)}); }
   /// The target down to a level, local mm.
   [[nodiscard]] Cut down_to(double level) const {
     return [&f = f_, level](Vec3 p) { return std::max(f.target_mm(p), level - f.local(p).z); };
@@ -140,11 +138,11 @@ Cut Works::middle_of(double share) const {
 }
 
 void Works::nothing() {
-  add("hands_in_at_once", "nothing; hands in at once", Mistake::nothing_done, {});
-  add("does_nothing", "nothing; waits until time is up, at most ten minutes", Mistake::nothing_done, {});
+  add("hands_in_at_once", msg("nothing; hands in at once"), Mistake::nothing_done, {});
+  add("does_nothing", msg("nothing; waits until time is up, at most ten minutes"), Mistake::nothing_done, {});
   list_.back().waits = true;
   const double beside = 2.5, level = f_.low_mm().z;
-  add("everything_in_reach", fmt::format("everything down to the target's floor, {} mm around it", plain_number(beside)), Mistake::torn_down,
+  add("everything_in_reach", msg("everything down to the target's floor, {} around it", as_mm(beside, k_as_needed)), Mistake::torn_down,
       [&f = f_, beside, level](Vec3 p) {
         const Vec3 q = f.local(p);
         return std::max(f.open_mm(q) - beside, level - q.z);
@@ -153,9 +151,9 @@ void Works::nothing() {
 
 void Works::short_of_it() {
   for (const int percent : {25, 50, 70, 85}) {
-    add(fmt::format("stops_at_{}_percent_by_depth", percent), fmt::format("the upper {} % of the target", percent), Mistake::not_deep,
+    add(fmt::format("stops_at_{}_percent_by_depth", percent), msg("the upper {} of the target", as_percent(percent)), Mistake::not_deep,
         down_to_share(0.01 * percent));
-    add(fmt::format("stops_at_{}_percent_by_length", percent), fmt::format("{} % of the target, from one end", percent), Mistake::too_little,
+    add(fmt::format("stops_at_{}_percent_by_length", percent), msg("{} of the target, from one end", as_percent(percent)), Mistake::too_little,
         along_to_share(0.01 * percent));
   }
 }
@@ -168,25 +166,25 @@ void Works::wrong_place() {
   const std::array<std::pair<const char*, Vec3>, 4> ways{{{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {up, {0, 1, 0}}, {down, {0, -1, 0}}}};
   for (const auto& [side, way] : ways)
     for (const double mm : {1.0, 2.0})
-      add(fmt::format("shifted_{}_mm_{}", plain_number(mm), side), fmt::format("the target {} mm too far to {}", plain_number(mm), side),
+      add(fmt::format("shifted_{}_mm_{}", plain_number(mm), side), msg("the target {} too far to {}", as_mm(mm, k_as_needed), Term{side}),
           Mistake::misplaced, shifted(way * mm));
   const double cosine = std::sqrt(0.75), sine = 0.5;
-  add("turned_30_degrees", "the target turned by 30° about the way in", Mistake::misplaced, [&f = f_, m = middle_, cosine, sine](Vec3 p) {
+  add("turned_30_degrees", msg("the target turned by 30° about the way in"), Mistake::misplaced, [&f = f_, m = middle_, cosine, sine](Vec3 p) {
     const Vec3 q = f.local(p) - m;
     return f.open_mm(m + Vec3{q.x * cosine + q.y * sine, -q.x * sine + q.y * cosine, q.z});
   });
   list_.back().may_be_right = true;
-  add("mirrored_mesial_distal", "the target as in a mirror, mesial for distal", Mistake::misplaced, [&f = f_](Vec3 p) {
+  add("mirrored_mesial_distal", msg("the target as in a mirror, mesial for distal"), Mistake::misplaced, [&f = f_](Vec3 p) {
     return f.open_mm(f.local({-p.x, p.y, p.z}));
   });
   list_.back().may_be_right = true;
   if (facing.lateral())
-    add("mirrored_occlusal_gingival", "the target as in a mirror, occlusal for gingival", Mistake::misplaced, [&f = f_, m = middle_](Vec3 p) {
+    add("mirrored_occlusal_gingival", msg("the target as in a mirror, occlusal for gingival"), Mistake::misplaced, [&f = f_, m = middle_](Vec3 p) {
       const Vec3 q = f.local(p);
       return f.open_mm({q.x, 2 * m.y - q.y, q.z});
     });
   else
-    add("mirrored_buccal_lingual", "the target as in a mirror, buccal for lingual", Mistake::misplaced, [&f = f_](Vec3 p) {
+    add("mirrored_buccal_lingual", msg("the target as in a mirror, buccal for lingual"), Mistake::misplaced, [&f = f_](Vec3 p) {
       return f.open_mm(f.local({p.x, -p.y, p.z}));
     });
   list_.back().may_be_right = true;
@@ -194,17 +192,17 @@ void Works::wrong_place() {
 
 void Works::wrong_depth() {
   for (const double mm : {0.8, 1.5})
-    add(fmt::format("too_deep_by_{}_mm", plain_number(mm)), fmt::format("the target, its floor {} mm too deep", plain_number(mm)), Mistake::too_deep,
+    add(fmt::format("too_deep_by_{}_mm", plain_number(mm)), msg("the target, its floor {} too deep", as_mm(mm, k_as_needed)), Mistake::too_deep,
         deeper(mm));
   pit();
   // in a curved side half the depth is no level: it follows the axial wall
   if (task_.zones.facing().lateral())
-    add("half_as_deep", "the target, half as deep", Mistake::not_deep, [&f = f_, up = 0.5 * f_.mean_depth_mm()](Vec3 p) {
+    add("half_as_deep", msg("the target, half as deep"), Mistake::not_deep, [&f = f_, up = 0.5 * f_.mean_depth_mm()](Vec3 p) {
       const Vec3 q = f.local(p);
       return std::max(f.target_mm(p), f.floor_mm(q) + up - q.z);
     });
   else
-    add("half_as_deep", "the target, half as deep", Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
+    add("half_as_deep", msg("the target, half as deep"), Mistake::not_deep, down_to(0.5 * (f_.opening_mm() + f_.low_mm().z)));
 }
 
 std::optional<Vec3> Works::hard_floor(double deep_mm) const {
@@ -235,8 +233,8 @@ void Works::pit() {
     }
   if (!floor || deep < k_least_mm) return;
   add("pit_in_the_floor",
-      fmt::format("the target, and a pit 1 mm wide and up to {} mm deep in its floor, {} mm short of what lies below", plain_number(k_deep_mm),
-                  plain_number(k_spared_mm)),
+      msg("the target, and a pit 1 mm wide and up to {} deep in its floor, {} short of what lies below", as_mm(k_deep_mm, k_as_needed),
+          as_mm(k_spared_mm, k_as_needed)),
       Mistake::too_deep, [&f = f_, floor = *floor, deep](Vec3 p) {
         const Vec3 q = f.local(p);
         const double z = std::clamp(q.z, floor.z - deep + k_radius_mm, floor.z + 0.5);
@@ -245,11 +243,11 @@ void Works::pit() {
 }
 
 void Works::too_wide() {
-  add("too_wide_by_1_mm", around_stump() ? "the target, and 1 mm off the stump's walls" : "the target, 1 mm too wide all round", Mistake::too_wide,
-      wider(1.0));
+  add("too_wide_by_1_mm", around_stump() ? msg("the target, and 1 mm off the stump's walls") : msg("the target, 1 mm too wide all round"),
+      Mistake::too_wide, wider(1.0));
   if (around_stump()) return;  // no shank meets a wall where there is none outside
   const double beside = 1.2, deep = 0.8;
-  add("shank_at_the_entrance", fmt::format("the target, its entrance {} mm too wide down to {} mm", plain_number(beside), plain_number(deep)),
+  add("shank_at_the_entrance", msg("the target, its entrance {} too wide down to {}", as_mm(beside, k_as_needed), as_mm(deep, k_as_needed)),
       Mistake::too_wide, [&f = f_, beside, level = f_.opening_mm() - deep](Vec3 p) {
         const Vec3 q = f.local(p);
         return std::min(f.target_mm(p), std::max(f.open_mm(q) - beside, level - q.z));
@@ -264,7 +262,7 @@ void Works::lesion() {
     if (std::find(aims.begin(), aims.end(), shape.tissue) != aims.end()) continue;
     const int id = task_.tooth.tissue_id(shape.tissue);
     for (const int left : {100, 80, 50}) {
-      add(fmt::format("leaves_{}_percent_of_{}", left, shape.tissue), fmt::format("the way to {}, and {} % of it stays", shape.tissue, left),
+      add(fmt::format("leaves_{}_percent_of_{}", left, shape.tissue), msg("the way to {}, and {} of it stays", Term{shape.tissue}, as_percent(left)),
           Mistake::lesion_left, down_to_share(std::max(0.001, 1 - 0.01 * left), id));
       list_.back().measure = scenarios::tissue_measure(shape.tissue).name;
     }
@@ -277,7 +275,7 @@ void Works::faults() {
     if (!below) continue;
     for (const auto& [name, radius] : {std::pair("opens", 0.5), {"opens_narrowly", 0.25}}) {
       add(fmt::format("{}_{}", name, tissue),
-          fmt::format("the target, and a hole of {} mm through its floor into {}", plain_number(2 * radius), tissue), Mistake::fault_opened,
+          msg("the target, and a hole of {} through its floor into {}", as_mm(2 * radius, k_as_needed), Term{tissue}), Mistake::fault_opened,
           [&f = f_, b = *below, radius = radius](Vec3 p) {
             const Vec3 q = f.local(p);
             const double z = std::clamp(q.z, b.tissue.z - 0.2, b.floor.z + 0.5);
@@ -301,7 +299,7 @@ void Works::holes() {
   std::vector<Vec3> at{middle_, furthest([](Vec3 q) { return -q.z; })};
   for (const Vec3 out : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}})
     at.push_back(inwards(furthest([out](Vec3 q) { return dot(q, out); }), out));
-  add("holes_where_marks_are", "holes of 1 mm at the ends of length and width, in the middle and where it is deepest", Mistake::too_little,
+  add("holes_where_marks_are", msg("holes of 1 mm at the ends of length and width, in the middle and where it is deepest"), Mistake::too_little,
       [&f = f_, at](Vec3 p) {
         const Vec3 q = f.local(p);
         double nearest = 1e9;
@@ -314,14 +312,14 @@ void Works::holes() {
 void Works::roof() {
   for (const int percent : {45, 65}) {
     if (around_stump()) break;  // its middle stays
-    add(fmt::format("opens_the_middle_{}_percent", percent), fmt::format("the target's middle, {} % as wide and as long, to full depth", percent),
+    add(fmt::format("opens_the_middle_{}_percent", percent), msg("the target's middle, {} as wide and as long, to full depth", as_percent(percent)),
         task_.scenario.perforation.aims.empty() ? Mistake::too_little : Mistake::roof_left, middle_of(0.01 * percent));
   }
   double roof = -1e9;
   for (const auto& leaf : f_.leaves())
     for (const auto& aim : task_.scenario.perforation.aims)
       if (leaf.tissue == task_.tooth.tissue_id(aim)) roof = std::max(roof, leaf.at.z);
-  if (roof > -1e9) add("never_opened", "the target down to 0.2 mm above what it is to open", Mistake::roof_left, down_to(roof + 0.2));
+  if (roof > -1e9) add("never_opened", msg("the target down to 0.2 mm above what it is to open"), Mistake::roof_left, down_to(roof + 0.2));
 }
 
 template <class Visit>
@@ -356,10 +354,10 @@ void Works::beside() {
   constexpr double k_near_mm = 0.8, k_papilla_near_mm = 2.0, k_nick_mm = 0.5, k_wide_mm = 1.2, k_deep_mm = 0.4, k_wall_mm = 0.8, k_papilla_mm = 1.2;
   if (const auto at = nearest_beside(task_.apart->of_neighbours, k_near_mm)) {
     const double side = at->x >= f_.in_tooth(middle_).x ? 1.0 : -1.0;
-    add("nicks_the_neighbour", fmt::format("the target, and a hollow of {} mm radius in the tooth beside it", plain_number(k_nick_mm)),
+    add("nicks_the_neighbour", msg("the target, and a hollow of {} radius in the tooth beside it", as_mm(k_nick_mm, k_as_needed)),
         Mistake::neighbour_cut, into_neighbour(k_nick_mm));
     add("shaves_the_neighbour",
-        fmt::format("the target, and {} mm off the tooth beside it, {} mm wide", plain_number(k_deep_mm), plain_number(2 * k_wide_mm)),
+        msg("the target, and {} off the tooth beside it, {} wide", as_mm(k_deep_mm, k_as_needed), as_mm(2 * k_wide_mm, k_as_needed)),
         Mistake::neighbour_cut, [&f = f_, at = *at, side](Vec3 p) {
           const double beyond = side * (p.x - at.x);
           return std::min(f.target_mm(p), std::max({length(p - at) - k_wide_mm, beyond - k_deep_mm, -beyond}));
@@ -367,11 +365,11 @@ void Works::beside() {
     // what is nearest to the target may lie far above the contact: the teeth touch where the other one bulges most
     double bulge = 1e9;
     for_each_near(task_.apart->of_neighbours, k_near_mm, [&](Vec3 p, double) { bulge = std::min(bulge, side * p.x); });
-    add("leaves_the_contact", fmt::format("the target, but for {} mm before the tooth beside it", plain_number(k_wall_mm)), Mistake::contact_left,
+    add("leaves_the_contact", msg("the target, but for {} before the tooth beside it", as_mm(k_wall_mm, k_as_needed)), Mistake::contact_left,
         [&f = f_, bulge, side](Vec3 p) { return std::max(f.target_mm(p), side * p.x - bulge + k_wall_mm); });
   }
   if (const auto at = nearest_beside(task_.apart->of_gum, k_papilla_near_mm))
-    add("cuts_the_papilla", fmt::format("the target, and the gum within {} mm of the papilla's tip", plain_number(k_papilla_mm)), Mistake::gum_cut,
+    add("cuts_the_papilla", msg("the target, and the gum within {} of the papilla's tip", as_mm(k_papilla_mm, k_as_needed)), Mistake::gum_cut,
         [&f = f_, &tooth = task_.tooth, gum = task_.apart->of_gum, at = *at](Vec3 p) {
           const double ball = length(p - at) - k_papilla_mm;
           return std::min(f.target_mm(p), ball < 0 && !gum[tooth.octree.tissue_at(p)] ? 0.01 : ball);
@@ -417,25 +415,25 @@ std::vector<WrongWork> wrong_works(const Task& task, const TargetField& field) {
 std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
   const Works works(task, field);
   std::vector<Ladder> list;
-  const auto grow = [&](const char* name, const char* what, const char* unit, const std::vector<double>& amounts, const auto& cut) {
+  const auto grow = [&](const char* name, const Message& what, Unit unit, const std::vector<double>& amounts, const auto& cut) {
     Ladder ladder{name, what, unit, amounts, {}};
     for (const double amount : amounts) ladder.cut.push_back(cut(amount));
     list.push_back(std::move(ladder));
   };
-  grow("deeper", "the floor too deep", "mm", {0.1, 0.25, 0.5, 0.9, 1.4}, [&](double mm) { return works.deeper(mm); });
-  grow("wider", "all walls too far", "mm", {0.1, 0.25, 0.5, 0.8, 1.2}, [&](double mm) { return works.wider(mm); });
-  grow("less deep", "of the target left, from its floor up", "%", {3, 10, 25, 50, 80},
+  grow("deeper", msg("the floor too deep"), Unit::mm, {0.1, 0.25, 0.5, 0.9, 1.4}, [&](double mm) { return works.deeper(mm); });
+  grow("wider", msg("all walls too far"), Unit::mm, {0.1, 0.25, 0.5, 0.8, 1.2}, [&](double mm) { return works.wider(mm); });
+  grow("less deep", msg("of the target left, from its floor up"), Unit::percent, {3, 10, 25, 50, 80},
        [&](double percent) { return works.down_to_share(1 - 0.01 * percent); });
-  grow("less long", "of the target left, from one end", "%", {3, 10, 25, 50, 80},
+  grow("less long", msg("of the target left, from one end"), Unit::percent, {3, 10, 25, 50, 80},
        [&](double percent) { return works.along_to_share(1 - 0.01 * percent); });
-  grow("shifted", "in the wrong place", "mm", {0.2, 0.5, 0.9, 1.4, 2.0}, [&](double mm) {
+  grow("shifted", msg("in the wrong place"), Unit::mm, {0.2, 0.5, 0.9, 1.4, 2.0}, [&](double mm) {
     return works.shifted(works.longer_in_x() ? Vec3{0, mm, 0} : Vec3{mm, 0, 0});
   });
   if (works.into_protected(0))
-    grow("protected", "a ball out of what is protected, its radius", "mm", {0.2, 0.4, 0.7, 1.0, 1.4},
+    grow("protected", msg("a ball out of what is protected, its radius"), Unit::mm, {0.2, 0.4, 0.7, 1.0, 1.4},
          [&](double mm) { return works.into_protected(mm); });
   if (works.into_neighbour(0))
-    grow("neighbour", "a ball out of the tooth beside it, its radius", "mm", {0.1, 0.2, 0.4, 0.7, 1.0},
+    grow("neighbour", msg("a ball out of the tooth beside it, its radius"), Unit::mm, {0.1, 0.2, 0.4, 0.7, 1.0},
          [&](double mm) { return works.into_neighbour(mm); });
   return list;
 }

@@ -33,7 +33,7 @@ enum class Mistake {
 
 struct WrongWork {
   std::string name;  ///< "stops_at_70_percent_of_depth"
-  std::string what;  ///< in words: what is cut
+  Message what;      ///< what is cut
   Mistake mistake = Mistake::too_little;
   Cut cut;
   /// So like the target where that is symmetric that it may be right: counts only when at least a quarter of the target is left or removed beyond.
@@ -51,8 +51,8 @@ struct WrongWork {
 /// Steps of an error that grows: more of it must never be better.
 struct Ladder {
   std::string name;  ///< "deeper"
-  std::string what;  ///< "the floor deeper"
-  const char* unit = "mm";
+  Message what;      ///< "the floor deeper"
+  Unit unit = Unit::mm;
   std::vector<double> amount;  ///< growing, in `unit`
   std::vector<Cut> cut;        ///< one for each amount
 };

@@ -34,11 +34,11 @@ struct CircuitMark {
 
 /// Runs what may be refused, and keeps why.
 template <class Result, class Make>
-void when_possible(Result& out, std::string& why_not, const Make& make) {
+void when_possible(Result& out, Message& why_not, const Make& make) {
   try {
     out = make();
   } catch (const Error& e) {
-    why_not = e.what();
+    why_not = e.message();
   }
 }
 
@@ -69,7 +69,7 @@ class Collected {
     const double points = points_of_exam(registry_, exam);
     const auto marked_by = cohort::marked_by(sat);
     pass_percent_.push_back(one_pass_percent(marked_by));
-    if (marked_by.size() > 1) figures_.marked_differently.push_back(fmt::format("{}: {}", exam, marked_by_words(marked_by)));
+    if (marked_by.size() > 1) figures_.marked_differently.push_back(msg("{}: {}", exam, marked_by_words(marked_by)));
     std::map<std::string, std::uint32_t> person_of;
     for (const auto& [pseudonym, session] : sat) {
       const auto known = identities_.of_pseudonym(pseudonym);
@@ -151,7 +151,7 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
     const auto by_people = marks.find(exam);
     all.add(exam, by_people == marks.end() ? std::vector<HumanMark>() : by_people->second);
   }
-  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()}, "people's marks");
+  require_distinct_judges({all.judges.names().begin(), all.judges.names().end()}, msg("people's marks"));
   f.cut_percent = all.cut_percent();
 
   std::vector<StudyMark> by_exam, by_station, by_judge;
@@ -162,7 +162,7 @@ CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identit
   for (const auto& m : all.people) by_judge.push_back({{m.candidate, m.exam, m.judge}, m.percent});
   when_possible(f.program, f.why_no_program, [&] { return study_circuit(crossed_design({"candidate", "exam"}), by_exam, f.cut_percent); });
   if (all.people.empty())
-    f.why_no_people = "no marks of people";
+    f.why_no_people = msg("no marks of people");
   else
     when_possible(f.people, f.why_no_people, [&] { return study_of_judges(by_judge, f.cut_percent); });
 

@@ -38,11 +38,11 @@ struct CircuitFigures {
   std::size_t simulated = 0;                 ///< sessions of simulated operators, counted among people
   std::vector<MarkLeftOut> marks_left_out;
   std::optional<double> cut_percent;  ///< mean over the exams of what passes; none where results of one exam were marked by different pass marks
-  std::vector<std::string> marked_differently;  ///< in a sentence each: exams whose results were not marked alike
+  std::vector<Message> marked_differently;  ///< exams whose results were not marked alike
   std::optional<CircuitStudy> program, people;
-  std::string why_no_program, why_no_people;  ///< where there is none
+  Message why_no_program, why_no_people;  ///< where there is none
   std::vector<NamedSeverity> stations, judges;
-  std::string why_no_stations, why_no_judges;
+  Message why_no_stations, why_no_judges;
   /// With what stations and judges may do something together that these marks do not tell from severity: "candidate", "exam". Then none is named
   /// severe.
   std::vector<std::string> stations_not_told_from, judges_not_told_from;
@@ -53,7 +53,7 @@ struct CircuitFigures {
 [[nodiscard]] CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
                                              const std::map<std::string, std::vector<HumanMark>>& marks);
 [[nodiscard]] nlohmann::ordered_json to_json(const CircuitFigures& figures);
-[[nodiscard]] std::string to_text(const CircuitFigures& figures);
+[[nodiscard]] Lines to_text(const CircuitFigures& figures);
 /// candidate, each exam's percent and verdict, raw and adjusted mean; a row each.
 [[nodiscard]] std::string roster_csv(const CircuitFigures& figures);
 

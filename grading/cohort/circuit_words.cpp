@@ -19,10 +19,17 @@ Json coefficients(const Dependability& d) {
   return {{"g", d.g}, {"phi", d.phi}, {"relative_sem_percent", d.relative_sem}, {"absolute_sem_percent", d.absolute_sem}};
 }
 
-Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not) {
+Json study_json(const std::optional<CircuitStudy>& s, const Message& why_not) {
   if (!s)
-    return {{"why_not", why_not}, {"mean_percent", nullptr}, {"components", nullptr},        {"not_told_apart", nullptr},         {"as_sat", nullptr},
-            {"at_cut", nullptr},  {"by_exams", nullptr},     {"exams_for_phi_080", nullptr}, {"exams_for_phi_080_range", nullptr}};
+    return {{"why_not", english_text(why_not)},
+            {"mean_percent", nullptr},
+            {"components", nullptr},
+            {"not_told_apart", nullptr},
+            {"as_sat", nullptr},
+            {"at_cut", nullptr},
+            {"by_exams", nullptr},
+            {"exams_for_phi_080", nullptr},
+            {"exams_for_phi_080_range", nullptr}};
   Json j{{"why_not", nullptr}, {"mean_percent", s->mean}, {"components", Json::array()}, {"not_told_apart", Json::array()}};
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
     j["components"].push_back({{"effect", s->design.names[k]}, {"variance", s->components.variance[k]}, {"standard_error", s->error[k]}});
@@ -42,8 +49,8 @@ Json study_json(const std::optional<CircuitStudy>& s, const std::string& why_not
   return j;
 }
 
-Json severities_json(const std::vector<NamedSeverity>& list, const std::string& why_not, const std::vector<std::string>& not_told_from) {
-  Json j{{"why_not", why_not.empty() ? Json() : Json(why_not)}, {"not_told_from", not_told_from}, {"conditions", Json::array()}};
+Json severities_json(const std::vector<NamedSeverity>& list, const Message& why_not, const std::vector<std::string>& not_told_from) {
+  Json j{{"why_not", why_not.empty() ? Json() : Json(english_text(why_not))}, {"not_told_from", not_told_from}, {"conditions", Json::array()}};
   for (const auto& s : list)
     j["conditions"].push_back({{"name", s.name},
                                {"marks", s.severity.marks},
@@ -54,66 +61,77 @@ Json severities_json(const std::vector<NamedSeverity>& list, const std::string& 
 }
 
 /// A number of things: whole, or with one digit where it is a mean of unequal ones.
-std::string number_text(double n) { return fixed(n, n == std::floor(n) ? 0 : 1); }
+Number number_of(double n) { return as_number(n, n == std::floor(n) ? 0 : 1); }
 
 /// "the mean of 6 marks: 3 exams, 2 judges"
-std::string marks_text(const CircuitStudy& s) {
+Message marks_text(const CircuitStudy& s) {
   const Marking& m = s.marking;
-  std::string text =
-      fmt::format("  a candidate's mark is the mean of {} marks: {} exams", number_text(m.marks_each()), number_text(m.conditions()[0]));
-  if (m.conditions().size() > 1) text += fmt::format(", {} judges{}", number_text(m.conditions()[1]), m.nested(2) ? " in each" : "");
-  return text + (m.even() ? "\n" : ", on average\n");
+  const Number each = number_of(m.marks_each()), exams = number_of(m.conditions()[0]);
+  const bool judges = m.conditions().size() > 1;
+  const Number by = judges ? number_of(m.conditions()[1]) : Number{};
+  const Message mean = !judges       ? msg("a candidate's mark is the mean of {} marks: {} exams", each, exams)
+                       : m.nested(2) ? msg("a candidate's mark is the mean of {} marks: {} exams, {} judges in each", each, exams, by)
+                                     : msg("a candidate's mark is the mean of {} marks: {} exams, {} judges", each, exams, by);
+  return m.even() ? mean : msg("{}, on average", mean);
 }
 
-std::string tasks_text(const TasksNeeded& n) {
-  const auto number = [](const std::optional<int>& tasks) { return tasks ? fmt::format("{}", *tasks) : fmt::format("more than {}", k_most_tasks); };
-  const std::string range = n.low == n.high ? std::string() : fmt::format(" ({} to {})", number(n.low), number(n.high));
-  return fmt::format("\n  for phi 0.80: {} exams{}\n", number(n.estimate), range);
+Message tasks_text(const TasksNeeded& n) {
+  const auto number = [](const std::optional<int>& tasks) { return tasks ? msg("{}", *tasks) : msg("more than {}", k_most_tasks); };
+  return n.low == n.high ? msg("for phi {}: {} exams", as_number(0.8, 2), number(n.estimate))
+                         : msg("for phi {}: {} exams ({} to {})", as_number(0.8, 2), number(n.estimate), number(n.low), number(n.high));
 }
 
-std::string study_text(const char* whose, const std::optional<CircuitStudy>& s, const std::string& why_not, std::optional<double> cut) {
-  if (!s) return fmt::format("{}: no study: {}\n", whose, why_not);
+void add_study(Lines& out, const Message& whose, const std::optional<CircuitStudy>& s, const Message& why_not, std::optional<double> cut) {
+  if (!s) return out.add(msg("{}: no study: {}", whose, why_not));
   double total = 0;
   for (const double v : s->components.variance) total += std::max(0.0, v);
-  std::string text = fmt::format("{}: where the differences come from\n", whose);
+  out.add(msg("{}: where the differences come from", whose));
   for (std::size_t k = 0; k < s->design.effects.size(); ++k)
-    text += fmt::format("  {:<32} {:>8} ± {:<8} {:>4} %\n", s->design.names[k], fixed(s->components.variance[k], 1), fixed(s->error[k], 1),
-                        fixed(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0, 0));
-  for (const auto& [effect, in] : s->merged) text += fmt::format("  {} cannot be told from {} by these marks, and stands in it\n", effect, in);
-  text += marks_text(*s);
-  text += fmt::format("  this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {} %\n", fixed(s->as_sat.phi, 2),
-                      fixed(s->range.phi_low, 2), fixed(s->range.phi_high, 2), fixed(s->as_sat.g, 2), fixed(s->range.g_low, 2),
-                      fixed(s->range.g_high, 2), fixed(s->as_sat.absolute_sem, 1));
+    out.row({msg("{}", Term{s->design.names[k]}), msg("{}", Number{s->components.variance[k], Unit::none, 1, s->error[k]}),
+             msg("{}", as_percent(total > 0 ? 100 * std::max(0.0, s->components.variance[k]) / total : 0))},
+            2);
+  for (const auto& [effect, in] : s->merged) out.add(msg("{} cannot be told from {} by these marks, and stands in it", Term{effect}, Term{in}), 2);
+  out.add(marks_text(*s), 2);
+  out.add(msg("this circuit: phi {} ({} to {}), g {} ({} to {}); a mark is good to ± {}", as_number(s->as_sat.phi, 2), as_number(s->range.phi_low, 2),
+              as_number(s->range.phi_high, 2), as_number(s->as_sat.g, 2), as_number(s->range.g_low, 2), as_number(s->range.g_high, 2),
+              as_percent(s->as_sat.absolute_sem, 1)),
+          2);
   if (cut && s->at_cut)
-    text += fmt::format("  at {} %: another such circuit would pass or fail {} % of the candidates alike; phi at the cut {}\n", fixed(*cut, 1),
-                        fixed(100 * s->at_cut->consistency, 0), fixed(s->at_cut->phi_at_cut, 2));
-  text += "  phi by the number of exams:";
-  for (int n = 1; n <= k_tasks_in_words; ++n) text += fmt::format(" {}: {}", n, fixed(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2));
-  return text + tasks_text(s->for_enough);
+    out.add(msg("at {}: another such circuit would pass or fail {} of the candidates alike; phi at the cut {}", as_percent(*cut, 1),
+                as_percent(100 * s->at_cut->consistency), as_number(s->at_cut->phi_at_cut, 2)),
+            2);
+  List by_number;
+  for (int n = 1; n <= k_tasks_in_words; ++n)
+    by_number.items.push_back(msg("{}: {}", n, as_number(s->by_tasks[static_cast<std::size_t>(n - 1)].phi, 2)));
+  out.add(msg("phi by the number of exams: {}", by_number), 2);
+  out.add(tasks_text(s->for_enough), 2);
 }
 
-std::string left_out_text(const std::vector<MarkLeftOut>& marks) {
-  if (marks.empty()) return "";
-  std::string names;
-  for (std::size_t i = 0; i < std::min(marks.size(), k_names_in_words); ++i)
-    names += fmt::format("{}{} ({})", i > 0 ? ", " : "", one_line(marks[i].candidate), one_line(marks[i].exam));
-  if (marks.size() > k_names_in_words) names += fmt::format(" and {} more", marks.size() - k_names_in_words);
-  return fmt::format("people's marks left out: {}, of candidates without a session of that exam that counts: {}\n", marks.size(), names);
+void add_left_out(Lines& out, const std::vector<MarkLeftOut>& marks) {
+  if (marks.empty()) return;
+  List names;
+  for (std::size_t i = 0; i < std::min(marks.size(), k_names_in_words); ++i) names.items.push_back(msg("{} ({})", marks[i].candidate, marks[i].exam));
+  if (marks.size() > k_names_in_words) names.items.push_back(msg("{} more", marks.size() - k_names_in_words));
+  out.add(msg("people's marks left out: {}, of candidates without a session of that exam that counts: {}", marks.size(), names));
 }
 
-std::string severity_text(const char* what, const std::vector<NamedSeverity>& list, const std::string& why_not,
-                          const std::vector<std::string>& not_told_from) {
-  if (!why_not.empty()) return fmt::format("{}: not compared: {}\n", what, why_not);
-  std::string text;
+/// `title` stands above what there is.
+void add_severity(Lines& out, const Message& what, const Message& title, const std::vector<NamedSeverity>& list, const Message& why_not,
+                  const std::vector<std::string>& not_told_from) {
+  if (!why_not.empty()) return out.add(msg("{}: not compared: {}", what, why_not));
+  if (list.empty() && not_told_from.empty()) return;
+  out.add(title);
   for (const auto& s : list)
-    text += fmt::format("  {:<24} takes {:>5} ± {} % of {} marks{}\n", one_line(s.name), fixed(s.severity.severity, 1), fixed(s.severity.error, 1),
-                        s.severity.marks, s.severity.beyond_chance ? ": more than chance gives" : "");
+    out.row({Name{s.name}, msg("takes {} of {} marks", Number{s.severity.severity, Unit::percent, 1, s.severity.error}, s.severity.marks),
+             s.severity.beyond_chance ? msg("more than chance gives") : Message()},
+            2);
   for (const auto& other : not_told_from)
-    text += other == "exam"
-                ? "  none is called severe: these marks do not tell it from what one exam and it do together; compare them in two exams at least\n"
-                : "  none is called severe: these marks do not tell it from what a candidate and it do together; let more candidates be "
-                  "marked by two of them\n";
-  return text.empty() ? "" : fmt::format("{}, beside their mean\n", what) + text;
+    out.add(other == "exam"
+                ? msg("none is called severe: these marks do not tell it from what one exam and it do together; compare them in two exams "
+                      "at least")
+                : msg("none is called severe: these marks do not tell it from what a candidate and it do together; let more candidates be "
+                      "marked by two of them"),
+            2);
 }
 
 }  // namespace
@@ -127,6 +145,8 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
     roster.push_back(
         {{"candidate", r.candidate}, {"exams", by_exam}, {"raw_percent", r.raw}, {"adjusted_percent", r.adjusted ? Json(*r.adjusted) : Json()}});
   }
+  Json marked_differently = Json::array();
+  for (const Message& m : f.marked_differently) marked_differently.push_back(english_text(m));
   Json left_out = Json::array();
   for (const MarkLeftOut& m : f.marks_left_out) left_out.push_back({{"exam", m.exam}, {"candidate", m.candidate}, {"judge", m.judge}});
   return {{"exams", f.exams},
@@ -136,7 +156,7 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
           {"simulated", f.simulated},
           {"marks_left_out", left_out},
           {"cut_percent", f.cut_percent ? Json(*f.cut_percent) : Json()},
-          {"marked_differently", f.marked_differently},
+          {"marked_differently", marked_differently},
           {"program", study_json(f.program, f.why_no_program)},
           {"people", study_json(f.people, f.why_no_people)},
           {"stations", severities_json(f.stations, f.why_no_stations, f.stations_not_told_from)},
@@ -144,19 +164,26 @@ nlohmann::ordered_json to_json(const CircuitFigures& f) {
           {"roster", roster}};
 }
 
-std::string to_text(const CircuitFigures& f) {
-  std::string text = fmt::format("a circuit of {} exams: {} candidates, {} of them sat all; percent of an exam's points\n", f.exams.size(),
-                                 f.candidates, f.complete);
-  if (f.simulated > 0) text += fmt::format("{} sessions are of simulated operators, and count among people\n", f.simulated);
-  if (f.unknown > 0) text += fmt::format("{} sessions left out: nobody knows any more whose they are\n", f.unknown);
-  for (const auto& exam : f.marked_differently) text += one_line(exam) + "\n";
-  text += left_out_text(f.marks_left_out);
-  if (f.candidates < k_enough_for_alpha) text += fmt::format("few: {} candidates, under {} it is a rough guess\n", f.candidates, k_enough_for_alpha);
-  text += study_text("the program's marks", f.program, f.why_no_program, f.cut_percent);
-  text += study_text("people's marks", f.people, f.why_no_people, f.cut_percent);
-  text += severity_text("stations", f.stations, f.why_no_stations, f.stations_not_told_from);
-  text += severity_text("judges", f.judges, f.why_no_judges, f.judges_not_told_from);
-  return text + "No mark was changed. Adjusted ones, beside the raw: --out roster.csv\n";
+Lines to_text(const CircuitFigures& f) {
+  Lines out;
+  out.add(msg("a circuit of {} exams: {} candidates, {} of them sat all; percent of an exam's points", f.exams.size(), f.candidates, f.complete));
+  if (f.simulated > 0)
+    out.add(msgn("{} session is of a simulated operator, and counts among people", "{} sessions are of simulated operators, and count among people",
+                 static_cast<std::int64_t>(f.simulated), f.simulated));
+  if (f.unknown > 0)
+    out.add(msgn("{} session left out: nobody knows any more whose it is", "{} sessions left out: nobody knows any more whose they are",
+                 static_cast<std::int64_t>(f.unknown), f.unknown));
+  for (const Message& exam : f.marked_differently) out.add(exam);
+  add_left_out(out, f.marks_left_out);
+  if (f.candidates < k_enough_for_alpha)
+    out.add(msgn("few: {} candidate, under {} it is a rough guess", "few: {} candidates, under {} it is a rough guess",
+                 static_cast<std::int64_t>(f.candidates), f.candidates, k_enough_for_alpha));
+  add_study(out, msg("the program's marks"), f.program, f.why_no_program, f.cut_percent);
+  add_study(out, msg("people's marks"), f.people, f.why_no_people, f.cut_percent);
+  add_severity(out, msg("stations"), msg("stations, beside their mean"), f.stations, f.why_no_stations, f.stations_not_told_from);
+  add_severity(out, msg("judges"), msg("judges, beside their mean"), f.judges, f.why_no_judges, f.judges_not_told_from);
+  out.add(msg("No mark was changed. Adjusted ones, beside the raw: --out roster.csv"));
+  return out;
 }
 
 std::string roster_csv(const CircuitFigures& f) {

@@ -50,7 +50,7 @@ GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const ledger
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
     if (s == sat.end()) {
-      f.to_look_at.push_back({0, m.candidate, fmt::format("was marked by {}, and has no session of this exam", m.judge)});
+      f.to_look_at.push_back({0, m.candidate, msg("was marked by {}, and has no session of this exam", m.judge)});
       continue;
     }
     given.by_candidate[m.candidate][m.judge] = m.points;
@@ -121,7 +121,7 @@ void look_at_disagreements(ClassFigures& f, const std::map<std::string, const le
     ++i;
     if (std::fabs(off - limits->bias) > k_far * limits->sd)
       f.to_look_at.push_back(
-          {sat.at(candidate)->seq, candidate, fmt::format("people gave {} points, the program {}", fixed(program - off, 1), fixed(program, 1))});
+          {sat.at(candidate)->seq, candidate, msg("people gave {} points, the program {}", as_points(program - off), as_points(program))});
   }
 }
 
@@ -150,24 +150,27 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const ledger::File
 void look_at_sessions(ClassFigures& f, const ledger::Registry& registry, const std::map<std::string, const ledger::FiledSession*>& sat) {
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
-    const char* const counts = s.chosen ? "counts, for a person chose it" : "does not count";
-    if (!s.findings.empty())
-      f.to_look_at.push_back({s.seq, s.candidate,
-                              fmt::format("was filed with findings and {}: {}{}", counts, s.findings.front(),
-                                          s.findings.size() > 1 ? fmt::format(", and {} more", s.findings.size() - 1) : "")});
+    if (!s.findings.empty()) {
+      const Message counts = s.chosen ? msg("was filed with findings, and counts, for a person chose it: {}", s.findings.front())
+                                      : msg("was filed with findings and does not count: {}", s.findings.front());
+      f.to_look_at.push_back({s.seq, s.candidate, s.findings.size() > 1 ? msg("{}, and {} more", counts, s.findings.size() - 1) : counts});
+    }
     for (const auto other : s.contested_by)
-      f.to_look_at.push_back({s.seq, s.candidate, fmt::format("{}: entry {} ends the same exam otherwise", counts, other)});
+      f.to_look_at.push_back({s.seq, s.candidate,
+                              s.chosen ? msg("counts, for a person chose it: entry {} ends the same exam otherwise", other)
+                                       : msg("does not count: entry {} ends the same exam otherwise", other)});
   }
   if (f.simulated > 0 && f.simulated < f.n)
-    f.to_look_at.push_back({0, "", fmt::format("{} of the {} are simulated operators, and count among people", f.simulated, f.n)});
+    f.to_look_at.push_back({0, "", msg("{} of the {} are simulated operators, and count among people", f.simulated, f.n)});
   for (const auto& [candidate, s] : sat) {
-    if (s->result->value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, "verdict is review"});
+    if (s->result->value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, msg("verdict is review")});
     const json truth = s->result->value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
-    f.to_look_at.push_back({s->seq, candidate,
-                            fmt::format("perforated the {}{}", tissue.is_string() ? tissue.get<std::string>() : std::string("pulp"),
-                                        first_s.is_number() ? fmt::format(" at {} s", fixed(first_s.get<double>(), 1)) : "")});
+    const Term opened{tissue.is_string() ? tissue.get<std::string>() : "pulp"};
+    f.to_look_at.push_back(
+        {s->seq, candidate,
+         first_s.is_number() ? msg("perforated the {} at {}", opened, as_s(first_s.get<double>(), 1)) : msg("perforated the {}", opened)});
   }
 }
 
@@ -220,7 +223,7 @@ void put_points(ClassFigures& f, const std::map<std::string, const ledger::Filed
   std::size_t i = 0;
   for (const auto& [candidate, s] : sat) {
     if (f.sd > 0 && std::fabs(in_order[i] - f.mean) > k_far * f.sd)
-      f.to_look_at.push_back({s->seq, candidate, fixed(in_order[i], 1) + " points lie far from the class"});
+      f.to_look_at.push_back({s->seq, candidate, msg("{} points lie far from the class", as_points(in_order[i]))});
     ++i;
   }
   f.points = in_order;
@@ -274,7 +277,7 @@ void put_few(ClassFigures& f, const Matrix& by_criterion) {
 std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& identities, const std::string& exam, const std::string& where,
                                    double max_points) {
   const auto rows = parse_csv(text, where);
-  const auto at = [&](const CsvRow& row) { return fmt::format("{}:{}", where, row.line); };
+  const auto at = [&](const CsvRow& row) { return FilePlace{where, row.line, 0}; };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
   if (!known) throw Error(where + ":1", msg("is no heading of marks"), msg("begin with candidate,judge,points or candidate,judge,points,rating"));
@@ -283,31 +286,29 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
   std::set<std::pair<std::string, std::string>> given;
   for (std::size_t i = 1; i < rows.size(); ++i) {
     const auto& f = rows[i].fields;
-    const auto number_in = [&](const std::string& field, const char* column, const char* what) {
+    const auto number_in = [&](const std::string& field, const Message& column, const Message& wrong) {
       double v = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-        throw Error(msg("{}: column {}", at(rows[i]), column), msg("'{}' is no number of {}", one_line(field), what),
-                    msg("write it with a decimal point"));
+        throw Error(msg("{}: {}", at(rows[i]), column), wrong, msg("write it with a decimal point"));
       return v;
     };
-    HumanMark m{f[0], f[1], number_in(f[2], "3 (points)", "points"), {}};
+    HumanMark m{f[0], f[1], number_in(f[2], msg("column 3 (points)"), msg("'{}' is no number of points", f[2])), {}};
     if (m.judge.empty()) throw Error(at(rows[i]), msg("names no judge"), msg("give each judge a name or number"));
     if (m.points < 0 || m.points > max_points)
-      throw Error(at(rows[i]) + ": column 3 (points)",
-                  plain_number(m.points) +
-                      (m.points < 0 ? " is less than no points" : fmt::format(" is more than the exam's {} points", plain_number(max_points))),
-                  fmt::format("write points of the exam's own scale, 0 to {}; nothing of the file was taken", plain_number(max_points)));
+      throw Error(msg("{}: {}", at(rows[i]), msg("column 3 (points)")),
+                  m.points < 0 ? msg("{} is less than no points", m.points) : msg("{} is more than the exam's {} points", m.points, max_points),
+                  msg("write points of the exam's own scale, 0 to {}; nothing of the file was taken", max_points));
     const auto enrolled = identities.of_id(m.candidate);
     for (const auto& e : enrolled)
       if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
-    if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], "4 (rating)", "a rating");
+    if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], msg("column 4 (rating)"), msg("'{}' is no number of a rating", f[3]));
     if (!given.emplace(m.candidate, m.judge).second)
       throw Error(at(rows[i]), msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
     judges.insert(m.judge);
     out.push_back(std::move(m));
   }
-  require_distinct_judges(judges, where);
+  require_distinct_judges(judges, Name{where});
   if (out.empty()) throw Error(where, msg("holds no mark"), msg("write a row for each candidate and judge"));
   return out;
 }
@@ -390,8 +391,7 @@ ClassFigures class_figures(const ledger::Registry& registry, const std::string& 
   put_agreement(f.agreement, given, pairs, borderline, f.pass_points && one_band);
   look_at_disagreements(f, sat, given, pairs);
   put_few(f, points.by_criterion);
-  std::sort(f.to_look_at.begin(), f.to_look_at.end(),
-            [](const ToLookAt& a, const ToLookAt& b) { return a.session != b.session ? a.session < b.session : a.why < b.why; });
+  std::stable_sort(f.to_look_at.begin(), f.to_look_at.end(), [](const ToLookAt& a, const ToLookAt& b) { return a.session < b.session; });
   return f;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "grading/cohort/statistics.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
@@ -54,7 +55,8 @@ struct Agreement {
 };
 struct ToLookAt {
   std::uint64_t session = 0;  ///< entry
-  std::string candidate, why;
+  std::string candidate;
+  Message why;
 };
 
 // How many candidates a figure should come from at least; with fewer it is shown, and called a rough guess.
@@ -96,9 +98,9 @@ struct ClassFigures {
   std::vector<ToLookAt> to_look_at;
 };
 /// "few: 12 candidates, under 30 it is a rough guess", or nothing when the figure comes from enough or is not there.
-[[nodiscard]] std::string few_words(const ClassFigures& figures, const std::string& figure);
+[[nodiscard]] Message few_words(const ClassFigures& figures, const std::string& figure);
 /// How results were marked differently, in a sentence; empty where all were marked alike.
-[[nodiscard]] std::string marked_by_words(const std::vector<MarkedBy>& marked_by);
+[[nodiscard]] Message marked_by_words(const std::vector<MarkedBy>& marked_by);
 /// A station's name in the ledger, with the beginning of its key where two have it; the beginning of its key where it has none.
 [[nodiscard]] std::string station_label(const ledger::Registry& registry, const std::string& key);
 
@@ -116,6 +118,6 @@ struct ClassFigures {
                                          double borderline);
 [[nodiscard]] nlohmann::json to_json(const ClassFigures& figures);
 /// The same for people to read.
-[[nodiscard]] std::string to_text(const ClassFigures& figures);
+[[nodiscard]] Lines to_text(const ClassFigures& figures);
 
 }  // namespace cavum::cohort

@@ -1,9 +1,4 @@
 // The figures of a class in JSON and in words.
-#include <fmt/core.h>
-
-#include <algorithm>
-
-#include "engine/base/text.h"
 #include "grading/cohort/class_figures.h"
 
 namespace cavum::cohort {
@@ -15,21 +10,24 @@ json optional(const std::optional<double>& v) { return v ? json(*v) : json(); }
 
 }  // namespace
 
-std::string few_words(const ClassFigures& figures, const std::string& figure) {
+Message few_words(const ClassFigures& figures, const std::string& figure) {
   for (const Few& few : figures.few)
     if (few.figure == figure)
-      return fmt::format("few: {}{}, under {} it is a rough guess", few.n, few.n == 1 ? " candidate" : " candidates", few.enough);
-  return "";
+      return msgn("few: {} candidate, under {} it is a rough guess", "few: {} candidates, under {} it is a rough guess",
+                  static_cast<std::int64_t>(few.n), few.n, few.enough);
+  return {};
 }
 
-std::string marked_by_words(const std::vector<MarkedBy>& marked_by) {
-  if (marked_by.size() < 2) return "";
-  std::string all;
-  for (const MarkedBy& b : marked_by)
-    all += fmt::format("{}{} {} (pass mark {} %)", all.empty() ? "" : ", ", b.n,
-                       b.entry == 0 ? std::string("as it was sat") : fmt::format("by the rubric of entry {}", b.entry), plain_number(b.pass_percent));
-  return fmt::format("not all results were marked alike: {}{}", all,
-                     one_pass_percent(marked_by) ? "" : "; there is no one pass mark, and no figure at it");
+Message marked_by_words(const std::vector<MarkedBy>& marked_by) {
+  if (marked_by.size() < 2) return {};
+  List all;
+  for (const MarkedBy& b : marked_by) {
+    const Number pass = as_percent(b.pass_percent, k_as_needed);
+    all.items.push_back(b.entry == 0 ? msg("{} as it was sat (pass mark {})", b.n, pass)
+                                     : msg("{} by the rubric of entry {} (pass mark {})", b.n, b.entry, pass));
+  }
+  return one_pass_percent(marked_by) ? msg("not all results were marked alike: {}", all)
+                                     : msg("not all results were marked alike: {}; there is no one pass mark, and no figure at it", all);
 }
 
 json to_json(const ClassFigures& f) {
@@ -42,7 +40,7 @@ json to_json(const ClassFigures& f) {
   for (const auto& b : f.marked_by)
     marked.push_back({{"entry", b.entry == 0 ? json() : json(b.entry)}, {"n", b.n}, {"pass_percent", b.pass_percent}});
   for (const auto& s : f.stations) stations.push_back({{"key", s.key}, {"name", s.name}, {"n", s.n}, {"mean_points", s.mean}});
-  for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", t.why}});
+  for (const auto& t : f.to_look_at) look.push_back({{"session", t.session}, {"candidate", t.candidate}, {"why", english_text(t.why)}});
   const Agreement& a = f.agreement;
   json agreement = {{"n", a.n},
                     {"judges", a.judges},
@@ -73,50 +71,61 @@ json to_json(const ClassFigures& f) {
           {"to_look_at", look}};
 }
 
-std::string to_text(const ClassFigures& f) {
-  const auto number = [](const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : std::string("-"); };
-  const auto padded = [](std::string s, std::size_t width) {
-    s.resize(std::max(width, s.size() + 1), ' ');
-    return s;
+Lines to_text(const ClassFigures& f) {
+  const auto number = [](const std::optional<double>& v, int digits) { return v ? msg("{}", as_number(*v, digits)) : msg("-"); };
+  Lines out;
+  /// A line, and below it that its figure is from few.
+  const auto add = [&](Message line, const char* figure) {
+    out.add(std::move(line));
+    if (const Message few = few_words(f, figure); !few.empty()) out.add(few, 2);
   };
-  const auto few = [&f](const char* figure) {
-    const std::string words = few_words(f, figure);
-    return words.empty() ? std::string() : fmt::format(" ({})", words);
-  };
-  std::string s = f.exam + ": " + std::to_string(f.n) + (f.n == 1 ? " candidate" : " candidates") +
-                  (f.simulated > 0 ? fmt::format(", {} of them simulated", f.simulated) : "") + "\n" + std::to_string(f.pass) + " pass, " +
-                  std::to_string(f.review) + " review, " + std::to_string(f.fail) + " fail\npoints " + fixed(f.mean, 1) + " on average of " +
-                  plain_number(f.max_points) + ", standard deviation " + fixed(f.sd, 1) +
-                  (f.pass_points ? ", pass mark " + fixed(*f.pass_points, 1) : "") +
-                  (f.marked_by.size() > 1 ? "\n" + marked_by_words(f.marked_by) : "") + "\nCronbach's alpha " + number(f.alpha, 2) +
-                  ", standard error " + number(f.sem, 1) + " points" + few("alpha") + "\n\n" + padded("criterion", 28) +
-                  "share of points  discrimination" + few("discrimination") + "\n";
-  for (const auto& c : f.criteria) s += fmt::format("{}{}{}\n", padded(c.id, 28), padded(fixed(c.difficulty, 2), 17), number(c.discrimination, 2));
-  if (!f.walls.empty()) s += fmt::format("\n{}mean   p95    largest of all\n", padded("wall, mm (+ = overcut)", 28));
+  const auto n = static_cast<std::int64_t>(f.n);
+  out.add(f.simulated > 0 ? msgn("{}: {} candidate, {} of them simulated", "{}: {} candidates, {} of them simulated", n, f.exam, f.n, f.simulated)
+                          : msgn("{}: {} candidate", "{}: {} candidates", n, f.exam, f.n));
+  out.add(msg("{} pass, {} review, {} fail", f.pass, f.review, f.fail));
+  out.add(msg("points {} on average of {}, standard deviation {}", as_points(f.mean), as_number(f.max_points), as_points(f.sd)));
+  if (f.pass_points) out.add(msg("pass mark {}", as_points(*f.pass_points)));
+  if (f.marked_by.size() > 1) out.add(marked_by_words(f.marked_by));
+  add(msg("Cronbach's alpha {}, standard error {} points", number(f.alpha, 2), number(f.sem, 1)), "alpha");
+  out.gap();
+  out.row({msg("criterion"), msg("share of points"), msg("discrimination")});
+  for (const auto& c : f.criteria) out.row({Name{c.id}, msg("{}", as_number(c.difficulty, 2)), number(c.discrimination, 2)});
+  if (const Message few = few_words(f, "discrimination"); !few.empty()) out.add(few, 2);
+  if (!f.walls.empty()) {
+    out.gap();
+    out.row({msg("wall (+ = overcut)"), msg("mean"), msg("p95"), msg("largest of all")});
+  }
   for (const auto& w : f.walls)
-    s += fmt::format("{}{}{}{}\n", padded(w.wall, 28), padded(fixed(w.mean_mm, 2), 7), padded(fixed(w.p95_mm, 2), 7), fixed(w.worst_mm, 2));
-  if (f.station_effect)
-    s += fmt::format("\nstations {}: they hold {} % of the variance; as much by chance in a share of {} of shuffles\n", f.stations.size(),
-                     fixed(100 * f.station_effect->share, 1), fixed(f.station_effect->chance, 3));
+    out.row({msg("{}", Term{w.wall}), msg("{}", as_mm(w.mean_mm)), msg("{}", as_mm(w.p95_mm)), msg("{}", as_mm(w.worst_mm))});
+  if (f.station_effect) {
+    out.gap();
+    out.add(msg("stations {}: they hold {} of the variance; as much by chance in a share of {} of shuffles", f.stations.size(),
+                as_percent(100 * f.station_effect->share, 1), as_number(f.station_effect->chance, 3)));
+  }
   if (f.stations.size() > 1)
     for (const auto& one : f.stations)
-      s += fmt::format("  {}{} candidates, {} points on average\n", padded(one_line(one.name), 26), one.n, fixed(one.mean, 1));
+      out.row({Name{one.name}, msgn("{} candidate", "{} candidates", static_cast<std::int64_t>(one.n), one.n),
+               msg("{} points on average", as_points(one.mean))},
+              2);
   const Agreement& a = f.agreement;
   if (a.n > 0) {
-    s += fmt::format("\nmarked by people too: {} candidates, {}{}\n", a.n, a.judges, a.judges == 1 ? " judge" : " judges");
+    out.gap();
+    out.add(msg("marked by people too: {}, {}", msgn("{} candidate", "{} candidates", static_cast<std::int64_t>(a.n), a.n),
+                msgn("{} judge", "{} judges", static_cast<std::int64_t>(a.judges), a.judges)));
     if (a.icc)
-      s += fmt::format("ICC(2,1) {}, ICC(3,1) {}, the program counted as a judge{}\n", fixed(a.icc->single_random, 2), fixed(a.icc->single_fixed, 2),
-                       few("icc"));
+      add(msg("ICC(2,1) {}, ICC(3,1) {}, the program counted as a judge", as_number(a.icc->single_random, 2), as_number(a.icc->single_fixed, 2)),
+          "icc");
     if (a.limits)
-      s += fmt::format("program less people {} points, {} to {}{}\n", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1),
-                       few("limits"));
-    if (f.pass_points) s += fmt::format("weighted kappa {}{}\n", number(a.kappa, 2), few("weighted_kappa"));
-    if (a.cut) s += fmt::format("cut by borderline regression {} points{}\n", fixed(*a.cut, 1), few("borderline_cut"));
+      add(msg("program less people {} points, {} to {}", as_points(a.limits->bias), as_points(a.limits->low), as_points(a.limits->high)), "limits");
+    if (f.pass_points) add(msg("weighted kappa {}", number(a.kappa, 2)), "weighted_kappa");
+    if (a.cut) add(msg("cut by borderline regression {} points", as_points(*a.cut)), "borderline_cut");
   }
-  if (!f.to_look_at.empty()) s += "\nto look at\n";
-  for (const auto& t : f.to_look_at)
-    s += fmt::format("{}{}{}\n", padded(t.session > 0 ? fmt::format("  entry {}", t.session) : "  no entry", 14), padded(t.candidate, 18), t.why);
-  return s;
+  if (!f.to_look_at.empty()) {
+    out.gap();
+    out.add(msg("to look at"));
+  }
+  for (const auto& t : f.to_look_at) out.row({t.session > 0 ? msg("entry {}", t.session) : msg("no entry"), Name{t.candidate}, t.why}, 2);
+  return out;
 }
 
 }  // namespace cavum::cohort

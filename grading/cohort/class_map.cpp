@@ -102,15 +102,16 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
       task.path = path;
       task.cavities.push_back(counted_leaves(reader));
     } catch (const Error& e) {
-      out->findings.push_back(fmt::format("entry {}: {}", session->seq, e.what()));
+      out->findings.push_back(msg("entry {}: {}", session->seq, e.message()));
     }
   }
   const auto most =
       std::max_element(tasks.begin(), tasks.end(), [](const auto& a, const auto& b) { return a.second.cavities.size() < b.second.cavities.size(); });
   if (most == tasks.end())
-    throw Error(places.folder,
-                msg("no session of '{}' can be read{}", one_line(exam), out->findings.empty() ? Message() : msg(" ({})", out->findings.front())),
-                msg("see `cavum ledger verify {}`", places.folder));
+    throw Error(
+        places.folder,
+        out->findings.empty() ? msg("no session of '{}' can be read", exam) : msg("no session of '{}' can be read ({})", exam, out->findings.front()),
+        msg("see `cavum ledger verify {}`", places.folder));
   const auto sat = scenarios::prepare_exam(SessionReader(most->second.path).setup());
   out->scenario = std::move(sat->scenario);
   out->tooth = std::move(sat->tooth);

@@ -43,8 +43,8 @@ struct ClassTooth {
   Tooth tooth;
   scenarios::ZoneMap zones;
   std::unique_ptr<ClassMap> map;
-  std::size_t left_out = 0;           ///< that sat the same exam with another text, tooth or leaf than most
-  std::vector<std::string> findings;  ///< sessions whose files are gone or changed: they are not in the map
+  std::size_t left_out = 0;       ///< that sat the same exam with another text, tooth or leaf than most
+  std::vector<Message> findings;  ///< sessions whose files are gone or changed: they are not in the map
 };
 /// Reads the filed sessions that count for one exam (counting_sessions). Throws Error when none of them can be read.
 [[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const ledger::LedgerPlaces& places, const std::string& exam);

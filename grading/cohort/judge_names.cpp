@@ -30,7 +30,7 @@ std::string bare(const std::string& name) {
 
 }  // namespace
 
-void require_distinct_judges(const std::set<std::string>& names, const std::string& where) {
+void require_distinct_judges(const std::set<std::string>& names, const Message& where) {
   std::map<std::string, std::string> seen;
   for (const auto& name : names) {
     const auto [at, is_new] = seen.try_emplace(bare(name), name);

@@ -126,7 +126,7 @@ class Model {
 }  // namespace
 
 SeverityStudy study_severity(std::span<const StudyMark> marks) {
-  if (marks.empty()) throw Error("no marks", "to compare stations and raters by", "");
+  if (marks.empty()) throw Error(msg("no marks"), msg("to compare stations and raters by"), {});
   const Model model(marks);
   const Columns& columns = model.columns();
   const std::size_t facets = marks[0].level.size();

@@ -49,7 +49,9 @@ std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<st
       throw Error(file, msg("its id '{}' is that of another form", s.id), msg("name each form once"));
     const bool first = sat.ids.empty();
     if (!first && s.rubric.pass_percent != sat.pass_percent)
-      throw Error(file, msg("its pass mark is {} %, that of {} is {} %", s.rubric.pass_percent, sat.ids[0], sat.pass_percent),
+      throw Error(file,
+                  msg("its pass mark is {}, that of {} is {}", as_percent(s.rubric.pass_percent, k_as_needed), sat.ids[0],
+                      as_percent(sat.pass_percent, k_as_needed)),
                   msg("forms of one exam have one pass mark"));
     if (!first && !is_one_task(s, forms.front()->scenario))
       throw Error(file, msg("its target is made of other bodies than that of {}", sat.ids[0]),

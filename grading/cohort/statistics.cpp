@@ -10,13 +10,13 @@
 namespace cavum::cohort {
 namespace {
 
-void require(bool enough, const char* what) {
+void require(bool enough, const Message& what) {
   if (!enough) throw Error(msg("statistics"), what, msg("wait for more results"));
 }
 
 void require_table(const Matrix& m) {
-  require(m.size() >= 2 && m[0].size() >= 2, "needs two rows and two columns at least");
-  for (const auto& row : m) require(row.size() == m[0].size(), "needs rows of equal length");
+  require(m.size() >= 2 && m[0].size() >= 2, msg("needs two rows and two columns at least"));
+  for (const auto& row : m) require(row.size() == m[0].size(), msg("needs rows of equal length"));
 }
 
 std::vector<double> column(const Matrix& m, std::size_t c) {
@@ -49,8 +49,8 @@ double f_of(const std::vector<std::vector<double>>& groups, double& share) {
 }  // namespace
 
 double cronbach_alpha(std::size_t criteria, double sum_of_variances, double variance_of_sum) {
-  require(criteria >= 2, "needs two criteria at least");
-  require(variance_of_sum > 0, "needs sums that differ");
+  require(criteria >= 2, msg("needs two criteria at least"));
+  require(variance_of_sum > 0, msg("needs sums that differ"));
   const auto k = static_cast<double>(criteria);
   return k / (k - 1) * (1 - sum_of_variances / variance_of_sum);
 }
@@ -92,7 +92,7 @@ Icc intraclass_correlation(const Matrix& m) {
     judges += n * d * d;
   }
   const double bms = rows / (n - 1), jms = judges / (k - 1), ems = (all - rows - judges) / ((n - 1) * (k - 1));
-  require(bms > 0, "needs objects that differ");
+  require(bms > 0, msg("needs objects that differ"));
   Icc out;
   out.single_random = (bms - ems) / (bms + (k - 1) * ems + k * (jms - ems) / n);
   out.single_fixed = (bms - ems) / (bms + (k - 1) * ems);
@@ -105,10 +105,10 @@ double weighted_kappa(const Matrix& counts, const Matrix& weights) {
   require_table(counts);
   require_table(weights);
   require(counts.size() == counts[0].size() && weights.size() == counts.size() && weights[0].size() == counts.size(),
-          "needs square tables of one size");
+          msg("needs square tables of one size"));
   const auto by_first = sums(counts);
   const double n = std::accumulate(by_first.begin(), by_first.end(), 0.0);
-  require(n > 0, "needs one object at least");
+  require(n > 0, msg("needs one object at least"));
   double observed = 0, expected = 0;
   for (std::size_t i = 0; i < counts.size(); ++i)
     for (std::size_t j = 0; j < counts.size(); ++j) {
@@ -116,7 +116,7 @@ double weighted_kappa(const Matrix& counts, const Matrix& weights) {
       observed += weights[i][j] * counts[i][j] / n;
       expected += weights[i][j] * by_first[i] * std::accumulate(by_second.begin(), by_second.end(), 0.0) / (n * n);
     }
-  require(expected > 0, "needs judges who use two categories at least");
+  require(expected > 0, msg("needs judges who use two categories at least"));
   return 1 - observed / expected;
 }
 
@@ -131,7 +131,7 @@ Matrix quadratic_weights(std::size_t n) {
 }
 
 LimitsOfAgreement limits_of_agreement(std::span<const double> a, std::span<const double> b) {
-  require(a.size() == b.size() && a.size() >= 2, "needs both marks of two at least");
+  require(a.size() == b.size() && a.size() >= 2, msg("needs both marks of two at least"));
   std::vector<double> difference;
   for (std::size_t i = 0; i < a.size(); ++i) difference.push_back(a[i] - b[i]);
   LimitsOfAgreement out;
@@ -143,9 +143,9 @@ LimitsOfAgreement limits_of_agreement(std::span<const double> a, std::span<const
 }
 
 Line fit_line(std::span<const double> x, std::span<const double> y) {
-  require(x.size() == y.size() && x.size() >= 2, "needs two points at least");
+  require(x.size() == y.size() && x.size() >= 2, msg("needs two points at least"));
   const double mx = mean(x), my = mean(y), vx = variance(x);
-  require(vx > 0, "needs two different places on the line at least");
+  require(vx > 0, msg("needs two different places on the line at least"));
   double xy = 0;
   for (std::size_t i = 0; i < x.size(); ++i) xy += (x[i] - mx) * (y[i] - my);
   Line out;
@@ -164,10 +164,10 @@ GroupEffect group_effect(const std::vector<std::vector<double>>& groups, int shu
   std::vector<std::vector<double>> shuffled = groups;
   std::vector<double> all;
   for (const auto& g : groups) {
-    require(!g.empty(), "needs one score in each group at least");
+    require(!g.empty(), msg("needs one score in each group at least"));
     all.insert(all.end(), g.begin(), g.end());
   }
-  require(groups.size() >= 2 && all.size() > groups.size(), "needs two groups, and more scores than groups");
+  require(groups.size() >= 2 && all.size() > groups.size(), msg("needs two groups, and more scores than groups"));
   GroupEffect out;
   out.f = f_of(groups, out.share);
   Random random(seed);

@@ -84,13 +84,13 @@ std::size_t rank_of(SquareMatrix rows) {
 }
 
 /// The names of effects whose sums of squares depend on one another. Column k stands for effect k, the last for the mean.
-std::string dependent_effects(const SquareMatrix& a, const std::vector<std::string>& names) {
+List dependent_effects(const SquareMatrix& a, const std::vector<std::string>& names) {
   const std::size_t rank = rank_of(a);
-  std::string list;
+  List list;
   for (std::size_t k = 0; k < names.size(); ++k) {
     SquareMatrix without = a;
     for (auto& row : without) row.erase(row.begin() + static_cast<std::ptrdiff_t>(k));
-    if (rank_of(without) == rank) list += (list.empty() ? "" : ", ") + names[k];
+    if (rank_of(without) == rank) list.items.push_back(msg("{}", Term{names[k]}));
   }
   return list;
 }
@@ -123,7 +123,7 @@ std::vector<double> times(const SquareMatrix& matrix, std::span<const double> co
 
 StudyDesign fitting(StudyDesign design, std::span<const StudyMark> marks) {
   for (const StudyMark& m : marks)
-    if (m.level.size() != design.facets.size()) throw Error("a mark", "has another number of conditions than the study has facets", "");
+    if (m.level.size() != design.facets.size()) throw Error(msg("a mark"), msg("has another number of conditions than the study has facets"), {});
   return design;
 }
 
@@ -261,7 +261,8 @@ Dependability dependable(const StudyDesign& design, const VarianceComponents& co
 }  // namespace
 
 Dependability dependability(const StudyDesign& design, const VarianceComponents& components, const CircuitPlan& plan, double persons) {
-  if (plan.conditions.size() + 1 != design.facets.size()) throw Error("the plan of a circuit", "has another number of facets than the study", "");
+  if (plan.conditions.size() + 1 != design.facets.size())
+    throw Error(msg("the plan of a circuit"), msg("has another number of facets than the study"), {});
   for (const double n : plan.conditions)
     if (!(n >= 1)) throw Error(msg("the plan of a circuit"), msg("has fewer than one condition of a facet"), msg("plan at least one"));
   MarkShares shares;

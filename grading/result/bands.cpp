@@ -1,10 +1,7 @@
 #include "grading/result/bands.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "grading/result/loss.h"
 
 namespace cavum::grading {
@@ -17,16 +14,19 @@ void put_in_band(const Result& r, const scenarios::CriterionSpec& spec, Criterio
   std::size_t band = 0;
   while (band < spec.band_limits.size() && (!judged || worse * (*c.value - spec.band_limits[band]) > 0)) ++band;
   c.band = band;
-  c.reason += "; " + r.bands[band].name;
-  if (!judged) {
-    c.reason += c.value ? ", for less than half of the work was done" : "";
-    return;
-  }
+  std::vector<Message>& facts = c.reason.items;
+  const Authored name{r.bands[band].name};
   const auto limit = [&](std::size_t i) { return value_text(measure, spec.band_limits[i], 0, 2); };
-  if (band > 0 && measure.reads != scenarios::Reads::yes_no) c.reason += fmt::format(", beyond {}", limit(band - 1));
+  if (!judged && c.value)
+    facts.push_back(msg("{}, for less than half of the work was done", name));
+  else if (judged && band > 0 && measure.reads != scenarios::Reads::yes_no)
+    facts.push_back(msg("{}, beyond {}", name, limit(band - 1)));
+  else
+    facts.push_back(msg("{}", name));
+  if (!judged) return;
   for (std::size_t i = 0; i < spec.band_limits.size(); ++i)
     if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound)
-      c.reason += fmt::format(" (the limit of {} lies within the bound of the figure)", limit(i));
+      facts.push_back(msg("the limit of {} lies within the bound of the figure", limit(i)));
 }
 
 Findings count_bands(Result& r) {

@@ -1,13 +1,11 @@
 #include "grading/result/compare.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/kept.h"
 #include "engine/base/text.h"
+#include "grading/result/loss.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
@@ -20,30 +18,57 @@ constexpr double k_same = 1e-6;  // results are written to a millionth
 bool same(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || std::fabs(*a - *b) <= k_same);
 }
-std::string number(const std::optional<double>& v) { return v ? plain_number(*v) : "none"; }
+Message number(const std::optional<double>& v) { return v ? msg("{}", as_number(*v)) : msg("none"); }
 
-template <class List>
-auto* find(List& list, const std::string& id) {
+/// One change: `what` is a word for what it was and is.
+Message change(const Message& what, const Message& from, const Message& to) { return msg("{}: {} → {}", what, from, to); }
+
+template <class All>
+auto* find(All& list, const std::string& id) {
   const auto found = std::find_if(list.begin(), list.end(), [&](const auto& c) { return c.id == id; });
   return found == list.end() ? nullptr : &*found;
 }
 
-void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, std::vector<std::string>& why) {
-  const auto say = [&](const char* what, const std::string& from, const std::string& to) {
-    why.push_back(fmt::format("{} {} -> {}", what, from, to));
+Message limits_text(const std::vector<double>& limits) {
+  List list;
+  for (const double limit : limits) list.items.push_back(msg("{}", as_number(limit)));
+  return limits.empty() ? msg("none") : msg("{}", list);
+}
+
+void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, std::vector<Message>& why) {
+  const auto figure = [&](const Message& what, const std::optional<double>& from, const std::optional<double>& to) {
+    if (!same(from, to)) why.push_back(change(what, number(from), number(to)));
   };
-  if (a.metric != b.metric) say("metric", a.metric, b.metric);
-  if (!same(a.full, b.full)) say("full marks at", number(a.full), number(b.full));
-  if (!same(a.zero, b.zero)) say("no marks at", number(a.zero), number(b.zero));
-  if (!same(a.points, b.points)) say("points", number(a.points), number(b.points));
-  const auto list = [](const std::vector<double>& limits) {
-    std::string text;
-    for (const double limit : limits) text += (text.empty() ? "" : ", ") + plain_number(limit);
-    return limits.empty() ? std::string("none") : text;
+  if (a.metric != b.metric) why.push_back(change(msg("metric"), Name{a.metric}, Name{b.metric}));
+  figure(msg("full marks at"), a.full, b.full);
+  figure(msg("no marks at"), a.zero, b.zero);
+  figure(msg("points"), a.points, b.points);
+  if (a.band_limits != b.band_limits) why.push_back(change(msg("limits of bands"), limits_text(a.band_limits), limits_text(b.band_limits)));
+  figure(msg("critical above"), a.critical_above, b.critical_above);
+  figure(msg("critical below"), a.critical_below, b.critical_below);
+}
+
+std::vector<Message> changes_of_rules(const scenarios::RubricSpec& a, const scenarios::RubricSpec& b) {
+  std::vector<Message> rules;
+  const auto rule = [&](const Message& what, const Message& from, const Message& to) {
+    if (!(from == to)) rules.push_back(change(what, from, to));
   };
-  if (a.band_limits != b.band_limits) say("limits of bands", list(a.band_limits), list(b.band_limits));
-  if (!same(a.critical_above, b.critical_above)) say("critical above", number(a.critical_above), number(b.critical_above));
-  if (!same(a.critical_below, b.critical_below)) say("critical below", number(a.critical_below), number(b.critical_below));
+  const auto open_step = [](bool passes) { return passes ? msg("may pass") : msg("is reviewed"); };
+  const auto within_bound = [](bool reviewed) { return reviewed ? msg("is reviewed") : msg("stands"); };
+  const auto sum = [](bool compensatory) { return compensatory ? msg("compensatory") : msg("non-compensatory"); };
+  const auto bands = [](const scenarios::RubricSpec& of) {
+    List list;
+    for (const auto& band : of.bands)
+      list.items.push_back(band.most ? msg("{} (at most {})", Authored{band.name}, *band.most) : msg("{}", Authored{band.name}));
+    return of.bands.empty() ? msg("none") : msg("{}", list);
+  };
+  rule(msg("pass mark"), msg("{}", as_percent(a.pass_percent, k_as_needed)), msg("{}", as_percent(b.pass_percent, k_as_needed)));
+  rule(msg("an exam whose last step is open"), open_step(a.open_step_passes), open_step(b.open_step_passes));
+  rule(msg("a verdict that bounds leave open"), within_bound(a.review_within_bound), within_bound(b.review_within_bound));
+  rule(msg("borderline band"), msg("{}", as_percent(a.borderline_percent, k_as_needed)), msg("{}", as_percent(b.borderline_percent, k_as_needed)));
+  rule(msg("rule"), sum(a.compensatory), sum(b.compensatory));
+  rule(msg("bands"), bands(a), bands(b));
+  return rules;
 }
 
 }  // namespace
@@ -74,9 +99,9 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   return r;
 }
 
-std::string signed_points(double difference) {
-  const std::string text = fixed(difference, 1);
-  return text == "-0.0" || text[0] != '-' ? "+" + fixed(std::fabs(difference), 1) : text;
+Number signed_points(double difference) {
+  constexpr double k_shown = 0.05;
+  return {std::fabs(difference) < k_shown ? 0.0 : difference, Unit::none, 1, 0.0, true};
 }
 
 Comparison compare(const OldResult& sealed, const Result& again, const scenarios::RubricSpec& old_rubric, const Result& now,
@@ -86,22 +111,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
   c.verdict = verdict_name(now.verdict);
   c.points = now.points;
   c.max = now.max_points;
-  const auto rule = [&](const char* what, const std::string& from, const std::string& to) {
-    if (from != to) c.rules.push_back(fmt::format("{} {} -> {}", what, from, to));
-  };
-  rule("pass mark, %", plain_number(old_rubric.pass_percent), plain_number(new_rubric.pass_percent));
-  rule("an exam whose last step is open", old_rubric.open_step_passes ? "may pass" : "is reviewed",
-       new_rubric.open_step_passes ? "may pass" : "is reviewed");
-  rule("a verdict that bounds leave open", old_rubric.review_within_bound ? "is reviewed" : "stands",
-       new_rubric.review_within_bound ? "is reviewed" : "stands");
-  rule("borderline band, %", plain_number(old_rubric.borderline_percent), plain_number(new_rubric.borderline_percent));
-  rule("rule", old_rubric.compensatory ? "compensatory" : "non-compensatory", new_rubric.compensatory ? "compensatory" : "non-compensatory");
-  const auto bands = [](const scenarios::RubricSpec& of) {
-    std::string text;
-    for (const auto& b : of.bands) text += (text.empty() ? "" : ", ") + b.name + (b.most ? fmt::format(" (at most {})", *b.most) : "");
-    return of.bands.empty() ? std::string("none") : text;
-  };
-  rule("bands", bands(old_rubric), bands(new_rubric));
+  c.rules = changes_of_rules(old_rubric, new_rubric);
   const bool same_version = sealed.grading_version == k_grading_version;
   c.tampered = same_version && (sealed.verdict != verdict_name(again.verdict) || !same(sealed.points, again.points));
   for (const auto& n : now.criteria) {
@@ -114,7 +124,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
     const OldCriterion* o = find(sealed.criteria, n.id);
     const CriterionResult* a = find(again.criteria, n.id);
     if (o == nullptr) {
-      d.why.emplace_back("new criterion");
+      d.why.push_back(msg("new criterion"));
     } else {
       d.old_points = o->points;
       d.old_max = o->max;
@@ -122,14 +132,14 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
       const scenarios::CriterionSpec* was = find(old_rubric.criteria, n.id);
       const scenarios::CriterionSpec* is = find(new_rubric.criteria, n.id);
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
-      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.emplace_back("measured against the new scenario");
+      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.push_back(msg("measured against the new scenario"));
       if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
         c.tampered = c.tampered || same_version;
-        d.why.emplace_back(same_version                ? "the sealed figure is not what this version of grading, which it names, gives: tampered with"
-                           : !same(a->value, o->value) ? "this version of the program measures otherwise"
-                                                       : "this version of the program marks otherwise");
+        d.why.push_back(same_version ? msg("the sealed figure is not what this version of grading, which it names, gives: tampered with")
+                        : !same(a->value, o->value) ? msg("this version of the program measures otherwise")
+                                                    : msg("this version of the program marks otherwise"));
       }
-      if (a != nullptr && !same(a->work_share, n.work_share)) d.why.emplace_back("another share of the work counts as done");
+      if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back(msg("another share of the work counts as done"));
     }
     c.criteria.push_back(std::move(d));
   }
@@ -140,7 +150,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
     d.old_points = o.points;
     d.old_max = o.max;
     d.old_value = o.value;
-    d.why.emplace_back("no longer a criterion");
+    d.why.push_back(msg("no longer a criterion"));
     c.criteria.push_back(std::move(d));
   }
   return c;
@@ -148,16 +158,24 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
 
 bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
 
-std::string regrade_text(const Comparison& c) {
-  const auto score = [](double points, double max) { return fmt::format("{} of {} points", fixed(points, 1), fixed(max, 1)); };
-  return fmt::format(
-      "marked anew by {}: {}, {}; the exam was sealed as {}, {}{}", c.by, c.verdict, score(c.points, c.max), c.before.verdict,
-      score(c.before.points, c.before.max),
-      c.tampered ? ", which is not what its version of grading gives: the result was tampered with, or its station's program was" : "");
+Message regrade_text(const Comparison& c) {
+  const auto result = [](const std::string& verdict, double points, double max) {
+    return msg("{}, {} of {} points", Term{verdict}, as_points(points), as_points(max));
+  };
+  const Message now = result(c.verdict, c.points, c.max), sealed = result(c.before.verdict, c.before.points, c.before.max);
+  return c.tampered ? msg("marked anew by {}: {}; the exam was sealed as {}, which is not what its version of grading gives: the result was tampered "
+                          "with, or its station's program was",
+                          c.by, now, sealed)
+                    : msg("marked anew by {}: {}; the exam was sealed as {}", c.by, now, sealed);
 }
 
 Json to_json(const Comparison& c) {
   const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
+  const auto texts = [](const std::vector<Message>& messages) {
+    Json all = Json::array();
+    for (const Message& m : messages) all.push_back(english_text(m));
+    return all;
+  };
   Json list = Json::array();
   for (const auto& d : c.criteria)
     list.push_back({{"id", d.id},
@@ -169,38 +187,33 @@ Json to_json(const Comparison& c) {
                     {"new_value", optional(d.new_value)},
                     {"unit", d.unit},
                     {"difference", rounded(d.difference())},
-                    {"changed", d.why}});
-  return {{"by", c.by},
+                    {"changed", texts(d.why)}});
+  return {{"by", english_text(c.by)},
           {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
-          {"rules", c.rules},
+          {"rules", texts(c.rules)},
           {"tampered", c.tampered}};
 }
 
-std::string to_text(const Comparison& c) {
-  const auto cell = [](std::string s, std::size_t width) {
-    s.resize(std::max(width, s.size() + 1), ' ');
-    return s;
-  };
+Lines to_text(const Comparison& c) {
   const auto points = [&](const std::optional<double>& p, const std::optional<double>& max) {
-    return p ? fmt::format("{} / {}", fixed(*p, 1), fixed(*max, 1)) : "-";
+    return p ? msg("{} / {}", as_points(*p), as_points(max.value_or(0))) : msg("-");
   };
-  std::string s = fmt::format("{}{}{}{}what changed\n", cell("", 20), cell("old", 16), cell("new", 16), cell("change", 10));
-  s += fmt::format("  {}{}{}{}", cell("verdict", 18), cell(c.before.verdict, 16), cell(c.verdict, 16), cell("", 10));
-  for (std::size_t i = 0; i < c.rules.size(); ++i) s += (i > 0 ? "; " : "") + c.rules[i];
-  s += fmt::format("\n  {}{}{}{}\n", cell("points", 18), cell(points(c.before.points, c.before.max), 16), cell(points(c.points, c.max), 16),
-                   cell(signed_points(c.points - c.before.points), 10));
+  const auto all_of = [](std::vector<Message> list) { return msg("{}", List{std::move(list), true}); };
+  Lines out;
+  out.row({Message(), msg("old"), msg("new"), msg("change"), msg("what changed")});
+  out.row({msg("verdict"), msg("{}", Term{c.before.verdict}), msg("{}", Term{c.verdict}), {}, all_of(c.rules)});
+  out.row({msg("points"), points(c.before.points, c.before.max), points(c.points, c.max), msg("{}", signed_points(c.points - c.before.points)), {}});
   for (const auto& d : c.criteria) {
-    s += fmt::format("  {}{}{}{}", kept(cell(d.id, 18)), cell(points(d.old_points, d.old_max), 16), cell(points(d.new_points, d.new_max), 16),
-                     cell(signed_points(d.difference()), 10));
-    for (std::size_t i = 0; i < d.why.size(); ++i) s += (i > 0 ? "; " : "") + d.why[i];
-    if (!same(d.old_value, d.new_value) && d.old_value && d.new_value)
-      s += fmt::format("{}value {} -> {}{}", d.why.empty() ? "" : "; ", fixed(*d.old_value, 3), fixed(*d.new_value, 3),
-                       d.unit.empty() ? "" : " " + d.unit);
-    s += "\n";
+    std::vector<Message> why = d.why;
+    if (!same(d.old_value, d.new_value) && d.old_value && d.new_value) {
+      const Unit unit = unit_of(d.unit);
+      why.push_back(change(msg("value"), msg("{}", as_unit(*d.old_value, unit, 3)), msg("{}", as_unit(*d.new_value, unit, 3))));
+    }
+    out.row({Name{d.id}, points(d.old_points, d.old_max), points(d.new_points, d.new_max), msg("{}", signed_points(d.difference())), all_of(why)});
   }
-  return s;
+  return out;
 }
 
 }  // namespace cavum::grading

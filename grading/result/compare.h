@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "grading/result/result.h"
 #include "scenarios/file/scenario.h"
 
@@ -30,17 +31,17 @@ struct OldResult {
 struct CriterionChange {
   std::string id, unit;
   std::optional<double> old_points, old_max, old_value, new_points, new_max, new_value;
-  std::vector<std::string> why;  ///< what changed, in words; empty when nothing did
+  std::vector<Message> why;  ///< what changed; empty when nothing did
   [[nodiscard]] double difference() const { return new_points.value_or(0) - old_points.value_or(0); }
 };
 
 struct Comparison {
-  std::string by;  ///< what it was marked anew by, in words: "the rubric r.toml"
+  Message by;  ///< what it was marked anew by: "the rubric r.toml"
   OldResult before;
   std::string verdict;
   double points = 0.0, max = 0.0;
   std::vector<CriterionChange> criteria;  ///< the new rubric's, then those that it has no longer
-  std::vector<std::string> rules;         ///< changes of pass mark, band and rule
+  std::vector<Message> rules;             ///< changes of pass mark, band and rule
   bool tampered = false;                  ///< the sealed result names this version of grading, which gives another one
   /// Verdict or points are not those that the session was sealed with.
   [[nodiscard]] bool differs() const;
@@ -52,12 +53,12 @@ struct Comparison {
                                  const scenarios::RubricSpec& new_rubric);
 
 /// "+1.5", "-0.3", "+0.0".
-[[nodiscard]] std::string signed_points(double difference);
+[[nodiscard]] Number signed_points(double difference);
 /// Says that a result is a regrade, by what, and what the session was sealed with: one sentence.
-[[nodiscard]] std::string regrade_text(const Comparison& comparison);
+[[nodiscard]] Message regrade_text(const Comparison& comparison);
 /// {by, old{verdict,points,max}, new{verdict,points,max}, criteria[]{id, old_points, old_max, old_value, new_points, new_max, new_value, unit,
 /// difference, changed[]}, rules[]}
 [[nodiscard]] nlohmann::ordered_json to_json(const Comparison& comparison);
-[[nodiscard]] std::string to_text(const Comparison& comparison);
+[[nodiscard]] Lines to_text(const Comparison& comparison);
 
 }  // namespace cavum::grading

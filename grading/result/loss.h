@@ -1,7 +1,7 @@
 // Why a criterion lost points, in one line: what, how much, at which wall, when it began and where.
 #pragma once
 
-#include <string>
+#include <string_view>
 
 #include "grading/result/result.h"
 #include "scenarios/file/measures.h"
@@ -11,7 +11,7 @@ namespace cavum::grading {
 struct Asked;
 
 struct Loss {
-  std::string text;
+  Message what;
   Trace first;  ///< where the loss began
 };
 
@@ -43,15 +43,19 @@ namespace reason {
 [[nodiscard]] Loss first_violation(const Result& measured, const Asked& asked);
 }  // namespace reason
 
-/// "0.30 ± 0.04 mm3"; a figure that is known exactly has no bound.
-[[nodiscard]] std::string amount_text(double value, double bound, int digits, const std::string& unit);
-/// The same of a measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
-[[nodiscard]] std::string value_text(const scenarios::Measure& measure, double value, double bound, int digits);
-/// " at 12.34 s (tick 12340)"; nothing where nobody knows when.
-[[nodiscard]] std::string at_when(const Trace& t);
-/// "12.34 s (tick 12340)", "[1.00, 0.00, -2.00] mm", "the mesial wall".
-[[nodiscard]] std::string when(const Trace& t);
-[[nodiscard]] std::string place(Vec3 p);
-[[nodiscard]] std::string wall_text(std::size_t wall, scenarios::Facing facing);
+/// "mm3" as a unit; none where it is no unit of ours.
+[[nodiscard]] Unit unit_of(std::string_view name) noexcept;
+/// A measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
+[[nodiscard]] Message value_text(const scenarios::Measure& measure, double value, double bound, int digits);
+/// "12.34 s (tick 12340)".
+[[nodiscard]] Message when(const Trace& t);
+/// The same message with each when() in it as its seconds alone.
+[[nodiscard]] Message without_ticks(const Message& message);
+/// The place, and when it was where that is known.
+[[nodiscard]] Message place_and_time(const Trace& t);
+/// "the mesial wall"
+[[nodiscard]] Message wall_text(std::size_t wall, scenarios::Facing facing);
+/// In words: how much, how quick, from when, and how clear.
+[[nodiscard]] Message drop_text(const ForceDrop& drop);
 
 }  // namespace cavum::grading

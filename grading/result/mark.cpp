@@ -1,7 +1,5 @@
 #include "grading/result/mark.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -17,14 +15,14 @@ constexpr char k_exam_time[] = "time_s";
 
 struct Work {
   double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
-  std::string where;
+  Message towards;         ///< those walls; empty: all of the target
   double bound_percent = 0.0;
   [[nodiscard]] double share(double off = 0) const { return std::clamp((percent + off * bound_percent) / k_care_counts_percent, 0.0, 1.0); }
 };
 
 /// How much of the work was done that a criterion judges the care of.
 Work work_done(const Result& r, const scenarios::Measure& measure) {
-  const auto towards = [&](std::size_t first, std::size_t end, const std::string& where) -> Work {
+  const auto towards = [&](std::size_t first, std::size_t end, const Message& where) -> Work {
     double all = 0, missed = 0, bound = 0;
     for (std::size_t w = first; w < end; ++w) {
       all += r.volumes.target_by_wall_mm3[w];
@@ -33,14 +31,14 @@ Work work_done(const Result& r, const scenarios::Measure& measure) {
     }
     if (all > 0) return {100 * (1 - missed / all), where, 100 * bound / all};
     if (!(r.volumes.target.mm3 > 0)) return {};
-    return {r.volumes.target_removed_percent, "", r.volumes.target_removed_bound_percent};
+    return {r.volumes.target_removed_percent, {}, r.volumes.target_removed_bound_percent};
   };
   if (measure.judges == scenarios::Judges::work) return {};
   // a distance at some of the walls; volumes, also of what lies below the floor, ask for all of the work
   if (measure.walls > 0 && measure.walls < scenarios::k_walls)
     return towards(measure.first_wall, measure.first_wall + measure.walls,
-                   " towards " + (measure.walls == 1 ? wall_text(measure.first_wall, r.shape.facing) : "the side walls"));
-  return towards(0, scenarios::k_walls + 1, "");
+                   measure.walls == 1 ? wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
+  return towards(0, scenarios::k_walls + 1, {});
 }
 
 /// Digits that it takes to tell a value from another one and from nothing.
@@ -63,6 +61,7 @@ bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
 CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   const Asked a = asked(c.metric, c.full);
   CriterionResult out;
+  std::vector<Message>& facts = out.reason.items;
   out.id = c.id;
   out.title = c.title;
   out.metric = c.metric;
@@ -70,15 +69,15 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   out.max = c.points;
   if (not_shown(r, a.measure)) {
     out.judged = false;
-    out.reason = "not judged: a preparation without its recording does not show it";
-    if (c.critical_above || c.critical_below) out.reason += "; it has a critical limit, so the verdict is no pass";
+    facts.push_back(msg("not judged: a preparation without its recording does not show it"));
+    if (c.critical_above || c.critical_below) facts.push_back(msg("it has a critical limit, so the verdict is no pass"));
     return out;
   }
   const MetricValue v = value_of(r, a);
   out.value = v.value;
   out.bound = v.bound;
   if (!v.value) {
-    out.reason = "cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind";
+    facts.push_back(msg("cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind"));
     out.critical_failed = c.critical_below.has_value();
     out.first = r.end;
     return out;
@@ -92,38 +91,46 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
       std::max(c.points * std::max(low, high) * work.share(1) - out.points, out.points - c.points * std::min(low, high) * work.share(-1)) + 0.0;
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
-    out.reason = out.work_share < 1 ? "full marks for what was done" : "full marks";
+    facts.push_back(out.work_share < 1 ? msg("full marks for what was done") : msg("full marks"));
   } else {
     Loss loss = a.marking->reason(r, a);
+    const int digits = digits_for(*v.value, c.full);
+    const Message is = value_text(a.measure, *v.value, v.bound, digits), full = value_text(a.measure, c.full, 0, digits);
+    facts.push_back(loss.what.empty() ? msg("{} where {} gives full marks", is, full) : msg("{} where {} gives full marks: {}", is, full, loss.what));
     if (loss.first.tick < 0 && r.end.tick >= 0) {
       loss.first = r.end;
-      loss.text += fmt::format("{}as it stood at the end, {}", loss.text.empty() ? "" : ", ", when(r.end));
+      facts.push_back(msg("as it stood at the end, {}", when(r.end)));
     }
     out.first = loss.first;
-    const int digits = digits_for(*v.value, c.full);
-    out.reason = fmt::format("{} where {} gives full marks{}", value_text(a.measure, *v.value, v.bound, digits),
-                             value_text(a.measure, c.full, 0, digits), loss.text.empty() ? "" : ": " + loss.text);
   }
   if (const double stretch = granted_stretch(r); c.metric == k_exam_time && stretch != 1)
-    out.reason += fmt::format("; the limits are {} times the rubric's, for the time that was granted", plain_number(std::round(100 * stretch) / 100));
+    facts.push_back(msg("the limits are {} times the rubric's, for the time that was granted", as_number(std::round(100 * stretch) / 100)));
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
+  const auto limit_value = [&](const std::optional<double>& limit) { return as_number(limit.value_or(0), 2); };
   if (out.critical_failed) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
-    out.reason += "; critical";
-    if (a.measure.reads != scenarios::Reads::yes_no) out.reason += fmt::format(" {}{}", above ? "above " : "below ", fixed(*limit, 2));
-    if (near(limit)) out.reason += ", which lies within the bound of the figure";
-    out.reason += "; this alone fails the exam";
+    const Number at = limit_value(limit);
+    if (a.measure.reads == scenarios::Reads::yes_no)
+      facts.push_back(near(limit) ? msg("critical, and the limit lies within the bound of the figure") : msg("critical"));
+    else if (near(limit))
+      facts.push_back(above ? msg("critical above {}, which lies within the bound of the figure", at)
+                            : msg("critical below {}, which lies within the bound of the figure", at));
+    else
+      facts.push_back(above ? msg("critical above {}", at) : msg("critical below {}", at));
+    facts.push_back(msg("this alone fails the exam"));
   } else if (out.limit_in_bound) {
-    out.reason += fmt::format("; the critical limit of {} lies within the bound of the figure",
-                              fixed(near(c.critical_above) ? *c.critical_above : *c.critical_below, 2));
+    facts.push_back(msg("the critical limit of {} lies within the bound of the figure",
+                        limit_value(near(c.critical_above) ? c.critical_above : c.critical_below)));
   }
   if (out.work_share < 1) {
     if (out.first.tick < 0) out.first = r.end;
-    out.work_text = fmt::format("{} of the target{} was removed", amount_text(work.percent, work.bound_percent, 1, "%"), work.where);
-    out.reason += fmt::format("; counts {} % only, for {}, and care counts in full from {} % on", fixed(100 * out.work_share, 0), out.work_text,
-                              fixed(k_care_counts_percent, 0));
+    const Number done = as_percent(work.percent, 1, work.bound_percent);
+    out.work_text =
+        work.towards.empty() ? msg("{} of the target was removed", done) : msg("{} of the target towards {} was removed", done, work.towards);
+    facts.push_back(msg("counts {} only, for {}, and care counts in full from {} on", as_percent(100 * out.work_share), out.work_text,
+                        as_percent(k_care_counts_percent)));
   }
   return out;
 }
@@ -188,7 +195,7 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
   r.verdict = worst == best ? worst : Verdict::review;
   const Number least = as_percent(reach.least, 1), most = as_percent(reach.most, 1);
   if (r.unjudged_points > 0)
-    r.verdict_reasons.push_back(worst == best ? finding<FindingKind::not_judged_same>(least, most, Term{verdict_name(worst)})
+    r.verdict_reasons.push_back(worst == best ? finding<FindingKind::not_judged_same>(least, most, word_of(worst))
                                               : finding<FindingKind::not_judged_open>(least, most));
   if (r.verdict != Verdict::pass || guarded.empty()) return;
   r.verdict = Verdict::review;
@@ -196,6 +203,8 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
 }
 
 }  // namespace
+
+Message word_of(Verdict v) { return v == Verdict::pass ? msg("pass") : v == Verdict::fail ? msg("fail") : msg("review"); }
 
 double granted_stretch(const Result& r) {
   const scenarios::Accommodations& granted = r.accommodations;
@@ -239,7 +248,7 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     if (!c.critical_failed) continue;
     critical = true;
     certain = certain || !c.limit_in_bound;
-    r.verdict_reasons.push_back(finding<FindingKind::critical_limit>(c.id, c.reason));
+    r.verdict_reasons.push_back(finding<FindingKind::critical_limit>(c.id, msg("{}", c.reason)));
   }
   for (auto& too_full : count_bands(r)) {
     critical = certain = true;

@@ -15,8 +15,8 @@
 
 namespace cavum::grading {
 
-/// Raised whenever the same recording may get another verdict, other points, another criterion or other words than before: sealed results are
-/// compared as a whole. It stands in every result.
+/// Raised whenever the same recording may get another verdict, other points, other figures or another finding than before: sealed results are
+/// compared as a whole but for their sentences. It stands in every result.
 inline constexpr int k_grading_version = 9;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
@@ -146,6 +146,10 @@ struct PerforationEvent {
   bool confirmed = false;   ///< tissue of that kind was opened then
 };
 
+/// How clear a drop in force was: `felt_and_cut_on` for longer than a reaction takes, `faint` from 0.03 N and 0.1 on.
+enum class DropSeverity : std::uint8_t { not_felt, faint, felt, felt_and_cut_on };
+inline constexpr std::array k_drop_severities{"not_felt", "faint", "felt", "felt_and_cut_on"};
+
 /// The force that a cavity took away; see grading/breakthrough/drop.h. Of all stretches of 1.5 s where it was opened the one furthest beyond (or
 /// least below) 0.1 N and 0.3 of the filled tooth's force. Forces are those rendered to the hand, means over 30 ms.
 struct ForceDrop {
@@ -157,15 +161,12 @@ struct ForceDrop {
   std::int64_t felt_tick = -1;  ///< first tick in which both figures were reached; -1 = never
   double cut_on_s = 0.0;        ///< time for which the cavity was opened further after that
   [[nodiscard]] bool felt() const noexcept { return felt_tick >= 0; }
-  /// `felt_and_cut_on` (for longer than a reaction takes), `felt`, `faint` (from 0.03 N and 0.1 on), `not_felt`.
-  [[nodiscard]] const char* severity() const noexcept {
+  [[nodiscard]] DropSeverity severity() const noexcept {
     constexpr double k_reaction_s = 0.5, k_faint_n = 0.03, k_faint_share = 0.1;
-    if (felt()) return cut_on_s > k_reaction_s ? "felt_and_cut_on" : "felt";
-    return missing_n >= k_faint_n && share >= k_faint_share ? "faint" : "not_felt";
+    if (felt()) return cut_on_s > k_reaction_s ? DropSeverity::felt_and_cut_on : DropSeverity::felt;
+    return missing_n >= k_faint_n && share >= k_faint_share ? DropSeverity::faint : DropSeverity::not_felt;
   }
 };
-/// In words: how much, how quick, from when, and how clear.
-[[nodiscard]] std::string drop_text(const ForceDrop& drop);
 
 /// What was laid open from the cavity of all tissues of a kind; see grading/breakthrough/exposure.h.
 struct PerforationTruth {
@@ -230,14 +231,15 @@ struct ProgressMeasures {
 };
 
 struct CriterionResult {
-  std::string id, title, metric, unit, reason;
+  std::string id, title, metric, unit;
+  List reason{{}, true};        ///< fact by fact
   std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
   bool judged = true;           ///< false: what was handed in does not show it. It has no points and takes none from the score
   double bound = 0.0;
   double points = 0.0, max = 0.0;
   double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
-  std::string work_text;      ///< that in words; empty when all of them count
+  Message work_text;          ///< that in words; empty when all of them count
   bool critical_failed = false;
   bool limit_in_bound = false;      ///< the value lies no further from a critical limit than its bound
   std::optional<std::size_t> band;  ///< that it lies in, of Result::bands
@@ -289,6 +291,7 @@ struct Result {
   std::vector<Tissue> tissues;
 };
 
+[[nodiscard]] Message word_of(Verdict verdict);
 [[nodiscard]] inline const char* verdict_name(Verdict v) noexcept { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "review"; }
 
 }  // namespace cavum::grading

@@ -1,13 +1,9 @@
 #include "grading/result/result_json.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/kept.h"
-#include "engine/base/text.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "grading/result/measure_marking.h"
@@ -15,15 +11,6 @@
 namespace cavum::grading {
 
 double rounded(double v) { return std::round(v * 1e6) / 1e6 + 0.0; }
-
-std::string drop_text(const ForceDrop& d) {
-  if (d.from_tick < 0) return "no force was missing while the hand pressed on";
-  std::string s = fmt::format("{} N, {} % of what the filled tooth would give, went within {} s", fixed(d.missing_n, 2), fixed(100.0 * d.share, 0),
-                              fixed(static_cast<double>(d.to_tick - d.from_tick) * k_tick_s, 2));
-  if (!d.felt()) return s + (std::string_view(d.severity()) == "faint" ? ": faint" : ": not to be felt");
-  s += fmt::format(": felt clearly from {} s on", fixed(static_cast<double>(d.felt_tick) * k_tick_s, 3));
-  return s + (std::string_view(d.severity()) == "felt" ? "" : fmt::format(", and the cavity was opened further for {} s", fixed(d.cut_on_s, 2)));
-}
 
 namespace {
 
@@ -43,7 +30,7 @@ Json drop_json(const std::optional<ForceDrop>& d) {
           {"to_tick", d->to_tick < 0 ? Json(nullptr) : Json(d->to_tick)},
           {"felt_tick", d->felt() ? Json(d->felt_tick) : Json(nullptr)},
           {"cut_on_s", rounded(d->cut_on_s)},
-          {"severity", d->severity()}};
+          {"severity", k_drop_severities[static_cast<std::size_t>(d->severity())]}};
 }
 
 Json truth_json(const PerforationTruth& t) {
@@ -114,7 +101,7 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"max", rounded(c.max)},
             {"points_bound", rounded(c.points_bound)},
             {"critical_failed", c.critical_failed},
-            {"reason", c.reason},
+            {"reason", english_text(msg("{}", c.reason))},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
   if (c.band) j["band"] = r.bands[*c.band].name;
@@ -223,11 +210,6 @@ void put_what_there_was(Json& j, const Result& r) {
   if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
 }
 
-std::string padded(std::string s, std::size_t width) {
-  while (s.size() < width) s += ' ';
-  return s;
-}
-
 Json json_of(const Findings& findings) {
   Json all = Json::array();
   for (const Finding& f : findings) all.push_back(to_json(f));
@@ -269,105 +251,141 @@ Json to_json(const Result& r) {
 
 namespace {
 
-std::string verdict_text(const Result& r) {
-  std::string s = one_line(fmt::format("{} ({})", r.scenario_title, r.tooth_name)) + "\n";
-  s += fmt::format("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)\n", verdict_name(r.verdict), fixed(r.points, 1),
-                   fixed(r.max_points, 1), fixed(r.points_bound, 1));
-  for (const auto& reason : r.verdict_reasons) s += fmt::format("  {}\n", one_line(english_text(reason.message())));
-  return s;
-}
-
-std::string criteria_text(const Result& r) {
-  std::string s = "\n";
-  for (const auto& c : r.criteria)
-    s += fmt::format("  {}{}{}{}\n", kept(padded(one_line(c.id) + " ", 16)),
-                     padded(fmt::format("{} / {}", c.judged ? fixed(c.points, 1) : "-", fixed(c.max, 1)), 14),
-                     padded(c.judged ? "± " + fixed(c.points_bound, 1) : "", 9),
-                     c.critical_failed && !r.verdict_reasons.empty() ? "critical: see above" : one_line(c.reason));
-  return s;
-}
-
-std::string volumes_text(const Result& r) {
-  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].alone(); };
-  const auto volume = [&](const std::string& name, const BoundedVolume& v) {
-    return fmt::format("  {}{} ± {} mm3\n", padded(name, 22), fixed(v.mm3, 2), fixed(v.bound_mm3, 2));
-  };
-  std::string s = fmt::format("\nvolumes\n{}  {}{} ± {} %\n{}{}", volume("target", r.volumes.target), padded("target removed", 22),
-                              fixed(r.volumes.target_removed_percent, 1), fixed(r.volumes.target_removed_bound_percent, 1),
-                              volume("missed", r.volumes.missed), volume("removed", r.volumes.removed));
-  for (const scenarios::Zone z :
-       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
-    s += volume(scenarios::zone_name(z), zone(z));
-  s += volume("outside", r.volumes.outside()) + volume("outside, protected", zone(scenarios::Zone::protected_));
-  s += fmt::format("  {}{} ± {}\n", padded("dice", 22), fixed(r.volumes.dice, 3), fixed(r.volumes.dice_bound, 3));
-  return s;
-}
-
-std::string walls_text(const Result& r) {
-  std::string s =
-      fmt::format("\nwalls, mm (+ = overcut)                       mean            p95   over  under (± {})\n", fixed(r.shape.bound_mm, 2));
-  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
-    const WallMeasures& m = r.shape.wall[w];
-    s += "  " + padded(scenarios::wall_name(static_cast<scenarios::Wall>(w), r.shape.facing), 34);
-    if (m.samples == 0)
-      s += "not cut\n";
-    else
-      s += fmt::format("{:>6.2f} ± {:.2f}  {:>6.2f} ± {:.2f} {:>6.2f} {:>6.2f}\n", m.mean_mm, m.mean_bound_mm, m.p95_mm, m.p95_bound_mm,
-                       m.max_over_mm, m.max_under_mm);
+void erase_words(nlohmann::json& findings) {
+  for (nlohmann::json& f : findings) {
+    if (!f.is_object()) continue;
+    f.erase("text");
+    if (!f.contains("values") || !f["values"].is_object()) continue;
+    nlohmann::json figures = nlohmann::json::object();
+    for (const auto& [name, value] : f["values"].items())
+      if (value.is_number() || (value.is_array() && !value.empty() && value[0].is_number())) figures[name] = value;
+    f["values"] = figures;
   }
-  return s;
-}
-
-std::string cavity_text(const Result& r) {
-  std::string s = "\ncavity\n";
-  const auto shape = [&](const char* name, const std::optional<double>& v, double bound, const char* unit) {
-    s += fmt::format("  {}{}\n", padded(name, 22), v ? fmt::format("{} ± {}{}", fixed(*v, 2), fixed(bound, 2), unit) : std::string("not cut"));
-  };
-  shape("length", r.shape.length_mm, r.shape.bound_mm, " mm");
-  shape("width", r.shape.width_mm, r.shape.bound_mm, " mm");
-  shape("depth", r.shape.depth_mm, r.shape.bound_mm, " mm");
-  shape("wall taper", r.shape.taper_deg, r.shape.taper_bound_deg, " degrees");
-  return s;
-}
-
-std::string perforation_text(const Result& r) {
-  std::string s = "\nperforation\n";
-  if (r.perforation.events.empty() && r.perforation.force_known) s += "  no breakthrough seen in the force\n";
-  for (const auto& e : r.perforation.events)
-    s += fmt::format("  force: {} at {} s, {} N to {} N, {}\n", e.fault ? "fault" : "aim", fixed(static_cast<double>(e.tick) * k_tick_s, 3),
-                     fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), e.confirmed ? "confirmed by the tissue" : "not confirmed by the tissue");
-  const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    s += fmt::format("  tissue: {}", kind);
-    if (t.perforated)
-      s += fmt::format(", {} opened{}, {} of its wall lie open, {} removed", t.tissue,
-                       t.first.timed() ? fmt::format(" first at {} s", fixed(t.first.t_s(), 3)) : "",
-                       amount_text(t.area_mm2, t.area_bound_mm2, 3, "mm2"), amount_text(t.volume_mm3, t.bound_mm3, 3, "mm3"));
-    else
-      s += " not opened";
-    if (t.outside_mm3 > 0) s += fmt::format("; {} mm3 removed from outside the tooth, which is no perforation", fixed(t.outside_mm3, 3));
-    s += "\n";
-    if (t.drop) s += fmt::format("  drop: {}, {}\n", kind, drop_text(*t.drop));
-  };
-  truth("fault", r.perforation.fault);
-  if (r.perforation.has_aims) truth("aim", r.perforation.aim);
-  if (r.perforation.aim_unseen()) s += "  the breakthrough into the aim was not seen in the force, which costs nothing\n";
-  return s;
-}
-
-std::string motion_text(const Result& r) {
-  if (r.not_shown) return "";
-  return fmt::format("\ntime {} s (handpiece {} s, idle {} s), way {} mm, force {} N mean, {} N peak\nsteps {} of {}, violations {}, ended: {}\n",
-                     fixed(r.motion.time_s, 1), fixed(r.motion.handpiece_time_s, 1), fixed(r.motion.idle_s, 1), fixed(r.motion.path_mm, 0),
-                     fixed(r.motion.force_mean_n, 2), fixed(r.motion.force_peak_n, 2), r.progress.steps_completed, r.progress.steps,
-                     r.progress.violations, finish_name(r.progress.finish));
 }
 
 }  // namespace
 
-std::string to_text(const Result& r) {
-  std::string s = verdict_text(r) + criteria_text(r) + volumes_text(r) + walls_text(r) + cavity_text(r) + perforation_text(r) + motion_text(r);
-  for (const auto& note : r.notes) s += fmt::format("note: {}\n", one_line(english_text(note.message())));
-  return s;
+nlohmann::json without_words(nlohmann::json result) {
+  if (!result.is_object()) return result;
+  for (const char* list : {"verdict_reasons", "notes"})
+    if (result.contains(list) && result[list].is_array()) erase_words(result[list]);
+  if (result.contains("criteria") && result["criteria"].is_array())
+    for (nlohmann::json& c : result["criteria"])
+      if (c.is_object()) c.erase("reason");
+  return result;
+}
+
+namespace {
+
+void add_verdict(Lines& out, const Result& r) {
+  out.add(msg("{} ({})", Authored{r.scenario_title}, Authored{r.tooth_name}));
+  out.add(msg("verdict: {}, {} of {} points (± {} if every figure were off by its whole bound)", word_of(r.verdict), as_points(r.points),
+              as_points(r.max_points), as_points(r.points_bound)));
+  for (const Finding& reason : r.verdict_reasons) out.add(reason.message(), 2);
+}
+
+void add_criteria(Lines& out, const Result& r) {
+  out.gap();
+  for (const auto& c : r.criteria) {
+    const Number most = as_points(c.max);
+    out.row({Name{c.id}, c.judged ? msg("{} / {}", as_points(c.points), most) : msg("- / {}", most),
+             c.judged ? msg("± {}", as_points(c.points_bound)) : Message(),
+             c.critical_failed && !r.verdict_reasons.empty() ? msg("critical: see above") : msg("{}", c.reason)},
+            2);
+  }
+}
+
+void add_volumes(Lines& out, const Result& r) {
+  const auto volume = [&](const Message& name, const BoundedVolume& v) { out.row({name, msg("{}", as_mm3(v.mm3, 2, v.bound_mm3))}, 2); };
+  out.gap();
+  out.add(msg("volumes"));
+  volume(msg("target"), r.volumes.target);
+  out.row({msg("target removed"), msg("{}", as_percent(r.volumes.target_removed_percent, 1, r.volumes.target_removed_bound_percent))}, 2);
+  volume(msg("missed"), r.volumes.missed);
+  volume(msg("removed"), r.volumes.removed);
+  const auto zone = [&](scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].alone(); };
+  for (const scenarios::Zone z :
+       {scenarios::Zone::leeway_sides, scenarios::Zone::leeway_bottom, scenarios::Zone::container_sides, scenarios::Zone::container_bottom})
+    volume(msg("{}", Term{scenarios::zone_name(z)}), zone(z));
+  volume(msg("outside"), r.volumes.outside());
+  volume(msg("outside, protected"), zone(scenarios::Zone::protected_));
+  out.row({msg("dice"), msg("{}", Number{r.volumes.dice, Unit::none, 3, r.volumes.dice_bound})}, 2);
+}
+
+void add_walls(Lines& out, const Result& r) {
+  out.gap();
+  out.add(msg("walls (+ = overcut; over and under ± {})", as_mm(r.shape.bound_mm, 2)));
+  out.row({Message(), msg("mean"), msg("p95"), msg("over"), msg("under")}, 2);
+  for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
+    const WallMeasures& m = r.shape.wall[w];
+    const Message name = wall_text(w, r.shape.facing);
+    if (m.samples == 0)
+      out.row({name, msg("not cut"), {}, {}, {}}, 2);
+    else
+      out.row({name, msg("{}", as_mm(m.mean_mm, 2, m.mean_bound_mm)), msg("{}", as_mm(m.p95_mm, 2, m.p95_bound_mm)),
+               msg("{}", as_mm(m.max_over_mm, 2)), msg("{}", as_mm(m.max_under_mm, 2))},
+              2);
+  }
+}
+
+void add_cavity(Lines& out, const Result& r) {
+  out.gap();
+  out.add(msg("cavity"));
+  const auto shape = [&](const Message& name, const std::optional<double>& v, double bound, Unit unit) {
+    out.row({name, v ? msg("{}", Number{*v, unit, 2, bound}) : msg("not cut")}, 2);
+  };
+  shape(msg("length"), r.shape.length_mm, r.shape.bound_mm, Unit::mm);
+  shape(msg("width"), r.shape.width_mm, r.shape.bound_mm, Unit::mm);
+  shape(msg("depth"), r.shape.depth_mm, r.shape.bound_mm, Unit::mm);
+  shape(msg("wall taper"), r.shape.taper_deg, r.shape.taper_bound_deg, Unit::deg);
+}
+
+void add_truth(Lines& out, const Message& kind, const PerforationTruth& t) {
+  const Term tissue{t.tissue};
+  const Number area = as_mm2(t.area_mm2, 3, t.area_bound_mm2), volume = as_mm3(t.volume_mm3, 3, t.bound_mm3);
+  if (!t.perforated)
+    out.add(msg("tissue: {} not opened", kind), 2);
+  else if (t.first.timed())
+    out.add(msg("tissue: {}, {} opened first at {}, {} of its wall lie open, {} removed", kind, tissue, as_s(t.first.t_s(), 3), area, volume), 2);
+  else
+    out.add(msg("tissue: {}, {} opened, {} of its wall lie open, {} removed", kind, tissue, area, volume), 2);
+  if (t.outside_mm3 > 0) out.add(msg("{} removed from outside the tooth, which is no perforation", as_mm3(t.outside_mm3, 3)), 2);
+  if (t.drop) out.add(msg("drop: {}, {}", kind, drop_text(*t.drop)), 2);
+}
+
+void add_perforation(Lines& out, const Result& r) {
+  out.gap();
+  out.add(msg("perforation"));
+  if (r.perforation.events.empty() && r.perforation.force_known) out.add(msg("no breakthrough seen in the force"), 2);
+  for (const auto& e : r.perforation.events) {
+    const Message kind = e.fault ? msg("fault") : msg("aim");
+    const Number t = as_s(static_cast<double>(e.tick) * k_tick_s, 3), before = as_n(e.force_before_n, 2), after = as_n(e.force_after_n, 2);
+    out.add(e.confirmed ? msg("force: {} at {}, {} to {}, confirmed by the tissue", kind, t, before, after)
+                        : msg("force: {} at {}, {} to {}, not confirmed by the tissue", kind, t, before, after),
+            2);
+  }
+  add_truth(out, msg("fault"), r.perforation.fault);
+  if (r.perforation.has_aims) add_truth(out, msg("aim"), r.perforation.aim);
+  if (r.perforation.aim_unseen()) out.add(msg("the breakthrough into the aim was not seen in the force, which costs nothing"), 2);
+}
+
+void add_motion(Lines& out, const Result& r) {
+  if (r.not_shown) return;
+  const MotionMeasures& m = r.motion;
+  out.gap();
+  out.add(msg("time {} (handpiece {}, idle {}), way {}, force {} mean, {} peak", as_s(m.time_s, 1), as_s(m.handpiece_time_s, 1), as_s(m.idle_s, 1),
+              as_mm(m.path_mm, 0), as_n(m.force_mean_n, 2), as_n(m.force_peak_n, 2)));
+  out.add(msg("steps {} of {}, violations {}, ended: {}", r.progress.steps_completed, r.progress.steps, r.progress.violations,
+              Term{finish_name(r.progress.finish)}));
+}
+
+}  // namespace
+
+Lines to_text(const Result& r) {
+  Lines out;
+  for (auto* add : {add_verdict, add_criteria, add_volumes, add_walls, add_cavity, add_perforation, add_motion}) add(out, r);
+  for (const Finding& note : r.notes) out.add(msg("note: {}", note.message()));
+  return out;
 }
 
 }  // namespace cavum::grading

@@ -2,15 +2,17 @@
 #pragma once
 
 #include <nlohmann/json_fwd.hpp>
-#include <string>
 
+#include "engine/base/lines.h"
 #include "grading/result/result.h"
 
 namespace cavum::grading {
 
 /// Every name is always present; a figure that could not be measured is null.
 [[nodiscard]] nlohmann::ordered_json to_json(const Result& result);
-[[nodiscard]] std::string to_text(const Result& result);
+/// The same without its sentences: results are compared by kinds and figures.
+[[nodiscard]] nlohmann::json without_words(nlohmann::json result);
+[[nodiscard]] Lines to_text(const Result& result);
 
 /// To a millionth, so that a figure reads the same wherever it is printed; never -0.
 [[nodiscard]] double rounded(double v);

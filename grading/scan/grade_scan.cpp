@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 #include "engine/scan/read_scan.h"
 #include "engine/scan/scale_fit.h"
 #include "engine/scan/smoothed.h"
@@ -31,7 +30,8 @@ void require_size(const std::vector<SurfacePoint>& scan, double unit_mm, const O
   if (size >= least && size <= most) return;
   Message hint = msg("scan one tooth, cut out of its neighbours");
   for (const MeshUnit& unit : k_mesh_units)
-    if (const double so = size / unit_mm * unit.mm; so >= least && so <= most) hint = msg("it is likely in {}: say --units {}", unit.text, unit.name);
+    if (const double so = size / unit_mm * unit.mm; so >= least && so <= most)
+      hint = msg("it is likely in {}: say --units {}", Term{unit.text}, unit.name);
   throw Error(path,
               msg("is no scan of this tooth by its size: on average its surface lies {} from its middle, and the tooth's {} (crown alone {})",
                   as_mm(size, k_as_needed), as_mm(radius_of(tooth.points()), 1), as_mm(radius_of(tooth.crown()), 1)),
@@ -48,8 +48,8 @@ void require_size_and_side(const Scan& scan, const Registration& found, const Sc
     if (!sized || !fits_tooth(fit_of(in_size(scan.points, sized->scale), sized->to_tooth, outer))) continue;
     const double percent = 100 * (1 / sized->scale - 1);
     throw Error(path,
-                msg("is of this tooth by its form, but {} too {}: in the tooth's size it fits", as_percent(std::fabs(percent), 1),
-                    percent > 0 ? msg("large") : msg("small")),
+                percent > 0 ? msg("is of this tooth by its form, but {} too large: in the tooth's size it fits", as_percent(percent, 1))
+                            : msg("is of this tooth by its form, but {} too small: in the tooth's size it fits", as_percent(-percent, 1)),
                 msg("calibrate the scanner (or the printer), or multiply the file's lengths by {}", as_number(sized->scale, 4)));
   }
   const Scan other = mirrored(scan);
@@ -206,7 +206,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
     List reasons{{}, true};
     for (const Finding& reason : all.verdict_reasons) reasons.items.push_back(reason.message());
     facts.were_they_counted =
-        finding<FindingKind::scan_apart_counted>(Term{verdict_name(all.verdict)}, as_points(all.points), as_points(all.max_points), reasons);
+        finding<FindingKind::scan_apart_counted>(word_of(all.verdict), as_points(all.points), as_points(all.max_points), reasons);
   }
   GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);

@@ -1,14 +1,10 @@
 #include "grading/words/lesson_words.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include "engine/base/figures.h"
 #include "engine/base/pose.h"
-#include "engine/base/text.h"
 #include "grading/result/loss.h"
 #include "grading/words/moments.h"
 #include "scenarios/file/measures.h"
@@ -20,9 +16,9 @@ using scenarios::Zone;
 
 constexpr double k_shown_points = 0.005, k_least_lean_deg = 6.0, k_degrees_of = 57.29577951308232, k_least_covered_percent = 5.0;
 
-std::string mm(double v) { return fixed(v, 2) + " mm"; }
-std::string mm3(double v) { return fixed(v, 2) + " mm³"; }
-std::string percent_of(double part, double all) { return fixed(all > 0 ? 100 * part / all : 0, 0); }
+Number percent_of(double part, double all) { return as_percent(all > 0 ? 100 * part / all : 0); }
+/// Two sentences, the second where there is one.
+Message both(const Message& first, const Message& second) { return second.empty() ? first : msg("{} {}", first, second); }
 
 template <class Row>
 std::size_t largest(const Row& row, std::size_t count) {
@@ -77,51 +73,51 @@ class Teller {
   }
 
  private:
-  [[nodiscard]] std::string there(Vec3 p) const { return side_words(p, in_.zones); }
-  [[nodiscard]] std::string wall(std::size_t w) const { return wall_text(w, r_.shape.facing); }
-  /// "from 0:49 on"; nothing where nobody knows when.
-  static std::string from(const Trace& t) {
-    return !t.timed() ? "" : t.t_s() < 1 ? ", from the beginning" : fmt::format(", from {} on", clock_text(t.t_s()));
+  [[nodiscard]] Message there(Vec3 p) const { return side_words(p, in_.zones); }
+  [[nodiscard]] Message wall(std::size_t w) const { return wall_text(w, r_.shape.facing); }
+  /// When it began, and when it was: a sentence; none where nobody knows when.
+  static Message from(const Trace& t) {
+    if (!t.timed()) return {};
+    return t.t_s() < 1 ? msg("It was so from the beginning.") : msg("It began at {}.", ClockTime{t.t_s()});
   }
-  static std::string when_at(const Trace& t) { return t.timed() ? fmt::format(" at {}", clock_text(t.t_s())) : ""; }
+  static Message when_at(const Trace& t) { return t.timed() ? msg("That was at {}.", ClockTime{t.t_s()}) : Message(); }
 
   void left_standing(Lesson& l) const {
     if (!(r_.volumes.target_removed_percent > 0)) {
-      l.what = "Nothing of the cavity was cut.";
-      l.instead = "Open the outline first, then take the cavity away layer by layer.";
+      l.what = msg("Nothing of the cavity was cut.");
+      l.instead = msg("Open the outline first, then take the cavity away layer by layer.");
       return;
     }
     constexpr double k_hardly_begun_percent = 50.0;  // of a cavity that was never made, no wall has to be taken back
     const double roof_mm3 = r_.access.overhang ? r_.access.overhang->mm3 : 0;
     const Left left = what_is_left();
     const std::size_t w = largest(left.hard_by_wall, scenarios::k_walls);
-    const std::string amount = mm3(std::max(0.0, r_.volumes.missed.mm3 - roof_mm3));
+    const Number amount = as_mm3(std::max(0.0, r_.volumes.missed.mm3 - roof_mm3));
     l.where = r_.volumes.target_last[w];
     if (left.aim > left.hard_by_wall[w]) {
       l.look_mm = left.aim_middle_mm;
-      l.what =
-          fmt::format("{} of the cavity was left, {} % of it {} that was not cleared out.", amount, percent_of(left.aim, left.all), left.aim_tissue);
-      l.instead = "Clear it out from wall to wall with light strokes, and do not press on the floor below.";
+      l.what = msg("{} of the cavity was left, {} of it {} that was not cleared out.", amount, percent_of(left.aim, left.all), Term{left.aim_tissue});
+      l.instead = msg("Clear it out from wall to wall with light strokes, and do not press on the floor below.");
       return;
     }
     if (r_.volumes.target_removed_percent < k_hardly_begun_percent) {
-      l.what = fmt::format("Only {} % of the cavity was cut: {} of it were left standing.", fixed(r_.volumes.target_removed_percent, 0),
-                           mm3(std::max(0.0, r_.volumes.missed.mm3 - roof_mm3)));
-      l.instead = "Open the outline first, then take the cavity away layer by layer.";
+      l.what = msg("Only {} of the cavity was cut: {} of it were left standing.", as_percent(r_.volumes.target_removed_percent), amount);
+      l.instead = msg("Open the outline first, then take the cavity away layer by layer.");
       return;
     }
     const double thick = r_.shape.wall[w].max_under_mm;
     if (thick > 0) l.look_mm = r_.shape.wall[w].worst_under.site_mm;
-    l.what = fmt::format("{} of the cavity was left standing, the largest part ({} %) at {}{}.", amount, percent_of(left.hard_by_wall[w], left.all),
-                         wall(w), thick > 0 ? fmt::format(", up to {} thick", mm(thick)) : "");
+    const Number share = percent_of(left.hard_by_wall[w], left.all);
+    l.what = thick > 0 ? msg("{} of the cavity was left standing, the largest part ({}) at {}, up to {} thick.", amount, share, wall(w), as_mm(thick))
+                       : msg("{} of the cavity was left standing, the largest part ({}) at {}.", amount, share, wall(w));
     if (static_cast<scenarios::Wall>(w) != scenarios::Wall::floor)
-      l.instead = fmt::format("Go round the outline once more before you hand in, and take {} back until the outline is reached.", wall(w));
+      l.instead = msg("Go round the outline once more before you hand in, and take {} back until the outline is reached.", wall(w));
     else if (!r_.perforation.has_aims)
-      l.instead = "Go on down to the depth that is asked, and feel for an even floor before you hand in.";
+      l.instead = msg("Go on down to the depth that is asked, and feel for an even floor before you hand in.");
     else if (r_.perforation.aim.perforated)
-      l.instead = "Cut on the way out only, from below what still stands; do not press on the floor of the chamber.";
+      l.instead = msg("Cut on the way out only, from below what still stands; do not press on the floor of the chamber.");
     else
-      l.instead = "Go on down in the middle of the outline until the resistance gives way, then stop pressing.";
+      l.instead = msg("Go on down in the middle of the outline until the resistance gives way, then stop pressing.");
   }
   void roof(Lesson& l) const {
     const double all = r_.access.overhang ? r_.access.overhang->mm3 : 0;
@@ -130,21 +126,21 @@ class Teller {
     const Vec3 p = piece.middle_mm;
     show_hard_tissue(l, p);
     constexpr double k_nearly_all = 0.95;
-    l.what = piece.part < k_nearly_all * all ? fmt::format("{} of roof was left over the pulp chamber, the largest part ({} %) {}.", mm3(all),
-                                                           percent_of(piece.part, all), there(p))
-                                             : fmt::format("{} of roof was left over the pulp chamber, {}.", mm3(all), there(p));
+    l.what = piece.part < k_nearly_all * all
+                 ? msg("{} of roof was left over the pulp chamber, the largest part ({}) {}.", as_mm3(all), percent_of(piece.part, all), there(p))
+                 : msg("{} of roof was left over the pulp chamber, {}.", as_mm3(all), there(p));
     if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_least_covered_percent)
-      l.what += " " + (one_canal() ? fmt::format("Hard tissue stands over {} % of the canal's mouth.", fixed(covered, 0))
-                                   : fmt::format("Hard tissue stands over {} % of the canals' mouths.", fixed(covered, 0)));
-    l.instead = fmt::format("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
+      l.what = both(l.what, one_canal() ? msg("Hard tissue stands over {} of the canal's mouth.", as_percent(covered))
+                                        : msg("Hard tissue stands over {} of the canals' mouths.", as_percent(covered)));
+    l.instead = msg("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
   }
   void canals(Lesson& l) const {
     const Vec3 p = r_.access.canals_covered_mm;
     show_hard_tissue(l, p);
-    const std::string covered = fixed(r_.access.canals_covered_percent.value_or(0), 0);
-    l.what = one_canal() ? fmt::format("Hard tissue stands over {} % of the canal's mouth, {}.", covered, there(p))
-                         : fmt::format("Hard tissue stands over {} % of the canals' mouths, {}.", covered, there(p));
-    l.instead = fmt::format("Take the shelf of dentin away {}, until an instrument goes straight in without bending at the entrance.", there(p));
+    const Number covered = as_percent(r_.access.canals_covered_percent.value_or(0));
+    l.what = one_canal() ? msg("Hard tissue stands over {} of the canal's mouth, {}.", covered, there(p))
+                         : msg("Hard tissue stands over {} of the canals' mouths, {}.", covered, there(p));
+    l.instead = msg("Take the shelf of dentin away {}, until an instrument goes straight in without bending at the entrance.", there(p));
   }
   void beside(Lesson& l) const {
     const ZoneVolume &out = r_.volumes.zone[row_of(Zone::container_sides)], &near = r_.volumes.zone[row_of(Zone::leeway_sides)];
@@ -156,28 +152,33 @@ class Teller {
     l.where = m.worst_over;
     if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
     const Trace& first = out.removed.mm3 > 0 ? out.first : near.first;
-    const std::string far = mm(std::max(0.0, m.max_over_mm));
-    l.what = all_round ? fmt::format("The cavity became too wide all round, by up to {} at {}{}.", far, wall(w), from(first))
-                       : fmt::format("The cavity became too wide: {} was cut by up to {} beyond its outline{}.", wall(w), far, from(first));
-    l.instead = "Stop at the outline, with the side of the point on the wall and not its tip.";
-    if (const std::string lean = lean_at(w); !lean.empty()) l.instead += " " + lean;
+    const Number far = as_mm(std::max(0.0, m.max_over_mm));
+    l.what = both(all_round ? msg("The cavity became too wide all round, by up to {} at {}.", far, wall(w))
+                            : msg("The cavity became too wide: {} was cut by up to {} beyond its outline.", wall(w), far),
+                  from(first));
+    l.instead = msg("Stop at the outline, with the side of the point on the wall and not its tip.");
+    l.instead = both(l.instead, lean_at(w));
   }
   void too_deep(Lesson& l) const {
     const WallMeasures& m = r_.shape.wall[row_of(scenarios::Wall::floor)];
     if (opened_through_floor(in_, r_)) {
       opened(l);
       const PerforationTruth& p = r_.perforation.fault;
-      const std::string where = there(p.first.site_mm), depth = mm(std::max(0.0, m.max_over_mm));
-      l.what = is_outside(p) ? fmt::format("The tooth was perforated into the {} {}{}: the floor is up to {} too deep.", p.tissue, where,
-                                           when_at(p.first), depth)
-                             : fmt::format("The {} was opened {}{}: the floor is up to {} too deep.", p.tissue, where, when_at(p.first), depth);
+      const Message where = there(p.first.site_mm);
+      const Number depth = as_mm(std::max(0.0, m.max_over_mm));
+      const Term tissue{p.tissue};
+      l.what = both(is_outside(p) ? msg("The tooth was perforated into the {} {}: the floor is up to {} too deep.", tissue, where, depth)
+                                  : msg("The {} was opened {}: the floor is up to {} too deep.", tissue, where, depth),
+                    when_at(p.first));
       return;
     }
     l.where = m.worst_over;
     if (m.worst_over.tick >= 0) l.look_mm = m.worst_over.site_mm;
-    l.what = fmt::format("The floor is up to {} too deep{}{}.", mm(std::max(0.0, m.max_over_mm)),
-                         m.worst_over.tick >= 0 ? fmt::format(", deepest {}", there(m.worst_over.site_mm)) : "", when_at(m.worst_over));
-    l.instead = "Slow down for the last half millimetre, press lightly, and measure the depth before each further layer.";
+    const Number far = as_mm(std::max(0.0, m.max_over_mm));
+    l.what = both(m.worst_over.tick >= 0 ? msg("The floor is up to {} too deep, deepest {}.", far, there(m.worst_over.site_mm))
+                                         : msg("The floor is up to {} too deep.", far),
+                  when_at(m.worst_over));
+    l.instead = msg("Slow down for the last half millimetre, press lightly, and measure the depth before each further layer.");
   }
   void elsewhere(Lesson& l) const {
     const ZoneVolume &none = r_.volumes.zone[row_of(Zone::none)], &guarded = r_.volumes.zone[row_of(Zone::protected_)];
@@ -186,67 +187,67 @@ class Teller {
     if (l.where.tick >= 0 && in_.zones.wall(in_.before.octree.leaf_at(l.where.site_mm)) == scenarios::Wall::floor) l.where = {};
     if (l.where.tick >= 0) l.look_mm = l.where.site_mm;
     const double below = none.by_wall_mm3[row_of(scenarios::Wall::floor)] + guarded.by_wall_mm3[row_of(scenarios::Wall::floor)];
-    l.what = fmt::format("{} was cut {}{}.", mm3(std::max(0.0, r_.volumes.outside().mm3 - below)),
-                         is_guarded ? "of what must stay" : "far from the cavity", from(l.where));
-    l.instead = "Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.";
+    const Number volume = as_mm3(std::max(0.0, r_.volumes.outside().mm3 - below));
+    l.what = both(is_guarded ? msg("{} was cut of what must stay.", volume) : msg("{} was cut far from the cavity.", volume), from(l.where));
+    l.instead = msg("Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.");
   }
   void opened(Lesson& l) const {
     const PerforationTruth& p = r_.perforation.fault;
     l.where = p.first;
     if (p.perforated) l.look_mm = p.first.site_mm;
-    const std::string where = there(p.first.site_mm);
-    l.what = is_outside(p) ? fmt::format("The tooth was perforated into the {} {}{}.", p.tissue, where, when_at(p.first))
-                           : fmt::format("The {} was opened {}{}.", p.tissue, where, when_at(p.first));
-    l.instead = "Near it press lightly and look after each stroke; when the resistance gives way, stop at once.";
+    const Message where = there(p.first.site_mm);
+    const Term tissue{p.tissue};
+    l.what = both(is_outside(p) ? msg("The tooth was perforated into the {} {}.", tissue, where) : msg("The {} was opened {}.", tissue, where),
+                  when_at(p.first));
+    l.instead = msg("Near it press lightly and look after each stroke; when the resistance gives way, stop at once.");
   }
   void taper(Lesson& l) const {
     const double is = r_.shape.taper_deg.value_or(0), wanted = r_.access.target_taper_deg.value_or(is);
-    l.what = fmt::format("The walls open by {}°, and {}° are asked.", fixed(is, 0), fixed(wanted, 0));
-    l.instead = is > wanted ? "Keep the handpiece along the way in while you cut the walls; do not let it swing."
-                            : "Lean the point outwards a little along the walls, or take a tapered one.";
+    l.what = msg("The walls open by {}, and {} are asked.", as_deg(is), as_deg(wanted));
+    l.instead = is > wanted ? msg("Keep the handpiece along the way in while you cut the walls; do not let it swing.")
+                            : msg("Lean the point outwards a little along the walls, or take a tapered one.");
   }
   void neighbour(Lesson& l) const {
     l.where = r_.beside.first_nick;
     if (r_.beside.nick_depth_mm > 0) l.look_mm = r_.beside.deepest.site_mm;
-    l.what = fmt::format("The neighbouring tooth was cut, {} deep{}.", mm(r_.beside.nick_depth_mm), when_at(l.where));
-    l.instead = "Leave a thin shell of enamel in front of the neighbour until the box is finished, and break it out last.";
+    l.what = both(msg("The neighbouring tooth was cut, {} deep.", as_mm(r_.beside.nick_depth_mm)), when_at(l.where));
+    l.instead = msg("Leave a thin shell of enamel in front of the neighbour until the box is finished, and break it out last.");
   }
   void contact(Lesson& l) const {
     l.where.site_mm = r_.beside.clearance_from_mm;
     l.look_mm = r_.beside.clearance_from_mm;
-    l.what = fmt::format("The box comes clear of the neighbour by {} only.", mm(r_.beside.clearance_mm.value_or(0)));
-    l.instead = "Carry the margins of the box on until the neighbour can be passed all round, at its floor as well.";
+    l.what = msg("The box comes clear of the neighbour by {} only.", as_mm(r_.beside.clearance_mm.value_or(0)));
+    l.instead = msg("Carry the margins of the box on until the neighbour can be passed all round, at its floor as well.");
   }
   void gum(Lesson& l) const {
     l.where = r_.beside.first_gum;
-    l.what = fmt::format("{} of gum was cut{}.", mm3(r_.beside.gum_removed.mm3), from(l.where));
-    l.instead = "Keep the point above the margin of the gum, and come from above and not along it.";
+    l.what = both(msg("{} of gum was cut.", as_mm3(r_.beside.gum_removed.mm3)), from(l.where));
+    l.instead = msg("Keep the point above the margin of the gum, and come from above and not along it.");
   }
   void force(Lesson& l) const {
     l.where = r_.motion.force_peak;
-    l.what = fmt::format("You pressed with {} N on average and up to {} N{}.", fixed(r_.motion.force_mean_n, 1), fixed(r_.motion.force_peak_n, 1),
-                         when_at(l.where));
-    l.instead = "Let the diamond do the cutting: press less, and keep the point moving.";
+    l.what =
+        both(msg("You pressed with {} on average and up to {}.", as_n(r_.motion.force_mean_n, 1), as_n(r_.motion.force_peak_n, 1)), when_at(l.where));
+    l.instead = msg("Let the diamond do the cutting: press less, and keep the point moving.");
   }
   void time(Lesson& l) const {
-    l.what = fmt::format("The work took {}; for {} the point neither moved nor cut.", clock_text(r_.motion.time_s), clock_text(r_.motion.idle_s));
-    l.instead = r_.motion.idle_s > 0.2 * r_.motion.time_s ? "Plan the order of your cuts before you begin, so that the point seldom rests."
-                                                          : "Take the bulk away in broad, even layers, and keep the fine strokes for the end.";
+    l.what = msg("The work took {}; for {} the point neither moved nor cut.", ClockTime{r_.motion.time_s}, ClockTime{r_.motion.idle_s});
+    l.instead = r_.motion.idle_s > 0.2 * r_.motion.time_s ? msg("Plan the order of your cuts before you begin, so that the point seldom rests.")
+                                                          : msg("Take the bulk away in broad, even layers, and keep the fine strokes for the end.");
   }
   void steps(Lesson& l) const {
     l.where = r_.progress.first_violation;
     const int times = r_.progress.violations;
-    l.what = times == 1  ? std::string("A rule of the task was broken once.")
-             : times > 1 ? fmt::format("A rule of the task was broken {} times.", times)
-                         : fmt::format("Steps completed: {} of {}.", r_.progress.steps_completed, r_.progress.steps);
-    l.instead = r_.progress.violations > 0 ? "Use the points and the speed that the task allows." : "Follow the steps on the screen to the last one.";
+    l.what = times > 0 ? msgn("A rule of the task was broken {} time.", "A rule of the task was broken {} times.", times, times)
+                       : msg("Steps completed: {} of {}.", r_.progress.steps_completed, r_.progress.steps);
+    l.instead = times > 0 ? msg("Use the points and the speed that the task allows.") : msg("Follow the steps on the screen to the last one.");
   }
   void other(Lesson& l) const {
     for (const auto& c : r_.criteria)
       if (c.judged && c.max - c.points > k_shown_points && scenarios::known_measure(c.metric).counts == scenarios::k_counts_nothing) {
         l.where = c.first;
-        l.what = fmt::format("{}: not as asked.", c.title);
-        l.instead = "Look at its row in the table of criteria.";
+        l.what = msg("{}: not as asked.", Authored{c.title});
+        l.instead = msg("Look at its row in the table of criteria.");
         return;
       }
   }
@@ -304,7 +305,7 @@ class Teller {
   }
 
   /// How the handpiece leaned while a wall was cut beyond its outline; empty when it stood along the way in, or nobody knows.
-  [[nodiscard]] std::string lean_at(std::size_t w) const {
+  [[nodiscard]] Message lean_at(std::size_t w) const {
     Vec3 sum;
     std::int64_t last = -1;
     for (const auto& cut : in_.removed) {
@@ -314,14 +315,14 @@ class Teller {
       last = cut.tick;
       sum += rotation(in_.inputs[static_cast<std::size_t>(cut.tick)].pose().rotation) * Vec3{0, 0, 1};
     }
-    if (last < 0) return "";
+    if (last < 0) return {};
     const scenarios::Facing facing = in_.zones.facing();
     const Vec3 is = facing.local(normalized(sum)), way = facing.local(in_.zones.approach());
     const double x = is.x - way.x, y = is.y - way.y, deg = k_degrees_of * std::sqrt(x * x + y * y);
-    if (deg < k_least_lean_deg) return "";
+    if (deg < k_least_lean_deg) return {};
     const scenarios::Wall to = std::fabs(x) > std::fabs(y) ? (x > 0 ? scenarios::Wall::mesial : scenarios::Wall::distal)
                                                            : (y > 0 ? scenarios::Wall::buccal : scenarios::Wall::lingual);
-    return fmt::format("The handpiece leaned {}° towards {} there: hold it along the way in.", fixed(deg, 0), scenarios::wall_name(to, facing));
+    return msg("The handpiece leaned {} towards {} there: hold it along the way in.", as_deg(deg), Term{scenarios::wall_name(to, facing)});
   }
 
   const GradeInput& in_;

@@ -1,7 +1,5 @@
 #include "grading/words/lessons.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
@@ -138,18 +136,20 @@ const char* topic_name(Topic topic) noexcept {
   return k_names[static_cast<std::size_t>(topic)];
 }
 
-std::string side_words(Vec3 place_mm, const scenarios::ZoneMap& zones) {
+Message side_words(Vec3 place_mm, const scenarios::ZoneMap& zones) {
   const scenarios::Facing facing = zones.facing();
   const Vec3 off = facing.local(place_mm - (zones.target_low_mm() + zones.target_high_mm()) * 0.5);
   const double x = std::fabs(off.x), y = std::fabs(off.y);
-  if (x * x + y * y < k_middle_mm * k_middle_mm) return "in the middle";
+  if (x * x + y * y < k_middle_mm * k_middle_mm) return msg("in the middle");
   constexpr double k_eighth = 0.41421356;  // tan 22.5°
-  const bool along_x = x >= k_eighth * y, along_y = y >= k_eighth * x;
-  const std::string first = off.x > 0 ? "mesial" : "distal",
-                    second = scenarios::wall_name(off.y > 0 ? scenarios::Wall::buccal : scenarios::Wall::lingual, facing);
-  if (!along_y) return "towards " + first;
-  if (!along_x) return "towards " + second;
-  return facing.lateral() ? fmt::format("towards {} and {}", first, second) : fmt::format("{}o{}ly", first.substr(0, first.size() - 2), second);
+  const bool along_x = x >= k_eighth * y, along_y = y >= k_eighth * x, mesial = off.x > 0, buccal = off.y > 0;
+  const Term first{mesial ? "mesial" : "distal"}, second{scenarios::wall_name(buccal ? scenarios::Wall::buccal : scenarios::Wall::lingual, facing)};
+  if (!along_y) return msg("towards {}", first);
+  if (!along_x) return msg("towards {}", second);
+  if (facing.lateral()) return msg("towards {} and {}", first, second);
+  if (!buccal) return mesial ? msg("mesiolingually") : msg("distolingually");
+  if (facing.anterior) return mesial ? msg("mesiolabially") : msg("distolabially");
+  return mesial ? msg("mesiobuccally") : msg("distobuccally");
 }
 
 std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {

@@ -4,7 +4,6 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include "grading/measures/grade_input.h"
@@ -35,8 +34,8 @@ struct Lesson {
   Topic topic = Topic::other;
   double points = 0.0;               ///< lost by this mistake, of all criteria together
   bool fails_exam = false;           ///< a critical limit was passed by it
-  std::string what;                  ///< one sentence: what happened and where
-  std::string instead;               ///< one or two: what to do differently
+  Message what;                      ///< one sentence or two: what happened, where and when
+  Message instead;                   ///< one or two: what to do differently
   Trace where;                       ///< to look at; tick -1: no moment of its own
   std::optional<Vec3> look_mm = {};  ///< of a mistake that shows in the tooth: a section through here shows it
 };
@@ -46,6 +45,6 @@ struct Lesson {
 [[nodiscard]] std::vector<Lesson> lessons(const GradeInput& input, const Result& result);
 
 /// Where a place lies in the cavity, as a dentist says it: "mesiobuccally", "in the middle"; from a side "towards mesial and occlusal".
-[[nodiscard]] std::string side_words(Vec3 place_mm, const scenarios::ZoneMap& zones);
+[[nodiscard]] Message side_words(Vec3 place_mm, const scenarios::ZoneMap& zones);
 
 }  // namespace cavum::grading

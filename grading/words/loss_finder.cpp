@@ -1,11 +1,8 @@
 #include "grading/words/loss_finder.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "grading/measures/motion.h"
 #include "grading/measures/removed_map.h"
 #include "grading/result/loss.h"
@@ -28,7 +25,7 @@ void LossFinder::find() {
   value_and_work();
 }
 
-void LossFinder::fact(const std::string& what, std::optional<double> amount, const std::string& unit, const Trace& t, double bound) {
+void LossFinder::fact(const Message& what, std::optional<double> amount, const std::string& unit, const Trace& t, double bound) {
   WhyItem item;
   item.what = what;
   item.amount = amount;
@@ -69,16 +66,15 @@ void LossFinder::list_largest(std::vector<WhyItem> items) {
 void LossFinder::removed_moments(std::vector<WhyItem> items) {
   if (spec_.full < spec_.zero) {
     double before = 0;
-    const auto said = [&](double mm3) { return fixed(mm3, 2) + " mm3"; };
     for (auto& i : items) {
       const double now = before + *i.amount;
       i.points_lost = points_at(before) - points_at(now);
       if (now <= spec_.full)
-        i.what += fmt::format(", within the {} that cost nothing", said(spec_.full));
+        i.what = msg("{}, within the {} that cost nothing", i.what, as_mm3(spec_.full, 2));
       else if (before < spec_.full)
-        i.what += fmt::format(", of it {} mm3 beyond the {} that cost nothing", fixed(now - spec_.full, 3), said(spec_.full));
+        i.what = msg("{}, of it {} beyond the {} that cost nothing", i.what, as_mm3(now - spec_.full, 3), as_mm3(spec_.full, 2));
       else if (before >= spec_.zero)
-        i.what += fmt::format(", beyond the {} at which no points are left", said(spec_.zero));
+        i.what = msg("{}, beyond the {} at which no points are left", i.what, as_mm3(spec_.zero, 2));
       before = now;
     }
   }
@@ -113,10 +109,11 @@ void LossFinder::missed(double points) {
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
-    std::string what = "of the target left towards " + wall_text(w, r_.shape.facing);
-    if (p.sum > 0) what += ", its middle at " + place(p.middle / p.sum);
-    what += last.tick >= 0 ? "; the target was last cut there at " + when(last) : "; nothing of the target was cut there";
-    fact(what, mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
+    const Message wall = wall_text(w, r_.shape.facing);
+    const Message left =
+        p.sum > 0 ? msg("of the target left towards {}, its middle at {}", wall, p.middle / p.sum) : msg("of the target left towards {}", wall);
+    fact(last.tick >= 0 ? msg("{}; the target was last cut there at {}", left, when(last)) : msg("{}; nothing of the target was cut there", left),
+         mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
     if (mm3 >= k_least_moment_mm3) continue;
     leave_out(why_.items.back());
@@ -130,18 +127,19 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
   const double full = std::max(0.0, spec_.full);
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
+    const Message wall = wall_text(w, r_.shape.facing);
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
-      fact(wall_text(w, r_.shape.facing) + ": nothing was cut there");
+      fact(msg("{}: nothing was cut there", wall));
       continue;
     }
-    fact(fmt::format("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall_text(w, r_.shape.facing),
-                     amount_text(m.mean_mm, m.mean_bound_mm, 2, "mm"), amount_text(m.p95_mm, m.p95_bound_mm, 2, "mm"), m.samples));
+    fact(msg("{}: mean {}, 95th percentile {}, of {} places (+ = overcut)", wall, as_mm(m.mean_mm, 2, m.mean_bound_mm),
+             as_mm(m.p95_mm, 2, m.p95_bound_mm), m.samples));
     if (m.worst_over.tick >= 0 && !under && m.max_over_mm > full)
-      fact(wall_text(w, r_.shape.facing) + ": furthest overcut", m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
+      fact(msg("{}: furthest overcut", wall), m.max_over_mm, "mm", m.worst_over, r_.shape.bound_mm);
     if (over || m.max_under_mm <= full) continue;
     const bool cut = m.worst_under.tick >= 0;
-    fact(wall_text(w, r_.shape.facing) + ": most left standing" +
-             (cut ? ", seen from the surface cut here" : ", at " + place(m.worst_under.site_mm) + ", where nothing was cut"),
+    fact(cut ? msg("{}: most left standing, seen from the surface cut here", wall)
+             : msg("{}: most left standing, at {}, where nothing was cut", wall, m.worst_under.site_mm),
          m.max_under_mm, "mm", m.worst_under, r_.shape.bound_mm);
   }
   if (under) return;
@@ -167,7 +165,7 @@ void LossFinder::dice() {
 
 void LossFinder::overhang() {
   const AccessMeasures& a = r_.access;
-  if (!a.overhang) return fact("this target opens nothing that could be overhung");
+  if (!a.overhang) return fact(msg("this target opens nothing that could be overhung"));
   const double lost = a.overhang->mm3 > 0 ? (spec_.points - why_.criterion.points) / a.overhang->mm3 : 0.0;
   std::vector<WhyItem> items = overhang_moments(in_, end_, a);
   for (auto& i : items) i.points_lost = lost * *i.amount;
@@ -177,11 +175,11 @@ void LossFinder::overhang() {
 void LossFinder::canals() {
   double covered = 0;
   for (const auto& p : r_.access.canal_mouths) covered += p.part;
-  if (!(covered > 0)) return fact("no canal's mouth has hard tissue on the straight line out");
+  if (!(covered > 0)) return fact(msg("no canal's mouth has hard tissue on the straight line out"));
   for (const auto& p : r_.access.canal_mouths) {
     if (!(p.part > 0)) continue;
     const Trace last = last_cut_near(in_, end_, p.middle_mm);
-    fact(fmt::format("of a canal's mouth, its middle at {}, has hard tissue on the straight line out{}", place(p.middle_mm), last_cut_text(last)),
+    fact(msg("of a canal's mouth, its middle at {}, has hard tissue on the straight line out; {}", p.middle_mm, last_cut_text(last)),
          100 * p.part / p.whole, "%", last);
     if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
     why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
@@ -192,7 +190,7 @@ void LossFinder::canals() {
 void LossFinder::value_and_work() {
   const CriterionResult& c = why_.criterion;
   if (!c.value) {
-    fact("cannot be measured on this cavity", {}, "", r_.end);
+    fact(msg("cannot be measured on this cavity"), {}, "", r_.end);
     why_.items.back().points_lost = spec_.points;
     return;
   }
@@ -201,43 +199,40 @@ void LossFinder::value_and_work() {
   const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
-    fact(fmt::format("{}{}, which gives full marks", *c.value < spec_.full ? "short of " : "beyond ", amount_text(spec_.full, 0, 2, c.unit)),
+    const Number full{spec_.full, unit_of(c.unit), 2};
+    fact(*c.value < spec_.full ? msg("short of {}, which gives full marks", full) : msg("beyond {}, which gives full marks", full),
          std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
-    fact(fmt::format("{} % of the points count, for care counts in full only from {} % of the work on: {}", fixed(100 * c.work_share, 1),
-                     fixed(k_care_counts_percent, 0), c.work_text),
+    fact(msg("{} of the points count, for care counts in full only from {} of the work on: {}", as_percent(100 * c.work_share, 1),
+             as_percent(k_care_counts_percent), c.work_text),
          {}, "", r_.end);
     why_.items.back().points_lost = by_work;
   }
 }
 
 void LossFinder::steps() {
-  const auto of_step = [this](const OfStep& of) {
-    const auto at = static_cast<std::size_t>(of.step);
-    return at < in_.scenario.steps.size() ? fmt::format(" ({})", in_.scenario.steps[at].id) : "";
-  };
-  const auto of_tissue = [this](const OfTissue& of) { return fmt::format(" ({})", in_.before.tissue_name(of.tissue)); };
   std::int64_t last = 0;
   for (const auto& e : in_.events) {
     if (e.as<Overruns>() != nullptr) continue;  // late ticks of the computer, in nearly every second of a slow one: nothing that a candidate did
-    const std::string detail =
-        std::visit(EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return of_step(of); },
-                            [&](const AnyOf<AimReached, Perforated> auto& of) { return of_tissue(of); },
-                            [](const Finished& of) { return fmt::format(" ({})", finish_name(of.how)); },
-                            [](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded,
-                                           RecordingGap, RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack,
-                                           ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased,
-                                           Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return std::string(); }},
-                   e.event);
-    std::string what = kind_of(e.event);
-    std::replace(what.begin(), what.end(), '_', ' ');
+    std::string kind = kind_of(e.event);
+    std::replace(kind.begin(), kind.end(), '_', ' ');
+    const Term word{kind};
+    const Message what = std::visit(
+        EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return msg("{} ({})", word, of.step + 1LL); },
+                 [&](const AnyOf<AimReached, Perforated> auto& of) { return msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}); },
+                 [&](const Finished& of) { return msg("{} ({})", word, Term{finish_name(of.how)}); },
+                 [&](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded, RecordingGap,
+                                 RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees,
+                                 ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep,
+                                 MeasuredForce> auto&) { return msg("{}", word); }},
+        e.event);
     WhyItem item;
     item.tick = item.end_tick = e.tick;
-    item.what = what + detail + ", after";
+    item.what = msg("{}, so long after the event before", what);
     item.amount = static_cast<double>(e.tick - last) * k_tick_s;
-    item.unit = "s since the event before";
+    item.unit = "s";
     if (e.tick < static_cast<std::int64_t>(in_.inputs.size()) && e.tick >= 0) item.site_mm = in_.inputs[static_cast<std::size_t>(e.tick)].tip_mm();
     why_.items.push_back(std::move(item));
     last = e.tick;
@@ -246,39 +241,43 @@ void LossFinder::steps() {
 
 void LossFinder::perforation() {
   const PerforationMeasures& p = r_.perforation;
-  const auto truth = [&](const char* kind, const PerforationTruth& t) {
-    if (t.outside_mm3 > 0) fact("tissue: removed from outside the tooth, which is no perforation", t.outside_mm3, "mm3", t.first_outside);
-    if (!t.perforated) return fact(fmt::format("tissue: no {}", kind));
-    fact(fmt::format("tissue: {}, {} first opened here", kind, t.tissue), t.area_mm2, "mm2 of its wall in all", t.first, t.area_bound_mm2);
-    fact(fmt::format("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
-    if (t.drop) fact(fmt::format("drop: {}, {}", kind, drop_text(*t.drop)), t.drop->missing_n, "N", {t.drop->from_tick, t.drop->site_mm});
+  const auto truth = [&](const Message& kind, const PerforationTruth& t) {
+    if (t.outside_mm3 > 0) fact(msg("tissue: removed from outside the tooth, which is no perforation"), t.outside_mm3, "mm3", t.first_outside);
+    if (!t.perforated) return fact(msg("tissue: {} not opened", kind));
+    fact(msg("tissue: {}, {} first opened here; of its wall in all", kind, Term{t.tissue}), t.area_mm2, "mm2", t.first, t.area_bound_mm2);
+    fact(msg("tissue: {}, removed from the cavity", kind), t.volume_mm3, "mm3", {}, t.bound_mm3);
+    if (t.drop) fact(msg("drop: {}, {}", kind, drop_text(*t.drop)), t.drop->missing_n, "N", {t.drop->from_tick, t.drop->site_mm});
   };
-  truth("fault", p.fault);
-  if (p.has_aims) truth("aim", p.aim);
-  if (p.events.empty()) fact("force: no breakthrough seen");
-  if (p.aim_unseen()) fact("force: the breakthrough into the aim was not seen, which costs nothing");
+  truth(msg("fault"), p.fault);
+  if (p.has_aims) truth(msg("aim"), p.aim);
+  if (p.events.empty()) fact(msg("force: no breakthrough seen"));
+  if (p.aim_unseen()) fact(msg("force: the breakthrough into the aim was not seen, which costs nothing"));
   for (const auto& e : p.events) {
-    fact(fmt::format("force: {}, a fall from {} N to {} N while the tip went on by {} mm; {} by the tissue", e.fault ? "fault" : "aim",
-                     fixed(e.force_before_n, 2), fixed(e.force_after_n, 2), fixed(e.advance_mm, 2), e.confirmed ? "confirmed" : "not confirmed"),
+    const Message kind = e.fault ? msg("fault") : msg("aim");
+    const Number before = as_n(e.force_before_n, 2), after = as_n(e.force_after_n, 2), way = as_mm(e.advance_mm, 2);
+    fact(e.confirmed ? msg("force: {}, a fall from {} to {} while the tip went on by {}; confirmed by the tissue", kind, before, after, way)
+                     : msg("force: {}, a fall from {} to {} while the tip went on by {}; not confirmed by the tissue", kind, before, after, way),
          e.force_before_n - e.force_after_n, "N", {e.tick, e.site_mm});
     why_.items.back().end_tick = e.seen_tick;
   }
-  fact(p.agree() ? "force and tissue agree about faults" : "force and tissue disagree about faults");
+  fact(p.agree() ? msg("force and tissue agree about faults") : msg("force and tissue disagree about faults"));
 }
 
-void LossFinder::shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error) {
-  fact(name + " of the cavity", found, "mm", {}, r_.shape.bound_mm);
-  fact(name + " of the target", wanted, "mm");
+void LossFinder::shape(Extent extent, std::optional<double> found, double wanted, std::optional<double> error) {
+  const bool deep = extent == Extent::depth, along_x = extent == Extent::length;
+  fact(deep ? msg("depth of the cavity") : along_x ? msg("length of the cavity") : msg("width of the cavity"), found, "mm", {}, r_.shape.bound_mm);
+  fact(deep ? msg("depth of the target") : along_x ? msg("length of the target") : msg("width of the target"), wanted, "mm");
   // the leaves at the ends tell when that was cut
   struct End {
-    const char* what;
+    scenarios::Wall wall;
     Vec3 direction;
   };
-  const bool deep = name == "depth", along_x = name == "length";
-  const std::vector<End> ends = deep      ? std::vector<End>{{"deepest", {0, 0, -1}}}
-                                : along_x ? std::vector<End>{{"furthest mesial", {1, 0, 0}}, {"furthest distal", {-1, 0, 0}}}
-                                          : std::vector<End>{{"furthest buccal", {0, 1, 0}}, {"furthest lingual", {0, -1, 0}}};
+  using scenarios::Wall;
+  const std::vector<End> ends = deep      ? std::vector<End>{{Wall::floor, {0, 0, -1}}}
+                                : along_x ? std::vector<End>{{Wall::mesial, {1, 0, 0}}, {Wall::distal, {-1, 0, 0}}}
+                                          : std::vector<End>{{Wall::buccal, {0, 1, 0}}, {Wall::lingual, {0, -1, 0}}};
   for (const End& end : ends) {
+    const Term name{scenarios::wall_name(end.wall)};
     Trace t;
     double most = -1e9;
     for (const auto& r : in_.removed) {
@@ -288,15 +287,18 @@ void LossFinder::shape(const std::string& name, std::optional<double> found, dou
       most = dot(at, end.direction);
       t = {r.tick, at};
     }
-    if (t.tick >= 0) fact(fmt::format("{} place removed", end.what), most, "mm from the tooth's origin", t);
+    if (t.tick >= 0)
+      fact(deep ? msg("deepest place removed, from the tooth's origin") : msg("furthest {} place removed, from the tooth's origin", name), most, "mm",
+           t);
     if (deep || !error) continue;
-    const auto& e = r_.shape.end_error[static_cast<std::size_t>(&end - ends.data()) + (along_x ? 0 : 2)];
-    fact(fmt::format("missing or too much at the {} end, {}{}", std::string(end.what).substr(9), fixed(std::fabs(e.beyond_mm), 2),
-                     e.beyond_mm >= 0 ? " mm too far" : " mm short"),
+    const auto& e = r_.shape.end_error[static_cast<std::size_t>(end.wall)];
+    const Number beyond = as_mm(std::fabs(e.beyond_mm), 2);
+    fact(e.beyond_mm >= 0 ? msg("missing or too much at the {} end, {} too far", name, beyond)
+                          : msg("missing or too much at the {} end, {} short", name, beyond),
          e.part_mm, "mm", t, r_.shape.bound_mm);
     if (*error > 0) why_.items.back().points_lost = (points_at(spec_.full) - why_.criterion.points) * e.part_mm / *error;
   }
-  if (deep) fact("missing and too much together", error, "mm", {}, 2 * r_.shape.bound_mm);
+  if (deep) fact(msg("missing and too much together"), error, "mm", {}, 2 * r_.shape.bound_mm);
 }
 
 void LossFinder::missed_target() { missed(spec_.points - why_.criterion.points); }
@@ -308,18 +310,18 @@ void LossFinder::at_walls() {
   walls(m.first_wall, m.first_wall + m.walls, m.figure);
 }
 
-void LossFinder::length() { shape("length", r_.shape.length_mm, r_.shape.target_length_mm, r_.shape.length_error_mm); }
-void LossFinder::width() { shape("width", r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm); }
-void LossFinder::depth() { shape("depth", r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm); }
+void LossFinder::length() { shape(Extent::length, r_.shape.length_mm, r_.shape.target_length_mm, r_.shape.length_error_mm); }
+void LossFinder::width() { shape(Extent::width, r_.shape.width_mm, r_.shape.target_width_mm, r_.shape.width_error_mm); }
+void LossFinder::depth() { shape(Extent::depth, r_.shape.depth_mm, r_.shape.target_depth_mm, r_.shape.depth_error_mm); }
 
 void LossFinder::taper() {
-  fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
+  fact(msg("mean slope of the side walls"), r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
   walls(0, scenarios::k_side_walls, {});
 }
 
 void LossFinder::taper_error() {
-  fact("mean slope of the side walls", r_.shape.taper_deg, "degrees", {}, r_.shape.taper_bound_deg);
-  fact("mean slope of the target's side walls", r_.access.target_taper_deg, "degrees", {}, r_.access.target_taper_bound_deg);
+  fact(msg("mean slope of the side walls"), r_.shape.taper_deg, "deg", {}, r_.shape.taper_bound_deg);
+  fact(msg("mean slope of the target's side walls"), r_.access.target_taper_deg, "deg", {}, r_.access.target_taper_bound_deg);
   walls(0, scenarios::k_side_walls, {});
 }
 
@@ -334,12 +336,12 @@ void LossFinder::floor_cut() {
 void LossFinder::dentin_over_pulp() {
   const OverPulpMeasures& o = r_.over_pulp;
   if (!o.dentin_mm) return;
-  fact(*o.dentin_mm > 0 ? "left over the pulp's wall at " + place(o.pulp_mm) : "the pulp was opened", o.dentin_mm, "mm", o.thinnest, o.bound_mm);
+  fact(*o.dentin_mm > 0 ? msg("left over the pulp's wall at {}", o.pulp_mm) : msg("the pulp was opened"), o.dentin_mm, "mm", o.thinnest, o.bound_mm);
 }
 
 void LossFinder::nick() {
   const BesideMeasures& b = r_.beside;
-  if (b.deepest.tick >= 0) fact("cut deepest into a neighbour here", b.nick_depth_mm, "mm", b.deepest, b.nick_depth_bound_mm);
+  if (b.deepest.tick >= 0) fact(msg("cut deepest into a neighbour here"), b.nick_depth_mm, "mm", b.deepest, b.nick_depth_bound_mm);
   removed_moments(whole_leaves([&](const RemovedAt& r) { return in_.beside != nullptr && in_.beside->apart.of_neighbours[r.leaf.tissue]; }));
 }
 
@@ -347,8 +349,8 @@ void LossFinder::clearance() {
   const BesideMeasures& b = r_.beside;
   if (!b.clearance_mm) return;
   const Trace last = last_cut_near(in_, end_, b.clearance_from_mm);
-  fact(fmt::format("from {} to the neighbour's {}{}", place(b.clearance_from_mm), place(b.clearance_to_mm), last_cut_text(last)), b.clearance_mm,
-       "mm", last, b.clearance_bound_mm);
+  fact(msg("from {} to the neighbour's {}; {}", b.clearance_from_mm, b.clearance_to_mm, last_cut_text(last)), b.clearance_mm, "mm", last,
+       b.clearance_bound_mm);
 }
 
 void LossFinder::gum() {
@@ -363,19 +365,19 @@ void LossFinder::tissue() {
 }
 
 void LossFinder::time() {
-  fact("time that counts, pauses taken off", r_.motion.time_s, "s");
-  fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
+  fact(msg("time that counts, pauses taken off"), r_.motion.time_s, "s");
+  fact(msg("of it neither moving nor cutting"), r_.motion.idle_s, "s");
   steps();
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
 
 void LossFinder::handpiece_time() {
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, "the handpiece turned for", Stretch::duration));
+      in_, end_, [&](std::int64_t i) { return record(i).rpm >= k_turning_rpm; }, 0, msg("the handpiece turned"), Stretch::duration));
 }
 
 void LossFinder::idle() {
-  fact("of it neither moving nor cutting", r_.motion.idle_s, "s");
+  fact(msg("of it neither moving nor cutting"), r_.motion.idle_s, "s");
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
 
@@ -383,10 +385,10 @@ void LossFinder::force() { pressed_above(spec_.full); }
 void LossFinder::force_over_limit() { pressed_above(in_.scenario.force_limit_n); }
 
 void LossFinder::pressed_above(double force) {
-  if (r_.motion.force_peak.tick >= 0) fact("pressed hardest", r_.motion.force_peak_n, "N", r_.motion.force_peak);
+  if (r_.motion.force_peak.tick >= 0) fact(msg("pressed hardest"), r_.motion.force_peak_n, "N", r_.motion.force_peak);
   list_largest(tick_stretches(
-      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks,
-      fmt::format("pressed with more than {} N", fixed(force, 2)), Stretch::peak_force));
+      in_, end_, [&](std::int64_t i) { return force_n(record(i)) > force; }, k_moment_gap_ticks, msg("pressed with more than {}", as_n(force, 2)),
+      Stretch::peak_force));
 }
 
 }  // namespace cavum::grading

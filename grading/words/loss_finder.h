@@ -45,7 +45,7 @@ class LossFinder {
   void steps();             ///< the exam as a row of events, each with what it took since the one before
 
  private:
-  void fact(const std::string& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
+  void fact(const Message& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
   /// Points that a value of the metric is worth.
   [[nodiscard]] double points_at(double value) const;
   void removed_moments(std::vector<WhyItem> items);
@@ -55,7 +55,8 @@ class LossFinder {
   /// `points`: what is lost by it altogether.
   void missed(double points);
   void walls(std::size_t first, std::size_t end, std::optional<scenarios::WallFigure> figure);
-  void shape(const std::string& name, std::optional<double> found, double wanted, std::optional<double> error);
+  enum class Extent : std::uint8_t { length, width, depth };
+  void shape(Extent extent, std::optional<double> found, double wanted, std::optional<double> error);
   void pressed_above(double force);
   void leave_out(const WhyItem& item);
   void list_largest(std::vector<WhyItem> items);

@@ -1,12 +1,9 @@
 #include "grading/words/moments.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <numeric>
 
-#include "engine/base/text.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
 
@@ -22,22 +19,28 @@ struct Moment {
   IVec3 at;
 };
 
-std::string text_of(const Moment& m, scenarios::Facing facing) {
-  const auto wall = static_cast<std::size_t>(std::max_element(m.by_wall.begin(), m.by_wall.end()) - m.by_wall.begin());
+Message text_of(const Moment& m, scenarios::Facing facing) {
+  const auto at = static_cast<std::size_t>(std::max_element(m.by_wall.begin(), m.by_wall.end()) - m.by_wall.begin());
   std::vector<std::size_t> zones;
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
     if (m.by_zone[z] > 0) zones.push_back(z);
   std::stable_sort(zones.begin(), zones.end(), [&](std::size_t a, std::size_t b) { return m.by_zone[a] > m.by_zone[b]; });
-  std::string text = "removed";
-  for (std::size_t i = 0; i < zones.size(); ++i) {
-    const std::string name = static_cast<scenarios::Zone>(zones[i]) == scenarios::Zone::none
-                                 ? "outside all zones"
-                                 : fmt::format("in {}", scenarios::zone_name(static_cast<scenarios::Zone>(zones[i])));
-    text += (i == 0 ? " " : ", ") + (zones.size() > 1 ? fixed(m.by_zone[zones[i]], 3) + " mm3 " : "") + name;
+  const Message wall = wall_text(at, facing);
+  const auto name = [](std::size_t zone) { return Term{scenarios::zone_name(static_cast<scenarios::Zone>(zone))}; };
+  const auto outside = [](std::size_t zone) { return static_cast<scenarios::Zone>(zone) == scenarios::Zone::none; };
+  Message text;
+  if (zones.size() == 1) {
+    text = outside(zones[0]) ? msg("removed outside all zones, the largest part at {}", wall)
+                             : msg("removed in {}, the largest part at {}", name(zones[0]), wall);
+  } else {
+    List parts;
+    for (const std::size_t z : zones) {
+      const Number volume = as_mm3(m.by_zone[z], 3);
+      parts.items.push_back(outside(z) ? msg("{} outside all zones", volume) : msg("{} in {}", volume, name(z)));
+    }
+    text = msg("removed {}, the largest part at {}", parts, wall);
   }
-  text += ", the largest part at " + wall_text(wall, facing);
-  if (m.furthest_mm > 0) text += fmt::format(", at the furthest {} mm beyond the target", fixed(m.furthest_mm, 2));
-  return text;
+  return m.furthest_mm > 0 ? msg("{}, at the furthest {} beyond the target", text, as_mm(m.furthest_mm, 2)) : text;
 }
 
 }  // namespace
@@ -84,7 +87,7 @@ std::vector<WhyItem> removal_moments(const GradeInput& input, std::int64_t end, 
 }
 
 std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, const std::function<bool(std::int64_t)>& counts, std::int64_t gap,
-                                    const std::string& what, Stretch amount) {
+                                    const Message& what, Stretch amount) {
   std::vector<WhyItem> items;
   std::int64_t held = 0;
   double peak = 0;
@@ -94,7 +97,7 @@ std::vector<WhyItem> tick_stretches(const GradeInput& input, std::int64_t end, c
     const double held_s = static_cast<double>(held) * k_tick_s;
     i.amount = amount == Stretch::peak_force ? peak : held_s;
     i.unit = amount == Stretch::peak_force ? "N" : "s";
-    if (amount == Stretch::peak_force) i.what += fmt::format(", {} s of it; the peak is given", fixed(held_s, 3));
+    if (amount == Stretch::peak_force) i.what = msg("{}, {} of it; the peak is given", i.what, as_s(held_s, 3));
   };
   const auto n = std::min<std::int64_t>(end, static_cast<std::int64_t>(input.inputs.size()));
   for (std::int64_t i = 0; i < n; ++i) {
@@ -126,7 +129,7 @@ std::vector<WhyItem> idle_moments(const GradeInput& input, std::int64_t end, con
     WhyItem item;
     item.tick = span.begin;
     item.end_tick = span.end - 1;
-    item.what = "neither moved nor cut for";
+    item.what = msg("neither moved nor cut");
     item.amount = static_cast<double>(span.end - span.begin) * k_tick_s;
     item.unit = "s";
     item.site_mm = input.inputs[static_cast<std::size_t>(span.begin)].tip_mm();
@@ -142,8 +145,8 @@ Trace last_cut_near(const GradeInput& input, std::int64_t end, Vec3 place_mm) {
   return {};
 }
 
-std::string last_cut_text(const Trace& last) {
-  return last.tick >= 0 ? "; cut last within a millimetre of it" : "; nothing was cut within a millimetre of it";
+Message last_cut_text(const Trace& last) {
+  return last.tick >= 0 ? msg("cut last within a millimetre of it") : msg("nothing was cut within a millimetre of it");
 }
 
 std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end, const AccessMeasures& access) {
@@ -151,7 +154,7 @@ std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end,
   for (const auto& p : access.overhang_pieces) {
     WhyItem item;
     const Trace last = last_cut_near(input, end, p.middle_mm);
-    item.what = fmt::format("roof left over the chamber, its middle at {}{}", place(p.middle_mm), last_cut_text(last));
+    item.what = msg("roof left over the chamber, its middle at {}; {}", p.middle_mm, last_cut_text(last));
     item.tick = item.end_tick = last.tick;
     item.site_mm = last.tick >= 0 ? last.site_mm : p.middle_mm;
     item.amount = p.part;

@@ -1,11 +1,8 @@
 #include "grading/words/why.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/error.h"
-#include "engine/base/kept.h"
 #include "grading/result/mark.h"
 #include "grading/words/loss_finder.h"
 
@@ -13,9 +10,9 @@ namespace cavum::grading {
 
 Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id) {
   Why w;
-  std::string known;
+  List known;
   for (std::size_t i = 0; i < rubric.criteria.size(); ++i) {
-    known += (known.empty() ? "" : ", ") + kept(rubric.criteria[i].id);
+    known.items.emplace_back(Name{rubric.criteria[i].id});
     if (rubric.criteria[i].id != criterion_id) continue;
     w.criterion = result.criteria.at(i);
     const scenarios::CriterionSpec spec = as_marked(rubric.criteria[i], result);

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "grading/measures/grade_input.h"
 
 namespace cavum::grading {
@@ -19,7 +20,7 @@ struct WhyItem {
   std::optional<double> bound;  ///< the amount may be off by ± that; none where it is exact
   std::string unit;
   std::optional<double> points_lost;  ///< of this moment, where points follow from a sum over moments
-  std::string what;
+  Message what;
 };
 
 struct Why {
@@ -39,6 +40,6 @@ inline constexpr double k_least_moment_mm3 = 0.0005;  ///< a smaller volume is n
 [[nodiscard]] Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id);
 
 [[nodiscard]] nlohmann::ordered_json to_json(const Why& why);
-[[nodiscard]] std::string to_text(const Why& why);
+[[nodiscard]] Lines to_text(const Why& why);
 
 }  // namespace cavum::grading

@@ -1,11 +1,6 @@
 // What `grade --why` found, as JSON and as text.
-#include <fmt/core.h>
-
-#include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/kept.h"
-#include "engine/base/text.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
 #include "grading/result/result_json.h"
@@ -32,7 +27,7 @@ Json to_json(const Why& w) {
                      {"bound", number(i.bound)},
                      {"unit", i.unit},
                      {"points_lost", number(i.points_lost)},
-                     {"what", i.what}});
+                     {"what", english_text(i.what)}});
   }
   return {{"criterion",
            {{"id", c.id},
@@ -46,7 +41,7 @@ Json to_json(const Why& w) {
             {"points", rounded(c.points)},
             {"max", rounded(c.max)},
             {"critical_failed", c.critical_failed},
-            {"reason", c.reason}}},
+            {"reason", english_text(msg("{}", c.reason))}}},
           {"points_lost", rounded(c.max - c.points)},
           {"moments", items},
           {"moments_left_out", w.left_out},
@@ -54,40 +49,36 @@ Json to_json(const Why& w) {
           {"left_out_points", rounded(w.left_out_points)}};
 }
 
-std::string to_text(const Why& w) {
+Lines to_text(const Why& w) {
   const auto& c = w.criterion;
   const scenarios::Measure measure = scenarios::known_measure(c.metric);
-  const std::string full = value_text(measure, w.full, 0, 3), none = value_text(measure, w.zero, 0, 3);
-  std::string s = fmt::format("{} ({}): {} of {} points, {} lost\n  {}; {}\n  {}\n", kept(c.id), kept(c.metric), fixed(c.points, 2), fixed(c.max, 2),
-                              fixed(c.max - c.points, 2), c.value ? value_text(measure, *c.value, c.bound, 3) : std::string("not measured"),
-                              measure.reads == scenarios::Reads::yes_no ? fmt::format("full marks at {}, none at {}", full, none)
-                              : w.full < w.zero                         ? fmt::format("full marks at {} or less, none from {} on", full, none)
-                                                                        : fmt::format("full marks at {} or more, none from {} down", full, none),
-                              c.reason);
-  if (!w.items.empty()) s += "\n";
-  for (const auto& i : w.items) {
-    std::string time;
-    if (i.tick >= 0) {
-      time = fixed(static_cast<double>(i.tick) * k_tick_s, 3);
-      if (i.end_tick > i.tick) time += " to " + fixed(static_cast<double>(i.end_tick) * k_tick_s, 3);
-      time += " s";
-    }
-    time.resize(std::max<std::size_t>(time.size(), 22), ' ');
-    const std::string amount = i.amount ? amount_text(*i.amount, i.bound.value_or(0), 3, i.unit) : "";
-    s += fmt::format("  {}  ", time);
-    if (i.what.starts_with("of "))
-      s += fmt::format("{} {}", amount, i.what);
-    else
-      s += i.what + (amount.empty() ? "" : (i.what.ends_with("after") || i.what.ends_with("for") ? " " : ": ") + amount);
-    if (i.site_mm) s += ", at " + kept(place(*i.site_mm));
-    if (i.tick >= 0) s += fmt::format(", tick {}", i.tick);
-    if (i.points_lost) s += fmt::format(", {} points", fixed(*i.points_lost, 2));
-    s += "\n";
-  }
-  if (w.left_out > 0)
-    s += fmt::format("  and {} smaller moments, {} in all{}\n", w.left_out, fixed(w.left_out_amount, 3),
-                     w.left_out_points > 0 ? fmt::format(", {} points", fixed(w.left_out_points, 2)) : "");
-  return s;
+  const Message full = value_text(measure, w.full, 0, 3), none = value_text(measure, w.zero, 0, 3);
+  Lines out;
+  out.add(msg("{} ({}): {} of {} points, {} lost", c.id, c.metric, as_points(c.points, 2), as_points(c.max, 2), as_points(c.max - c.points, 2)));
+  out.add(c.value ? value_text(measure, *c.value, c.bound, 3) : msg("not measured"), 2);
+  out.add(measure.reads == scenarios::Reads::yes_no ? msg("full marks at {}, none at {}", full, none)
+          : w.full < w.zero                         ? msg("full marks at {} or less, none from {} on", full, none)
+                                                    : msg("full marks at {} or more, none from {} down", full, none),
+          2);
+  out.add(msg("{}", c.reason), 2);
+  if (!w.items.empty()) out.gap();
+  const auto seconds = [](std::int64_t tick) { return as_s(static_cast<double>(tick) * k_tick_s, 3); };
+  for (const auto& i : w.items)
+    out.row({i.tick < 0            ? Message()
+             : i.end_tick > i.tick ? msg("{} to {}", seconds(i.tick), seconds(i.end_tick))
+                                   : msg("{}", seconds(i.tick)),
+             i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit), 3, i.bound.value_or(0)}) : Message(), i.what,
+             i.site_mm ? msg("{}", *i.site_mm) : Message(), i.tick >= 0 ? msg("tick {}", i.tick) : Message(),
+             i.points_lost ? msg("{} points", as_points(*i.points_lost, 2)) : Message()},
+            2);
+  if (w.left_out == 0) return out;
+  const Number amount = as_number(w.left_out_amount, 3);
+  out.add(w.left_out_points > 0 ? msgn("and {} smaller moment, {} in all, {} points", "and {} smaller moments, {} in all, {} points",
+                                       static_cast<std::int64_t>(w.left_out), w.left_out, amount, as_points(w.left_out_points, 2))
+                                : msgn("and {} smaller moment, {} in all", "and {} smaller moments, {} in all", static_cast<std::int64_t>(w.left_out),
+                                       w.left_out, amount),
+          2);
+  return out;
 }
 
 }  // namespace cavum::grading

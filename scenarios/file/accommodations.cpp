@@ -4,7 +4,6 @@
 #include <charconv>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -68,18 +67,16 @@ Accommodations granted(const Accommodations& by_file, const std::vector<std::pai
   return a;
 }
 
-List accommodations_text(const Accommodations& a) {
-  List all;
+Message accommodations_text(const Accommodations& a) {
+  List list;
   const Number percent = as_percent(a.extra_time_percent, k_as_needed), seconds = as_s(a.extra_time_s, k_as_needed);
   if (a.extra_time_percent > 0 && a.extra_time_s > 0)
-    all.items.push_back(msg("{} and {} extra time", percent, seconds));
-  else if (a.extra_time_percent > 0)
-    all.items.push_back(msg("{} extra time", percent));
-  else if (a.extra_time_s > 0)
-    all.items.push_back(msg("{} extra time", seconds));
-  if (a.left_handed) all.items.push_back(msg("left-handed"));
-  if (a.high_contrast) all.items.push_back(msg("high-contrast colours"));
-  return all;
+    list.items.push_back(msg("{} and {} extra time", percent, seconds));
+  else if (a.extra_time_percent > 0 || a.extra_time_s > 0)
+    list.items.push_back(msg("{} extra time", a.extra_time_percent > 0 ? percent : seconds));
+  if (a.left_handed) list.items.push_back(msg("left-handed"));
+  if (a.high_contrast) list.items.push_back(msg("high-contrast colours"));
+  return list.items.empty() ? Message() : msg("{}", list);
 }
 
 }  // namespace cavum::scenarios

@@ -27,6 +27,6 @@ void require_sound(const Grant& grant, const std::string& where);
 [[nodiscard]] Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes,
                                      const std::string& where);
 /// "25 % and 60 s extra time, left-handed, high-contrast colours"; empty when nothing is granted.
-[[nodiscard]] List accommodations_text(const Accommodations& a);
+[[nodiscard]] Message accommodations_text(const Accommodations& a);
 
 }  // namespace cavum::scenarios

@@ -60,7 +60,8 @@ std::string section_lines_svg(const Section& section, const PictureSpec& spec, c
 }
 
 std::string caption(double x, double y, const std::string& text, const char* anchor) {
-  return fmt::format("<text x='{}' y='{}' font-size='11' fill='#444444' text-anchor='{}'>{}</text>\n", svg_number(x), svg_number(y), anchor, text);
+  return fmt::format("<text x='{}' y='{}' font-size='11' fill='#444444' text-anchor='{}'>{}</text>\n", svg_number(x), svg_number(y), anchor,
+                     xml_text(text));
 }
 
 }  // namespace
@@ -83,9 +84,9 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   // a millimetre, and which way is which
   const double bottom = height_px + title_px;
   svg += fmt::format("<path d='M6 {}h{}' stroke='#222222' stroke-width='2'/>\n", svg_number(bottom - 6), svg_number(spec.scale_px_per_mm));
-  svg += caption(10 + spec.scale_px_per_mm, bottom - 3, "1 mm", "start");
-  svg += caption(width_px - 4, title_px - 4, spec.view == View::bucco_lingual ? "buccal &#8594;" : "mesial &#8594;", "end");
-  svg += caption(4, title_px - 4, section.upright() ? "&#8593; occlusal" : "&#8593; buccal", "start");
+  svg += caption(10 + spec.scale_px_per_mm, bottom - 3, spec.in_words(msg("{}", as_mm(1, 0))), "start");
+  svg += caption(width_px - 4, title_px - 4, spec.in_words(spec.view == View::bucco_lingual ? msg("buccal →") : msg("mesial →")), "end");
+  svg += caption(4, title_px - 4, spec.in_words(section.upright() ? msg("↑ occlusal") : msg("↑ buccal")), "start");
   svg += "</svg>\n";
   return svg;
 }

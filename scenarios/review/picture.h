@@ -7,12 +7,16 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/tooth/tooth.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
 
 class Shape;
+
+/// Puts a picture's words into a language.
+using InWords = std::string (*)(const Message& words);
 
 /// Which way one looks: the two axes of the picture, to the right and up.
 enum class View : std::uint8_t {
@@ -33,6 +37,7 @@ struct PictureSpec {
   /// grey and the leaves in the colours of heat_legend_svg, and from above each column shows its most frequent overcut, else what was left most
   /// often.
   std::function<double(IVec3 leaf)> heat_percent = {};
+  InWords in_words = english_text;
 };
 
 /// One picture, a complete `<svg>` element. `after` may be null (nothing was removed yet); then only the zones show.
@@ -46,14 +51,12 @@ struct PictureSpec {
 
 /// The key to the colours, an `<svg>` element, with what stands beside the tooth where anything does. `with_removed` adds what a graded section
 /// shows.
-[[nodiscard]] std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false);
-/// Puts a picture's words into another language.
-using InWords = std::string (*)(std::string_view english);
+[[nodiscard]] std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false, InWords in_words = english_text);
 /// The same in up to four `<svg>` elements: tissues, lines, what was removed, what stands beside. `in_words`: the room that each entry has is that of
-/// its translation.
+/// its words in that language.
 [[nodiscard]] std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast = false,
-                                                        InWords in_words = nullptr);
+                                                        InWords in_words = english_text);
 /// The key to the colours of PictureSpec::heat_percent, an `<svg>` element.
-[[nodiscard]] std::string heat_legend_svg(InWords in_words = nullptr);
+[[nodiscard]] std::string heat_legend_svg(InWords in_words = english_text);
 
 }  // namespace cavum::scenarios

@@ -37,14 +37,16 @@ constexpr HeatBand k_heat[] = {{80, "#9c3a02", "#0b4488"},
                                {k_least_heat_percent, "#fdd9b5", "#cfe1f2"}};
 
 struct KeyEntry {
-  std::string colour, text;
+  std::string colour;
+  Message text;
   bool is_line;
 };
 
 constexpr double k_of_a_telephone_px = 330;
 
 /// In rows, none wider than `most_px`; the entries of `second` begin another one.
-std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}, double most_px = 1e9, InWords in_words = nullptr) {
+std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEntry>& second = {}, double most_px = 1e9,
+                    InWords in_words = english_text) {
   constexpr double k_row_px = 22;
   std::string items;
   double width = 0, y = 0;
@@ -52,7 +54,7 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
     if (row->empty()) continue;
     double x = 4;
     for (const auto& e : *row) {
-      const std::string text = in_words != nullptr ? in_words(e.text) : e.text;
+      const std::string text = in_words(e.text);
       const auto letters = std::count_if(text.begin(), text.end(), [](unsigned char c) { return (c & 0xc0U) != 0x80U; });
       const double wide = 34 + 6.6 * static_cast<double>(letters);
       if (x > 4 && x + wide > most_px) {
@@ -64,7 +66,7 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
       else
         items += fmt::format("<rect x='{}' y='{}' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x),
                              svg_number(y + 4), e.colour);
-      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), text);
+      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), xml_text(text));
       x += wide;
       width = std::max(width, x);
     }
@@ -129,14 +131,15 @@ const char* finding_colour(const Palette& colours, Zone zone) {
 std::string tissue_colour(std::uint8_t tissue, bool high_contrast) { return tissue_colour(palette_of(high_contrast), tissue); }
 
 std::string heat_legend_svg(InWords in_words) {
-  std::vector<KeyEntry> entries{{k_grey.target_line, "target", true}};
+  std::vector<KeyEntry> entries{{k_grey.target_line, msg("target"), true}};
   const auto band = [](std::size_t i) {
-    return svg_number(k_heat[i].from_percent) + (i == 0 ? " % or more" : fmt::format(" to {} %", svg_number(k_heat[i - 1].from_percent)));
+    const Number from = as_number(k_heat[i].from_percent, 0);
+    return i == 0 ? msg("{} % or more", from) : msg("{} to {} %", from, as_number(k_heat[i - 1].from_percent, 0));
   };
   for (std::size_t i = std::size(k_heat); i-- > 0;)
-    entries.push_back({k_heat[i].over, (i + 1 == std::size(k_heat) ? "removed, damage: " : "") + band(i), false});
+    entries.push_back({k_heat[i].over, i + 1 == std::size(k_heat) ? msg("removed, damage: {}", band(i)) : band(i), false});
   for (std::size_t i = std::size(k_heat); i-- > 0;)
-    entries.push_back({k_heat[i].under, (i + 1 == std::size(k_heat) ? "left standing: " : "") + band(i), false});
+    entries.push_back({k_heat[i].under, i + 1 == std::size(k_heat) ? msg("left standing: {}", band(i)) : band(i), false});
   return key_svg(entries, {}, k_of_a_telephone_px, in_words);
 }
 
@@ -147,33 +150,34 @@ struct Key {
   std::vector<KeyEntry> tissues, lines, removed, beside;
 };
 Key key_of(const Tooth& tooth, bool with_removed, const Palette& colours) {
-  Key key{{{colours.enamel, "enamel", false},
-           {colours.dentin, "dentin", false},
-           {colours.pulp, "pulp", false},
-           {colours.periodontium, "periodontium", false}},
-          {{colours.target_line, "target", true}, {colours.leeway_line, "leeway", true}, {colours.container_line, "container", true}},
+  Key key{{{colours.enamel, msg("{}", Term{"enamel"}), false},
+           {colours.dentin, msg("{}", Term{"dentin"}), false},
+           {colours.pulp, msg("{}", Term{"pulp"}), false},
+           {colours.periodontium, msg("{}", Term{"periodontium"}), false}},
+          {{colours.target_line, msg("target"), true}, {colours.leeway_line, msg("leeway"), true}, {colours.container_line, msg("container"), true}},
           {},
           {}};
-  if (!with_removed) key.lines.push_back({colours.guard_line, "protected", true});
+  if (!with_removed) key.lines.push_back({colours.guard_line, msg("protected"), true});
   if (with_removed)
-    key.removed = {
-        {colours.removed, "removed, target", false}, {colours.leeway, "removed, leeway", false}, {colours.overcut, "removed, damage", false}};
+    key.removed = {{colours.removed, msg("removed, target"), false},
+                   {colours.leeway, msg("removed, leeway"), false},
+                   {colours.overcut, msg("removed, damage"), false}};
   for (const Tissue& t : tooth.tissues)
     if (t.name == k_gum)
-      key.beside.push_back({tissue_colour(colours, t.id), "gum", false});
+      key.beside.push_back({tissue_colour(colours, t.id), msg("gum"), false});
     else if (is_of_neighbour(t.name))
-      key.beside.push_back({tissue_colour(colours, t.id), "neighbour's " + t.name.substr(k_neighbour_prefix.size()), false});
+      key.beside.push_back({tissue_colour(colours, t.id), msg("neighbour's {}", Term{t.name.substr(k_neighbour_prefix.size())}), false});
   return key;
 }
 
 }  // namespace
 
-std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast) {
+std::string legend_svg(const Tooth& tooth, bool with_removed, bool high_contrast, InWords in_words) {
   const Key key = key_of(tooth, with_removed, palette_of(high_contrast));
   std::vector<KeyEntry> first = key.tissues;
   first.insert(first.end(), key.lines.begin(), key.lines.end());
   first.insert(first.end(), key.removed.begin(), key.removed.end());
-  return key_svg(first, key.beside);
+  return key_svg(first, key.beside, 1e9, in_words);
 }
 
 std::vector<std::string> legend_parts_svg(const Tooth& tooth, bool with_removed, bool high_contrast, InWords in_words) {

@@ -41,7 +41,9 @@ std::string table(std::span<const Examined> all) {
   rows("style", [](const Examined& e) { return e.hand + ": " + e.style; });
   rows("point", [](const Examined& e) { return e.point; });
   rows("tooth", [](const Examined& e) { return e.tooth; });
-  rows("severity", [](const Examined& e) { return std::string(e.opened_tick < 0 ? "nothing opened" : e.drop.severity()); });
+  rows("severity", [](const Examined& e) {
+    return std::string(e.opened_tick < 0 ? "nothing opened" : grading::k_drop_severities[static_cast<std::size_t>(e.drop.severity())]);
+  });
   rows("all", [](const Examined&) { return std::string("all"); });
   return out;
 }

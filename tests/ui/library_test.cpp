@@ -33,7 +33,7 @@ std::string text_of(const grading::Result& r) {
   std::string all =
       std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + english_text(reason.message()) + "\n";
-  for (const auto& c : r.criteria) all += "  " + c.id + ": " + c.reason + "\n";
+  for (const auto& c : r.criteria) all += "  " + c.id + ": " + english_text(msg("{}", c.reason)) + "\n";
   return all;
 }
 
@@ -86,7 +86,8 @@ TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) 
   const grading::Result expert = taken_by("expert", *setup);
   EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
   EXPECT_GE(expert.points, 90) << text_of(expert);
-  for (const auto& c : expert.criteria) EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << c.reason;
+  for (const auto& c : expert.criteria)
+    EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << english_text(msg("{}", c.reason));
   EXPECT_EQ(expert.progress.finish, Finish::completed) << text_of(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;

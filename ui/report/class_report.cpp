@@ -1,14 +1,10 @@
 #include "ui/report/class_report.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <cctype>
 #include <cmath>
 #include <nlohmann/json.hpp>
 #include <vector>
 
-#include "engine/base/text.h"
 #include "engine/base/version.h"
 #include "engine/language/say.h"
 #include "scenarios/review/picture.h"
@@ -26,28 +22,18 @@ using cohort::ClassTooth;
 
 constexpr int k_bins = 20;
 
-std::string number(const std::optional<double>& v, int digits) { return v ? fixed(*v, digits) : "–"; }
-std::string candidates(std::size_t n) { return trn("{} candidate", "{} candidates", static_cast<long long>(n), n); }
+std::string number(const std::optional<double>& v, int digits) { return v ? figure(as_number(*v, digits)) : "–"; }
+Message candidates(std::size_t n) { return msgn("{} candidate", "{} candidates", static_cast<std::int64_t>(n), n); }
 
-/// A warning before what a figure says, when it comes from few.
-std::string few_first(const ClassFigures& f, const char* figure) {
-  std::string words = shown(few_words(f, figure));
-  if (words.empty()) return "";
-  words[0] = static_cast<char>(std::toupper(static_cast<unsigned char>(words[0])));
-  return words + "; ";
+/// What a figure says, and that it comes from few.
+std::string with_few(const ClassFigures& f, const char* figure, const Message& says) {
+  const Message few = few_words(f, figure);
+  return few.empty() ? tr(says) : tr("{} ({})", says, few);
 }
 
 /// Who was marked by what, where that is not one for all.
 std::string marked_differently(const ClassFigures& f) {
-  std::string all;
-  for (const auto& b : f.marked_by) {
-    const std::string percent = plain_number(b.pass_percent);
-    all += (all.empty() ? "" : ", ") + (b.entry == 0 ? tr("{} as it was sat (pass mark {} %)", b.n, percent)
-                                                     : tr("{} by the rubric of entry {} (pass mark {} %)", b.n, b.entry, percent));
-  }
-  return tr("Not all results were marked alike: {}.", all) +
-         (f.pass_points ? "" : " " + tr("There is no one pass mark, and no figure or line at it.")) + " " +
-         tr("The criteria below are of those who were marked as most were.");
+  return tr("{}. The criteria below are of those who were marked as most were.", marked_by_words(f.marked_by));
 }
 
 /// Points of the class in twentieths of the whole, and the cut.
@@ -77,15 +63,14 @@ Picture distribution(const ClassFigures& f) {
 ReportTable key_figures(const ClassFigures& f) {
   ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 2}, {tr("What it says"), false, 6}}, {}, tr("The class in figures")};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
-  row(tr("mean"), tr("{} of {}", fixed(f.mean, 1), plain_number(f.max_points)), tr("points"));
-  row(tr("standard deviation"), fixed(f.sd, 1), tr("points"));
-  row(tr("pass mark"), f.pass_points ? fixed(*f.pass_points, 1) : "–", f.pass_points ? tr("points") : tr("there is no one: see the note above"));
-  row(tr("pass / review / fail"), fmt::format("{} / {} / {}", f.pass, f.review, f.fail), tr("candidates"));
-  const auto few = [&f](const char* figure) { return few_first(f, figure); };
+  row(tr("mean"), tr("{} of {}", as_points(f.mean), as_number(f.max_points)), tr("points"));
+  row(tr("standard deviation"), figure(as_points(f.sd)), tr("points"));
+  row(tr("pass mark"), number(f.pass_points, 1), f.pass_points ? tr("points") : tr("there is no one: see the note above"));
+  row(tr("pass / review / fail"), tr("{} / {} / {}", f.pass, f.review, f.fail), tr("candidates"));
   row(tr("Cronbach's alpha"), number(f.alpha, 2),
-      few("alpha") + tr("how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951"));
+      with_few(f, "alpha", msg("how far the criteria tell one story: k/(k−1)·(1 − Σ variances / variance of the sum), Cronbach 1951")));
   row(tr("standard error"), number(f.sem, 1),
-      few("standard_error") + tr("points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again"));
+      with_few(f, "standard_error", msg("points, s·√(1 − alpha): how far one candidate's sum would move if the same exam were sat again")));
   return t;
 }
 
@@ -110,13 +95,13 @@ std::vector<Picture> class_pictures(const ClassTooth& t) {
   const Vec3 at = hottest_mm(t);
   const auto draw = [&](scenarios::View view, double at_mm, const std::string& title) {
     scenarios::PictureSpec spec{view, at_mm, 30, ""};
+    spec.in_words = tr;
     spec.heat_percent = [&](IVec3 leaf) { return t.map->percent(leaf); };
     return Picture{scenarios::section_svg(t.tooth, nullptr, t.zones, spec), title};
   };
-  return {draw(scenarios::View::occlusal, 0, tr("From above")),
-          draw(scenarios::View::mesio_distal, at.y, fmt::format("Mesio-distal, y = {} mm", fixed(at.y, 2))),
-          draw(scenarios::View::bucco_lingual, at.x, fmt::format("Bucco-lingual, x = {} mm", fixed(at.x, 2))),
-          draw(scenarios::View::horizontal, at.z, fmt::format("Horizontal, z = {} mm", fixed(at.z, 2)))};
+  return {draw(scenarios::View::occlusal, 0, tr("From above")), draw(scenarios::View::mesio_distal, at.y, tr("Mesio-distal, y = {}", as_mm(at.y))),
+          draw(scenarios::View::bucco_lingual, at.x, tr("Bucco-lingual, x = {}", as_mm(at.x))),
+          draw(scenarios::View::horizontal, at.z, tr("Horizontal, z = {}", as_mm(at.z)))};
 }
 
 void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
@@ -135,12 +120,12 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
   Pictures pictures{{}, 2, false};
   pictures.list = class_pictures(t);
   d.blocks.emplace_back(std::move(pictures));
-  d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(shown), ""}}, 1, false});
+  d.blocks.emplace_back(Pictures{{{scenarios::heat_legend_svg(tr), ""}}, 1, false});
   d.blocks.emplace_back(Paragraph{tr("The sections run through the middle of what was cut too much."), "", Paragraph::Kind::small});
   if (t.left_out > 0)
     d.blocks.emplace_back(Paragraph{tr("{} sat it with another text, tooth or leaf size than most; they are not in these pictures.", t.left_out),
                                     tr("Note"), Paragraph::Kind::note});
-  for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{finding, tr("Not in these pictures"), Paragraph::Kind::note});
+  for (const auto& finding : t.findings) d.blocks.emplace_back(Paragraph{tr(finding), tr("Not in these pictures"), Paragraph::Kind::note});
   if (f.walls.empty()) return;
   ReportTable walls{{{tr("Wall"), false, 3},
                      {tr("Cut by"), true, 2},
@@ -150,7 +135,7 @@ void add_places(Document& d, const ClassFigures& f, const ClassTooth& t) {
                     {},
                     tr("Walls")};
   for (const auto& w : f.walls)
-    walls.rows.push_back({{{w.wall}, {std::to_string(w.n)}, {fixed(w.mean_mm, 2)}, {fixed(w.p95_mm, 2)}, {fixed(w.worst_mm, 2)}}});
+    walls.rows.push_back({{{tr("{}", Term{w.wall})}, {std::to_string(w.n)}, {number(w.mean_mm, 2)}, {number(w.p95_mm, 2)}, {number(w.worst_mm, 2)}}});
   d.blocks.emplace_back(std::move(walls));
   d.blocks.emplace_back(
       Paragraph{tr("Signed distance of the cut surface from the target's wall, + = overcut, averaged over the class."), "", Paragraph::Kind::small});
@@ -170,14 +155,14 @@ void add_criteria(Document& d, const ClassFigures& f) {
                                : c.difficulty < 0.2                          ? tr("hardly anybody has it: is the task clear, the limit right?")
                                : c.discrimination && *c.discrimination < 0.1 ? tr("goes its own way: who does well elsewhere does not here")
                                                                              : "";
-    t.rows.push_back({{{c.id}, {c.metric}, {fixed(c.difficulty, 2)}, {number(c.discrimination, 2)}, {remark}}});
+    t.rows.push_back({{{c.id}, {c.metric}, {number(c.difficulty, 2)}, {number(c.discrimination, 2)}, {remark}}});
   }
   d.blocks.emplace_back(std::move(t));
   d.blocks.emplace_back(Paragraph{
       tr("Share of points: 0 hard, 1 easy. Discrimination: correlation with the sum of the other criteria. Alpha takes criteria for parts of "
          "one skill, and a rubric of few and different ones has a low one without being unfair."),
       "", Paragraph::Kind::small});
-  if (const std::string few = few_words(f, "discrimination"); !few.empty())
+  if (const Message few = few_words(f, "discrimination"); !few.empty())
     d.blocks.emplace_back(Paragraph{tr("Discrimination, {}.", few), tr("Few candidates"), Paragraph::Kind::note});
 }
 
@@ -188,15 +173,15 @@ void add_stations(Document& d, const ClassFigures& f) {
     return;
   }
   ReportTable t{{{tr("Station"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations")};
-  for (const auto& s : f.stations) t.rows.push_back({{{s.name}, {std::to_string(s.n)}, {fixed(s.mean, 1)}}});
+  for (const auto& s : f.stations) t.rows.push_back({{{s.name}, {std::to_string(s.n)}, {number(s.mean, 1)}}});
   d.blocks.emplace_back(std::move(t));
   if (!f.station_effect) return;
   const auto& e = *f.station_effect;
   d.blocks.emplace_back(
-      Paragraph{tr("F = {}; stations hold {} % of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
-                   fixed(e.f, 2), fixed(100 * e.share, 1), fixed(e.chance, 3),
-                   e.chance < 0.01 ? tr("One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there.")
-                                   : tr("No station stands out.")),
+      Paragraph{tr("F = {}; stations hold {} of the variance, and shuffled candidates give as much in a share of {} of 9,999 shuffles. {}",
+                   as_number(e.f, 2), as_percent(100 * e.share, 1), as_number(e.chance, 3),
+                   e.chance < 0.01 ? msg("One station may grade harder: compare its stylus by `cavum devices --test`, and who sat there.")
+                                   : msg("No station stands out.")),
                 ""});
 }
 
@@ -208,25 +193,25 @@ void add_agreement(Document& d, const ClassFigures& f) {
     return;
   }
   d.blocks.emplace_back(
-      Paragraph{tr("{} marked by {}.", candidates(a.n), trn("{} judge", "{} judges", static_cast<long long>(a.judges), a.judges)), ""});
+      Paragraph{tr("{} marked by {}.", candidates(a.n), msgn("{} judge", "{} judges", static_cast<std::int64_t>(a.judges), a.judges)), ""});
   ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 3}, {tr("What it says"), false, 6}}, {}, tr("Agreement with people")};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   if (a.icc) {
-    row(tr("ICC(2,1)"), fixed(a.icc->single_random, 2),
-        few_first(f, "icc") + tr("agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)"));
-    row("ICC(3,1)", fixed(a.icc->single_fixed, 2), few_first(f, "icc") + tr("the same when a judge may be harder than another throughout"));
-    row("ICC(3,k)", fixed(a.icc->average_fixed, 2), few_first(f, "icc") + tr("consistency of all judges' mean"));
+    row(tr("ICC(2,1)"), number(a.icc->single_random, 2),
+        with_few(f, "icc", msg("agreement of one judge, the program among them, with any other (Shrout and Fleiss 1979)")));
+    row("ICC(3,1)", number(a.icc->single_fixed, 2), with_few(f, "icc", msg("the same when a judge may be harder than another throughout")));
+    row("ICC(3,k)", number(a.icc->average_fixed, 2), with_few(f, "icc", msg("consistency of all judges' mean")));
   }
   if (a.limits)
-    row(tr("program less people"), tr("{} ({} to {})", fixed(a.limits->bias, 1), fixed(a.limits->low, 1), fixed(a.limits->high, 1)),
-        few_first(f, "limits") + tr("points: mean, and limits within which about 95 % lie (Bland and Altman 1986)"));
+    row(tr("program less people"), tr("{} ({} to {})", as_points(a.limits->bias), as_points(a.limits->low), as_points(a.limits->high)),
+        with_few(f, "limits", msg("points: mean, and limits within which about 95 % lie (Bland and Altman 1986)")));
   if (f.pass_points)
-    row("weighted kappa", number(a.kappa, 2), few_first(f, "weighted_kappa") + tr("fail, borderline, pass; quadratic weights (Cohen 1968)"));
+    row(tr("weighted kappa"), number(a.kappa, 2), with_few(f, "weighted_kappa", msg("fail, borderline, pass; quadratic weights (Cohen 1968)")));
   if (a.cut)
-    row(tr("cut by borderline regression"), fixed(*a.cut, 1),
-        few_first(f, "borderline_cut") +
-            (f.pass_points ? tr("points at the rating that means borderline; the rubric's pass mark is {}", fixed(*f.pass_points, 1))
-                           : tr("points at the rating that means borderline")));
+    row(tr("cut by borderline regression"), number(a.cut, 1),
+        with_few(f, "borderline_cut",
+                 f.pass_points ? msg("points at the rating that means borderline; the rubric's pass mark is {}", as_points(*f.pass_points))
+                               : msg("points at the rating that means borderline")));
   d.blocks.emplace_back(std::move(t));
   if (a.incomplete > 0)
     d.blocks.emplace_back(
@@ -242,7 +227,7 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
     return;
   }
   ReportTable t{{{tr("Entry"), true, 1}, {tr("Candidate"), false, 3}, {tr("Why"), false, 6}}, {}, tr("Sessions to look at")};
-  for (const auto& l : f.to_look_at) t.rows.push_back({{{l.session > 0 ? std::to_string(l.session) : "–"}, {l.candidate}, {l.why}}});
+  for (const auto& l : f.to_look_at) t.rows.push_back({{{l.session > 0 ? std::to_string(l.session) : "–"}, {l.candidate}, {tr(l.why)}}});
   d.blocks.emplace_back(std::move(t));
 }
 
@@ -251,8 +236,9 @@ void add_to_look_at(Document& d, const ClassFigures& f) {
 Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   ui::show_texts_of(tooth.scenario);
   Document d;
-  d.title = tr("{}: the class", shown(tooth.scenario.title));
-  d.subtitle = tr("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not", candidates(f.n), f.exam);
+  d.language = language();
+  d.title = tr("{}: the class", Authored{tooth.scenario.title});
+  d.subtitle = tr("{} of the exam {}; the last attempt of each counts, sessions filed with findings do not", candidates(f.n), as_is(f.exam));
   if (f.simulated > 0)
     d.blocks.emplace_back(
         Paragraph{f.simulated == f.n
@@ -268,8 +254,9 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
   add_stations(d, f);
   add_agreement(d, f);
   add_to_look_at(d, f);
-  d.footer = {tr("Class of the exam {}, {}", f.exam, candidates(f.n)), tr("Formulae and sources: grading/cohort/README.md of Cavum {}.", version())};
-  return in_language(std::move(d));
+  d.footer = {tr("Class of the exam {}, {}", as_is(f.exam), candidates(f.n)),
+              tr("Formulae and sources: grading/cohort/README.md of Cavum {}.", as_is(version()))};
+  return d;
 }
 
 std::string class_html(const ClassFigures& f, const ClassTooth& tooth) { return html_of(class_document(f, tooth), class_data(f, tooth)); }

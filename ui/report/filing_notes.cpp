@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include "engine/base/text.h"
 #include "engine/language/say.h"
 #include "ui/report/report_document.h"
@@ -10,42 +8,43 @@ void add_filing_notes(Document& d, const ReportSource& s) {
   const auto note = [&](const std::string& lead, const std::string& text) {
     d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
   };
-  if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty()))
-    note(tr("Does not hold"), tr("This session does not hold, and its result is no sound one: {}{}", s.integrity.findings.front(),
-                                 s.integrity.findings.size() > 1 ? tr("; and more, under \"What is proved\"") : ""));
+  if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty())) {
+    const Message& first = s.integrity.findings.front();
+    note(tr("Does not hold"), s.integrity.findings.size() > 1
+                                  ? tr("This session does not hold, and its result is no sound one: {}; and more, under \"What is proved\"", first)
+                                  : tr("This session does not hold, and its result is no sound one: {}", first));
+  }
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade; r && !r->person.empty()) {
-    const std::string decided =
-        s.reader == ReportReader::student
-            ? tr("{}: {} (entry {} of the ledger, {}).", shown(r->verdict), as_is(r->reason), r->entry, r->date)
-            : tr("{}, by {}: {} (entry {} of the ledger, {}).", shown(r->verdict), as_is(r->person), as_is(r->reason), r->entry, r->date);
+    const Term verdict{r->verdict};
+    const Message decided = s.reader == ReportReader::student
+                                ? msg("{}: {} (entry {} of the ledger, {}).", verdict, r->reason, r->entry, r->date)
+                                : msg("{}, by {}: {} (entry {} of the ledger, {}).", verdict, r->person, r->reason, r->entry, r->date);
     note(tr("Decided by a person"),
-         decided + " " +
-             (r->by_program == grading::verdict_name(grading::Verdict::review) ? tr("The program had left it to a person")
-                                                                               : tr("The program's own verdict was {}", shown(r->by_program))));
+         tr("{} {}", decided,
+            r->by_program == grading::verdict_name(grading::Verdict::review) ? msg("The program had left it to a person")
+                                                                             : msg("The program's own verdict was {}", Term{r->by_program})));
   } else if (r)
-    note(tr("Why it was regraded"), tr("{} (entry {} of the ledger, {}). The result below is the one that counts", r->reason, r->entry, r->date));
-  if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), s.filing->not_filed);
-  if (s.filing->findings.empty()) return;
-  std::string all;
-  for (const auto& f : s.filing->findings) all += (all.empty() ? "" : "; ") + shown(f);
-  note(tr("In doubt"), tr("The result of this session does not stand as sound. {}", all));
+    note(tr("Why it was regraded"),
+         tr("{} (entry {} of the ledger, {}). The result below is the one that counts", as_is(r->reason), r->entry, as_is(r->date)));
+  if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), tr(s.filing->not_filed));
+  if (!s.filing->findings.empty()) note(tr("In doubt"), tr("The result of this session does not stand as sound. {}", List{s.filing->findings, true}));
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {
-  std::string out = a.doubt.empty() ? shown(a.verdict) : tr("in doubt ({})", a.verdict.empty() ? tr("no verdict") : a.verdict);
-  if (a.regraded) out += tr(", regraded");
-  if (a.simulated) out += tr(", simulated operator");
-  return out;
+  const Message verdict = a.verdict.empty() ? msg("no verdict") : msg("{}", Term{a.verdict});
+  List out{{a.doubt.empty() ? verdict : msg("in doubt ({})", verdict)}, false};
+  if (a.regraded) out.items.push_back(msg("regraded"));
+  if (a.simulated) out.items.push_back(msg("simulated operator"));
+  return tr("{}", out);
 }
 
 std::string attempt_remark(const ReportAttempt& a) {
-  std::string out;
-  const auto say = [&](const std::string& what) { out += (out.empty() ? "" : ", ") + what; };
-  if (a.this_one) say(tr("this report"));
-  if (!a.released) say(tr("not released"));
-  if (!a.doubt.empty()) say(shown(one_line(a.doubt)));
-  return out;
+  List out;
+  if (a.this_one) out.items.push_back(msg("this report"));
+  if (!a.released) out.items.push_back(msg("not released"));
+  if (!a.doubt.empty()) out.items.push_back(a.doubt);
+  return tr("{}", out);
 }
 
 }  // namespace cavum::report

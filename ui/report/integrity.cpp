@@ -1,7 +1,5 @@
 #include "ui/report/integrity.h"
 
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "engine/base/file.h"
@@ -37,26 +35,26 @@ ReportIntegrity read_seal(const std::string& path, const SessionReader& session)
 ReportIntegrity read_integrity(const std::string& path) {
   const SessionReader session(path);
   ReportIntegrity i = read_seal(path, session);
-  i.findings = check_chain(session);
+  for (const auto& f : check_chain(session)) i.findings.push_back(msg("{}", f));
   if (i.findings.empty())
-    i.proved.push_back(
-        fmt::format("nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and "
-                    "clocks, and closed by the station's signature",
-                    session.chunks().size()));
-  SessionCheckFindings check = check_of_session(session);
-  for (auto& finding : check.findings) i.findings.push_back(std::move(finding));
-  i.remarks = std::move(check.remarks);
-  i.remarks.emplace_back(said("the motion was not simulated again for this report; `cavum verify` does that"));
+    i.proved.push_back(msg(
+        "nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and clocks, and "
+        "closed by the station's signature",
+        session.chunks().size()));
+  const SessionCheckFindings check = check_of_session(session);
+  for (const auto& f : check.findings) i.findings.push_back(msg("{}", f));
+  for (const auto& r : check.remarks) i.remarks.push_back(msg("{}", r));
+  i.remarks.push_back(msg("the motion was not simulated again for this report; `cavum verify` does that"));
   return i;
 }
 
 ReportIntegrity replayed_integrity(const std::string& path, grading::ExamGrounds& grounds) {
   ReportIntegrity i = read_seal(path, SessionReader(path));
-  ledger::SessionExplanation e = ledger::explain_session(path, "", true, grounds);
+  const ledger::SessionExplanation e = ledger::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
-  i.proved = std::move(e.proved);
-  i.findings = std::move(e.findings);
-  i.remarks = std::move(e.remarks);
+  for (const auto& p : e.proved) i.proved.push_back(msg("{}", p));
+  for (const auto& f : e.findings) i.findings.push_back(msg("{}", f));
+  for (const auto& r : e.remarks) i.remarks.push_back(msg("{}", r));
   return i;
 }
 
@@ -79,40 +77,44 @@ void add_integrity(Document& d, const ReportSource& s) {
   };
   // a file is named by people, and the name may be the candidate's: a student's report does without
   const bool named = s.reader == ReportReader::instructor && !i.file.empty();
-  row(tr("session file"), named ? tr("{}, SHA-256 {}", as_is(i.file), i.file_sha256) : "SHA-256 " + i.file_sha256);
+  row(tr("session file"), named ? tr("{}, SHA-256 {}", as_is(i.file), as_is(i.file_sha256)) : "SHA-256 " + i.file_sha256);
   row(tr("chain of its seconds"), i.chain_sha256);
   row(tr("tooth as it was left"), i.final_tooth_sha256);
   row(tr("sealed result"), i.result_sha256);
-  row(tr("closed"), i.closed_utc.empty() ? "" : tr("{}, signed by station {}", i.closed_utc, i.station_key));
-  row(tr("replay"), i.replay == Replay::agrees    ? tr("simulated again from the motion: the same forces and the same tooth, bit for bit{}",
-                                                    i.at_filing ? tr(", when the ledger took it in") : "")
+  row(tr("closed"), i.closed_utc.empty() ? "" : tr("{}, signed by station {}", as_is(i.closed_utc), as_is(i.station_key)));
+  row(tr("replay"), i.replay == Replay::agrees
+                        ? i.at_filing
+                              ? tr("simulated again from the motion when the ledger took it in: the same forces and the same tooth, bit for bit")
+                              : tr("simulated again from the motion: the same forces and the same tooth, bit for bit")
                     : i.replay == Replay::differs ? tr("does not give what was recorded, or the file does not hold")
                                                   : tr("not done for this report"));
   if (const auto& f = s.filing) {
-    row(tr("ledger"), tr("{} of {}, key {}", f->ledger, f->school, f->public_key));
-    row(tr("receipt"),
-        f->released ? tr("entry {}, filed {}, released", f->entry, f->date) : tr("entry {}, filed {}, not released", f->entry, f->date));
-    row(tr("root"), tr("{} of the first {} entries", f->root, f->entries));
-    for (const auto& finding : f->findings) row(tr("in doubt"), finding);
+    row(tr("ledger"), tr("{} of {}, key {}", as_is(f->ledger), as_is(f->school), as_is(f->public_key)));
+    row(tr("receipt"), f->released ? tr("entry {}, filed {}, released", f->entry, as_is(f->date))
+                                   : tr("entry {}, filed {}, not released", f->entry, as_is(f->date)));
+    row(tr("root"), tr("{} of the first {} entries", as_is(f->root), f->entries));
+    for (const auto& finding : f->findings) row(tr("in doubt"), tr(finding));
   }
   d.blocks.push_back(std::move(t));
-  const auto list = [&](const std::string& title, const std::vector<std::string>& items) {
+  const auto list = [&](const std::string& title, const std::vector<Message>& items) {
     if (items.empty()) return;
     d.blocks.push_back(Heading{title, 3});
-    d.blocks.push_back(Bullets{items, true});
+    Bullets bullets{{}, true};
+    for (const Message& m : items) bullets.items.push_back(tr(m));
+    d.blocks.push_back(std::move(bullets));
   };
   list(tr("What does not hold"), i.findings);
   if (s.reader == ReportReader::instructor) {
     list(tr("How that is known"), i.proved);
     list(tr("What else is to be known"), i.remarks);
   }
-  d.footer.push_back(tr("Session {}SHA-256 {}…: {}{}", named ? i.file + ", " : std::string(), i.file_sha256.substr(0, 16),
-                        !i.findings.empty() || i.replay == Replay::differs ? tr("does not hold")
-                        : i.replay == Replay::agrees                       ? tr("tamper-evident and replay-verified")
-                                                                           : tr("tamper-evident, not replayed for this report"),
-                        s.filing ? tr("; ledger entry {}", s.filing->entry) : ""));
-  d.footer.push_back(
-      tr("Tooth {}, leaf {} mm. Definitions: docs/grading.md of Cavum {}.", s.facts.tooth_hash.substr(0, 16), fixed(s.result.leaf_mm, 3), version()));
+  const Message hash = msg("SHA-256 {}…", i.file_sha256.substr(0, 16)), session = named ? msg("{}, {}", i.file, hash) : hash,
+                state = !i.findings.empty() || i.replay == Replay::differs ? msg("does not hold")
+                        : i.replay == Replay::agrees                       ? msg("tamper-evident and replay-verified")
+                                                                           : msg("tamper-evident, not replayed for this report");
+  d.footer.push_back(s.filing ? tr("Session {}: {}; ledger entry {}", session, state, s.filing->entry) : tr("Session {}: {}", session, state));
+  d.footer.push_back(tr("Tooth {}, leaf {}. Definitions: docs/grading.md of Cavum {}.", as_is(s.facts.tooth_hash.substr(0, 16)),
+                        as_mm(s.result.leaf_mm, 3), as_is(version())));
 }
 
 }  // namespace cavum::report

@@ -1,7 +1,5 @@
 #include "ui/report/ledger_facts.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <map>
 
@@ -44,10 +42,10 @@ void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledge
 }
 
 /// What a session was filed with, and that another ending of it was.
-std::vector<std::string> doubts_of(const ledger::FiledSession& s) {
-  std::vector<std::string> out;
-  for (const auto& f : s.findings) out.push_back("filed with a finding: " + f);
-  for (const auto other : s.contested_by) out.push_back(fmt::format("contested by entry {}, another ending of this exam", other));
+std::vector<Message> doubts_of(const ledger::FiledSession& s) {
+  std::vector<Message> out;
+  for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f));
+  for (const auto other : s.contested_by) out.push_back(msg("contested by entry {}, another ending of this exam", other));
   return out;
 }
 
@@ -67,14 +65,16 @@ const ledger::FiledSession& ReportLedger::session(const std::string& file_sha256
 }
 
 ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name) {
-  const std::string entry = fmt::format("entry {}", session.seq);
+  const Message entry = msg("entry {}", session.seq);
   const bool shown = !session.shown->is_null();
   if (reader == ReportReader::student && !shown)
     throw Error(entry, msg("is not released, and a student's report is of released results only"),
-                msg("release it with `cavum ledger release {} --session {}{}`, or use --for instructor", ledger.places.folder, session.seq,
-                    session.doubtful() ? msg(" --with-findings") : Message()));
+                session.doubtful()
+                    ? msg("release it with `cavum ledger release {} --session {} --with-findings`, or use --for instructor", ledger.places.folder,
+                          session.seq)
+                    : msg("release it with `cavum ledger release {} --session {}`, or use --for instructor", ledger.places.folder, session.seq));
   if (with_name && !shown)
-    throw Error("--with-name", msg("{} is not released, and names stand with released results only", entry), msg("release it first"));
+    throw Error(msg("--with-name"), msg("{} is not released, and names stand with released results only", entry), msg("release it first"));
   ReportFiling f;
   f.entry = session.seq;
   f.ledger = ledger.content.id;
@@ -101,7 +101,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
     ledger::remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
     if (!who)
-      throw Error("--with-name", msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
+      throw Error(msg("--with-name"), msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
     f.name = who->name.empty() ? who->id : who->name;
   }
   for (const auto& s : ledger.registry.sessions) {
@@ -116,7 +116,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
     a.this_one = s.seq == session.seq;
     a.regraded = (reader == ReportReader::student ? s.shown_seq : s.result_seq) != s.seq;
     a.simulated = !s.simulated.empty();
-    a.doubt = doubts_of(s).empty() ? "" : doubts_of(s).front();
+    if (const auto doubts = doubts_of(s); !doubts.empty()) a.doubt = doubts.front();
     if (result.is_object() && result.contains("score") && result["score"].is_object()) {
       a.verdict = result.value("verdict", "");
       a.points = result["score"].value("points", 0.0);
@@ -132,7 +132,7 @@ const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportRe
   return session.regrade(reader == ReportReader::student ? session.shown_seq : session.result_seq);
 }
 
-std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
+Message not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
   const json& filed = reader == ReportReader::student ? *session.shown : *session.result;
   const std::string by_program = ledger::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
@@ -140,18 +140,19 @@ std::string not_the_filed_result(const ledger::FiledSession& session, const grad
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
   if (same) return {};
-  const std::string held = filed.is_object() && filed.contains("score")
-                               ? fmt::format("{}, {} points", filed.value("verdict", ""), fixed(filed["score"].value("points", 0.0), 1))
-                               : "another";
-  return fmt::format("the {} result is {}, and this report's is {}, {} points", reader == ReportReader::student ? "released" : "ledger's", held,
-                     grading::verdict_name(result.verdict), fixed(result.points, 1));
+  const auto of = [](const std::string& verdict, double points) { return msg("{}, {} points", Term{verdict}, as_points(points)); };
+  const Message held = filed.is_object() && filed.contains("score") ? of(filed.value("verdict", ""), filed["score"].value("points", 0.0))
+                                                                    : msg("another"),
+                ours = of(grading::verdict_name(result.verdict), result.points);
+  return reader == ReportReader::student ? msg("the released result is {}, and this report's is {}", held, ours)
+                                         : msg("the ledger's result is {}, and this report's is {}", held, ours);
 }
 
 void require_released_result(const ledger::FiledSession& session, const grading::Result& result) {
-  if (const std::string other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
-    throw Error(
-        fmt::format("entry {}", session.seq), other,
-        "leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark differently");
+  if (const Message other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
+    throw Error(msg("entry {}", session.seq), other,
+                msg("leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark "
+                    "differently"));
 }
 
 }  // namespace cavum::report

@@ -29,6 +29,6 @@ struct ReportLedger {
 /// program.
 void require_released_result(const ledger::FiledSession& session, const grading::Result& result);
 /// What a report says when `result` is not the one that the ledger holds for its reader; empty when it is.
-[[nodiscard]] std::string not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader);
+[[nodiscard]] Message not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader);
 
 }  // namespace cavum::report

@@ -4,10 +4,9 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/figures.h"
 #include "engine/instrument/diamond_point.h"
 #include "engine/language/language.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"
@@ -68,7 +67,7 @@ json instruments_json(const ReportSource& s) {
     json profile = json::array({{0.0, 0.0}});
     for (const auto& at : p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
       profile.push_back({rounded(at.at.z_mm, 1e-3), rounded(at.at.r_mm, 1e-3)});
-    list.push_back({{"from_s", static_cast<double>(i) * k_tick_s}, {"name", p.title}, {"profile_mm", std::move(profile)}});
+    list.push_back({{"from_s", static_cast<double>(i) * k_tick_s}, {"name", tr("{}", Term{p.title})}, {"profile_mm", std::move(profile)}});
   }
   return list;
 }
@@ -98,18 +97,15 @@ json cells_json(const ToothGrid& g, const ChangedCells& c) {
 void add_words(json& data) {
   if (language() == "en") return;
   json words = json::object();
-  for (const auto& m : page_messages()) words[m] = shown(m);
+  for (const auto& m : page_messages()) words[m] = tr("{}", Term{m});
   for (const auto& t : data["tissues"]) {
     std::string name = t["name"];
     if (name.starts_with(k_neighbour_prefix)) name.erase(0, k_neighbour_prefix.size());
     std::replace(name.begin(), name.end(), '_', ' ');
-    words[name] = shown(name);
+    words[name] = tr("{}", Term{name});
   }
-  const auto kinds = [&words](const json& events) {
-    for (const auto& e : events) words[e["kind"].get<std::string>()] = shown(e["kind"].get<std::string>());
-  };
-  if (data.contains("events")) kinds(data["events"]);
-  if (data.contains("beside")) kinds(data["beside"]["events"]);
+  for (int group = 0; group <= static_cast<int>(EventGroup::gap); ++group)
+    words[name_of(static_cast<EventGroup>(group))] = tr(word_of(static_cast<EventGroup>(group)));
   data["words"] = std::move(words);
   data["decimal_sign"] = std::string(1, decimal_sign());
 }
@@ -149,15 +145,15 @@ json report_data(const ReportSource& s) {
     return data;
   }
   json events = json::array(), moments = json::array();
-  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", name_of(e.kind)}, {"text", e.text}, {"site_mm", site(e.site_mm)}});
+  for (const auto& e : s.events) events.push_back({{"t_s", e.t_s}, {"kind", name_of(e.kind)}, {"text", tr(e.text)}, {"site_mm", site(e.site_mm)}});
   for (const auto& w : s.lost)
     for (const auto& m : w.items) {
       if (m.tick < 0) continue;
-      moments.push_back({{"criterion", shown(w.criterion.title)},
+      moments.push_back({{"criterion", tr("{}", Authored{w.criterion.title})},
                          {"t_s", static_cast<double>(m.tick) * k_tick_s},
                          {"to_t_s", static_cast<double>(std::max(m.tick, m.end_tick)) * k_tick_s},
                          {"site_mm", site(m.site_mm)},
-                         {"what", with_unit_signs(shown(for_reader(m.what, s)))},
+                         {"what", tr(for_reader(m.what, s))},
                          {"points_lost", m.points_lost ? json(rounded(*m.points_lost, 1e-3)) : json()}});
     }
   data["duration_s"] = static_cast<double>(s.input.records.size()) * k_tick_s;

@@ -1,12 +1,8 @@
 #include "ui/report/report_document.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/figures.h"
-#include "engine/base/text.h"
 #include "engine/language/language.h"
 #include "engine/language/say.h"
 #include "grading/grade.h"
@@ -25,67 +21,69 @@ namespace {
 const std::string k_dash = "–";
 constexpr double k_no_points = 0.005;  // reads 0.00
 
-std::string with_unit(const std::string& number, const std::string& unit) { return unit.empty() ? number : fmt::format("{} {}", number, unit); }
-
 std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
-  return points ? fmt::format("{} / {}", fixed(*points, 1), fixed(max.value_or(0), 1)) : k_dash;
+  return points ? tr("{} / {}", as_points(*points), as_points(max.value_or(0))) : k_dash;
 }
 
 /// How far from the pass mark, in points.
 std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
   std::vector<std::string> lines;
+  const Number percent = as_percent(r.pass_percent, k_as_needed);
   if (r.compensatory) {
     const double mark = r.pass_percent / 100 * r.max_points, off = r.points - mark;
-    const std::string by = fixed(std::fabs(off), std::fabs(off) < 0.05 ? 3 : 1), pass = fixed(mark, 1), percent = plain_number(r.pass_percent);
+    const Number by = as_points(std::fabs(off), std::fabs(off) < 0.05 ? 3 : 1), pass = as_points(mark);
     const bool failed_alone = std::any_of(r.criteria.begin(), r.criteria.end(), [](const auto& c) { return c.critical_failed; });
-    lines.push_back((off < 0 ? tr("{} points below the pass mark of {} points ({} %)", by, pass, percent)
-                             : tr("{} points above the pass mark of {} points ({} %)", by, pass, percent)) +
-                    (r.borderline_percent > 0 && !failed_alone
-                         ? tr("; within {} points of it a person decides", fixed(r.borderline_percent / 100 * r.max_points, 1))
-                         : ""));
+    lines.push_back(off < 0 ? tr("{} points below the pass mark of {} points ({})", by, pass, percent)
+                            : tr("{} points above the pass mark of {} points ({})", by, pass, percent));
+    if (r.borderline_percent > 0 && !failed_alone)
+      lines.push_back(tr("within {} points of the pass mark a person decides", as_points(r.borderline_percent / 100 * r.max_points)));
   } else {
     const grading::CriterionResult* lowest = nullptr;
-    const auto percent = [](const grading::CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
+    const auto percent_of = [](const grading::CriterionResult& c) { return c.max > 0 ? 100 * c.points / c.max : 100.0; };
     for (const auto& c : r.criteria)
-      if (c.max > 0 && (lowest == nullptr || percent(c) < percent(*lowest))) lowest = &c;
-    lines.push_back(tr("each criterion must reach {} % by itself{}", plain_number(r.pass_percent),
-                       lowest != nullptr ? tr("; the lowest, {}, reaches {} %", lowest->title, fixed(percent(*lowest), 1)) : ""));
+      if (c.max > 0 && (lowest == nullptr || percent_of(c) < percent_of(*lowest))) lowest = &c;
+    lines.push_back(lowest != nullptr ? tr("each criterion must reach {} by itself; the lowest, {}, reaches {}", percent, Authored{lowest->title},
+                                           as_percent(percent_of(*lowest), 1))
+                                      : tr("each criterion must reach {} by itself", percent));
   }
-  if (reader == ReportReader::instructor) lines.push_back(tr("± {} if every figure were off by its whole bound", fixed(r.points_bound, 1)));
+  if (reader == ReportReader::instructor) lines.push_back(tr("± {} if every figure were off by its whole bound", as_points(r.points_bound)));
   return lines;
 }
 
 /// What gives full marks and what none, and beyond what the exam is failed.
-std::string limits_text(const scenarios::CriterionSpec& c, const std::string& unit) {
-  if (const scenarios::Measure measure = scenarios::known_measure(c.metric); measure.reads == scenarios::Reads::yes_no)
-    return tr("full marks if {}", c.full == 0 ? measure.no : measure.yes) + (c.critical_above || c.critical_below ? tr("; failed else") : "");
-  const std::string full = with_unit(plain_number(c.full), unit), zero = with_unit(plain_number(c.zero), unit);
-  std::string s = c.full <= c.zero ? tr("full up to {}, none from {}", full, zero) : tr("full from {}, none up to {}", full, zero);
-  if (c.critical_above) s += tr("; failed above {}", with_unit(plain_number(*c.critical_above), unit));
-  if (c.critical_below) s += tr("; failed below {}", with_unit(plain_number(*c.critical_below), unit));
-  return s;
+List limits_of(const scenarios::CriterionSpec& c) {
+  const scenarios::Measure measure = scenarios::known_measure(c.metric);
+  if (measure.reads == scenarios::Reads::yes_no) {
+    const Term wanted{c.full == 0 ? measure.no : measure.yes};
+    return {{c.critical_above || c.critical_below ? msg("full marks if {}; failed else", wanted) : msg("full marks if {}", wanted)}, true};
+  }
+  const auto value = [&](double v) { return as_unit(v, grading::unit_of(measure.unit)); };
+  List limits{{c.full <= c.zero ? msg("full up to {}, none from {}", value(c.full), value(c.zero))
+                                : msg("full from {}, none up to {}", value(c.full), value(c.zero))},
+              true};
+  if (c.critical_above) limits.items.push_back(msg("failed above {}", value(*c.critical_above)));
+  if (c.critical_below) limits.items.push_back(msg("failed below {}", value(*c.critical_below)));
+  return limits;
 }
 
 /// A criterion's value as its table shows it.
-std::string shown_value(const grading::CriterionResult& c, bool with_bound = true) {
-  if (!c.value) return k_dash;
-  const scenarios::Measure measure = scenarios::known_measure(c.metric);
-  if (measure.reads != scenarios::Reads::figure) return grading::value_text(measure, *c.value, with_bound ? c.bound : 0, 2);
-  return with_unit(fixed(*c.value, 2) + (c.bound > 0 && with_bound ? " ± " + fixed(c.bound, 2) : ""), c.unit);
+Message shown_value(const grading::CriterionResult& c, bool with_bound = true) {
+  if (!c.value) return msg("–");
+  return grading::value_text(scenarios::known_measure(c.metric), *c.value, with_bound ? c.bound : 0, 2);
 }
 
 /// What a reader of the criteria would else have to guess.
 std::vector<std::string> how_to_read(const grading::Result& r) {
   std::vector<std::string> words{
-      tr("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {} mm. ± after points: what the "
+      tr("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {}. ± after points: what the "
          "value at either end of its ± would give.",
-         plain_number(r.leaf_mm))};
+         as_mm(r.leaf_mm, k_as_needed))};
   const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
   if (any([](const grading::CriterionResult& c) { return c.work_share < 1; }))
     words.push_back(
-        tr("Care counts for as much as was done: where less than {} % of the target at the place in question was removed, points are given "
+        tr("Care counts for as much as was done: where less than {} of the target at the place in question was removed, points are given "
            "in proportion, and their ± holds that share at either end of its own ±, too.",
-           plain_number(grading::k_care_counts_percent)));
+           as_percent(grading::k_care_counts_percent)));
   if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.push_back(floor_words());
   return words;
 }
@@ -98,11 +96,10 @@ void add_criteria(Document& d, const ReportSource& s) {
       tr("Criteria")};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
-    const std::string points =
-        !c.judged ? tr("not judged")
-                  : fmt::format("{}{} / {}", fixed(c.points, 1), c.points_bound > 0 ? " ± " + fixed(c.points_bound, 1) : "", fixed(c.max, 1));
-    const std::string limits = i < s.rubric.criteria.size() ? limits_text(grading::as_marked(s.rubric.criteria[i], s.result), c.unit) : "";
-    t.rows.push_back({{{c.title}, {shown_value(c)}, {limits}, {points}, {for_reader(c.reason, s)}}, c.judged && c.max - c.points > 1e-9});
+    const std::string points = !c.judged ? tr("not judged") : tr("{} / {}", Number{c.points, Unit::none, 1, c.points_bound}, as_points(c.max));
+    const std::string limits = i < s.rubric.criteria.size() ? tr("{}", limits_of(grading::as_marked(s.rubric.criteria[i], s.result))) : "";
+    t.rows.push_back({{{tr("{}", Authored{c.title})}, {tr(shown_value(c))}, {limits}, {points}, {tr(for_reader(msg("{}", c.reason), s))}},
+                      c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
   for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
@@ -111,10 +108,11 @@ void add_criteria(Document& d, const ReportSource& s) {
 /// What is asked of a criterion, and why care gives fewer points than its value would.
 std::string asked_text(const grading::CriterionResult& c, const scenarios::CriterionSpec& spec, const grading::Result& r) {
   const scenarios::CriterionSpec as = grading::as_marked(spec, r);
-  std::string text = limits_text(as, c.unit);
-  if (as.zero != spec.zero) text += tr("; longer than the rubric's, by the time that was granted");
-  if (c.work_share < 1) text += tr("; only {} % of these points can be had, for so little of the cavity was cut there", fixed(100 * c.work_share, 0));
-  return text;
+  List facts = limits_of(as);
+  if (as.zero != spec.zero) facts.items.push_back(msg("longer than the rubric's, by the time that was granted"));
+  if (c.work_share < 1)
+    facts.items.push_back(msg("only {} of these points can be had, for so little of the cavity was cut there", as_percent(100 * c.work_share)));
+  return tr("{}", facts);
 }
 
 /// What a student reads first of the criteria: no bounds, places and ticks.
@@ -124,10 +122,10 @@ void add_marks(Document& d, const ReportSource& s) {
       {{tr("What was looked at"), false, 2.6}, {tr("Yours"), true, 1.6}, {tr("Asked"), false, 3.6}, {tr("Points"), true, 1.4}}, {}, tr("Marks")};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
-    t.rows.push_back({{{c.title},
-                       {shown_value(c, false)},
+    t.rows.push_back({{{tr("{}", Authored{c.title})},
+                       {tr(shown_value(c, false))},
                        {i < s.rubric.criteria.size() ? asked_text(c, s.rubric.criteria[i], s.result) : ""},
-                       {c.judged ? fmt::format("{} / {}", fixed(c.points, 1), fixed(c.max, 1)) : tr("not judged")}},
+                       {c.judged ? points_of(c.points, c.max) : tr("not judged")}},
                       c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
@@ -135,7 +133,7 @@ void add_marks(Document& d, const ReportSource& s) {
 
 Pictures key_to_sections(const ReportSource& s) {
   Pictures key{{}, 3};
-  for (auto& svg : scenarios::legend_parts_svg(s.input.seen_before(), true, s.input.scenario.accommodations.high_contrast, shown))
+  for (auto& svg : scenarios::legend_parts_svg(s.input.seen_before(), true, s.input.scenario.accommodations.high_contrast, tr))
     key.list.push_back({std::move(svg), ""});
   return key;
 }
@@ -148,7 +146,8 @@ void add_lessons(Document& d, const ReportSource& s) {
   LessonList list;
   for (const auto& l : s.lessons) {
     if (list.items.size() == k_most) break;
-    LessonList::Item item{tr("{} points{}", fixed(l.points, 1), l.fails_exam ? tr("; this alone fails the exam") : ""), l.what, l.instead};
+    const Number points = as_points(l.points);
+    LessonList::Item item{l.fails_exam ? tr("{} points; this alone fails the exam", points) : tr("{} points", points), tr(l.what), tr(l.instead)};
     if (l.where.timed()) item.jump = Jump{l.where.t_s(), l.where.site_mm};
     if (l.look_mm)
       if (auto p = section_of_mistake(s.input, *l.look_mm)) item.picture = Picture{std::move(p->svg), std::move(p->title), true};
@@ -159,46 +158,69 @@ void add_lessons(Document& d, const ReportSource& s) {
   if (drawn) d.blocks.push_back(key_to_sections(s));
 }
 
-std::string without_ticks(std::string text) {
-  for (std::size_t at = text.find(" (tick "); at != std::string::npos; at = text.find(" (tick ", at))
-    text.erase(at, std::min(text.find(')', at), text.size() - 1) + 1 - at);
-  return text;
+/// A step by its own text and not by its identifier.
+Value step_by_text(const Value& id, const ReportSource& s) {
+  for (const auto& step : s.input.scenario.steps)
+    if (id == Value(Name{step.id}) && !step.instruction.empty()) return Value(Authored{step.instruction});
+  return id;
 }
 
-/// A failed limit by its criterion's title.
-std::string reason_text(const grading::Finding& reason, const ReportSource& s) {
-  if (reason.kind == grading::FindingKind::critical_limit)
+/// A failed limit by its criterion's title, steps by their texts; for a student without ticks.
+Message finding_for(grading::Finding f, const ReportSource& s) {
+  using Kind = grading::FindingKind;
+  const auto& v = f.values;
+  if (f.kind == Kind::critical_limit)
     for (const auto& c : s.result.criteria)
-      if (reason.values[0] == Value(Name{c.id}))
-        return english_text(grading::finding<grading::FindingKind::critical_limit>(c.title, without_ticks(for_reader(c.reason, s))).message());
-  return for_reader(english_text(reason.message()), s);
+      if (v[0] == Value(Name{c.id}))
+        return grading::finding<Kind::critical_limit>(Authored{c.title}, grading::without_ticks(for_reader(msg("{}", c.reason), s))).message();
+  if (f.kind == Kind::step_failed || f.kind == Kind::step_timed_out || f.kind == Kind::step_timed_out_otherwise || f.kind == Kind::last_step_open)
+    f.values[0] = step_by_text(v[0], s);
+  if (s.reader == ReportReader::instructor) return f.message();
+  switch (f.kind) {
+    case Kind::interrupted:
+      return msg("the recording was interrupted at {} and taken up again; the exam's clock stood still meanwhile", v[0]);
+    case Kind::interrupted_for:
+      return msg("the recording was interrupted at {} and taken up again after {} by the computer's clock; the exam's clock stood still meanwhile",
+                 v[0], v[2]);
+    case Kind::step_failed:
+      return msg("step '{}' failed at {}: {}", v[0], v[1], v[3]);
+    case Kind::step_timed_out:
+      return msg("step '{}' ran out of its time at {}: its limit was {}", v[0], v[1], v[3]);
+    case Kind::step_timed_out_otherwise:
+      return msg("step '{}' ran out of its time at {}", v[0], v[1]);
+    default:
+      return for_reader(f.message(), s);
+  }
 }
 
 /// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.
 std::vector<std::string> reasons_for(const ReportSource& s) {
   std::vector<std::string> out;
   if (s.reader == ReportReader::instructor) {
-    for (const auto& reason : s.result.verdict_reasons) out.push_back(reason_text(reason, s));
+    for (const auto& reason : s.result.verdict_reasons) out.push_back(tr(finding_for(reason, s)));
     return out;
   }
   for (std::size_t i = 0; i < s.result.criteria.size() && i < s.rubric.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     if (!c.critical_failed) continue;
-    out.push_back(tr("{}: {} ({}); this alone fails the exam", c.title, shown_value(c, false),
-                     limits_text(grading::as_marked(s.rubric.criteria[i], s.result), c.unit)));
+    out.push_back(tr("{}: {} ({}); this alone fails the exam", Authored{c.title}, shown_value(c, false),
+                     limits_of(grading::as_marked(s.rubric.criteria[i], s.result))));
   }
   for (const auto& reason : s.result.verdict_reasons)
     if (reason.kind != grading::FindingKind::critical_limit && reason.row().concerns != grading::Concerns::detail)
-      out.push_back(reason_text(reason, s));
+      out.push_back(tr(finding_for(reason, s)));
   return out;
 }
 
 /// A row of a moment: time, place, what, how much, points.
 TableRow moment_row(const grading::WhyItem& m, const ReportSource& s) {
-  const std::string amount = m.amount ? with_unit(fixed(*m.amount, 3), m.unit) : "";
-  std::string what = shown(for_reader(m.what, s));
-  if (m.end_tick > m.tick && m.tick >= 0) what += tr(" (until {} s)", fixed(static_cast<double>(m.end_tick) * k_tick_s, 2));
-  return {{time_cell(m.tick, m.site_mm), {place_text(m.site_mm)}, {what}, {amount}, {m.points_lost ? fixed(*m.points_lost, 2) : ""}},
+  const Message what = for_reader(m.what, s);
+  const bool lasts = m.end_tick > m.tick && m.tick >= 0;
+  return {{time_cell(m.tick, m.site_mm),
+           {place_text(m.site_mm)},
+           {lasts ? tr("{} (until {})", what, as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(what)},
+           {m.amount ? figure(as_unit(*m.amount, grading::unit_of(m.unit), 3)) : ""},
+           {m.points_lost ? figure(as_points(*m.points_lost, 2)) : ""}},
           m.points_lost && *m.points_lost > 0};
 }
 
@@ -212,14 +234,14 @@ void add_moments(Document& d, const ReportSource& s) {
   for (const auto& w : s.lost) {
     const auto& c = w.criterion;
     const double lost = c.max - c.points;
-    d.blocks.push_back(Heading{tr("{}: {} of {} points lost", c.title, fixed(lost, lost < 0.05 ? 3 : 1), fixed(c.max, 1)), 3});
+    d.blocks.push_back(Heading{tr("{}: {} of {} points lost", Authored{c.title}, as_points(lost, lost < 0.05 ? 3 : 1), as_points(c.max)), 3});
     ReportTable t{{{tr("Time"), true, 1.2},
                    {tr("Place x, y, z, mm"), true, 2},
                    {tr("What"), false, 6},
                    {tr("How much"), true, 1.7},
                    {tr("Points lost"), true, 1.2}},
                   {},
-                  tr("Moments behind {}", c.title)};
+                  tr("Moments behind {}", Authored{c.title})};
     for (const auto& m : w.items) {
       const bool cost_nothing = m.points_lost && *m.points_lost < k_no_points;
       if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m, s));
@@ -228,8 +250,8 @@ void add_moments(Document& d, const ReportSource& s) {
       t.rows.push_back({{{k_dash},
                          {""},
                          {trn("{} smaller moment", "{} smaller moments together", static_cast<long long>(w.left_out), w.left_out)},
-                         {fixed(w.left_out_amount, 3)},
-                         {w.left_out_points > 0 ? fixed(w.left_out_points, 2) : ""}},
+                         {figure(as_number(w.left_out_amount, 3))},
+                         {w.left_out_points > 0 ? figure(as_points(w.left_out_points, 2)) : ""}},
                         w.left_out_points > 0});
     d.blocks.push_back(std::move(t));
   }
@@ -245,7 +267,7 @@ void add_pictures(Document& d, const ReportSource& s) {
   Pictures above{{picture_from_above(s.input)}};
   if (s.beside) {
     Picture other = picture_from_above(s.beside->source.input);
-    other.title = tr("Beside it, from above: {}", s.beside->name);
+    other.title = tr("Beside it, from above: {}", as_is(s.beside->name));
     above.list.push_back(std::move(other));
     above.columns = 2;
   } else if (s.reader == ReportReader::student) {
@@ -276,7 +298,7 @@ void add_course(Document& d, const ReportSource& s) {
   for (std::size_t i = 0; i < s.events.size(); ++i) {
     const ReportEvent& e = s.events[i];
     t.rows.push_back(
-        {{{std::to_string(i + 1)}, {fixed(e.t_s, 3) + " s", Jump{e.t_s, e.site_mm}}, {name_of(e.kind)}, {e.text}, {place_text(e.site_mm)}},
+        {{{std::to_string(i + 1)}, {figure(as_s(e.t_s, 3)), Jump{e.t_s, e.site_mm}}, {tr(word_of(e.kind))}, {tr(e.text)}, {place_text(e.site_mm)}},
          e.kind == EventGroup::perforation || e.kind == EventGroup::violation});
   }
   d.blocks.push_back(std::move(t));
@@ -289,14 +311,14 @@ std::string progress_words(const ReportFiling& f) {
               cohort::k_least_steps, cohort::k_least_repeaters);
   if (!f.progress) return tr("This is the first attempt that counts.");
   const cohort::Progress& p = *f.progress;
-  const std::string by_chance = tr("up to {} % may be chance, as {} steps of {} candidates from one attempt to the next show",
-                                   fixed(p.bound_percent, 0), f.scatter->steps, f.scatter->candidates);
+  const Message by_chance = msg("up to {} may be chance, as {} steps of {} candidates from one attempt to the next show", as_percent(p.bound_percent),
+                                f.scatter->steps, f.scatter->candidates);
   if (!p.told())
-    return tr("Over {} attempts no change can be told from chance: {}{} %, and {}.", p.attempts, p.change_percent < 0 ? "" : "+",
-              fixed(p.change_percent, 0), by_chance);
-  const std::string by = fixed(std::fabs(p.change_percent), 0);
-  return p.change_percent > 0 ? tr("Over {} attempts the mark rose by {} %: more than chance explains ({}).", p.attempts, by, by_chance)
-                              : tr("Over {} attempts the mark fell by {} %: more than chance explains ({}).", p.attempts, by, by_chance);
+    return tr("Over {} attempts no change can be told from chance: {}, and {}.", p.attempts, Number{p.change_percent, Unit::percent, 0, 0, true},
+              by_chance);
+  const Number by = as_percent(std::fabs(p.change_percent));
+  return p.change_percent > 0 ? tr("Over {} attempts the mark rose by {}: more than chance explains ({}).", p.attempts, by, by_chance)
+                              : tr("Over {} attempts the mark fell by {}: more than chance explains ({}).", p.attempts, by, by_chance);
 }
 
 void add_attempts(Document& d, const ReportSource& s) {
@@ -332,32 +354,35 @@ void add_attempts(Document& d, const ReportSource& s) {
 }
 
 void add_regrade(Document& d, const grading::Comparison& c) {
-  const auto because = [](const std::vector<std::string>& why) {
-    std::string s;
-    for (const auto& w : why) s += (s.empty() ? "" : "; ") + w;
-    return s;
-  };
+  const auto because = [](const std::vector<Message>& why) { return tr("{}", List{why, true}); };
   d.blocks.push_back(Heading{tr("Beside the sealed result")});
   ReportTable t{{{"", false, 2}, {tr("Sealed"), true, 1.5}, {tr("Regrade"), true, 1.5}, {tr("Change"), true, 1}, {tr("What changed"), false, 5}},
                 {},
                 tr("Sealed result and regrade")};
-  t.rows.push_back({{{tr("verdict")}, {c.before.verdict}, {c.verdict}, {""}, {because(c.rules)}}});
+  t.rows.push_back({{{tr("verdict")}, {tr("{}", Term{c.before.verdict})}, {tr("{}", Term{c.verdict})}, {""}, {because(c.rules)}}});
   t.rows.push_back({{{tr("points")},
                      {points_of(c.before.points, c.before.max)},
                      {points_of(c.points, c.max)},
-                     {grading::signed_points(c.points - c.before.points)},
+                     {figure(grading::signed_points(c.points - c.before.points))},
                      {""}}});
   if (std::fabs(c.before.max - c.max) > 1e-9) {  // two scales: what is left of each
     const double before = c.before.max > 0 ? 100 * c.before.points / c.before.max : 0, now = c.max > 0 ? 100 * c.points / c.max : 0;
-    t.rows.push_back(
-        {{{tr("of its own scale")}, {fixed(before, 1) + " %"}, {fixed(now, 1) + " %"}, {grading::signed_points(now - before) + " %"}, {""}}});
+    t.rows.push_back({{{tr("of its own scale")},
+                       {figure(as_percent(before, 1))},
+                       {figure(as_percent(now, 1))},
+                       {figure({now - before, Unit::percent, 1, 0, true})},
+                       {""}}});
   }
   for (const auto& k : c.criteria) {
-    std::string why = because(k.why);
-    if (k.old_value && k.new_value && fixed(*k.old_value, 3) != fixed(*k.new_value, 3))
-      why += (why.empty() ? "" : "; ") + with_unit(tr("value {} → {}", fixed(*k.old_value, 3), fixed(*k.new_value, 3)), k.unit);
-    t.rows.push_back(
-        {{{k.id}, {points_of(k.old_points, k.old_max)}, {points_of(k.new_points, k.new_max)}, {grading::signed_points(k.difference())}, {why}}});
+    std::vector<Message> why = k.why;
+    const Unit unit = grading::unit_of(k.unit);
+    if (constexpr double k_shown = 5e-4; k.old_value && k.new_value && std::fabs(*k.old_value - *k.new_value) >= k_shown)
+      why.push_back(msg("value {} → {}", as_unit(*k.old_value, unit, 3), as_unit(*k.new_value, unit, 3)));
+    t.rows.push_back({{{k.id},
+                       {points_of(k.old_points, k.old_max)},
+                       {points_of(k.new_points, k.new_max)},
+                       {figure(grading::signed_points(k.difference()))},
+                       {because(why)}}});
   }
   d.blocks.push_back(std::move(t));
 }
@@ -367,12 +392,10 @@ void add_regrade(Document& d, const grading::Comparison& c) {
 TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
   if (tick < 0 || tick == grading::k_untimed_tick) return {k_dash};
   const double t_s = static_cast<double>(tick) * k_tick_s;
-  return {fixed(t_s, 3) + " s", Jump{t_s, site_mm}};
+  return {figure(as_s(t_s, 3)), Jump{t_s, site_mm}};
 }
 
-std::string place_text(const std::optional<Vec3>& p) {
-  return p ? shown(fmt::format("{}, {}, {}", fixed(p->x, 2), fixed(p->y, 2), fixed(p->z, 2))) : "";
-}
+std::string place_text(const std::optional<Vec3>& p) { return p ? tr("{}; {}; {}", as_number(p->x, 2), as_number(p->y, 2), as_number(p->z, 2)) : ""; }
 
 std::string floor_words() {
   return tr(
@@ -381,112 +404,63 @@ std::string floor_words() {
       "the instrument went on. An opened pulp is told as a perforation, not as overcut.");
 }
 
-std::string finish_words(Finish finish) {
+Message finish_words(Finish finish) {
   switch (finish) {
     case Finish::completed:
-      return tr("its last step was completed");
+      return msg("its last step was completed");
     case Finish::failed:
-      return tr("a step was failed");
+      return msg("a step was failed");
     case Finish::time:
-      return tr("time was up");
+      return msg("time was up");
     case Finish::ended:
-      return tr("it was handed in before its steps were completed");
+      return msg("it was handed in before its steps were completed");
     case Finish::running:
       break;
   }
-  return tr("it was not finished");
+  return msg("it was not finished");
 }
 
-std::string for_reader(std::string text, const ReportSource& s) {
-  if (s.reader == ReportReader::student) text = without_ticks(std::move(text));
-  const auto put = [&text](const std::string& said, const std::string& shown_as) {
-    if (const auto at = text.find(said); at != std::string::npos) text.replace(at, said.size(), shown_as);
-  };
-  const auto& steps = s.input.scenario.steps;
-  for (std::size_t i = 0; i < steps.size(); ++i) {
-    for (const char* what : {"step", "step,"})
-      if (!steps[i].instruction.empty()) put(fmt::format("{} '{}'", what, steps[i].id), fmt::format("{} '{}'", what, steps[i].instruction));
-    for (const char* what : {"started", "completed", "failed", "time limit"})
-      put(fmt::format("step {} ({})", what, steps[i].id), fmt::format("step {} ({})", what, i + 1));
-  }
-  return text;
+Message for_reader(const Message& message, const ReportSource& s) {
+  return s.reader == ReportReader::student ? grading::without_ticks(message) : message;
 }
 
 namespace {
 
-/// Texts of the rooms below, numbers and units, which are still English: what is said here already stays as it is.
-void show_words(Document& d) {
-  const auto show = [](std::string& text) { text = with_unit_signs(shown(text)); };
-  struct Visit {
-    decltype(show)& show_it;
-    void operator()(Heading& b) const { show_it(b.text); }
-    void operator()(Paragraph& b) const { show_it(b.text), show_it(b.lead); }
-    void operator()(Bullets& b) const {
-      for (auto& i : b.items) show_it(i);
-    }
-    void operator()(ReportTable& b) const {
-      for (auto& row : b.rows)
-        for (auto& cell : row.cells) show_it(cell.text);
-    }
-    void operator()(VerdictBox& b) const {
-      for (auto& line : b.lines) show_it(line);
-      for (auto& reason : b.reasons) show_it(reason);
-    }
-    void operator()(Pictures& b) const {
-      for (auto& p : b.list) p = {shown_svg(p.svg), shown(p.title), p.raster};
-    }
-    void operator()(LiveFigure& b) const {
-      for (auto& p : b.on_paper) p = {shown_svg(p.svg), shown(p.title), p.raster};
-    }
-    void operator()(LessonList& b) const {
-      for (auto& i : b.items) {
-        show_it(i.what), show_it(i.instead);
-        if (i.picture) i.picture = Picture{shown_svg(i.picture->svg), shown(i.picture->title), i.picture->raster};
-      }
-    }
-    void operator()(Fold&) const {}
-    void operator()(FoldEnd&) const {}
-    void operator()(CutLine&) const {}
-  };
-  d.language = language();
-  show(d.title);
-  for (auto& block : d.blocks) std::visit(Visit{show}, block);
+/// Candidate, date, tooth, device.
+Message subtitle_of(const ReportSource& s) {
+  const bool named = s.filing && s.filing->name && s.filing->released;
+  const Message who = named ? msg("{}, candidate {}", *s.filing->name, s.facts.candidate) : msg("Candidate {}", s.facts.candidate);
+  const Message all = msg("{} · {} · {} · {}", who, s.facts.created, Authored{s.result.tooth_name}, Term{s.facts.device});
+  return s.reader == ReportReader::instructor ? msg("{} · instructor's report", all) : all;
 }
 
 }  // namespace
-
-Document in_language(Document document) {
-  show_words(document);
-  return document;
-}
 
 Document report_document(const ReportSource& s) {
   ui::show_texts_of(s.input.scenario);
   const grading::Result& r = s.result;
   Document d;
-  d.title = report_title(s);
-  const bool named = s.filing && s.filing->name && s.filing->released;
+  d.language = language();
+  d.title = tr("{}", Authored{report_title(s)});
   if (s.scan)
-    d.subtitle = tr("Scan of a prepared tooth · {} · {}", as_is(s.scan->file), r.tooth_name);
+    d.subtitle = tr("Scan of a prepared tooth · {} · {}", as_is(s.scan->file), Authored{r.tooth_name});
   else
-    d.subtitle = fmt::format(
-        "{} · {} · {} · {}{}",
-        named ? tr("{}, candidate {}", as_is(*s.filing->name), as_is(s.facts.candidate)) : tr("Candidate {}", as_is(s.facts.candidate)),
-        s.facts.created, shown(r.tooth_name), shown(s.facts.device), s.reader == ReportReader::instructor ? tr(" · instructor's report") : "");
+    d.subtitle = tr(subtitle_of(s));
   d.created = s.facts.created;
-  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{grading::regrade_text(*s.regrade) + ".", tr("Regrade"), Paragraph::Kind::note});
+  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{tr("{}.", grading::regrade_text(*s.regrade)), tr("Regrade"), Paragraph::Kind::note});
   add_filing_notes(d, s);
   const bool decided = s.filing && s.filing->regrade && !s.filing->regrade->person.empty();
-  d.blocks.push_back(VerdictBox{decided ? s.filing->regrade->verdict : grading::verdict_name(r.verdict),
-                                tr("{} of {} points", fixed(r.points, 1), fixed(r.max_points, 1)), margin(r, s.reader), reasons_for(s)});
+  const std::string verdict = decided ? s.filing->regrade->verdict : grading::verdict_name(r.verdict);
+  d.blocks.push_back(VerdictBox{verdict, tr("{}", Term{verdict}), tr("{} of {} points", as_points(r.points), as_points(r.max_points)),
+                                margin(r, s.reader), reasons_for(s)});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
-    d.blocks.push_back(Paragraph{tr("{} was opened at {} s, which this task asks to spare: {} mm² of its wall lie open, {} mm³ of it were removed",
-                                    p.tissue, fixed(p.first.t_s(), 3), fixed(p.area_mm2, 3), fixed(p.volume_mm3, 3)),
+    d.blocks.push_back(Paragraph{tr("{} was opened at {}, which this task asks to spare: {} of its wall lie open, {} of it were removed",
+                                    Term{p.tissue}, as_s(p.first.t_s(), 3), as_mm2(p.area_mm2, 3), as_mm3(p.volume_mm3, 3)),
                                  tr("Perforation"), Paragraph::Kind::note});
   add_lessons(d, s);
-  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{for_reader(english_text(note.message()), s), tr("Note")});
+  for (const auto& note : r.notes) d.blocks.push_back(Paragraph{tr(finding_for(note, s)), tr("Note")});
   const bool student = s.reader == ReportReader::student;
   if (student)
     add_marks(d, s);
@@ -502,7 +476,7 @@ Document report_document(const ReportSource& s) {
   if (s.scan) {
     add_scan_parts(d, s);
     if (student) d.blocks.push_back(FoldEnd{});
-    return in_language(std::move(d));
+    return d;
   }
   add_course(d, s);
   add_moments(d, s);
@@ -513,7 +487,7 @@ Document report_document(const ReportSource& s) {
     add_attempts(d, s);
   }
   add_integrity(d, s);
-  return in_language(std::move(d));
+  return d;
 }
 
 }  // namespace cavum::report

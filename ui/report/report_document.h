@@ -1,6 +1,7 @@
 // The words, tables and pictures of a report, for a student or for an instructor: what html_writer.h and pdf_writer.h print.
 #pragma once
 
+#include "engine/language/say.h"
 #include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 
@@ -8,9 +9,6 @@ namespace cavum::report {
 
 /// The whole report. What belongs to an instructor alone is left out of a student's.
 [[nodiscard]] Document report_document(const ReportSource& source);
-
-/// The same document with all its words in the reader's language (language.h), also those that the rooms below said.
-[[nodiscard]] Document in_language(Document document);
 
 /// The parts that an instructor sees besides: every figure with its bound, perforation, work, device, proof. Appended to `document`.
 void add_instructor_parts(Document& document, const ReportSource& source);
@@ -36,9 +34,11 @@ void add_integrity(Document& document, const ReportSource& source);
 /// Of every figure of a floor's overcut, in the reader's language.
 [[nodiscard]] std::string floor_words();
 /// How an exam came to its end: "time was up".
-[[nodiscard]] std::string finish_words(Finish finish);
-/// What the rooms below say of an exam, in English still, as a report's reader takes it: a step by its own text and not by its identifier; for a
-/// student without ticks.
-[[nodiscard]] std::string for_reader(std::string text, const ReportSource& source);
+[[nodiscard]] Message finish_words(Finish finish);
+/// What the rooms below say of an exam, as a report's reader takes it: for a student without ticks.
+[[nodiscard]] Message for_reader(const Message& message, const ReportSource& source);
+
+/// A figure in the reader's language.
+[[nodiscard]] inline std::string figure(const Number& n) { return tr("{}", n); }
 
 }  // namespace cavum::report

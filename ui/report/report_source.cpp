@@ -1,12 +1,8 @@
 #include "ui/report/report_source.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
-#include "engine/base/text.h"
 #include "engine/instrument/diamond_point.h"
-#include "engine/language/say.h"
 #include "scenarios/exam/runner.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report_document.h"
@@ -15,45 +11,46 @@ namespace cavum::report {
 namespace {
 
 ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
-  const auto say = [&](EventGroup kind, const std::string& text, std::optional<Vec3> site_mm = {}) {
+  const auto say = [&](EventGroup kind, const Message& text, std::optional<Vec3> site_mm = {}) {
     return ReportEvent{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, kind, text, site_mm};
   };
-  const auto number = [](const OfStep& of) { return as_is(std::to_string(of.step + 1LL)); };
-  const auto tissue = [&](const OfTissue& of) { return input.before.tissue_name(of.tissue); };
+  const auto number = [](const OfStep& of) { return of.step + 1LL; };
+  const auto tissue = [&](const OfTissue& of) { return Term{input.before.tissue_name(of.tissue)}; };
   return std::visit(
       EachKind{
           [&](const StepStarted& of) {
             const auto& steps = input.scenario.steps;
             const std::string asked = static_cast<std::size_t>(of.step) < steps.size() ? steps[static_cast<std::size_t>(of.step)].instruction : "";
-            return say(EventGroup::step, asked.empty() ? tr("step {} begins", number(of)) : tr("step {} begins: {}", number(of), asked));
+            return say(EventGroup::step, asked.empty() ? msg("step {} begins", number(of)) : msg("step {} begins: {}", number(of), Authored{asked}));
           },
-          [&](const StepCompleted& of) { return say(EventGroup::step, tr("step {} completed", number(of))); },
-          [&](const StepFailed& of) { return say(EventGroup::step, tr("step {} failed", number(of))); },
-          [&](const StepTimeUp& of) { return say(EventGroup::limit, tr("time limit of step {}", number(of))); },
-          [&](const TimeUp&) { return say(EventGroup::limit, tr("time limit of the exam")); },
-          [&](const OverSpeed&) { return say(EventGroup::violation, tr("handpiece faster than {} rpm", plain_number(input.scenario.max_rpm))); },
+          [&](const StepCompleted& of) { return say(EventGroup::step, msg("step {} completed", number(of))); },
+          [&](const StepFailed& of) { return say(EventGroup::step, msg("step {} failed", number(of))); },
+          [&](const StepTimeUp& of) { return say(EventGroup::limit, msg("time limit of step {}", number(of))); },
+          [&](const TimeUp&) { return say(EventGroup::limit, msg("time limit of the exam")); },
+          [&](const OverSpeed&) { return say(EventGroup::violation, msg("handpiece faster than {} rpm", as_number(input.scenario.max_rpm))); },
           [&](const PointNotAllowed& of) {
             const auto at = static_cast<std::size_t>(of.point);
-            return say(EventGroup::violation, at < points_toml.size() ? tr("diamond point not allowed here: {}",
-                                                                           parse_diamond_point(points_toml[at], "diamond point of the session").title)
-                                                                      : tr("diamond point not allowed here"));
+            return say(EventGroup::violation, at < points_toml.size()
+                                                  ? msg("diamond point not allowed here: {}",
+                                                        Term{parse_diamond_point(points_toml[at], "diamond point of the session").title})
+                                                  : msg("diamond point not allowed here"));
           },
-          [&](const AimReached& of) { return say(EventGroup::aim, tr("{} reached: the aim", tissue(of)), of.site_mm); },
-          [&](const Perforated& of) { return say(EventGroup::perforation, tr("{} broken into (tissue)", tissue(of)), of.site_mm); },
-          [&](const Finished& of) { return say(EventGroup::finish, tr("the exam ended: {}", finish_words(of.how))); },
-          [&](const PauseStarted&) { return say(EventGroup::pause, tr("pause begins")); },
-          [&](const PauseEnded&) { return say(EventGroup::pause, tr("pause ends")); },
-          [&](const HoldStarted&) { return say(EventGroup::pause, tr("the exam office pauses the exam")); },
-          [&](const HoldEnded&) { return say(EventGroup::pause, tr("the exam office lets the exam go on")); },
-          [&](const PauseRefused&) { return say(EventGroup::pause, tr("pause refused")); },
-          [&](const RecordingMoved&) { return say(EventGroup::gap, tr("the disk refused: recorded at another place from here on")); },
-          [&](const RecordingGap&) { return say(EventGroup::gap, tr("the recording was interrupted here and taken up again")); },
+          [&](const AimReached& of) { return say(EventGroup::aim, msg("{} reached: the aim", tissue(of)), of.site_mm); },
+          [&](const Perforated& of) { return say(EventGroup::perforation, msg("{} broken into (tissue)", tissue(of)), of.site_mm); },
+          [&](const Finished& of) { return say(EventGroup::finish, msg("the exam ended: {}", finish_words(of.how))); },
+          [&](const PauseStarted&) { return say(EventGroup::pause, msg("pause begins")); },
+          [&](const PauseEnded&) { return say(EventGroup::pause, msg("pause ends")); },
+          [&](const HoldStarted&) { return say(EventGroup::pause, msg("the exam office pauses the exam")); },
+          [&](const HoldEnded&) { return say(EventGroup::pause, msg("the exam office lets the exam go on")); },
+          [&](const PauseRefused&) { return say(EventGroup::pause, msg("pause refused")); },
+          [&](const RecordingMoved&) { return say(EventGroup::gap, msg("the disk refused: recorded at another place from here on")); },
+          [&](const RecordingGap&) { return say(EventGroup::gap, msg("the recording was interrupted here and taken up again")); },
           [&](const AnyOf<ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness,
                           WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&
                   of) {
             std::string name = of.k_kind;
             std::replace(name.begin(), name.end(), '_', ' ');
-            return say(EventGroup::device, shown(name));
+            return say(EventGroup::device, msg("{}", Term{name}));
           },
       },
       e.event);
@@ -62,9 +59,32 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
 }  // namespace
 
 const char* name_of(EventGroup group) noexcept {
-  constexpr const char* k_names[] = {said("perforation"), said("aim"),    said("violation"), said("step"), said("pause"),
-                                     said("limit"),       said("finish"), said("device"),    said("gap")};
+  constexpr const char* k_names[] = {"perforation", "aim", "violation", "step", "pause", "limit", "finish", "device", "gap"};
   return k_names[static_cast<std::size_t>(group)];
+}
+
+Message word_of(EventGroup group) {
+  switch (group) {
+    case EventGroup::perforation:
+      return msg("perforation");
+    case EventGroup::aim:
+      return msg("aim");
+    case EventGroup::violation:
+      return msg("violation");
+    case EventGroup::step:
+      return msg("step");
+    case EventGroup::pause:
+      return msg("pause");
+    case EventGroup::limit:
+      return msg("limit");
+    case EventGroup::finish:
+      return msg("finish");
+    case EventGroup::device:
+      return msg("device");
+    case EventGroup::gap:
+      break;
+  }
+  return msg("gap");
 }
 
 std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
@@ -73,8 +93,9 @@ std::vector<ReportEvent> report_events(const grading::Result& result, const grad
     if (e.as<ServoLateness>() == nullptr) list.push_back(event_of(e, input, points_toml));
   for (const auto& e : result.perforation.events)
     list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? EventGroup::perforation : EventGroup::aim,
-                    tr("breakthrough in the force: {} N to {} N, {}", fixed(e.force_before_n, 2), fixed(e.force_after_n, 2),
-                       e.confirmed ? tr("confirmed by the tissue") : tr("not confirmed by the tissue")),
+                    e.confirmed
+                        ? msg("breakthrough in the force: {} to {}, confirmed by the tissue", as_n(e.force_before_n), as_n(e.force_after_n))
+                        : msg("breakthrough in the force: {} to {}, not confirmed by the tissue", as_n(e.force_before_n), as_n(e.force_after_n)),
                     e.site_mm});
   std::stable_sort(list.begin(), list.end(), [](const ReportEvent& a, const ReportEvent& b) { return a.t_s < b.t_s; });
   return list;

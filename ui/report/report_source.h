@@ -26,8 +26,8 @@ struct ReportIntegrity {
   std::string file;  ///< without its folder
   std::string file_sha256, chain_sha256, final_tooth_sha256, result_sha256, station_key, closed_utc;
   Replay replay = Replay::not_done;
-  bool at_filing = false;                              ///< `replay` was done when the ledger took the session in
-  std::vector<std::string> proved, findings, remarks;  ///< as explain_session says them
+  bool at_filing = false;                          ///< `replay` was done when the ledger took the session in
+  std::vector<Message> proved, findings, remarks;  ///< as explain_session says them
 };
 
 /// One attempt of a candidate at an exam, as the ledger holds it.
@@ -37,7 +37,7 @@ struct ReportAttempt {
   std::string verdict;
   double points = 0, max = 0;
   bool released = false, this_one = false, regraded = false, simulated = false;
-  std::string doubt;  ///< why it does not stand as sound; empty when it does
+  Message doubt;  ///< why it does not stand as sound; empty when it does
 };
 
 /// The entry that a result came from, where that is no exam's own.
@@ -53,9 +53,9 @@ struct ReportFiling {
   std::uint64_t entry = 0, entries = 0;  ///< its number, and how many the root below is of
   std::string ledger, school, public_key, root, date;
   bool released = false;
-  std::vector<std::string> findings;                   ///< in words: what it was filed with, and that it is contested
+  std::vector<Message> findings;                       ///< what it was filed with, and that it is contested
   std::optional<ReportRegrade> regrade;                ///< that gave the result of this report
-  std::string not_filed;                               ///< the result of this report is not the one that the ledger holds: how it differs
+  Message not_filed;                                   ///< the result of this report is not the one that the ledger holds: how it differs
   std::optional<std::string> name;                     ///< of the candidate: only when asked for, and released
   std::vector<ReportAttempt> attempts;                 ///< of this candidate at this exam, the oldest first
   std::optional<cohort::AttemptScatter> scatter = {};  ///< of the class at this exam; none where too few sat it twice
@@ -70,13 +70,14 @@ struct ReportScan {
 
 /// Something that happened, in words.
 enum class EventGroup { perforation, aim, violation, step, pause, limit, finish, device, gap };
-/// "perforation" and so on, in English.
+/// "perforation" and so on: as the page's data have it, and in words.
 [[nodiscard]] const char* name_of(EventGroup group) noexcept;
+[[nodiscard]] Message word_of(EventGroup group);
 
 struct ReportEvent {
   double t_s = 0;
   EventGroup kind = EventGroup::device;
-  std::string text;
+  Message text;
   std::optional<Vec3> site_mm;
 };
 

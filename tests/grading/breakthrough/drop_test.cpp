@@ -108,20 +108,20 @@ TEST(ForceDrop, WhatGoesOverTwentySecondsIsNotFelt) {
   EXPECT_FALSE(drop.felt());
   EXPECT_NEAR(drop.missing_n, 0.6 * 150 / 2000.0, 1e-9) << "1.5 s of it";
   EXPECT_NEAR(drop.share, 150 / 2000.0, 1e-9);
-  EXPECT_STREQ(drop.severity(), "not_felt");
+  EXPECT_EQ(drop.severity(), DropSeverity::not_felt);
 }
 
 TEST(ForceDrop, SeverityIsWhatWasFeltAndHowLongTheCavityWasOpenedFurther) {
   std::vector<std::int64_t> opened{2990};
   const auto quick = story({{3, {0.6, 0.6}}, {2, {0.6, 0.1}}});
-  EXPECT_STREQ(find_drop(quick, opened).severity(), "felt");
+  EXPECT_EQ(find_drop(quick, opened).severity(), DropSeverity::felt);
   for (std::int64_t t = 3100; t < 4000; ++t) opened.push_back(t);
   const ForceDrop on = find_drop(quick, opened);
-  EXPECT_STREQ(on.severity(), "felt_and_cut_on");
+  EXPECT_EQ(on.severity(), DropSeverity::felt_and_cut_on);
   EXPECT_NEAR(on.cut_on_s, 0.9, 1e-9);
   EXPECT_EQ(on.felt_tick, 3009);
   EXPECT_NEAR(on.missing_n, 0.5, 1e-9);
-  EXPECT_STREQ(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.5}}}), {opened.data(), 1}).severity(), "faint");
+  EXPECT_EQ(find_drop(story({{3, {0.6, 0.6}}, {2, {0.6, 0.5}}}), {opened.data(), 1}).severity(), DropSeverity::faint);
 }
 
 TEST(ForceDrop, FarFromAnOpeningALossIsNoDrop) {

@@ -38,8 +38,8 @@ void expect_sound(const CircuitStudy& s, const std::string& what) {
   f.exams = {"a", "b"};
   f.candidates = 3;
   f.program = s;
-  f.why_no_people = "no marks of people";
-  for (const std::string& text : {to_text(f), to_json(f).dump()})
+  f.why_no_people = msg("no marks of people");
+  for (const std::string& text : {english_text(to_text(f)), to_json(f).dump()})
     for (const char* none : {"nan", "inf"}) EXPECT_EQ(text.find(none), std::string::npos) << what << ": " << text;
   EXPECT_FALSE(to_json(f)["program"]["at_cut"]["phi"].is_null()) << what;
 }
@@ -53,12 +53,12 @@ TEST(Circuit, WhereNoCandidateDiffersThereIsNoStudy) {
   EXPECT_NE(refusal_of({{60}, {70}}).find("cannot tell these effects apart"), std::string::npos) << "one exam";
   EXPECT_NE(refusal_of({{60, 70}}).find("cannot tell these effects apart"), std::string::npos) << "one candidate";
   CircuitFigures f;
-  f.why_no_program = "these marks: are all alike";
+  f.why_no_program = msg("these marks: are all alike");
   const auto j = to_json(f)["program"];
   EXPECT_EQ(j["why_not"], "these marks: are all alike");
   for (const char* name : {"mean_percent", "components", "as_sat", "at_cut", "by_exams", "exams_for_phi_080"})
     EXPECT_TRUE(j.at(name).is_null()) << name;
-  EXPECT_NE(to_text(f).find("no study: these marks: are all alike"), std::string::npos);
+  EXPECT_NE(english_text(to_text(f)).find("no study: these marks: are all alike"), std::string::npos);
 }
 
 TEST(Circuit, AnEstimateLiesWithinItsRange) {
@@ -115,16 +115,16 @@ TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
   const CircuitFigures all = circuit_figures(r, identities, {"a", "b"}, {});
   EXPECT_EQ(all.cut_percent, 70.0) << "one passes with 75, the other with 65";
   EXPECT_TRUE(all.marked_differently.empty());
-  ASSERT_TRUE(all.program) << all.why_no_program;
-  EXPECT_NE(to_text(all).find("at 70.0 %: another such circuit"), std::string::npos) << to_text(all);
+  ASSERT_TRUE(all.program) << english_text(all.why_no_program);
+  EXPECT_NE(english_text(to_text(all)).find("at 70.0 %: another such circuit"), std::string::npos) << english_text(to_text(all));
 
   regrade(r.sessions[1]);  // one of exam b
   const CircuitFigures f = circuit_figures(r, identities, {"a", "b"}, {});
   EXPECT_FALSE(f.cut_percent);
-  ASSERT_TRUE(f.program) << f.why_no_program;
+  ASSERT_TRUE(f.program) << english_text(f.why_no_program);
   EXPECT_FALSE(f.program->at_cut);
   EXPECT_EQ(f.program->as_sat.phi, all.program->as_sat.phi) << "the rest needs no cut";
-  const std::string text = to_text(f);
+  const std::string text = english_text(to_text(f));
   EXPECT_EQ(text.find("another such circuit"), std::string::npos) << text;
   EXPECT_NE(text.find("b: not all results were marked alike: 5 as it was sat (pass mark 65 %), 1 by the rubric of entry "), std::string::npos)
       << text;
@@ -134,13 +134,13 @@ TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
 
 TEST(Circuit, MarksThatAreLeftOutAreNamedAndCounted) {
   CircuitFigures f;
-  f.why_no_program = f.why_no_people = "none";
-  EXPECT_EQ(to_text(f).find("left out"), std::string::npos);
+  f.why_no_program = f.why_no_people = msg("none");
+  EXPECT_EQ(english_text(to_text(f)).find("left out"), std::string::npos);
   for (int i = 1; i <= 7; ++i) f.marks_left_out.push_back({"class_1", "c" + std::to_string(i), "A"});
-  EXPECT_NE(to_text(f).find("marks left out: 7, of candidates without a session of that exam that counts: c1 (class_1), c2 (class_1)"),
+  EXPECT_NE(english_text(to_text(f)).find("marks left out: 7, of candidates without a session of that exam that counts: c1 (class_1), c2 (class_1)"),
             std::string::npos)
-      << to_text(f);
-  EXPECT_NE(to_text(f).find("c5 (class_1) and 2 more"), std::string::npos) << to_text(f);
+      << english_text(to_text(f));
+  EXPECT_NE(english_text(to_text(f)).find("c5 (class_1), 2 more"), std::string::npos) << english_text(to_text(f));
   EXPECT_EQ(to_json(f)["marks_left_out"].size(), 7u);
   EXPECT_EQ(to_json(f)["marks_left_out"][6]["candidate"], "c7");
 }
@@ -162,9 +162,9 @@ TEST(Circuit, WhatPartsTheMarksAlikeIsOneEffectAndNamed) {
   EXPECT_EQ(s.design.names, (std::vector<std::string>{"candidate", "exam", "judge", "candidate x exam", "exam x judge", "candidate x exam x judge"}));
   expect_sound(s, "pairs in rotation");
   CircuitFigures f;
-  f.why_no_program = "none";
+  f.why_no_program = msg("none");
   f.people = s;
-  const std::string text = to_text(f);
+  const std::string text = english_text(to_text(f));
   EXPECT_NE(text.find("candidate x judge cannot be told from candidate x exam x judge by these marks, and stands in it"), std::string::npos) << text;
   EXPECT_NE(text.find("a candidate's mark is the mean of 6 marks: 3 exams, 6 judges\n"), std::string::npos) << text;
   // Of each candidate two marks an exam: exam x judge stands in six cells, the judges in six, what is left in six marks.
@@ -194,10 +194,10 @@ TEST(Circuit, TheNumberOfExamsThatIsEnoughHasARange) {
   EXPECT_GE(s.for_enough.high.value_or(k_most_tasks + 1), *s.for_enough.estimate);
   EXPECT_LT(*s.for_enough.low, s.for_enough.high.value_or(k_most_tasks + 1)) << "thirty candidates at three exams do not know it";
   CircuitFigures f;
-  f.why_no_program = "none";
+  f.why_no_program = msg("none");
   f.people = s;
   const std::string told = fmt::format("for phi 0.80: {} exams ({} to ", *s.for_enough.estimate, *s.for_enough.low);
-  EXPECT_NE(to_text(f).find(told), std::string::npos) << to_text(f);
+  EXPECT_NE(english_text(to_text(f)).find(told), std::string::npos) << english_text(to_text(f));
   EXPECT_EQ(to_json(f)["people"]["exams_for_phi_080_range"][0], *s.for_enough.low);
 }
 

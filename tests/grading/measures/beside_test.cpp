@@ -82,7 +82,8 @@ TEST(BesideMeasures, OfTheToothItselfTheNickIsNoOvercutAndNothingOutside) {
   EXPECT_EQ(a.notes.size(), b.notes.size());
   EXPECT_FALSE(to_json(b).contains("beside"));
   EXPECT_EQ(to_json(a)["beside"]["neighbour_nick_depth_mm"], rounded(a.beside.nick_depth_mm));
-  EXPECT_NE(a.criteria.back().reason.find("cut deepest at ["), std::string::npos) << a.criteria.back().reason;
+  EXPECT_NE(english_text(msg("{}", a.criteria.back().reason)).find("cut deepest at ["), std::string::npos)
+      << english_text(msg("{}", a.criteria.back().reason));
   EXPECT_TRUE(a.criteria.back().critical_failed);
 }
 

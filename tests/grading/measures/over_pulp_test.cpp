@@ -87,7 +87,8 @@ TEST(OverPulp, NeverMoreWhenMoreIsCutAndNothingFromTheTickInWhichThePulpIsOpened
   const Result r = c.graded();
   EXPECT_EQ(*r.over_pulp.dentin_mm, 0.0);
   EXPECT_EQ(r.over_pulp.thinnest.tick, 9);
-  EXPECT_NE(r.criteria.back().reason.find("the pulp was opened at"), std::string::npos) << r.criteria.back().reason;
+  EXPECT_NE(english_text(msg("{}", r.criteria.back().reason)).find("the pulp was opened at"), std::string::npos)
+      << english_text(msg("{}", r.criteria.back().reason));
   EXPECT_TRUE(r.criteria.back().critical_failed);
 }
 
@@ -125,12 +126,12 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
   const Result r = c.graded();
   const CriterionResult& left = r.criteria.back();
   EXPECT_NEAR(left.points, 10 * (0.7 - 0.2) / (1.2 - 0.2), left.points_bound);
-  EXPECT_NE(left.reason.find("thinnest at ["), std::string::npos) << left.reason;
+  EXPECT_NE(english_text(msg("{}", left.reason)).find("thinnest at ["), std::string::npos) << english_text(msg("{}", left.reason));
   EXPECT_EQ(left.first.tick, 7);
   const Why w = why(c.input(), r, c.scenario.rubric, "left");
   ASSERT_FALSE(w.items.empty());
   EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(), [](const WhyItem& i) { return i.tick == 7 && i.what.find("over the pulp's wall") == 5; }))
-      << to_text(w);
+      << english_text(to_text(w));
   const auto json = to_json(r);
   EXPECT_EQ(json["pulp"]["dentin_over_pulp_mm"], rounded(*r.over_pulp.dentin_mm));
   EXPECT_EQ(json["pulp"]["bounds"]["dentin_over_pulp_mm"], k_leaf_mm);

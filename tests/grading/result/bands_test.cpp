@@ -52,7 +52,8 @@ TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
   EXPECT_EQ(j["criteria"][0]["band"], "marginal");
   EXPECT_EQ(j["score"]["bands"][0]["criteria"], 2);
   EXPECT_EQ(j["score"]["bands"][1]["most"], 1);
-  EXPECT_NE(r.criteria[0].reason.find("marginal, beyond 0.20 mm"), std::string::npos) << r.criteria[0].reason;
+  EXPECT_NE(english_text(msg("{}", r.criteria[0].reason)).find("marginal, beyond 0.20 mm"), std::string::npos)
+      << english_text(msg("{}", r.criteria[0].reason));
 }
 
 TEST(Bands, OneMoreThanABandMayHoldFailsWhateverThePoints) {
@@ -77,7 +78,8 @@ TEST(Bands, CareForLessThanHalfOfTheWorkLiesInTheWorst) {
 
 TEST(Bands, ALimitWithinTheFiguresBoundIsSaid) {
   const Result r = cut_beyond(0.21, 0.0, rubric(1));
-  EXPECT_NE(r.criteria[0].reason.find("the limit of 0.20 mm lies within the bound of the figure"), std::string::npos) << r.criteria[0].reason;
+  EXPECT_NE(english_text(msg("{}", r.criteria[0].reason)).find("the limit of 0.20 mm lies within the bound of the figure"), std::string::npos)
+      << english_text(msg("{}", r.criteria[0].reason));
 }
 
 TEST(Bands, ARubricWithoutThemSaysNothingOfThem) {

@@ -33,9 +33,9 @@ TEST(Accommodations, RefusesNotesAndGrantsThatAreNone) {
 }
 
 TEST(Accommodations, AreSaidInWords) {
-  EXPECT_EQ(accommodations_text({}), "");
-  EXPECT_EQ(accommodations_text({25, 60, true, true}), "25 % and 60 s extra time, left-handed, high-contrast colours");
-  EXPECT_EQ(accommodations_text({0, 90.5, false, false}), "90.5 s extra time");
+  EXPECT_EQ(english_text(accommodations_text({})), "");
+  EXPECT_EQ(english_text(accommodations_text({25, 60, true, true})), "25 % and 60 s extra time, left-handed, high-contrast colours");
+  EXPECT_EQ(english_text(accommodations_text({0, 90.5, false, false})), "90.5 s extra time");
 }
 
 }  // namespace

@@ -129,7 +129,7 @@ TEST(Picture, HowManyCutWronglyIsDrawnLeafByLeafInItsBand) {
 }
 
 TEST(Picture, InALanguageOfLongWordsNoEntryOfAKeyRunsIntoTheNext) {
-  const auto twice_as_long = [](std::string_view english) { return std::string(english) + ", " + std::string(english); };
+  const auto twice_as_long = [](const Message& words) { return english_text(words) + ", " + english_text(words); };
   constexpr double k_letter_px = 6.0;  // of 12 px type, on the average
   for (const std::string& key : legend_parts_svg(testing::dentin_block(2, 2, 0.2), true, false, twice_as_long)) {
     double width = 0;
@@ -160,12 +160,12 @@ TEST(Picture, TheKeyNamesWhatStandsBesideTheToothWhereAnythingDoes) {
   tooth.tissues.push_back({k_gingiva, "gingiva", true});
   const std::string beside = legend_svg(tooth, true);
   EXPECT_NE(beside.find(">gum<"), std::string::npos);
-  EXPECT_NE(beside.find(">neighbour's enamel<"), std::string::npos);
+  EXPECT_NE(beside.find(">neighbour&#39;s enamel<"), std::string::npos);
   EXPECT_NE(beside.find(tissue_colour(k_gingiva)), std::string::npos) << "in the colour of the sections";
   EXPECT_GT(height_px(beside), height_px(alone)) << "in a row of its own";
   const auto parts = legend_parts_svg(tooth, true);
   ASSERT_EQ(parts.size(), 4u);
-  EXPECT_NE(parts[3].find(">neighbour's enamel<"), std::string::npos);
+  EXPECT_NE(parts[3].find(">neighbour&#39;s enamel<"), std::string::npos);
   for (const auto& part : parts) {
     double width = 0;
     ASSERT_EQ(std::sscanf(part.c_str() + part.find("width='"), "width='%lf", &width), 1);

@@ -105,12 +105,12 @@ TEST_F(ClassReport, WarnsBesideEachFigureThatComesFromFew) {
   figures_.alpha = 0.5;
   figures_.agreement.n = 7;
   figures_.agreement.kappa = 0.4;
-  const std::string words = "Few: 7 candidates, under 30 it is a rough guess; ";
+  const std::string words = "(few: 7 candidates, under 30 it is a rough guess)";
   EXPECT_EQ(class_html(figures_, tooth_).find("rough guess"), std::string::npos) << "nothing is said of what comes from enough";
   figures_.few = {{"alpha", 7, 30}, {"weighted_kappa", 7, 18}};
   const std::string html = class_html(figures_, tooth_);
-  EXPECT_NE(html.find(words + "how far the criteria"), std::string::npos);
-  EXPECT_NE(html.find("under 18 it is a rough guess; fail, borderline"), std::string::npos);
+  EXPECT_NE(html.find(words), std::string::npos);
+  EXPECT_NE(html.find("fail, borderline"), std::string::npos);
 }
 
 TEST_F(ClassReport, HasNoLineAndNoFigureAtAPassMarkThatIsNoneAndNamesStations) {
@@ -127,7 +127,7 @@ TEST_F(ClassReport, HasNoLineAndNoFigureAtAPassMarkThatIsNoneAndNamesStations) {
   const std::string several = class_html(figures_, tooth_);
   EXPECT_EQ(several.find(">pass mark</text>"), std::string::npos);
   EXPECT_NE(
-      several.find("Not all results were marked alike: 5 as it was sat (pass mark 60 %), 2 by the rubric of entry 37 (pass mark 70 %). There is "
+      several.find("not all results were marked alike: 5 as it was sat (pass mark 60 %), 2 by the rubric of entry 37 (pass mark 70 %); there is "
                    "no one pass mark"),
       std::string::npos);
 }

@@ -121,8 +121,8 @@ TEST_F(ReportFile, SaysHowTheExamEndedAndHowItsBoundsAreMeant) {
   EXPECT_EQ(html.find("Care counts for as much as was done: where less than 50 %") != std::string::npos, by_work);
   const std::string of_the_floor = html_with([](grading::GradedSession& graded) { graded.rubric.criteria[0].metric = "floor_max_over_mm"; });
   EXPECT_EQ(times(of_the_floor, "the overcut ends at the pulp"), 2u) << "beside the criteria, too";
-  EXPECT_EQ(finish_words(Finish::time), "time was up");
-  EXPECT_EQ(finish_words(Finish::failed), "a step was failed");
+  EXPECT_EQ(english_text(finish_words(Finish::time)), "time was up");
+  EXPECT_EQ(english_text(finish_words(Finish::failed)), "a step was failed");
 }
 
 TEST_F(ReportFile, NoPageIsLeftHalfEmptyBeforeAPicture) {
@@ -342,7 +342,7 @@ TEST_F(ReportFile, ADocumentOfAnyLengthFitsItsPages) {
   d.blocks = {Heading{text.substr(0, 900)},
               Paragraph{text, "Lead"},
               Bullets{{text, "short"}, true},
-              VerdictBox{"review", "1 of 2", {text.substr(0, 300)}, {text.substr(0, 1500)}},
+              VerdictBox{"review", "review", "1 of 2", {text.substr(0, 300)}, {text.substr(0, 1500)}},
               ReportTable{{{"a"}, {"b", true}}, {{{{text}, {"number"}}}, {{{"x"}, {"y"}}}}, "huge"},
               Paragraph{"the end is here", ""}};
   write_text_file(path("t.pdf"), pdf_of(d));

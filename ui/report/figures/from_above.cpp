@@ -11,7 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/report/figures/packed_array.h"
 
@@ -178,17 +178,17 @@ Bytes columns_png(const Columns& columns) {
 constexpr double k_top_px = 24, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
 
 std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
-  return fmt::format("<text x='{}' y='{}' text-anchor='{}'>{}</text>", fixed(x, 0), fixed(y, 0), anchor, words);
+  return fmt::format("<text x='{}' y='{}' text-anchor='{}'>{}</text>", fixed(x, 0), fixed(y, 0), anchor, xml_text(words));
 }
 
-std::string beyond_words() { return fixed(k_colours_end_mm, 1) + " mm beyond"; }
-std::string left_words() { return fixed(k_colours_end_mm, 1) + " mm left"; }
+std::string beyond_words() { return tr("{} beyond", as_mm(k_colours_end_mm, 1)); }
+std::string left_words() { return tr("{} left", as_mm(k_colours_end_mm, 1)); }
 
 /// Room beside the picture for the key, in the reader's language.
 double key_width_px() {
   constexpr double k_least_px = 190, k_letter_px = 10;  // of letters of 16 px, wide ones
   std::size_t letters = 0;
-  for (const std::string& words : {beyond_words(), left_words(), std::string("as planned")}) letters = std::max(letters, shown(words).size());
+  for (const std::string& words : {beyond_words(), left_words(), tr("as planned")}) letters = std::max(letters, words.size());
   return std::max(k_least_px, 20 + k_bar_px + 8 + k_letter_px * static_cast<double>(letters));
 }
 
@@ -203,10 +203,10 @@ std::string key_svg(double left, double top, double mm_px) {
                        fixed(k_step_px + 0.5, 1), hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
   svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>\n", fixed(left, 0), fixed(top, 0), fixed(k_bar_px, 0),
                      fixed(k_bar_height_px, 0));
-  svg += text_at(words, top + 14, beyond_words()) + text_at(words, top + k_bar_height_px / 2 + 5, "as planned") +
+  svg += text_at(words, top + 14, beyond_words()) + text_at(words, top + k_bar_height_px / 2 + 5, tr("as planned")) +
          text_at(words, top + k_bar_height_px - 4, left_words());
   svg += fmt::format("\n<path d='M{} {}h{}' stroke='#222222' stroke-width='2'/>{}", fixed(left, 0), fixed(top + k_bar_height_px + 34, 0),
-                     fixed(mm_px, 1), text_at(left + mm_px + 8, top + k_bar_height_px + 40, "1 mm"));
+                     fixed(mm_px, 1), text_at(left + mm_px + 8, top + k_bar_height_px + 40, tr("{}", as_mm(1, 0))));
   return svg;
 }
 
@@ -214,7 +214,7 @@ constexpr double k_line_px = 26;  // of the second part of the key
 
 /// What stands beside the tooth, below the bar of colours; as many lines as there is of it.
 std::vector<std::string> key_beside(const grading::GradeInput& input, double left, double top) {
-  std::vector<std::pair<Colour, const char*>> entries;
+  std::vector<std::pair<Colour, Message>> entries;
   if (input.beside != nullptr) {
     const auto counts = input.seen_before().octree.count_leaves();
     const auto any = [&](const TissueSet& set) {
@@ -222,15 +222,15 @@ std::vector<std::string> key_beside(const grading::GradeInput& input, double lef
         if (set[t] && counts[t] > 0) return true;
       return false;
     };
-    if (any(input.beside->apart.of_neighbours)) entries.emplace_back(k_neighbour, "neighbouring tooth");
-    if (any(input.beside->apart.of_gum)) entries.emplace_back(k_gum_colour, "gum");
-    if (!entries.empty()) entries.emplace_back(k_cut_beside, "cut of these");
+    if (any(input.beside->apart.of_neighbours)) entries.emplace_back(k_neighbour, msg("neighbouring tooth"));
+    if (any(input.beside->apart.of_gum)) entries.emplace_back(k_gum_colour, msg("gum"));
+    if (!entries.empty()) entries.emplace_back(k_cut_beside, msg("cut of these"));
   }
   std::vector<std::string> lines;
   for (const auto& [colour, words] : entries) {
     const double y = top + static_cast<double>(lines.size()) * k_line_px;
     lines.push_back(fmt::format("<rect x='{}' y='{}' width='{}' height='16' fill='{}' stroke='#666666'/>{}\n", fixed(left, 0), fixed(y, 0),
-                                fixed(k_bar_px, 0), hex(colour), text_at(left + k_bar_px + 8, y + 13, words)));
+                                fixed(k_bar_px, 0), hex(colour), text_at(left + k_bar_px + 8, y + 13, tr(words))));
   }
   return lines;
 }
@@ -250,8 +250,8 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
   std::string svg = fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif' font-size='{}' "
       "fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n{}{}\n",
-      fixed(all_width, 0), fixed(all_height, 0), fixed(all_width, 0), fixed(all_height, 0), fixed(k_font_px, 0), text_at(4, 17, "&#8593; buccal"),
-      text_at(width - 4, 17, "mesial &#8594;", "end"));
+      fixed(all_width, 0), fixed(all_height, 0), fixed(all_width, 0), fixed(all_height, 0), fixed(k_font_px, 0), text_at(4, 17, tr("↑ buccal")),
+      text_at(width - 4, 17, tr("mesial →"), "end"));
   svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
                      fixed(width, 1), fixed(height, 1), base64(columns_png(columns)));
   if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
@@ -264,13 +264,15 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
 Picture picture_from_above(const grading::GradeInput& input) {
   bool beside = false;
   std::string svg = picture_svg(Columns(input, false), true, beside);
-  return {std::move(svg), "From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut" +
-                              std::string(beside ? "; what stands beside it, and what was cut of that, in colours of their own" : "")};
+  return {std::move(svg),
+          beside ? tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut; what "
+                      "stands beside it, and what was cut of that, in colours of their own")
+                 : tr("From above: what was cut, coloured by the distance of its surface from the target's walls and floor; grey was not cut")};
 }
 
 Picture picture_as_planned(const grading::GradeInput& input) {
   bool beside = false;
-  return {picture_svg(Columns(input, true), false, beside), "From above, as planned: the target taken out and nothing else"};
+  return {picture_svg(Columns(input, true), false, beside), tr("From above, as planned: the target taken out and nothing else")};
 }
 
 }  // namespace cavum::report

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "scenarios/review/section.h"
 
 namespace cavum::report {
@@ -21,20 +22,19 @@ constexpr double k_least_seen_mm = 0.05;  // what is less deep does not show in 
 struct Wish {
   scenarios::View view;
   Vec3 through_mm;
-  std::string why;
+  Message why;
 };
 
 double at_of(scenarios::View view, Vec3 p) {
   return view == scenarios::View::mesio_distal ? p.y : view == scenarios::View::bucco_lingual ? p.x : p.z;
 }
 
-std::string place_text(scenarios::View view, double at_mm) {
-  const char* name = view == scenarios::View::mesio_distal    ? "Mesio-distal, y = "
-                     : view == scenarios::View::bucco_lingual ? "Bucco-lingual, x = "
-                                                              : "Horizontal, z = ";
-  std::string number = fixed(at_mm, 2);
-  if (number == "-0.00") number = "0.00";
-  return fmt::format("{}{} mm", name, number);
+Message place_text(scenarios::View view, double at_mm) {
+  constexpr double k_shown_mm = 0.005;
+  const Number at = as_mm(std::fabs(at_mm) < k_shown_mm ? 0.0 : at_mm);
+  return view == scenarios::View::mesio_distal    ? msg("Mesio-distal, y = {}", at)
+         : view == scenarios::View::bucco_lingual ? msg("Bucco-lingual, x = {}", at)
+                                                  : msg("Horizontal, z = {}", at);
 }
 
 struct Worst {
@@ -75,14 +75,14 @@ void add_beside(const grading::BesideMeasures& m, std::vector<Wish>& list) {
   constexpr double k_narrow_mm = 0.2;
   if (m.nick_depth_mm >= k_least_seen_mm)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::horizontal})
-      list.push_back({v, m.deepest.site_mm, fmt::format("neighbouring tooth cut, {} mm deep here", fixed(m.nick_depth_mm, 2))});
+      list.push_back({v, m.deepest.site_mm, msg("neighbouring tooth cut, {} deep here", as_mm(m.nick_depth_mm))});
   if (m.clearance_mm && *m.clearance_mm < k_narrow_mm)
-    list.push_back({scenarios::View::mesio_distal, m.clearance_from_mm, fmt::format("{} mm from the neighbour here", fixed(*m.clearance_mm, 2))});
+    list.push_back({scenarios::View::mesio_distal, m.clearance_from_mm, msg("{} from the neighbour here", as_mm(*m.clearance_mm))});
 }
 
 std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& input) {
   const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm(), middle = (low + high) * 0.5, extent = high - low;
-  const std::string through = "through the middle of the target";
+  const Message through = msg("through the middle of the target");
   std::vector<Wish> list{{scenarios::View::mesio_distal, middle, through},
                          {scenarios::View::bucco_lingual, middle, through},
                          {scenarios::View::horizontal, middle, through}};
@@ -90,20 +90,20 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
   const auto under = worst(r, &grading::WallMeasures::max_under_mm, &grading::WallMeasures::worst_under);
   const auto named = [&](bool too_much, const Worst& w) {
     const auto wall = static_cast<scenarios::Wall>(w.wall);
-    const std::string name = scenarios::wall_name(wall, r.shape.facing), mm = fixed(w.mm, 2);
+    const Term name{scenarios::wall_name(wall, r.shape.facing)};
+    const Number far = as_mm(w.mm);
     if (wall == scenarios::Wall::floor)
-      return too_much ? fmt::format("worst overcut, {} mm at the {}", mm, name) : fmt::format("worst undercut, {} mm at the {}", mm, name);
-    return too_much ? fmt::format("worst overcut, {} mm at the wall towards {}", mm, name)
-                    : fmt::format("worst undercut, {} mm at the wall towards {}", mm, name);
+      return too_much ? msg("worst overcut, {} at the {}", far, name) : msg("worst undercut, {} at the {}", far, name);
+    return too_much ? msg("worst overcut, {} at the wall towards {}", far, name) : msg("worst undercut, {} at the wall towards {}", far, name);
   };
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
-      list.push_back({v, p.first.site_mm, p.tissue + " broken into here"});
+      list.push_back({v, p.first.site_mm, msg("{} broken into here", Term{p.tissue})});
   else
     for (const auto& e : r.perforation.events)
       if (e.fault && list.size() < 5)
         for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
-          list.push_back({v, e.site_mm, "breakthrough in the force here"});
+          list.push_back({v, e.site_mm, msg("breakthrough in the force here")});
   add_beside(r.beside, list);
   if (over) {
     list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named(true, *over)});
@@ -115,13 +115,13 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {
-    const std::string place = fmt::format("through the target at {} % of its ", fixed(100 * share, 0));
-    list.push_back({scenarios::View::horizontal, low + extent * share, place + "height"});
-    list.push_back({scenarios::View::mesio_distal, low + extent * share, place + "width"});
-    list.push_back({scenarios::View::bucco_lingual, low + extent * share, place + "length"});
+    const Number at = as_percent(100 * share);
+    list.push_back({scenarios::View::horizontal, low + extent * share, msg("through the target at {} of its height", at)});
+    list.push_back({scenarios::View::mesio_distal, low + extent * share, msg("through the target at {} of its width", at)});
+    list.push_back({scenarios::View::bucco_lingual, low + extent * share, msg("through the target at {} of its length", at)});
   }
   for (int i = 1; list.size() < 64; ++i)  // a target of a few leaves: beside it
-    list.push_back({scenarios::View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, "below the target"});
+    list.push_back({scenarios::View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, msg("below the target")});
   return list;
 }
 
@@ -130,13 +130,12 @@ std::array<std::string, 3> three_sections(const grading::Result& r, const gradin
   const Vec3 low = input.zones.target_low_mm(), high = input.zones.target_high_mm();
   const Vec3 at = r.perforation.fault.perforated ? r.perforation.fault.first.site_mm : (low + high) * 0.5;
   const double across = low.z + 0.35 * (high.z - low.z);
-  const auto draw = [&](scenarios::View view, double at_mm, const char* name) {
+  const auto draw = [&](scenarios::View view, double at_mm) {
     return scenarios::section_svg(
         input.seen_before(), &input.seen_after(), input.zones,
-        {view, at_mm, k_scale_px_per_mm, fmt::format("{}{} mm", name, fixed(at_mm, 2)), input.scenario.accommodations.high_contrast});
+        {view, at_mm, k_scale_px_per_mm, tr(place_text(view, at_mm)), input.scenario.accommodations.high_contrast, nullptr, {}, tr});
   };
-  return {draw(scenarios::View::mesio_distal, at.y, "mesial-distal, y = "), draw(scenarios::View::bucco_lingual, at.x, "buccal-lingual, x = "),
-          draw(scenarios::View::horizontal, across, "across, z = ")};
+  return {draw(scenarios::View::mesio_distal, at.y), draw(scenarios::View::bucco_lingual, at.x), draw(scenarios::View::horizontal, across)};
 }
 
 /// Leaves of one section near a mistake.
@@ -190,10 +189,10 @@ std::vector<SectionPicture> section_pictures(const grading::Result& r, const gra
     if (std::find(shown.begin(), shown.end(), key) != shown.end()) continue;
     shown.push_back(key);
     SectionPicture p{w.view, at_of(w.view, w.through_mm), "", ""};
-    const std::string place = place_text(p.view, p.at_mm);
-    p.title = fmt::format("{}: {}", place, w.why);
+    const Message place = place_text(p.view, p.at_mm);
+    p.title = tr("{}: {}", place, w.why);
     p.svg = scenarios::section_svg(input.seen_before(), &input.seen_after(), input.zones,
-                                   {p.view, p.at_mm, k_scale_px_per_mm, place, input.scenario.accommodations.high_contrast});
+                                   {p.view, p.at_mm, k_scale_px_per_mm, tr(place), input.scenario.accommodations.high_contrast, nullptr, {}, tr});
     pictures.push_back(std::move(p));
   }
   return pictures;
@@ -219,11 +218,11 @@ std::optional<SectionPicture> section_of_mistake(const grading::GradeInput& inpu
   const auto best = std::max_element(seen.begin(), seen.end(), [](const Seen& a, const Seen& b) { return a.score() < b.score(); });
   if (best->wrong == 0) return std::nullopt;
   constexpr std::array k_views{scenarios::View::mesio_distal, scenarios::View::bucco_lingual, scenarios::View::horizontal};
-  constexpr std::array k_titles{"Section from mesial to distal", "Section from buccal to lingual", "Section across"};
+  const std::array titles{msg("Section from mesial to distal"), msg("Section from buccal to lingual"), msg("Section across")};
   const auto which = static_cast<std::size_t>(best - seen.begin());
-  SectionPicture p{k_views[which], at_of(k_views[which], place_mm), k_titles[which], ""};
+  SectionPicture p{k_views[which], at_of(k_views[which], place_mm), tr(titles[which]), ""};
   p.svg = scenarios::section_svg(input.seen_before(), &after, input.zones,
-                                 {p.view, p.at_mm, k_small_px_per_mm, p.title, input.scenario.accommodations.high_contrast});
+                                 {p.view, p.at_mm, k_small_px_per_mm, p.title, input.scenario.accommodations.high_contrast, nullptr, {}, tr});
   const scenarios::Section section(before, &after, input.zones, p.view, p.at_mm);
   p.svg.insert(p.svg.rfind("</g>"), ring_svg(section, at, k_small_px_per_mm * before.leaf_mm()));
   return p;
@@ -235,7 +234,7 @@ std::string sections_svg(const grading::Result& r, const grading::GradeInput& in
     return fmt::format("<g transform='translate({} {})'>{}</g>\n", fixed(x, 0), fixed(y, 2), content);
   };
   const auto pictures = three_sections(r, input);
-  const std::string legend = scenarios::legend_svg(input.seen_before(), true, input.scenario.accommodations.high_contrast);
+  const std::string legend = scenarios::legend_svg(input.seen_before(), true, input.scenario.accommodations.high_contrast, tr);
   double height = 0, x = k_margin_px;
   for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
   std::string body;
@@ -249,7 +248,7 @@ std::string sections_svg(const grading::Result& r, const grading::GradeInput& in
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<rect width='100%' "
       "height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
       fixed(width, 0), fixed(all, 0), fixed(width, 0), fixed(all, 0),
-      xml_text(fmt::format("{}: {} % of the target removed", r.scenario_title, fixed(r.volumes.target_removed_percent, 1))), body,
+      xml_text(tr("{}: {} of the target removed", Authored{r.scenario_title}, as_percent(r.volumes.target_removed_percent, 1))), body,
       group(k_margin_px, all - legend_px, legend));
 }
 

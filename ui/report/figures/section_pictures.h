@@ -14,7 +14,7 @@ namespace cavum::report {
 struct SectionPicture {
   scenarios::View view = scenarios::View::mesio_distal;
   double at_mm = 0.0;  ///< where it is cut, along the axis looked at, tooth frame
-  std::string title;   ///< with its place: "Mesio-distal, y = 0.12 mm: through the middle of the target"
+  std::string title;   ///< in the reader's language, with its place: "Mesio-distal, y = 0.12 mm: through the middle of the target"
   std::string svg;     ///< a complete `<svg>` element
 };
 

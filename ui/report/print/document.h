@@ -1,5 +1,5 @@
-// A report before it is printed: headings, paragraphs, tables and pictures in their order. It is made once (report_document.h) and printed as HTML
-// or as PDF, so that both say the same words and figures.
+// A report before it is printed: headings, paragraphs, tables and pictures in their order, in the reader's language. It is made once
+// (report_document.h) and printed as HTML or as PDF, so that both say the same words and figures.
 #pragma once
 
 #include <optional>
@@ -54,7 +54,8 @@ struct ReportTable {
 };
 
 struct VerdictBox {
-  std::string verdict;             ///< pass, fail or review
+  std::string verdict;  ///< pass, fail or review
+  std::string verdict_words;
   std::string score;               ///< "71.2 of 100.0 points"
   std::vector<std::string> lines;  ///< margin and uncertainty
   std::vector<std::string> reasons;

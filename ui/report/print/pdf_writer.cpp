@@ -84,8 +84,9 @@ class Printer {
   void operator()(const LessonList& b) {
     int number = 0;
     for (const auto& i : b.items) {
-      PdfText text{i.jump ? tr("{} ({}, at {} s)", i.instead, i.weight, fixed(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight),
-                   k_text_pt, false};
+      PdfText text{
+          i.jump ? tr("{} ({}, at {})", as_is(i.instead), as_is(i.weight), as_s(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight),
+          k_text_pt, false};
       text.lead = fmt::format("{}. {}", ++number, i.what.ends_with('.') ? i.what.substr(0, i.what.size() - 1) : i.what);
       s_.lines(text, s_.width_pt());
       s_.space(k_gap_pt / 2);
@@ -106,7 +107,7 @@ class Printer {
   void operator()(const VerdictBox& b) {
     const double left = 0.36 * s_.width_pt(), inner = 8;
     const PdfColour colour = verdict_colour(b.verdict);
-    const PdfText verdict{shown(b.verdict), 20, true, colour}, score{b.score, 11, true};
+    const PdfText verdict{b.verdict_words, 20, true, colour}, score{b.score, 11, true};
     double height_left = s_.height(verdict, left) + s_.height(score, left), height_right = 0;
     for (const auto& line : b.lines) height_left += s_.height({line, k_small_pt, false}, left) + 1;
     const double right = s_.width_pt() - left - 3 * inner;
