@@ -167,7 +167,6 @@ void office_enrol(const OfficeArguments& o) {
   remember_enrolled(path, key);
   say(msg("enrolled as '{}'", done.value("name", "")));
 }
-}
 
 void office_tickets(const OfficeArguments& o) {
   auto client = client_of(o);
