@@ -43,6 +43,7 @@ std::string chart_over(const std::string& title, const std::string& x_label, con
   c.title = title;
   c.x_label = x_label;
   c.y_label = y_label;
+  c.english = true;
   c.width_px = 700;
   c.text_px = 16;  // a telephone shows it as it is, and scrolls
   c.series.push_back({"", "#0072b2", style, std::move(points), 1.0});

@@ -79,6 +79,7 @@ std::string scrolling(const std::string& content, const std::string& name) {
 /// A chart with its title and legend above it as text of the page, which breaks where a telephone ends.
 std::string figure(Chart chart) {
   chart.text_px = k_text_px;
+  chart.english = true;
   std::string keys;
   for (const auto& s : chart.series)
     if (!s.label.empty()) keys += fmt::format("<span class=\"key\">{} {}</span> ", legend_sign_svg(s), xml_text(s.label));
