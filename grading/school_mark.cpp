@@ -50,21 +50,21 @@ class EventsAgain {
     take();
   }
   /// What differs from the recorded events, in words.
-  [[nodiscard]] std::vector<std::string> differences(std::int64_t ticks) {
-    std::vector<std::string> findings;
+  [[nodiscard]] std::vector<Message> differences(std::int64_t ticks) {
+    std::vector<Message> findings;
     if (ended_ >= 0 && ended_ < ticks)
-      findings.push_back(fmt::format("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
+      findings.push_back(msg("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
     if (ended_ == ticks) runner_.end(*state_);
     take();
     for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_most_named; ++i) {
       if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
-      findings.push_back(fmt::format("event {} of the exam: recorded {}, the motion gives {}", i,
-                                     i < recorded_.size() ? event_text(recorded_[i]) : "none", i < again_.size() ? event_text(again_[i]) : "none"));
+      findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i, i < recorded_.size() ? event_text(recorded_[i]) : "none",
+                             i < again_.size() ? event_text(again_[i]) : "none"));
     }
     return findings;
   }
 
-  [[nodiscard]] std::vector<std::string> servo_findings() const { return scenarios::check_servo(task_.session.servo_toml, task_.scenario); }
+  [[nodiscard]] std::vector<Message> servo_findings() const { return scenarios::check_servo(task_.session.servo_toml, task_.scenario); }
   [[nodiscard]] VerifyTeeth teeth(Tooth& final_tooth) const noexcept { return {&ground_->tooth, ground_->fits.get(), &final_tooth}; }
   /// Those of the motion, and what else the station recorded.
   [[nodiscard]] std::vector<TimedEvent> events() const {
@@ -125,10 +125,10 @@ std::string marks_then_and_now(const json& sealed, const json& marked, std::size
 
 }  // namespace
 
-std::vector<std::string> result_differences(const json& sealed, const json& marked) {
+std::vector<Message> result_differences(const json& sealed, const json& marked) {
   std::vector<std::string> out;
   const auto compare = [&](const std::string& name, const json& was, const json& is) {
-    if (was != is) out.push_back(fmt::format("{} {}, marked {}", name, shown(was), shown(is)));
+    if (was != is) out.push_back(msg("{} {}, marked {}", name, shown(was), shown(is)));
   };
   compare("verdict", member_of(sealed, "verdict"), member_of(marked, "verdict"));
   for (const char* part : {"points", "max"}) compare(part, member_of(member_of(sealed, "score"), part), member_of(member_of(marked, "score"), part));
@@ -136,21 +136,21 @@ std::vector<std::string> result_differences(const json& sealed, const json& mark
   for (const auto& [id, c] : is) {
     const auto found = was.find(id);
     if (found == was.end()) {
-      out.push_back(fmt::format("criterion {} missing", one_line(id)));
+      out.push_back(msg("criterion {} missing", one_line(id)));
       continue;
     }
     for (const auto& [key, value] : c->items())
       compare(fmt::format("criterion {}: {}", one_line(id), key), member_of(*found->second, key.c_str()), value);
   }
   for (const auto& [id, c] : was)
-    if (!is.contains(id)) out.push_back(fmt::format("criterion {} that the exam does not have", one_line(id)));
+    if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", one_line(id)));
   if (marked.is_object())
     for (const auto& [key, value] : marked.items())
       if (key != "verdict" && key != "score" && key != "criteria") compare(key, member_of(sealed, key.c_str()), value);
   if (sealed.is_object() && marked.is_object())
     for (const auto& [key, value] : sealed.items())
-      if (!marked.contains(key)) out.push_back(one_line(key) + ", which no result has");
-  if (out.empty() && sealed != marked) out.emplace_back("another shape than a result has");
+      if (!marked.contains(key)) out.push_back(msg("{}, which no result has", one_line(key)));
+  if (out.empty() && sealed != marked) out.emplace_back(msg("another shape than a result has"));
   return out;
 }
 
@@ -162,7 +162,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(fmt::format("scenario: {}", e.what()));
+    out.findings.push_back(msg("scenario: {}", e.what()));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -184,7 +184,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(fmt::format("cannot be marked: {}", e.what()));
+    out.findings.push_back(msg("cannot be marked: {}", e.what()));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);
@@ -197,15 +197,15 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   if (differ.size() > named) all += fmt::format("; and {} more", differ.size() - named);
   const auto version = whole_in(sealed, "grading_version");
   if (version < 1)
-    out.findings.push_back("the sealed result names no version of grading, and is not what marking gives. Sealed " + all);
+    out.findings.push_back(msg("the sealed result names no version of grading, and is not what marking gives. Sealed {}", all));
   else if (version == k_grading_version)
     out.findings.push_back(
-        fmt::format("the sealed result was tampered with, or its station's program was: it is said to come from grading version {}, which gives "
-                    "another one. Sealed {}",
-                    version, all));
+        msg("the sealed result was tampered with, or its station's program was: it is said to come from grading version {}, which gives another one. "
+            "Sealed {}",
+            version, all));
   else
-    out.remarks.push_back(fmt::format("the sealed result comes from grading version {}, and the school's mark by version {} counts: {}", version,
-                                      k_grading_version, marks_then_and_now(sealed, out.result, differ.size())));
+    out.remarks.push_back(msg("the sealed result comes from grading version {}, and the school's mark by version {} counts: {}", version,
+                              k_grading_version, marks_then_and_now(sealed, out.result, differ.size())));
   return out;
 }
 

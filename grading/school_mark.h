@@ -13,11 +13,11 @@
 namespace cavum::grading {
 
 struct SchoolMark {
-  VerifyReport replay;                ///< the file, its chain and signature, and the motion
-  nlohmann::json result;              ///< this program's mark, as to_json gives it; null when the recording cannot be marked
-  std::vector<std::string> findings;  ///< the replay's, and what of events, scenario and sealed result does not hold
-  std::vector<std::string> remarks;   ///< a sealed result by another version of grading, and in what it differs
-  nlohmann::json sealed_otherwise;    ///< the sealed result where it is not `result`; else null
+  VerifyReport replay;              ///< the file, its chain and signature, and the motion
+  nlohmann::json result;            ///< this program's mark, as to_json gives it; null when the recording cannot be marked
+  std::vector<Message> findings;    ///< the replay's, and what of events, scenario and sealed result does not hold
+  std::vector<Message> remarks;     ///< a sealed result by another version of grading, and in what it differs
+  nlohmann::json sealed_otherwise;  ///< the sealed result where it is not `result`; else null
   [[nodiscard]] bool holds() const { return replay.verified && findings.empty(); }
 };
 
@@ -27,6 +27,6 @@ struct SchoolMark {
 [[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds);
 
 /// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.
-[[nodiscard]] std::vector<std::string> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
+[[nodiscard]] std::vector<Message> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
 
 }  // namespace cavum::grading

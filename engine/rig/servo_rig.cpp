@@ -38,7 +38,7 @@ SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& f
   setup.candidate = "rig";
   setup.device = "simulated Omni in a simulated hand";
   setup.calibration = "exact";
-  setup.source = {"program", "servo rig"};
+  setup.source = {SourceKind::program, "servo rig"};
   setup.scenario_toml = "title = \"servo rig\"\n";
   setup.force_model_toml = force_model_toml;
   ServoConfig config;

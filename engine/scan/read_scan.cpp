@@ -23,7 +23,7 @@ double area_of(const TriangleMesh& mesh) {
 }
 
 /// The largest connected part.
-TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::vector<std::string>& notes) {
+TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::vector<Message>& notes) {
   constexpr double k_most_beside = 0.1;
   std::vector<TriangleMesh> parts = connected_parts(mesh);
   if (parts.size() == 1) return std::move(parts.front());
@@ -37,8 +37,7 @@ TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::v
   if (all - most > k_most_beside * all)
     throw Error(path, msg("is in {} parts, and the largest has {} of the surface only", parts.size(), as_percent(100 * most / all, 0)),
                 msg("give a mesh of the one tooth, whose triangles share their corners"));
-  notes.push_back(
-      fmt::format("{} small parts beside the tooth were left out, {} % of the surface", parts.size() - 1, fixed(100 * (all - most) / all, 2)));
+  notes.push_back(msg("{} small parts beside the tooth were left out, {} of the surface", parts.size() - 1, as_percent(100 * (all - most) / all, 2)));
   return std::move(parts[largest]);
 }
 
@@ -70,7 +69,7 @@ Scan read_scan(const std::string& path, double unit_mm) {
   if (signed_volume_mm3(scan.mesh) + signed_volume_mm3(scan.caps) < 0) {
     for (auto* m : {&scan.mesh, &scan.caps})
       for (auto& t : m->triangles) std::swap(t[1], t[2]);
-    scan.notes.emplace_back("the faces looked inwards and were turned");
+    scan.notes.emplace_back(msg("the faces looked inwards and were turned"));
   }
   scan.end_mm = rims.empty() ? 0.0 : rims.front().length_mm;
   scan.holes = rims.empty() ? 0 : static_cast<int>(rims.size()) - 1;

@@ -15,7 +15,7 @@ struct Scan {
   std::vector<SurfacePoint> points;
   double end_mm = 0.0;  ///< length of the longest rim: where the scan ends; 0: it is closed
   int holes = 0;        ///< other rims
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
 };
 
 /// Reads an STL, PLY, OBJ or OFF file in units of `unit_mm` millimetres. Parts beside the largest are left out where they are dust; faces that look

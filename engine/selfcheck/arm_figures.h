@@ -5,6 +5,8 @@
 #include <array>
 #include <string>
 
+#include "engine/base/message.h"
+
 namespace cavum {
 
 /// Along one axis of the stylus's own frame.
@@ -27,7 +29,7 @@ struct ArmFigures {
   double stale = 0.0;         ///< share of ticks without a fresh place
   double seconds = 0.0;       ///< that the check took
   bool dragged = false;       ///< friction holds, whatever the doubt says of the rest
-  std::string doubt;          ///< why the figures say nothing, and what to do; empty when they do
+  Message doubt;              ///< why the figures say nothing, and what to do; empty when they do
 
   [[nodiscard]] double friction_n() const noexcept { return (axes[0].friction_n + axes[1].friction_n + axes[2].friction_n) / 3.0; }
 };

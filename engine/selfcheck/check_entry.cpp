@@ -11,6 +11,7 @@
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/message_json.h"
 
 namespace cavum {
 namespace {
@@ -67,6 +68,18 @@ void each_axis_number(Axis& a, const Visit& visit) {
   visit("weight_n", a.weight_n);
 }
 
+Json doubt_json(const Message& doubt) { return doubt.empty() ? Json() : Json(encode(doubt)); }
+
+Message read_doubt(const Json& j, const std::string& where) {
+  const Json& doubt = member_of(j, "doubt");
+  if (doubt.is_null()) return {};
+  try {
+    return decode_message(doubt);
+  } catch (const std::invalid_argument& e) {
+    throw Error(where, msg("'doubt' is no message: {}", e.what()), msg(k_use_intact));
+  }
+}
+
 Json figures_json(const ArmFigures& f) {
   Json j = Json::object();
   each_number(f, [&j](const char* key, double value) { j[key] = value; });
@@ -74,11 +87,11 @@ Json figures_json(const ArmFigures& f) {
     each_axis_number(f.axes[i], [&](const char* key, double value) { j["axes"][k_axis_keys[i]][key] = value; });
   j["friction_n"] = f.friction_n();
   j["dragged"] = f.dragged;
-  j["doubt"] = f.doubt;
+  j["doubt"] = doubt_json(f.doubt);
   return j;
 }
 
-constexpr std::size_t k_longest_doubt = 400, k_most_changes = 16;
+constexpr std::size_t k_most_changes = 16;
 
 ArmFigures read_figures(const Json& j, const std::string& where) {
   ArmFigures f;
@@ -87,7 +100,7 @@ ArmFigures read_figures(const Json& j, const std::string& where) {
   for (std::size_t i = 0; i < f.axes.size(); ++i)
     each_axis_number(f.axes[i], [&](const char* key, double& value) { value = number_at(member_of(axes, k_axis_keys[i]), key, where); });
   f.dragged = truth_at(j, "dragged", where);
-  f.doubt = text_at(j, "doubt", k_longest_doubt, where);
+  f.doubt = read_doubt(j, where);
   return f;
 }
 
@@ -97,7 +110,7 @@ Json verdict_json(const CheckVerdict& v) {
     changes.push_back(
         {{"quantity", c.quantity}, {"axis", c.axis}, {"before", c.before}, {"now", c.now}, {"change", c.change}, {"uncertain", c.uncertain}});
   return {{"outcome", outcome_name(v.outcome)},     {"compared", v.compared},     {"changes", changes},
-          {"finds_friction_n", v.finds_friction_n}, {"finds_gain", v.finds_gain}, {"doubt", v.doubt}};
+          {"finds_friction_n", v.finds_friction_n}, {"finds_gain", v.finds_gain}, {"doubt", doubt_json(v.doubt)}};
 }
 
 CheckVerdict read_verdict(const Json& j, const std::string& where) {
@@ -111,7 +124,7 @@ CheckVerdict read_verdict(const Json& j, const std::string& where) {
   v.compared = require_whole<std::size_t>(j, "compared", where);
   v.finds_friction_n = number_at(j, "finds_friction_n", where);
   v.finds_gain = number_at(j, "finds_gain", where);
-  v.doubt = text_at(j, "doubt", k_longest_doubt, where);
+  v.doubt = read_doubt(j, where);
   const Json& changes = member_of(j, "changes");
   if (!changes.is_array() || changes.size() > k_most_changes) throw Error(where, msg("'changes' is no list of changes"), msg(k_use_intact));
   for (const Json& c : changes)

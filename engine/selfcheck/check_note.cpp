@@ -1,7 +1,5 @@
 #include "engine/selfcheck/check_note.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
@@ -22,20 +20,22 @@ SessionCheck read_session_check(const std::string& note, const std::string& wher
   return s;
 }
 
-std::string in_words(const SessionCheck& s) {
+Message in_words(const SessionCheck& s) {
   const ArmFigures& f = s.check.figures;
-  std::string words =
-      fmt::format("{}, checked on {}: {}", one_line(s.check.station), utc_text(s.check.utc_ns), outcome_name(s.check.verdict.outcome));
-  if (f.doubt.empty())
-    words += fmt::format(" (friction {:.2f} N, step {:.4f} mm, {:.0f} Hz, {} earlier checks)", f.friction_n(), f.quantum_mm, f.rate_hz,
-                         s.check.verdict.compared);
-  if (s.check.verdict.outcome == CheckOutcome::changed || s.check.verdict.outcome == CheckOutcome::doubtful)
-    words += "; " + one_line(in_words(s.check.verdict));
-  if (s.check.verdict.outcome == CheckOutcome::changed) words += "; since " + utc_text(s.check.since_utc_ns);
-  if (s.decision)
-    words += fmt::format("; the {} decided to {}{}", s.decision->by, s.decision->go_on ? "go on" : "stop",
-                         s.decision->reason.empty() ? "" : ": " + one_line(s.decision->reason));
-  return words;
+  const CheckVerdict& v = s.check.verdict;
+  const std::string on = utc_text(s.check.utc_ns);
+  List parts{{f.doubt.empty() ? msg("{}, checked on {}: {} (friction {}, step {}, {}, {} earlier checks)", s.check.station, on, word_of(v.outcome),
+                                    as_n(f.friction_n()), as_mm(f.quantum_mm, 4), as_unit(f.rate_hz, Unit::hz, 0), v.compared)
+                              : msg("{}, checked on {}: {}", s.check.station, on, word_of(v.outcome))},
+             true};
+  if (v.outcome == CheckOutcome::changed || v.outcome == CheckOutcome::doubtful) parts.items.push_back(in_words(v));
+  if (v.outcome == CheckOutcome::changed) parts.items.push_back(msg("since {}", utc_text(s.check.since_utc_ns)));
+  if (s.decision) {
+    const CheckEntry& d = *s.decision;
+    parts.items.push_back(d.go_on ? msg("the {} decided to go on", d.by) : msg("the {} decided to stop", d.by));
+    if (!d.reason.empty()) parts.items.push_back(msg("reason: {}", d.reason));
+  }
+  return msg("{}", parts);
 }
 
 SessionCheckFindings check_of_session(const SessionReader& session) {
@@ -46,20 +46,21 @@ SessionCheckFindings check_of_session(const SessionReader& session) {
   try {
     s = read_session_check(note, "the station's self-check in the session");
   } catch (const Error& e) {
-    out.findings.emplace_back(e.what());
+    out.findings.push_back(e.message());
     return out;
   }
-  const auto wrong = [&out](const char* what) { out.findings.emplace_back(std::string("the station's self-check ") + what); };
+  const auto wrong = [&out](const Message& what) { out.findings.push_back(what); };
   const std::string key = session.fact("station_key");
-  if (s.check.station_key != key || (s.decision && s.decision->station_key != key)) wrong("is of another station than the session's");
+  if (s.check.station_key != key || (s.decision && s.decision->station_key != key))
+    wrong(msg("the station's self-check is of another station than the session's"));
   if (s.check.stylus.id != session.fact(k_source_name_fact) || s.check.stylus.serial != session.fact(k_source_serial_fact))
-    wrong("is of another stylus than the session's");
-  if (s.check.utc_ns > session.created().utc_ns) wrong("is later than the session");
+    wrong(msg("the station's self-check is of another stylus than the session's"));
+  if (s.check.utc_ns > session.created().utc_ns) wrong(msg("the station's self-check is later than the session"));
   if (s.decision && (!(s.decision->stylus == s.check.stylus) || s.decision->utc_ns < s.check.utc_ns))
-    wrong("and the decision on it do not belong together");
+    wrong(msg("the station's self-check and the decision on it do not belong together"));
   if (s.check.verdict.outcome == CheckOutcome::changed && !(s.decision && s.decision->go_on))
-    wrong("found a change, and nobody decided to go on with it");
-  out.remarks.push_back("self-check of " + in_words(s));
+    wrong(msg("the station's self-check found a change, and nobody decided to go on with it"));
+  out.remarks.push_back(msg("self-check of {}", in_words(s)));
   return out;
 }
 

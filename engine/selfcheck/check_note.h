@@ -22,12 +22,12 @@ struct SessionCheck {
 [[nodiscard]] SessionCheck read_session_check(const std::string& note, const std::string& where);
 
 struct SessionCheckFindings {
-  std::vector<std::string> findings;  ///< what does not hold
-  std::vector<std::string> remarks;   ///< what the check said
+  std::vector<Message> findings;  ///< what does not hold
+  std::vector<Message> remarks;   ///< what the check said
 };
 /// Of a session without that note: nothing.
 [[nodiscard]] SessionCheckFindings check_of_session(const SessionReader& session);
 /// "Seat 3: unchanged, friction 0.27 N, ... (2026-11-21T08:50:00Z); decided: ...".
-[[nodiscard]] std::string in_words(const SessionCheck& check);
+[[nodiscard]] Message in_words(const SessionCheck& check);
 
 }  // namespace cavum

@@ -1,7 +1,5 @@
 #include "engine/selfcheck/check_rule.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <boost/math/distributions/students_t.hpp>
@@ -141,32 +139,49 @@ void add_share(std::vector<Found>& found, const ArmFigures& now, std::span<const
       {{name, "", c.before, c.now, c.change / c.before, c.uncertain() / c.before}, std::abs(c.change) / std::max(1e-9 * c.before, c.scatter)});
 }
 
-std::string words_of(const CheckChange& c) {
-  const std::string along = c.axis.empty() ? "" : " along " + c.axis;
-  if (c.quantity == "friction")
-    return fmt::format("friction{} is {:+.2f} N (± {:.2f}) from what it was ({:.2f} N): clean and oil the joints, look for a cable that rubs", along,
-                       c.change, c.uncertain, c.before);
+Message words_of(const CheckChange& c) {
+  const Number share{100 * c.change, Unit::percent, 0, 100 * c.uncertain, true};
+  const auto of = [&](const Message& mean, const Message& along) { return c.axis.empty() ? mean : along; };
+  if (c.quantity == "friction") {
+    const Number change{c.change, Unit::newton, 2, c.uncertain, true};
+    return of(
+        msg("friction is {} from what it was ({}): clean and oil the joints, look for a cable that rubs", change, as_n(c.before)),
+        msg("friction along {} is {} from what it was ({}): clean and oil the joints, look for a cable that rubs", c.axis, change, as_n(c.before)));
+  }
   if (c.quantity == "gain")
-    return fmt::format("force given{} is {:+.0f} % (± {:.0f}) from what it was: look at power supply, plugs and cable tension", along, 100 * c.change,
-                       100 * c.uncertain);
+    return of(msg("force given is {} from what it was: look at power supply, plugs and cable tension", share),
+              msg("force given along {} is {} from what it was: look at power supply, plugs and cable tension", c.axis, share));
   if (c.quantity == "mass")
-    return fmt::format("moved mass{} is {:+.0f} % (± {:.0f}) from what it was: something was put on the stylus, or taken off", along, 100 * c.change,
-                       100 * c.uncertain);
+    return of(msg("moved mass is {} from what it was: something was put on the stylus, or taken off", share),
+              msg("moved mass along {} is {} from what it was: something was put on the stylus, or taken off", c.axis, share));
   if (c.quantity == "gain or mass")
-    return fmt::format(
-        "force given for a moved mass{} is {:+.0f} % (± {:.0f}) from what it was; whether the motors changed or the mass, these figures do not "
-        "tell: look whether something was put on the stylus, then at power supply, plugs and cable tension",
-        along, 100 * c.change, 100 * c.uncertain);
+    return msg(
+        "force given for a moved mass is {} from what it was; whether the motors changed or the mass, these figures do not tell: look whether "
+        "something was put on the stylus, then at power supply, plugs and cable tension",
+        share);
+  const Number from{100 * c.change, Unit::percent, 0, 0, true};
   if (c.quantity == "step")
-    return fmt::format("the step of its places is {:+.0f} % from what it was ({:.4f} mm): an encoder or its driver's setting changed", 100 * c.change,
-                       c.before);
-  return fmt::format("its rate is {:+.0f} % from what it was ({:.0f} Hz): look at what else the computer does, and at the USB port", 100 * c.change,
-                     c.before);
+    return msg("the step of its places is {} from what it was ({}): an encoder or its driver's setting changed", from, as_mm(c.before, 4));
+  return msg("its rate is {} from what it was ({}): look at what else the computer does, and at the USB port", from, as_unit(c.before, Unit::hz, 0));
 }
 
 }  // namespace
 
 const char* outcome_name(CheckOutcome outcome) noexcept { return k_outcomes[static_cast<std::size_t>(outcome)]; }
+
+Message word_of(CheckOutcome outcome) {
+  switch (outcome) {
+    case CheckOutcome::learning:
+      return msg("learning");
+    case CheckOutcome::unchanged:
+      return msg("unchanged");
+    case CheckOutcome::changed:
+      return msg("changed");
+    case CheckOutcome::doubtful:
+      break;
+  }
+  return msg("doubtful");
+}
 
 CheckOutcome outcome_of(const std::string& name) {
   for (std::size_t i = 0; i < k_outcomes.size(); ++i)
@@ -207,21 +222,21 @@ CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earl
   return conclude(CheckOutcome::unchanged);
 }
 
-std::string in_words(const CheckVerdict& v) {
+Message in_words(const CheckVerdict& v) {
   switch (v.outcome) {
     case CheckOutcome::doubtful:
-      return "the check says nothing: " + v.doubt;
+      return msg("the check says nothing: {}", v.doubt);
     case CheckOutcome::learning:
-      return fmt::format("{} of {} checks that it learns from are there; nothing is claimed yet", v.compared, k_checks_to_learn);
+      return msg("{} of {} checks that it learns from are there; nothing is claimed yet", v.compared, k_checks_to_learn);
     case CheckOutcome::unchanged:
-      return fmt::format("as in its {} earlier checks; a change is found in 95 % from {:.2f} N of friction and {:.0f} % of force on", v.compared,
-                         v.finds_friction_n, 100.0 * v.finds_gain);
+      return msg("as in its {} earlier checks; a change is found in 95 % from {} of friction and {} of force on", v.compared,
+                 as_n(v.finds_friction_n), as_percent(100.0 * v.finds_gain));
     case CheckOutcome::changed:
       break;
   }
-  std::string words;
-  for (const CheckChange& c : v.changes) words += (words.empty() ? "" : "; ") + words_of(c);
-  return v.doubt.empty() ? words : words + "; of the rest it says nothing: " + v.doubt;
+  List changes{{}, true};
+  for (const CheckChange& c : v.changes) changes.items.push_back(words_of(c));
+  return v.doubt.empty() ? msg("{}", changes) : msg("{}; of the rest it says nothing: {}", changes, v.doubt);
 }
 
 }  // namespace cavum

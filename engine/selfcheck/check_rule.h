@@ -21,6 +21,8 @@ inline constexpr double k_least_friction_n = 0.04, k_least_gain = 0.04, k_least_
 enum class CheckOutcome { learning, unchanged, changed, doubtful };
 /// "learning" and so on.
 [[nodiscard]] const char* outcome_name(CheckOutcome outcome) noexcept;
+/// For people.
+[[nodiscard]] Message word_of(CheckOutcome outcome);
 /// Throws std::invalid_argument for another word.
 [[nodiscard]] CheckOutcome outcome_of(const std::string& name);
 
@@ -38,12 +40,12 @@ struct CheckVerdict {
   std::vector<CheckChange> changes;  ///< largest first, by its own scatter
   double finds_friction_n = 0.0;     ///< change of the mean that is found in 95 %, by this station's scatter; 0 while it learns
   double finds_gain = 0.0;           ///< the same of the gain, as a share
-  std::string doubt;                 ///< why nothing can be said, and what to do
+  Message doubt;                     ///< why nothing can be said, and what to do
 };
 
 /// `earlier`: the station's checks of this stylus that count, oldest first.
 [[nodiscard]] CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earlier);
 /// In a sentence or two: what changed, by how much, and what to do.
-[[nodiscard]] std::string in_words(const CheckVerdict& verdict);
+[[nodiscard]] Message in_words(const CheckVerdict& verdict);
 
 }  // namespace cavum

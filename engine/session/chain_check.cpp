@@ -1,7 +1,5 @@
 #include "engine/session/chain_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstdlib>
 
@@ -13,7 +11,7 @@
 namespace cavum {
 namespace {
 
-using Findings = std::vector<std::string>;
+using Findings = std::vector<Message>;
 
 /// Gathers the events of every chunk; one that belongs to none is a finding.
 std::vector<std::vector<EventRow>> events_by_chunk(const SessionReader& session, Findings& findings) {
@@ -22,44 +20,43 @@ std::vector<std::vector<EventRow>> events_by_chunk(const SessionReader& session,
     if (e.chunk >= 0 && e.chunk < static_cast<std::int64_t>(by_chunk.size()))
       by_chunk[static_cast<std::size_t>(e.chunk)].push_back(e);
     else
-      findings.push_back(fmt::format("table event, row {} (tick {}): belongs to no chunk", e.seq, e.tick));
+      findings.push_back(msg("table event, row {} (tick {}): belongs to no chunk", e.seq, e.tick));
   }
   return by_chunk;
 }
 
-std::string name_of(const ChunkRow& c) {
-  if (c.ticks == 0) return fmt::format("chunk {} (events at tick {})", c.seq, c.first_tick);
-  return fmt::format("chunk {} (ticks {} to {})", c.seq, c.first_tick, c.first_tick + c.ticks - 1);
+Message name_of(const ChunkRow& c) {
+  if (c.ticks == 0) return msg("chunk {} (events at tick {})", c.seq, c.first_tick);
+  return msg("chunk {} (ticks {} to {})", c.seq, c.first_tick, c.first_tick + c.ticks - 1);
 }
 
 void check_artifacts(const SessionReader& session, Findings& findings) {
   for (const auto& a : session.artifacts())
-    if (sha256(a.bytes) != a.sha256) findings.push_back(fmt::format("table artifact: '{}' was changed after it was recorded", a.name));
+    if (sha256(a.bytes) != a.sha256) findings.push_back(msg("table artifact: '{}' was changed after it was recorded", a.name));
   for (const char* name : {"scenario.toml", "start_tooth.cvt", "point_000.toml", "force_model.toml", "servo.toml"})
-    if (session.artifact(name) == nullptr) findings.push_back(fmt::format("table artifact: '{}' is missing", name));
+    if (session.artifact(name) == nullptr) findings.push_back(msg("table artifact: '{}' is missing", name));
 }
 
 /// Facts that say what a file of the recording says, too: neither may say otherwise.
 void check_facts(const SessionReader& session, Findings& findings) {
   if (session.fact("format") != std::to_string(k_session_format))
-    findings.push_back(
-        fmt::format("table meta: the format is said to be '{}', and this is format {}", one_line(session.fact("format")), k_session_format));
+    findings.push_back(msg("table meta: the format is said to be '{}', and this is format {}", session.fact("format"), k_session_format));
   for (const char* key :
        {"physics_version", "first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm", "created_utc_ns", "created_boot_ns", "created_monotonic_ns"})
     if (const std::string fact = session.fact(key); !fact.empty() && fact != std::to_string(session.number(key, 0)))
-      findings.push_back(fmt::format("table meta: {} is '{}', which is no whole number in its range", key, one_line(fact)));
+      findings.push_back(msg("table meta: {} is '{}', which is no whole number in its range", key, fact));
   for (const char* key : {"first_tip_x_nm", "first_tip_y_nm", "first_tip_z_nm"})
     if (const auto nm = session.number(key, 0); nm != static_cast<std::int32_t>(nm))
-      findings.push_back(fmt::format("table meta: {} lies outside every tooth", key));
+      findings.push_back(msg("table meta: {} lies outside every tooth", key));
   const auto* servo = session.artifact("servo.toml");
   if (servo == nullptr) return;
   try {
     const double tick_s = parse_servo_config({servo->bytes.begin(), servo->bytes.end()}, "servo.toml").tick_s;
     if (std::strtod(session.fact("tick_s").c_str(), nullptr) != tick_s)
-      findings.push_back(fmt::format("table meta: a tick is said to last '{}' s, and by servo.toml it lasts {} s", one_line(session.fact("tick_s")),
-                                     plain_number(tick_s)));
+      findings.push_back(
+          msg("table meta: a tick is said to last '{}' s, and by servo.toml it lasts {}", session.fact("tick_s"), as_s(tick_s, k_as_needed)));
   } catch (const Error& e) {
-    findings.push_back(english_text(e.without_advice()));
+    findings.push_back(e.without_advice());
   }
 }
 
@@ -68,24 +65,25 @@ void check_chunks(const SessionReader& session, Findings& findings) {
   const auto events = events_by_chunk(session, findings);
   for (std::size_t i = 0; i < session.chunks().size(); ++i) {
     const ChunkRow& c = session.chunks()[i];
-    const auto say = [&](const std::string& what) { findings.push_back(fmt::format("{}: {}", name_of(c), what)); };
+    const auto say = [&](const Message& what) { findings.push_back(msg("{}: {}", name_of(c), what)); };
     if (c.prev_sha256 != before) {
       if (i == 0)
-        findings.push_back("table meta or artifact: not what the chain of this session began with (a fact, a file or a hash was changed)");
+        findings.push_back(msg("table meta or artifact: not what the chain of this session began with (a fact, a file or a hash was changed)"));
       else
-        say("does not follow the chunk before it (one of them was changed, moved or replaced)");
+        say(msg("does not follow the chunk before it (one of them was changed, moved or replaced)"));
     }
-    const auto part = [&](bool same, const std::string& what) {
-      if (!same) say(what + " changed after recording");
+    const auto part = [&](bool same, const Message& what) {
+      if (!same) say(what);
       return same;
     };
-    const bool same_inputs = part(sha256(c.inputs) == c.inputs_sha256, "its motion (inputs) was");
-    const bool same_records = part(sha256(c.records) == c.records_sha256, "its forces (records) were");
-    const bool same_removed = part(sha256(c.removed) == c.removed_sha256, "its removed leaves were");
-    const bool same_events = part(events_hash(events[i]) == c.events_sha256, "its events were");
+    const bool same_inputs = part(sha256(c.inputs) == c.inputs_sha256, msg("its motion (inputs) was changed after recording"));
+    const bool same_records = part(sha256(c.records) == c.records_sha256, msg("its forces (records) were changed after recording"));
+    const bool same_removed = part(sha256(c.removed) == c.removed_sha256, msg("its removed leaves were changed after recording"));
+    const bool same_events = part(events_hash(events[i]) == c.events_sha256, msg("its events were changed after recording"));
     const bool same_parts = same_inputs && same_records && same_removed && same_events;
     if (chunk_hash(c) != c.sha256)
-      say(same_parts ? "its clocks, tick numbers, state hash or part hashes were changed after recording" : "its link in the chain does not hold");
+      say(same_parts ? msg("its clocks, tick numbers, state hash or part hashes were changed after recording")
+                     : msg("its link in the chain does not hold"));
     before = c.sha256;
   }
 }
@@ -95,35 +93,36 @@ void check_beginning(const SessionReader& session, Findings& findings) {
   const std::string key = session.fact(k_station_fact), signature = session.fact(k_begun_fact);
   if (key.empty() && signature.empty()) return;
   if (!is_signed_by(key, begin_message(session.meta(), session.artifacts()), signature))
-    findings.push_back("table meta: the signature of the station that began the session does not hold (a fact, a file or the key was changed)");
+    findings.push_back(msg("table meta: the signature of the station that began the session does not hold (a fact, a file or the key was changed)"));
 }
 
 void check_seal(const SessionReader& session, Findings& findings) {
   const bool has_result = !session.result_json().empty(), has_tooth = session.artifact(k_final_tooth) != nullptr;
   if (!session.seal()) {
-    if (has_result || has_tooth) findings.push_back("table seal: missing, though the session has a result or a final tooth");
+    if (has_result || has_tooth) findings.push_back(msg("table seal: missing, though the session has a result or a final tooth"));
     return;
   }
   const Seal& seal = *session.seal();
-  const auto say = [&](bool holds, const std::string& what) {
+  const auto say = [&](bool holds, const Message& what) {
     if (!holds) findings.push_back(what);
   };
   const Sha256 end = session.chunks().empty() ? genesis_hash(session.meta(), session.artifacts()) : session.chunks().back().sha256;
   say(is_signed_by(seal.public_key, seal_message(seal), seal.signature),
-      "table seal: the signature does not hold (hash, count, clock or key was changed)");
-  say(seal.chain_sha256 == end, "table seal: the chain does not end where the session was closed");
+      msg("table seal: the signature does not hold (hash, count, clock or key was changed)"));
+  say(seal.chain_sha256 == end, msg("table seal: the chain does not end where the session was closed"));
   say(seal.chunks == static_cast<std::int64_t>(session.chunks().size()),
-      fmt::format("table chunk: {} chunks, closed with {}", session.chunks().size(), seal.chunks));
-  say(seal.ticks == session.ticks(), fmt::format("table chunk: {} ticks, closed with {}", session.ticks(), seal.ticks));
+      msg("table chunk: {} chunks, closed with {}", session.chunks().size(), seal.chunks));
+  say(seal.ticks == session.ticks(), msg("table chunk: {} ticks, closed with {}", session.ticks(), seal.ticks));
   say(seal.events == static_cast<std::int64_t>(session.event_rows().size()),
-      fmt::format("table event: {} events, closed with {}", session.event_rows().size(), seal.events));
-  say(has_result && sha256(session.result_json()) == seal.result_sha256, "table result: the result was changed or removed after closing");
-  say(has_tooth && sha256(session.final_tooth()) == seal.final_tooth_sha256, "table artifact: the final tooth was changed or removed after closing");
+      msg("table event: {} events, closed with {}", session.event_rows().size(), seal.events));
+  say(has_result && sha256(session.result_json()) == seal.result_sha256, msg("table result: the result was changed or removed after closing"));
+  say(has_tooth && sha256(session.final_tooth()) == seal.final_tooth_sha256,
+      msg("table artifact: the final tooth was changed or removed after closing"));
 }
 
 }  // namespace
 
-std::vector<std::string> check_chain(const SessionReader& session) {
+std::vector<Message> check_chain(const SessionReader& session) {
   Findings findings;
   check_artifacts(session, findings);
   check_facts(session, findings);

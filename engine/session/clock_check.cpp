@@ -1,7 +1,5 @@
 #include "engine/session/clock_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,7 +11,7 @@ constexpr double k_suspend_s = 0.5, k_set_s = 2.0, k_slow_s = 0.5, k_slow = 1.25
 constexpr double k_ahead_s = 1.0, k_ahead = 0.02;  // a writer that waits for its disk makes ticks late, never early
 constexpr double k_lost_s = 2.0;
 
-std::string seconds(double s) { return fmt::format("{:.1f} s", s); }
+Number seconds(double s) { return as_s(s, 1); }
 
 /// From one reading to another; whatever a file says, the difference wraps around instead of overflowing.
 double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
@@ -31,10 +29,10 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     const auto* gap = e.as<RecordingGap>();
     if (gap == nullptr) continue;
     gaps.push_back(e.tick);
-    out.push_back(
-        {e.tick, 0,
-         fmt::format("interrupted for {} and taken up again{}", seconds(gap->utc_s()), gap->by.device.empty() ? "" : " with " + gap->by.device),
-         false});
+    out.push_back({e.tick, 0,
+                   gap->by.device.empty() ? msg("interrupted for {} and taken up again", seconds(gap->utc_s()))
+                                          : msg("interrupted for {} and taken up again with {}", seconds(gap->utc_s()), gap->by.device),
+                   false});
   }
   Clocks before = session.created();
   double real_s = 0.0, told_s = 0.0, ahead_s = 0.0;  // since the beginning or the last gap
@@ -61,23 +59,23 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
       if (first_ahead < 0) first_ahead = c.first_tick;
       ahead_s = early_s;
     }
-    const auto say = [&](const std::string& what, bool doubtful) { out.push_back({c.first_tick, c.ticks, what, doubtful}); };
-    if (monotonic_s < 0 || boot_s < 0) say("the computer's own clock ran backwards", true);
-    if (boot_s - monotonic_s > k_suspend_s) say("the computer slept for " + seconds(boot_s - monotonic_s), true);
+    const auto say = [&](const Message& what, bool doubtful) { out.push_back({c.first_tick, c.ticks, what, doubtful}); };
+    if (monotonic_s < 0 || boot_s < 0) say(msg("the computer's own clock ran backwards"), true);
+    if (boot_s - monotonic_s > k_suspend_s) say(msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
     if (std::fabs(utc_s - boot_s) > k_set_s)
-      say(fmt::format("the wall clock was set {} by {}", utc_s > boot_s ? "forward" : "back", seconds(std::fabs(utc_s - boot_s))), true);
+      say(utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
+                         : msg("the wall clock was set back by {}", seconds(boot_s - utc_s)),
+          true);
     if (monotonic_s > k_slow * ticks_s + k_slow_s)
-      say(fmt::format("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)),
-          false);
+      say(msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
   }
   end_stretch();
   if (first_ahead >= 0)
     out.push_back({first_ahead, 0,
-                   fmt::format("the exam is {} ahead of the station's clock: recorded faster than real time, no hand moved it", seconds(ahead_s)),
-                   true});
+                   msg("the exam is {} ahead of the station's clock: recorded faster than real time, no hand moved it", seconds(ahead_s)), true});
   if (lost_s - admitted_lost_s(session) > k_lost_s)
     out.push_back(
-        {0, 0, seconds(lost_s) + " passed that the recording does not account for: its program stood still, or its clocks were changed", true});
+        {0, 0, msg("{} passed that the recording does not account for: its program stood still, or its clocks were changed", seconds(lost_s)), true});
   return out;
 }
 

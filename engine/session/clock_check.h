@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/session/session_reader.h"
 
 namespace cavum {
@@ -13,7 +14,7 @@ namespace cavum {
 /// One stretch of a recording in which the clocks disagree.
 struct ClockRemark {
   std::int64_t first_tick = 0, ticks = 0;
-  std::string what;       ///< in words, with times
+  Message what;           ///< with times
   bool doubtful = false;  ///< no honest exam of a hand looks so: a finding when it is filed as one
 };
 

@@ -28,7 +28,7 @@ void members(auto& f, OfEntry& e) { f("entry", e.entry), f("text", e.text); }
 void members(auto& f, PointNotAllowed& e) { f("point", e.point); }
 void members(auto& f, Finished& e) { f("how", e.how, k_finish_names); }
 void members(auto& f, PauseRefused& e) { f("pauses", e.pauses); }
-void members(auto& f, MotionSource& s) { f("kind", s.kind), f("name", s.name), f("serial", s.serial); }
+void members(auto& f, MotionSource& s) { f("kind", s.kind, k_source_kinds), f("name", s.name), f("serial", s.serial); }
 void members(auto& f, ResumedBy& b) {
   f("device", b.device), f("notes", b.notes), f("source", b.source), f("ticket_remembered", b.ticket_remembered);
 }

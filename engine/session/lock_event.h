@@ -11,7 +11,7 @@
 namespace cavum {
 
 /// For people: "another window took the keyboard". On one line.
-[[nodiscard]] std::string lock_words(const LockAttempt& attempt);
+[[nodiscard]] Message lock_words(const LockAttempt& attempt);
 
 /// All of a session, each kind once, in the order in which they came first.
 struct LockSummary {

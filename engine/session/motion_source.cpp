@@ -4,17 +4,39 @@
 
 namespace cavum {
 
-bool is_source_kind(const std::string& kind) {
-  for (const char* known : {"device", "pointer", "practice", "operator", "motion_file", "program"})
-    if (kind == known) return true;
-  return false;
+std::optional<SourceKind> source_kind_of(const std::string& text) {
+  for (std::size_t i = 0; i < k_source_kinds.size(); ++i)
+    if (text == k_source_kinds[i]) return static_cast<SourceKind>(i);
+  return std::nullopt;
+}
+
+Message in_words(SourceKind kind) {
+  switch (kind) {
+    case SourceKind::unnamed:
+      return msg("a source that is not named");
+    case SourceKind::device:
+      return msg("a stylus");
+    case SourceKind::pointer:
+      return msg("mouse and keyboard");
+    case SourceKind::practice:
+      return msg("practice");
+    case SourceKind::simulated_operator:
+      return msg("a simulated candidate");
+    case SourceKind::motion_file:
+      return msg("a file of motion");
+    case SourceKind::program:
+      break;
+  }
+  return msg("a program");
 }
 
 std::vector<SourceFrom> sources_of(const SessionReader& session) {
-  std::vector<SourceFrom> out{{0, {session.fact(k_source_fact), session.fact(k_source_name_fact), session.fact(k_source_serial_fact)}}};
+  std::vector<SourceFrom> out{{0,
+                               {source_kind_of(session.fact(k_source_fact)).value_or(SourceKind::unnamed), session.fact(k_source_name_fact),
+                                session.fact(k_source_serial_fact)}}};
   for (const auto& e : session.event_rows())
     if (const auto* gap = e.as<RecordingGap>(); gap != nullptr && e.tick < session.ticks())
-      out.push_back({e.tick, gap->by.source.value_or(MotionSource{.kind = ""})});
+      out.push_back({e.tick, gap->by.source.value_or(MotionSource{.kind = SourceKind::unnamed})});
   return out;
 }
 

@@ -2,27 +2,42 @@
 // whenever it takes the recording up; every chunk's hash covers what was said before it. Only a device can be a candidate's hand.
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "engine/base/message.h"
+
 namespace cavum {
 
 /// Facts of `meta`.
 inline constexpr char k_source_fact[] = "source", k_source_name_fact[] = "source_name", k_source_serial_fact[] = "source_serial";
 
+enum class SourceKind : std::uint8_t {
+  unnamed,             ///< the recording does not say
+  device,              ///< a stylus in a hand
+  pointer,             ///< mouse and keyboard
+  practice,            ///< any of them while nothing counts
+  simulated_operator,  ///< `operator`
+  motion_file,         ///< poses from a file
+  program              ///< a program that uses the library and says no more
+};
+/// As recordings and ledgers write them.
+inline constexpr std::array<const char*, 7> k_source_kinds{"", "device", "pointer", "practice", "operator", "motion_file", "program"};
+[[nodiscard]] inline std::string text_of(SourceKind kind) { return k_source_kinds[static_cast<std::size_t>(kind)]; }
+[[nodiscard]] std::optional<SourceKind> source_kind_of(const std::string& text);
+/// For people.
+[[nodiscard]] Message in_words(SourceKind kind);
+
 struct MotionSource {
-  /// `device`: a stylus in a hand; `pointer`: mouse and keyboard; `practice`: any of them while nothing counts; `operator`: a simulated candidate;
-  /// `motion_file`: poses from a file; `program`: a program that uses the library and says no more. Empty: the recording does not say.
-  std::string kind = "program";
+  SourceKind kind = SourceKind::program;
   std::string name = {};    ///< of the device, operator or file
   std::string serial = {};  ///< of the device; empty when it tells none
 
-  [[nodiscard]] bool is_hand() const { return kind == "device"; }
-  /// "operator expert", "motion_file poses.csv", "practice".
-  [[nodiscard]] std::string in_words() const { return (kind.empty() ? "a source that is not named" : kind) + (name.empty() ? "" : " " + name); }
+  [[nodiscard]] bool is_hand() const { return kind == SourceKind::device; }
   friend bool operator==(const MotionSource&, const MotionSource&) = default;
 };
 /// Further facts by key.
@@ -35,8 +50,6 @@ struct ResumedBy {
   bool ticket_remembered = true;       ///< false: the station has no memory of having begun the exam of its ticket
   Notes notes = {};
 };
-/// True for one of the kinds above.
-[[nodiscard]] bool is_source_kind(const std::string& kind);
 
 /// Where a recording was begun or taken up, and what moved the stylus from there on.
 struct SourceFrom {

@@ -34,7 +34,7 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"candidate", setup.candidate},
       {"device", setup.device},
       {"calibration", setup.calibration},
-      {k_source_fact, setup.source.kind},
+      {k_source_fact, text_of(setup.source.kind)},
       {k_source_name_fact, setup.source.name},
       {k_source_serial_fact, setup.source.serial},
       {"tick_s", tick},
@@ -135,7 +135,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
   need(!setup.force_model_toml.empty(), "a force model");
   need(!setup.servo_toml.empty(), "servo settings");
   need(!setup.candidate.empty(), "the candidate's pseudonym");
-  need(is_source_kind(setup.source.kind), "what moves the stylus");
+  need(setup.source.kind != SourceKind::unnamed, "what moves the stylus");
   std::set<std::string> attached;
   for (const auto& [name, bytes] : setup.attachments)
     if (!attached.insert(name).second) throw Error(path, msg("two attachments are named '{}'", name), msg("give each its own name"));

@@ -24,7 +24,7 @@ std::int64_t header_number(const Bytes& image, std::size_t at) {
 /// Reads one table row by row; damage in it is one finding and leaves the other tables alone. Keys must rise,
 /// so that pages which refer to one another in a circle cannot go on for ever.
 template <class Row>
-void read_table(Database& database, const char* table, const std::string& columns, std::vector<std::string>& findings, const Row& row) {
+void read_table(Database& database, const char* table, const std::string& columns, std::vector<Message>& findings, const Row& row) {
   std::size_t rows = 0;
   try {
     Statement s = database.prepare(fmt::format("SELECT {} FROM {} ORDER BY 1", columns, table).c_str());
@@ -33,7 +33,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(fmt::format("table {}, row {}: {}", table, rows, english_text(e.without_advice())));
+    findings.push_back(msg("table {}, row {}: {}", table, rows, english_text(e.without_advice())));
   }
 }
 
@@ -43,7 +43,7 @@ std::int64_t rising(const Statement& s, std::int64_t expected, const char* table
   return seq;
 }
 
-void check_schema(Database& database, std::vector<std::string>& findings) {
+void check_schema(Database& database, std::vector<Message>& findings) {
   std::size_t i = 0;
   Statement s = database.prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
   for (; s.step(); ++i)
@@ -51,17 +51,17 @@ void check_schema(Database& database, std::vector<std::string>& findings) {
       throw Error(msg("schema"), msg("'{}' is not a table of a session of format {}", s.text(1), k_session_format), msg("use an intact copy"));
   if (i != k_session_schema.size()) throw Error(msg("schema"), msg("a table is missing"), msg("use an intact copy"));
   if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
-    findings.push_back(fmt::format("file: user_version is {}, this program reads format {}", v, k_session_format));
-  if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back("file: application_id is not Cavum's");
+    findings.push_back(msg("file: user_version is {}, this program reads format {}", v, k_session_format));
+  if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back(msg("file: application_id is not Cavum's"));
 }
 
-void quick_check(Database& database, std::vector<std::string>& findings) {
+void quick_check(Database& database, std::vector<Message>& findings) {
   try {
     Statement s = database.prepare("PRAGMA quick_check(10)");
     while (s.step())
-      if (const std::string line = s.text(0); line != "ok") findings.push_back("file: " + line);
+      if (const std::string line = s.text(0); line != "ok") findings.push_back(msg("file: {}", line));
   } catch (const DatabaseError& e) {
-    findings.push_back(fmt::format("file: {}", english_text(e.without_advice())));
+    findings.push_back(msg("file: {}", english_text(e.without_advice())));
   }
 }
 
@@ -103,7 +103,7 @@ void SessionReader::read(Bytes image) {
     check_schema(database, findings_);
   } catch (const Error& e) {
     if (!marked) throw Error(path_, msg("is an SQLite database, but not a Cavum session"), msg("name a .cavum file that an exam wrote"));
-    findings_.push_back(fmt::format("file: {}", english_text(e.without_advice())));
+    findings_.push_back(msg("file: {}", english_text(e.without_advice())));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -134,8 +134,7 @@ void SessionReader::read_artifacts(Database& database) {
     rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
     Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
     if (!names.insert(a.name).second) throw Error(msg("artifact"), msg("'{}' is there twice", a.name), msg("use an intact copy"));
-    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size()))
-      findings_.push_back(fmt::format("table artifact, '{}': its size was changed", a.name));
+    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back(msg("table artifact, '{}': its size was changed", a.name));
     artifacts_.push_back(std::move(a));
   });
 }
@@ -194,7 +193,7 @@ SessionSetup SessionReader::setup() const {
   s.candidate = fact("candidate");
   s.device = fact("device");
   s.calibration = fact("calibration");
-  s.source = {fact(k_source_fact), fact(k_source_name_fact), fact(k_source_serial_fact)};
+  s.source = {source_kind_of(fact(k_source_fact)).value_or(SourceKind::unnamed), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");
   s.rubric_toml = text("rubric.toml");
   s.force_model_toml = text("force_model.toml");

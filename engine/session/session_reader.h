@@ -33,7 +33,7 @@ class SessionReader {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Damage found while reading, each naming its table and row; empty for a sound file.
-  [[nodiscard]] const std::vector<std::string>& findings() const noexcept { return findings_; }
+  [[nodiscard]] const std::vector<Message>& findings() const noexcept { return findings_; }
   /// Throws Error with the first finding, for callers that can do nothing with a damaged session.
   void require_readable() const;
 
@@ -75,7 +75,7 @@ class SessionReader {
   void read_seal(Database& database);
 
   std::string path_;
-  std::vector<std::string> findings_;
+  std::vector<Message> findings_;
   std::map<std::string, std::string> meta_;
   std::vector<Artifact> artifacts_;
   std::vector<ChunkRow> chunks_;

@@ -24,6 +24,7 @@ Tooth drilled_tooth(const Simulation& simulation) {
   tooth.name = simulation.tooth.name;
   tooth.source = simulation.tooth.source;
   tooth.placed_landmarks = simulation.tooth.placed_landmarks;
+  tooth.notes = simulation.tooth.notes;
   return tooth;
 }
 

@@ -11,6 +11,6 @@ namespace cavum {
 
 /// In words, for a person to decide: taken up again or ended by another station than began it; taken up again at a station that does not remember
 /// it; taken up again in a recording that does not say who began it. Empty for an exam that one station began, interrupted or not, and ended.
-[[nodiscard]] std::vector<std::string> check_stations(const SessionReader& session);
+[[nodiscard]] std::vector<Message> check_stations(const SessionReader& session);
 
 }  // namespace cavum

@@ -58,12 +58,12 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     try {
       motion = session.motion(i);
     } catch (const Error& e) {
-      report.findings.push_back(fmt::format("{} (replay stops here)", e.what()));
+      report.findings.push_back(msg("{} (replay stops here)", e.message()));
       return;
     }
     if ((leaves += motion.removed.leaves.size()) > k_most_removed_leaves) {
       report.findings.push_back(
-          fmt::format("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)", k_most_removed_leaves));
+          msg("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)", k_most_removed_leaves));
       return;
     }
     std::span<const RemovedLeaf> listed = motion.removed.leaves;
@@ -82,7 +82,7 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
     const std::uint64_t expected = report.ticks_replayed == 0 ? 0 : state_hash(simulation.state);
     if (expected == c.state_hash) continue;
     const auto last = c.first_tick + c.ticks - 1;
-    report.findings.push_back(fmt::format("chunk {}: state hash after tick {} differs from the replay", c.seq, last));
+    report.findings.push_back(msg("chunk {}: state hash after tick {} differs from the replay", c.seq, last));
     if (!report.first_divergence) report.first_divergence = Divergence{last, "state_hash", std::to_string(c.state_hash), std::to_string(expected)};
   }
 }
@@ -91,12 +91,12 @@ void compare_final_tooth(const SessionReader& session, const Simulation& simulat
   try {
     Tooth kept = load_tooth_like(session.final_tooth(), session.path() + ": final_tooth.cvt", teeth.like);
     if (tooth_hash(kept) != tooth_hash(drilled_tooth(simulation)))
-      report.findings.push_back("table artifact: the final tooth is not the one that the replay leaves");
+      report.findings.push_back(msg("table artifact: the final tooth is not the one that the replay leaves"));
     if (teeth.final_out != nullptr) *teeth.final_out = std::move(kept);
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back(e.what());
+    report.findings.emplace_back(Name{e.what()});
   }
 }
 
@@ -104,8 +104,8 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   const auto recorded_physics = session.number("physics_version", 0);
   if (recorded_physics != k_physics_version) {
     report.findings.push_back(
-        fmt::format("table meta: recorded under physics {}, this program has {}: chain and signature were checked, the motion cannot be replayed",
-                    recorded_physics, k_physics_version));
+        msg("table meta: recorded under physics {}, this program has {}: chain and signature were checked, the motion cannot be replayed",
+            recorded_physics, k_physics_version));
     return;
   }
   const auto start = std::chrono::steady_clock::now();
@@ -118,14 +118,14 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back(fmt::format("{} (not replayed)", e.what()));
+    report.findings.push_back(msg("{} (not replayed)", e.what()));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (seconds > 0) report.speed_x_realtime = static_cast<double>(report.ticks_replayed) * tick_s / seconds;
   if (report.ticks_different == 0) return;
   const Divergence& d = *report.first_divergence;
-  report.findings.push_back(fmt::format("tick {}: {} recorded {}, replayed {}; {} of {} ticks differ", d.tick, d.what, d.recorded, d.replayed,
-                                        report.ticks_different, report.ticks_replayed));
+  report.findings.push_back(msg("tick {}: {} recorded {}, replayed {}; {} of {} ticks differ", d.tick, d.what, d.recorded, d.replayed,
+                                report.ticks_different, report.ticks_replayed));
 }
 
 }  // namespace
@@ -142,18 +142,19 @@ VerifyReport verify_session(const SessionReader& session, const std::string& exp
   report.ticks = session.ticks();
   report.findings = session.findings();
   if (session.meta().empty() && session.chunks().empty()) {  // nothing could be read: the reader has said why
-    if (report.findings.empty()) report.findings.push_back("table meta: empty");
+    if (report.findings.empty()) report.findings.push_back(msg("table meta: empty"));
     return report;
   }
   for (auto& f : check_chain(session)) report.findings.push_back(std::move(f));
   if (session.seal()) report.station_key = to_hex(session.seal()->public_key);
   if (!expected_station_key.empty() && session.seal() && report.station_key != expected_station_key)
-    report.findings.push_back(fmt::format("table seal: closed by station {}, not by the one expected", report.station_key));
+    report.findings.push_back(msg("table seal: closed by station {}, not by the one expected", report.station_key));
   simulate_and_compare(session, visit, teeth, report);
   report.intact = report.findings.empty() && !report.first_divergence;
   if (!report.closed)
-    report.findings.push_back(fmt::format("table seal: none, the session was never closed; {}{}", report.ticks,
-                                          report.intact ? " ticks are intact and can be resumed" : " ticks are there"));
+    report.findings.push_back(report.intact
+                                  ? msg("table seal: none, the session was never closed; {} ticks are intact and can be resumed", report.ticks)
+                                  : msg("table seal: none, the session was never closed; {} ticks are there", report.ticks));
   report.verified = report.intact && report.closed;
   return report;
 }

@@ -168,6 +168,7 @@ Tooth own_tooth(const Tooth& tooth) {
   own.name = tooth.name;
   own.source = tooth.source;
   own.placed_landmarks = tooth.placed_landmarks;
+  own.notes = tooth.notes;
   return own;
 }
 

@@ -88,6 +88,7 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
   out.name = tooth.name + ", filled";
   out.source = tooth.source;
   out.placed_landmarks = tooth.placed_landmarks;
+  out.notes = tooth.notes;
   return out;
 }
 

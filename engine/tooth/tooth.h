@@ -16,15 +16,26 @@ struct NamedPoint {
   friend bool operator==(const NamedPoint&, const NamedPoint&) = default;
 };
 
+/// What is to be known of a tooth beside where it comes from: told by the shape and said by nobody; not checked, or confirmed against what was
+/// measured; of the mirror image of what was read (+x mesial and +y buccal do not go together on it otherwise).
+struct ToothNote {
+  enum class Kind : std::uint8_t { guess, warning, mirror_image };
+  Kind kind = Kind::guess;
+  Message text;
+  friend bool operator==(const ToothNote&, const ToothNote&) = default;
+};
+
 struct Tooth {
   Octree octree;
   std::vector<Tissue> tissues = standard_tissues();
   std::string name;                          ///< for people: "lower first molar (parametric)"
   std::string source;                        ///< what it was made from, and every assumption made on the way (spacing, frame)
   std::vector<NamedPoint> placed_landmarks;  ///< that a person put; they stand in place of what find_landmarks finds
+  std::vector<ToothNote> notes;
 
   /// Name of a tissue id; "air" for 0, "tissue N" for one that the table does not list.
   [[nodiscard]] std::string tissue_name(std::uint8_t id) const;
+  [[nodiscard]] std::vector<Message> notes_of(ToothNote::Kind kind) const;
   /// Id of a named tissue; throws Error when the tooth has none of that name.
   [[nodiscard]] std::uint8_t tissue_id(const std::string& name) const;
 };

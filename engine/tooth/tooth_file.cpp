@@ -4,8 +4,9 @@
 //   tissue count u8, each tissue {u8 id, u8 solid, name}
 //   packed octree         see packed_octree.cpp
 //   SHA-256               32 bytes, over all of the above
-// Version 3 ("CVTOOTH3") is written only for a tooth with landmarks that a person put: as version 2, and before the checksum
-//   landmark count u32 (1 to 64), each {name, f64 x, y, z, mm}
+// Version 3 ("CVTOOTH3") is written only for a tooth with notes, or landmarks that a person put: as version 2, and before the checksum
+//   landmark count u32 (0 to 64), each {name, f64 x, y, z, mm}
+//   note count u32 (0 to 256), each {u8 kind: 0 guess, 1 warning, 2 mirror image; the message as JSON, see engine/base/message_json.h}
 // Version 1 is read, too:
 //   "CVTOOTH1", u64 size of the body, u64 packed size, zstd frame of that size, SHA-256 as above
 //   with name, source and tissues as above in the body, then the octree as Octree::write writes it
@@ -22,6 +23,8 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/hash.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/tooth/known_fits.h"
 
@@ -29,6 +32,7 @@ namespace cavum {
 namespace {
 
 constexpr std::string_view k_magic = "CVTOOTH2", k_magic_1 = "CVTOOTH1", k_magic_3 = "CVTOOTH3";
+constexpr std::size_t k_most_notes = 256;
 constexpr std::uint64_t k_largest_body_1 = 1ULL << 28;  // the octree of a molar has 7 MB
 
 void write_tissues(const Tooth& tooth, ByteWriter& out) {
@@ -66,7 +70,7 @@ void write_landmarks(const Tooth& tooth, ByteWriter& out) {
 
 std::vector<NamedPoint> read_landmarks(ByteReader& in) {
   const auto count = in.get<std::uint32_t>();
-  if (count == 0 || count > k_most_placed) in.fail(msg("a tooth of version 3 has 1 to {} landmarks", k_most_placed));
+  if (count > k_most_placed) in.fail(msg("a tooth has at most {} landmarks that a person put", k_most_placed));
   std::vector<NamedPoint> landmarks(count);
   for (auto& [name, at] : landmarks) {
     name = in.get_string();
@@ -76,6 +80,33 @@ std::vector<NamedPoint> read_landmarks(ByteReader& in) {
   }
   if (const auto fault = fault_of(landmarks); !fault.empty()) in.fail(fault);
   return landmarks;
+}
+
+void write_notes(const Tooth& tooth, ByteWriter& out) {
+  out.put(static_cast<std::uint32_t>(tooth.notes.size()));
+  for (const auto& [kind, text] : tooth.notes) {
+    out.put(static_cast<std::uint8_t>(kind));
+    out.put_string(text.empty() ? "" : encode(text).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+  }
+}
+
+std::vector<ToothNote> read_notes(ByteReader& in, const std::string& where) {
+  const auto count = in.get<std::uint32_t>();
+  if (count > k_most_notes) in.fail(msg("a tooth has at most {} notes", k_most_notes));
+  std::vector<ToothNote> notes(count);
+  for (auto& [kind, text] : notes) {
+    const auto number = in.get<std::uint8_t>();
+    if (number > static_cast<std::uint8_t>(ToothNote::Kind::mirror_image)) in.fail(msg("a note is of no known kind"));
+    kind = static_cast<ToothNote::Kind>(number);
+    const std::string json = in.get_string();
+    if (json.empty()) continue;
+    try {
+      text = decode_message(parse_json(json, where, k_json_part));
+    } catch (const std::invalid_argument& e) {
+      in.fail(msg("a note is no message: {}", e.what()));
+    }
+  }
+  return notes;
 }
 
 Tooth read_all_but_octree(ByteReader& in) {
@@ -143,6 +174,13 @@ std::string Tooth::tissue_name(std::uint8_t id) const {
   return fmt::format("tissue {}", id);
 }
 
+std::vector<Message> Tooth::notes_of(ToothNote::Kind kind) const {
+  std::vector<Message> texts;
+  for (const ToothNote& n : notes)
+    if (n.kind == kind) texts.push_back(n.text);
+  return texts;
+}
+
 std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
   for (const auto& t : tissues)
     if (t.name == wanted) return t.id;
@@ -150,11 +188,13 @@ std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
 }
 
 Bytes save_tooth(const Tooth& tooth) {
-  const bool placed = !tooth.placed_landmarks.empty();
+  const bool third_version = !tooth.placed_landmarks.empty() || !tooth.notes.empty();
   if (const auto fault = fault_of(tooth.placed_landmarks); !fault.empty())
     throw Error(msg("tooth '{}'", tooth.name), fault, msg("put fewer landmarks, or others"));
+  if (tooth.notes.size() > k_most_notes)
+    throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} notes", k_most_notes), msg("import it anew"));
   ByteWriter out;
-  for (const char c : placed ? k_magic_3 : k_magic) out.put(c);
+  for (const char c : third_version ? k_magic_3 : k_magic) out.put(c);
   out.put_string(tooth.name);
   out.put_string(tooth.source);
   write_tissues(tooth, out);
@@ -162,7 +202,10 @@ Bytes save_tooth(const Tooth& tooth) {
   tooth.octree.write(canonical);
   ByteReader from(canonical.bytes(), "tooth");
   pack_octree(from, tooth.tissues, out);
-  if (placed) write_landmarks(tooth, out);
+  if (third_version) {
+    write_landmarks(tooth, out);
+    write_notes(tooth, out);
+  }
   out.put_bytes(sha256(out.bytes()));
   return out.take();
 }
@@ -192,7 +235,10 @@ Tooth load_tooth_like(std::span<const std::uint8_t> bytes, const std::string& wh
     const Bytes canonical = unpack_octree(in, tooth.tissues, like, keep);
     ByteReader from(canonical, where);
     tooth.octree = Octree::read(from, tooth.tissues);
-    if (third_version) tooth.placed_landmarks = read_landmarks(in);
+    if (third_version) {
+      tooth.placed_landmarks = read_landmarks(in);
+      tooth.notes = read_notes(in, where);
+    }
   }
   if (in.left() != 0) in.fail(msg("data after the end"));
   return tooth;

@@ -42,7 +42,7 @@ void copy_database(const std::string& from, const std::string& to) {
       source.copy_to(copy);
     } catch (const DatabaseError& e) {
       if (e.code() == SQLITE_FULL || e.code() == SQLITE_IOERR) throw;
-      std::vector<std::string> findings;  // a folder that may only be read
+      std::vector<Message> findings;  // a folder that may only be read
       Database source = Database::from_image(read_session_image(from, findings), from);
       source.copy_to(copy);
     }
@@ -116,7 +116,7 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
     if (!fs::exists(LedgerPlaces{folder}.database())) return;
   }
   const LedgerContent before = read_ledger({folder}, AskWitness::no);
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), "the backup that is there", findings);
   if (before.checkpoints.empty() || !findings.empty())
     throw Error(folder, findings.empty() ? "holds a backup that cannot be read" : findings[0], "keep it, and name a new folder");
@@ -126,7 +126,7 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
 void compare(RestorePlan& plan, const History& history, const std::string& id, const Checkpoint& seen, const std::string& what,
              const std::string& entry) {
   plan.compared = true;
-  std::vector<std::string> wrong;
+  std::vector<Message> wrong;
   const Standing standing = check_history(history, id, seen, what, wrong);
   if (standing != Standing::older_copy) {
     for (auto& w : wrong) plan.findings.push_back(std::move(w));
@@ -148,9 +148,9 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     const std::string key_then = c.key_of(checkpoint_in(told, c.id, c.public_key, path).size);
     const Checkpoint p = checkpoint_in(told, c.id, key_then, path);
     if (!is_signed_by_school(c.id, key_then, p))
-      plan.findings.push_back(path + ": the school's signature on the backup's checkpoint does not hold");
+      plan.findings.push_back(msg("{}: the school's signature on the backup's checkpoint does not hold", path));
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
-      plan.findings.push_back(fmt::format("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size));
+      plan.findings.push_back(msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size));
   } catch (const Error& e) {
     plan.findings.push_back(english_text(e.without_advice()));
   }
@@ -198,7 +198,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
   return out;
 }
 
-RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes) {
+RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<Message>& notes) {
   const LedgerPlaces places{backup};
   RestorePlan plan;
   plan.content = read_ledger(places, AskWitness::no);

@@ -29,9 +29,9 @@ struct Seen {
 /// What a backup lacks, as far as anything at hand tells.
 struct RestorePlan {
   LedgerContent content;
-  std::vector<std::string> findings;          ///< the backup does not hold, or is another history than what was seen: it is not restored
+  std::vector<Message> findings;              ///< the backup does not hold, or is another history than what was seen: it is not restored
   std::vector<std::string> missing_sessions;  ///< filed in it, and their files are gone or changed: SHA-256
-  std::vector<std::string> lost_entries;      ///< in words: entries after the backup
+  std::vector<Message> lost_entries;          ///< in words: entries after the backup
   std::vector<Checkpoint> lost;               ///< every checkpoint that was seen of them
   std::optional<Seen> last_seen;              ///< the one with most entries
   bool identities = false;
@@ -39,7 +39,7 @@ struct RestorePlan {
 };
 /// Looks at a backup with this computer's witness, and receipts and cosigned notes, paths of files. Changes nothing. Throws Error when it is no
 /// ledger, or a file cannot be read.
-[[nodiscard]] RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<std::string>& notes);
+[[nodiscard]] RestorePlan plan_restore(const std::string& backup, const std::vector<std::string>& receipts, const std::vector<Message>& notes);
 /// Makes the ledger anew in `folder`, which must not be there, and enters there that it goes on from a backup and what was lost: body
 /// {backup{root, size}, lost[{root, size}], missing_sessions[], reason}. Throws Error when the plan has findings, or entries
 /// were lost and `reason` does not say why the school accepts it; one line of UTF-8, 1000 bytes at most.

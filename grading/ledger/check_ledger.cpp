@@ -31,49 +31,49 @@ using nlohmann::json;
 void compare_with_line(const FiledSession& s, const std::string& line, const std::string& name, LedgerCheck& out) {
   const json again = parse_json_or_null(line, k_json_part);
   if (line.empty() || !again.is_object()) {
-    out.not_made.push_back(fmt::format("{}: could not be simulated again; run the same command once more", name));
+    out.not_made.push_back(msg("{}: could not be simulated again; run the same command once more", name));
     return;
   }
   if (const std::string error = text_in(again, "error"); !error.empty()) {
-    out.findings.push_back(fmt::format("{}: its file cannot be read: {}", name, error));
+    out.findings.push_back(msg("{}: its file cannot be read: {}", name, error));
     return;
   }
   if (text_in(again, "sha256") != s.file_sha256)
-    out.findings.push_back(fmt::format("{}: its file was changed while it was checked, or a log lies beside it", name));
+    out.findings.push_back(msg("{}: its file was changed while it was checked, or a log lies beside it", name));
   for (const auto& f : member_of(again, "findings"))
-    if (f.is_string()) out.findings.push_back(fmt::format("{}: {}", name, f.get<std::string>()));
+    if (f.is_string()) out.findings.push_back(msg("{}: {}", name, f.get<std::string>()));
   const json& result = member_of(again, "result");
   const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<std::string>();
   if (differ.empty()) return;
   const std::string more = differ.size() > 1 ? fmt::format("; and {} more", differ.size() - 1) : "";
   if (s.grading_version == grading::k_grading_version)
-    out.findings.push_back(fmt::format("{}: the result that was filed is not what marking it gives: filed {}{}", name, differ[0], more));
+    out.findings.push_back(msg("{}: the result that was filed is not what marking it gives: filed {}{}", name, differ[0], more));
   else
-    out.remarks.push_back(fmt::format("{}: was marked by grading version {}; version {} gives another result: filed {}{}", name, s.grading_version,
-                                      grading::k_grading_version, differ[0], more));
+    out.remarks.push_back(msg("{}: was marked by grading version {}; version {} gives another result: filed {}{}", name, s.grading_version,
+                              grading::k_grading_version, differ[0], more));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
-void check_times(const LedgerContent& content, std::vector<std::string>& remarks) {
+void check_times(const LedgerContent& content, std::vector<Message>& remarks) {
   constexpr std::int64_t k_patience_ns = 300'000'000'000;
   const std::int64_t now_ns = read_clocks().utc_ns;
   for (const auto& e : content.entries)
     if (e.utc_ns > now_ns + k_patience_ns)
       remarks.push_back(
-          fmt::format("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)));
+          msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)));
 }
 
 /// What can never be shown of this ledger here, and why.
 void say_not_checked(const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
   if (content.id.empty())
-    out.not_checked.emplace_back(
+    out.not_checked.emplace_back(msg(
         "whether an older copy was put back, and which of the filed sessions belong to it: the ledger's id could not be read, so nothing could be "
-        "compared");
+        "compared"));
   else if (!content.witnessed)
-    out.not_checked.emplace_back("whether an older copy was put back: this computer has no witness of the ledger");
+    out.not_checked.emplace_back(msg("whether an older copy was put back: this computer has no witness of the ledger"));
   if (!replay && !registry.sessions.empty())
     out.not_checked.emplace_back(
-        "whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each");
+        msg("whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each"));
 }
 
 std::string name_of(const FiledSession& s) { return fmt::format("entry {} (session of {})", s.seq, s.candidate); }
@@ -85,17 +85,16 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
   const std::string name = name_of(s), path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
-      out.findings.push_back(
-          fmt::format("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it", name,
-                      *s.motion_erased_by, path));
+      out.findings.push_back(msg("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it",
+                                 name, *s.motion_erased_by, path));
     return Recording::erased;
   }
   if (!std::filesystem::exists(path)) {
     if (erased_by(read_ledger(places).erased, s.seq, Part::motion)) return Recording::erased;  // meanwhile
-    out.findings.push_back(fmt::format("{}: its file is gone: {}", name, path));
+    out.findings.push_back(msg("{}: its file is gone: {}", name, path));
     return Recording::changed;
   } else if (to_hex(sha256(read_file(path))) != s.file_sha256) {
-    out.findings.push_back(fmt::format("{}: its file was changed: {}", name, path));
+    out.findings.push_back(msg("{}: its file was changed: {}", name, path));
     return Recording::changed;
   }
   return Recording::there;
@@ -125,14 +124,14 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      out.findings.push_back(fmt::format("{}: its file cannot be read: {}", name_of(s), e.what()));
+      out.findings.push_back(msg("{}: its file cannot be read: {}", name_of(s), e.what()));
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back(fmt::format(
-            "{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
-            s.doubtful() && registry.chosen_instead_of(s) == nullptr ? "a person decides which counts" : "a person has chosen which counts"));
+        out.remarks.push_back(msg("{}: is contested by entry {}, another ending of the same exam: {}", name_of(s), other,
+                                  s.doubtful() && registry.chosen_instead_of(s) == nullptr ? msg("a person decides which counts")
+                                                                                           : msg("a person has chosen which counts")));
   }
   const pool::Work work = work_on(places, registry, pool::What::verify);
   if (by && !work.sessions.empty()) {
@@ -143,10 +142,10 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     }
   }
   if (by && filed_with_findings > 0)
-    out.not_checked.push_back(fmt::format("{} sessions that were filed with findings are not simulated again", filed_with_findings));
+    out.not_checked.push_back(msg("{} sessions that were filed with findings are not simulated again", filed_with_findings));
   if (erased > 0)
-    out.not_checked.push_back(fmt::format("{}{} erased, as entries say: whether motion gives their marks can no longer be shown", erased,
-                                          erased == 1 ? " recording was" : " recordings were"));
+    out.not_checked.push_back(msg("{}{} erased, as entries say: whether motion gives their marks can no longer be shown", erased,
+                                  erased == 1 ? msg(" recording was") : msg(" recordings were")));
 }
 
 /// Files that no entry knows.
@@ -155,7 +154,7 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
   std::error_code none;
   for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
-    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(f.path().string() + ": belongs to no entry");
+    if (!filed.contains(f.path().filename().string())) out.remarks.push_back(msg("{}: belongs to no entry", f.path().string()));
 }
 
 /// Who has a ticket and is no longer among the identities, though no entry says that he was forgotten.
@@ -167,9 +166,9 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
   for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
     if (const auto* forgotten = e.as<ForgetEntry>()) missing.erase(forgotten->candidate);
   for (const auto& [who, seq] : missing)
-    out.findings.push_back(fmt::format(
-        "identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
-        one_line(who), seq));
+    out.findings.push_back(
+        msg("identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
+            one_line(who), seq));
 }
 
 }  // namespace
@@ -201,12 +200,11 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
   const bool unread = content.public_key.empty();
   bool known = false;
   if (std::filesystem::exists(next_key_path(key_path)))
-    check.findings.push_back(fmt::format(
-        "replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it", next_key_path(key_path)));
+    check.findings.push_back(msg("replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it",
+                                 next_key_path(key_path)));
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
     if (!unread && key != content.public_key)
-      check.findings.push_back(
-          fmt::format("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key));
+      check.findings.push_back(msg("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key));
   };
   if (std::filesystem::exists(public_key_path)) {
     known = true;
@@ -215,7 +213,8 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
       must_be_ours(parse_public_key(text, public_key_path), public_key_path);
     } catch (const Error&) {
-      check.findings.push_back(public_key_path + ": is no school's public key, 64 hexadecimal digits; copy it again from the school's computer");
+      check.findings.push_back(
+          msg("{}: is no school's public key, 64 hexadecimal digits; copy it again from the school's computer", public_key_path));
     }
   }
   const std::string of_identities = "whether names were exchanged among the identities, or taken out: ";
@@ -226,31 +225,29 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       key = load_school_key(key_path);
       must_be_ours(to_hex(key->public_key), key_path);
     } catch (const Error& e) {
-      check.not_checked.push_back(fmt::format("the school's key cannot be used: {}", e.what()));
+      check.not_checked.push_back(msg("the school's key cannot be used: {}", e.what()));
     }
   }
   if (unread) {
-    check.not_checked.push_back(fmt::format(
-        "whether the ledger is this school's, and {}the ledger's id and key could not be read, so nothing could be compared", of_identities));
+    check.not_checked.push_back(
+        msg("whether the ledger is this school's, and {}the ledger's id and key could not be read, so nothing could be compared", of_identities));
     return;
   }
   if (!known)
-    check.not_checked.push_back(
-        fmt::format("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path));
+    check.not_checked.push_back(msg("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path));
   if (!std::filesystem::exists(places.identities())) {
     check.not_checked.push_back(
-        fmt::format("{}{} is not there; restore it from its backup if this is the school's own copy", of_identities, places.identities()));
+        msg("{}{} is not there; restore it from its backup if this is the school's own copy", of_identities, places.identities()));
   } else if (!key || to_hex(key->public_key) != content.public_key) {
-    check.not_checked.push_back(of_identities + "the key that made the pseudonyms is not here");
+    check.not_checked.push_back(msg("{}the key that made the pseudonyms is not here", of_identities));
   } else {
     try {
       Identities identities(places.identities());
       for (auto& f : identities.check(*key)) check.findings.push_back(std::move(f));
       for (const auto& e : content.entries)
         if (const auto* forgotten = e.as<ForgetEntry>(); forgotten != nullptr && identities.of_pseudonym(forgotten->candidate))
-          check.findings.push_back(
-              fmt::format("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
-                          one_line(forgotten->candidate), e.seq));
+          check.findings.push_back(msg("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
+                                       one_line(forgotten->candidate), e.seq));
       say_missing(places, content, identities, check);
     } catch (const Error& e) {
       check.findings.emplace_back(e.what());

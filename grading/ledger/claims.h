@@ -19,13 +19,12 @@ struct FilingOptions {
 /// What a closed session's station, source of motion, clocks and ticket claim and the entries so far contradict, in words: what filing asks beside
 /// the recording's truth. `received_utc_ns`: the ledger's own time. With `filed`, a second ending of an exam is compared with the one in the ledger's
 /// folder.
-[[nodiscard]] std::vector<std::string> check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
-                                                    std::int64_t received_utc_ns, const FilingOptions& options = {},
-                                                    const LedgerPlaces* filed = nullptr);
+[[nodiscard]] std::vector<Message> check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
+                                                std::int64_t received_utc_ns, const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
 
 /// The same, for one session: what the entries add up to is read for it.
-[[nodiscard]] inline std::vector<std::string> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
-                                                           const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
+[[nodiscard]] inline std::vector<Message> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
+                                                       const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
   return check_claims(content, read_registry(content), session, received_utc_ns, options, filed);
 }
 

@@ -81,7 +81,7 @@ std::string successor_of(std::string key, const std::string& ledger_id, const st
 std::string entries(std::uint64_t n) { return std::to_string(n) + (n == 1 ? " entry" : " entries"); }
 
 /// Why the checkpoint does not go on from what is remembered.
-std::vector<std::string> fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
+std::vector<Message> fork_of(const Memory& m, const Checkpoint& p, const Request& r, const std::string& path) {
   const std::string evidence = fmt::format("; keep this file and {}: both bear the school's signature", path);
   if (p.size < m.last.size)
     return {fmt::format("the ledger was put back to an older copy, or this is an older file: it has {}, and {} were cosigned{}", entries(p.size),
@@ -133,8 +133,9 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const Checkpoint& p = read.checkpoint;
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
-    out.findings.emplace_back(fmt::format("the school's signature does not hold: the checkpoint was changed, or is signed by another key{}",
-                                          memory ? "; where the school replaced its key, the receipt of that entry shows it (--key-receipt)" : ""));
+    out.findings.emplace_back(
+        msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key{}",
+            memory ? msg("; where the school replaced its key, the receipt of that entry shows it (--key-receipt)") : Message()));
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;
@@ -184,18 +185,19 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
     const ReadCheckpoint read = parse_checkpoint(text, key_then, "cosigned note");
     const auto school = check_note(read.note, checkpoint_key(read.ledger_id, key_then));
     if (school != NoteVerdict::holds)
-      out.findings.emplace_back(school == NoteVerdict::absent ? "the ledger's school has not signed it" : "the school's signature does not hold");
+      out.findings.emplace_back(school == NoteVerdict::absent ? msg("the ledger's school has not signed it")
+                                                              : msg("the school's signature does not hold"));
     else
       out.checkpoint = read.checkpoint;
     for (const auto& key : known) {
       const auto verdict = check_note(read.note, key);
-      if (verdict == NoteVerdict::broken) out.findings.push_back(fmt::format("the cosignature of {} does not hold", key.name));
+      if (verdict == NoteVerdict::broken) out.findings.push_back(msg("the cosignature of {} does not hold", key.name));
       if (verdict != NoteVerdict::holds) continue;
       std::copy_if(read.note.signatures.begin(), read.note.signatures.end(), std::back_inserter(out.cosignatures),
                    [&](const NoteSignature& s) { return is_of(s, key); });
     }
     if (out.cosignatures.empty())
-      out.not_checked.emplace_back("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here");
+      out.not_checked.emplace_back(msg("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here"));
     if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, "the cosigned note", out.findings);
   } catch (const Error& e) {
     out.findings.push_back(english_text(e.without_advice()));
@@ -203,23 +205,23 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
   return out;
 }
 
-void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, std::vector<std::string>& findings,
-                        std::vector<std::string>& not_checked) {
+void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, std::vector<Message>& findings,
+                        std::vector<Message>& not_checked) {
   std::size_t strange = 0;
   for (const auto& s : ledger.cosignatures) {
     const std::string name = fmt::format("cosignature of {} under {}", one_line(s.by.name), entries(s.size));
     const auto p = std::find_if(ledger.checkpoints.rbegin(), ledger.checkpoints.rend(), [&](const Checkpoint& c) { return c.size == s.size; });
     const auto key = std::find_if(known.begin(), known.end(), [&](const NoteKey& k) { return is_of(s.by, k); });
     if (p == ledger.checkpoints.rend())
-      findings.push_back(name + ": there is no such checkpoint");
+      findings.push_back(msg("{}: there is no such checkpoint", name));
     else if (key == known.end())
       ++strange;
     else if (!holds(s.by, *key, checkpoint_text(ledger.id, *p)))
-      findings.push_back(name + ": does not hold");
+      findings.push_back(msg("{}: does not hold", name));
   }
   if (strange > 0)
-    not_checked.push_back(fmt::format("{}{} not known here: put the key lines into {}", strange,
-                                      strange == 1 ? " cosignature is of a cosigner" : " cosignatures are of cosigners", known_cosigners_path()));
+    not_checked.push_back(msg("{}{} not known here: put the key lines into {}", strange,
+                              strange == 1 ? msg(" cosignature is of a cosigner") : msg(" cosignatures are of cosigners"), known_cosigners_path()));
 }
 
 }  // namespace cavum::ledger

@@ -12,6 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/ledger_key.h"
@@ -38,6 +39,8 @@ template <>
 constexpr std::array k_words<FirstSitting> = {"missed", "interrupted"};
 template <>
 constexpr std::array k_words<Outcome> = {"stands", "changed"};
+template <>
+constexpr std::array k_words<SourceKind> = k_source_kinds;
 
 template <class E, class Kind>
 concept Is = std::same_as<std::remove_const_t<E>, Kind>;
@@ -212,7 +215,7 @@ void fields(auto& io, Is<RoomEntry> auto& e) {
   io("room", e.room);
 }
 
-[[noreturn]] void no_entry(const std::string& where, const std::string& what) { throw Error(where, what, msg("use an intact copy")); }
+[[noreturn]] void no_entry(const std::string& where, const Message& what) { throw Error(where, what, msg("use an intact copy")); }
 
 class EntryWriter {
  public:
@@ -248,6 +251,8 @@ class EntryWriter {
       return word_of(value);
     } else if constexpr (std::same_as<T, Sha256>) {
       return to_hex(value);
+    } else if constexpr (std::same_as<T, std::vector<Message>>) {
+      return encode(value);
     } else if constexpr (std::constructible_from<json, const T&>) {
       return value;
     } else {
@@ -268,13 +273,13 @@ class EntryWriter {
 class EntryReader {
  public:
   EntryReader(const json& j, std::string where) : j_(j), where_(std::move(where)) {
-    if (!j.is_object()) no_entry(where_, "is no JSON object");
+    if (!j.is_object()) no_entry(where_, msg("is no JSON object"));
   }
   template <class T>
   void operator()(const char* name, T& value) {
     asked_.insert(name);
     const auto found = j_.find(name);
-    if (found == j_.end()) no_entry(where_, fmt::format("has no '{}'", name));
+    if (found == j_.end()) no_entry(where_, msg("has no '{}'", name));
     take(*found, fmt::format("{}: {}", where_, name), value);
   }
   template <class T>
@@ -295,7 +300,7 @@ class EntryReader {
   void opens(Part what, Opening& o) {
     asked_.insert("opens");
     const auto all = j_.find("opens");
-    if (all == j_.end() || !all->is_object() || !all->contains(word_of(what))) no_entry(where_, fmt::format("opens no '{}'", word_of(what)));
+    if (all == j_.end() || !all->is_object() || !all->contains(word_of(what))) no_entry(where_, msg("opens no '{}'", word_of(what)));
     std::string hash;
     take(all->at(word_of(what)), where_ + ": opens", hash);
     o.sha256 = to_hex(fixed_from_hex<32>(hash, where_ + ": opens"));
@@ -306,25 +311,25 @@ class EntryReader {
   }
   void done() const {
     for (const auto& [name, value] : j_.items())
-      if (!asked_.contains(name)) no_entry(where_, fmt::format("has a member that it should not have: '{}'", one_line(name.substr(0, 80))));
-    if (const auto all = j_.find("opens"); all != j_.end() && all->size() != opened_) no_entry(where_, "opens what its kind does not have");
+      if (!asked_.contains(name)) no_entry(where_, msg("has a member that it should not have: '{}'", one_line(name.substr(0, 80))));
+    if (const auto all = j_.find("opens"); all != j_.end() && all->size() != opened_) no_entry(where_, msg("opens what its kind does not have"));
   }
 
  private:
   static void take(const json& j, const std::string& where, std::string& value) {
-    if (!j.is_string()) no_entry(where, "is no text");
+    if (!j.is_string()) no_entry(where, msg("is no text"));
     value = j.get<std::string>();
-    if (value.size() > k_longest_text) no_entry(where, fmt::format("is longer than {} bytes", k_longest_text));
+    if (value.size() > k_longest_text) no_entry(where, msg("is longer than {} bytes", k_longest_text));
   }
   static void take(const json& j, const std::string& where, bool& value) {
-    if (!j.is_boolean()) no_entry(where, "is neither true nor false");
+    if (!j.is_boolean()) no_entry(where, msg("is neither true nor false"));
     value = j.get<bool>();
   }
   template <std::integral Whole>
   static void take(const json& j, const std::string& where, Whole& value) {
     const bool fits =
         j.is_number_unsigned() ? std::in_range<Whole>(j.get<std::uint64_t>()) : j.is_number_integer() && std::in_range<Whole>(j.get<std::int64_t>());
-    if (!fits) no_entry(where, "is no whole number in its range");
+    if (!fits) no_entry(where, msg("is no whole number in its range"));
     value = j.get<Whole>();
   }
   template <class Enum>
@@ -339,13 +344,20 @@ class EntryReader {
     take(j, where, hex);
     value = fixed_from_hex<32>(hex, where);
   }
+  static void take(const json& j, const std::string& where, std::vector<Message>& value) {
+    try {
+      value = decode_messages(j);
+    } catch (const std::invalid_argument& e) {
+      no_entry(where, msg("is no list of messages: {}", e.what()));
+    }
+  }
   static void take(const json& j, const std::string& where, std::map<std::string, std::string>& value) {
-    if (!j.is_object()) no_entry(where, "is no JSON object");
+    if (!j.is_object()) no_entry(where, msg("is no JSON object"));
     for (const auto& [name, text] : j.items()) take(text, where, value[name]);
   }
   template <class T>
   static void take(const json& j, const std::string& where, std::vector<T>& list) {
-    if (!j.is_array() || j.size() > k_longest_list) no_entry(where, fmt::format("is no list of at most {}", k_longest_list));
+    if (!j.is_array() || j.size() > k_longest_list) no_entry(where, msg("is no list of at most {}", k_longest_list));
     for (const json& one : j) take(one, where, list.emplace_back());
   }
   template <class T>
@@ -387,7 +399,7 @@ class EntryOpenings {
 Entry entry_of_kind(const std::string& kind, const std::string& where) {
   Entry out;
   const auto at = std::find(k_kinds.begin(), k_kinds.end(), kind);
-  if (at == k_kinds.end()) no_entry(where, fmt::format("is of a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
+  if (at == k_kinds.end()) no_entry(where, msg("is of a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     ((I == static_cast<std::size_t>(at - k_kinds.begin()) ? static_cast<void>(out.emplace<I>()) : void()), ...);
   }

@@ -93,11 +93,10 @@ const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, con
   });
 }
 
-std::vector<std::string> unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held,
-                                           std::int64_t received_utc_ns) {
+std::vector<Message> unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held, std::int64_t received_utc_ns) {
   constexpr std::int64_t k_clocks_ns = 300'000'000'000;  // by which the clocks of station and ledger may differ
   constexpr std::int64_t k_network_ns = 60'000'000'000;  // for word of the end to come
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   for (const auto& [begun, ended] : held) {
     const bool known = std::any_of(day.holds.begin(), day.holds.end(), [&, from = begun, to = ended](const Hold& h) {
       const std::int64_t until = h.ended_by ? h.ended_utc_ns : received_utc_ns;
@@ -105,7 +104,7 @@ std::vector<std::string> unexplained_holds(const ExamDay& day, const std::string
     });
     if (!known)
       findings.push_back(
-          fmt::format("its clock was held for the office from {} to {}, and the ledger knows of no such pause", utc_text(begun), utc_text(ended)));
+          msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause", utc_text(begun), utc_text(ended)));
   }
   return findings;
 }

@@ -35,22 +35,21 @@ void or_damage(SessionExplanation& e, const Say& say) {
 void say_replay(SessionExplanation& e, const SessionReader& session, const grading::SchoolMark& mark) {
   const VerifyReport& report = mark.replay;
   if (report.intact) {
+    e.proved.push_back(msg("nothing in the file was changed since {}: {} seconds linked by SHA-256, each with its motion, forces, events and clocks",
+                           report.closed ? msg("station {} signed it", report.station_key) : msg("it was recorded"), session.chunks().size()));
     e.proved.push_back(
-        fmt::format("nothing in the file was changed since {}: {} seconds linked by SHA-256, each with its motion, forces, events and clocks",
-                    report.closed ? fmt::format("station {} signed it", report.station_key) : "it was recorded", session.chunks().size()));
-    e.proved.push_back(
-        fmt::format("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: {} ticks simulated", report.ticks_replayed));
+        msg("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: {} ticks simulated", report.ticks_replayed));
   }
   if (report.intact && session.closed() && mark.findings.empty() && mark.result.is_object())
-    e.proved.emplace_back(mark.sealed_otherwise.is_null() ? "the motion gives the recorded events and the sealed result again"
-                                                          : "the motion gives the recorded events again");
+    e.proved.emplace_back(mark.sealed_otherwise.is_null() ? msg("the motion gives the recorded events and the sealed result again")
+                                                          : msg("the motion gives the recorded events again"));
 }
 
 /// When and by whom the recording was closed.
 void say_closing(SessionExplanation& e, const SessionReader& session, const VerifyReport& report) {
   if (report.closed && report.intact)
-    e.proved.push_back(fmt::format("closed on {} by station {}{}", utc_text(session.seal()->clocks.utc_ns), report.station_key,
-                                   session.fact(k_station_fact) == report.station_key ? ", which signed its beginning, too" : ""));
+    e.proved.push_back(msg("closed on {} by station {}{}", utc_text(session.seal()->clocks.utc_ns), report.station_key,
+                           session.fact(k_station_fact) == report.station_key ? msg(", which signed its beginning, too") : Message()));
 }
 
 /// What the school promised, and whether this is it.
@@ -63,58 +62,58 @@ void say_ticket(SessionExplanation& e, const SessionReader& session, const Sessi
   e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
   if (wrong.empty())
     e.proved.push_back(
-        fmt::format("the school with key {} promised this exam to candidate {}: scenario, tooth, rubric and accommodations are those of the ticket, "
-                    "and it began within its time",
-                    ticket.public_key, ticket.candidate));
+        msg("the school with key {} promised this exam to candidate {}: scenario, tooth, rubric and accommodations are those of the ticket, and it "
+            "began within its time",
+            ticket.public_key, ticket.candidate));
   if (school_key.empty())
-    e.remarks.push_back(fmt::format(
-        "whether the key {}… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder",
-        ticket.public_key.substr(0, 16)));
+    e.remarks.push_back(
+        msg("whether the key {}… is your school's was not compared: name it with --school-key, or put its school.pub into the station's folder",
+            ticket.public_key.substr(0, 16)));
 }
 
 /// Of a session in which no ticket was found.
 void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
   if (!readable)
-    e.remarks.emplace_back("whether the session holds a ticket could not be read for certain");
+    e.remarks.emplace_back(msg("whether the session holds a ticket could not be read for certain"));
   else if (needed)
-    e.findings.emplace_back("the session holds no ticket: nobody promised this exam");
+    e.findings.emplace_back(msg("the session holds no ticket: nobody promised this exam"));
   else
-    e.remarks.emplace_back("there is no ticket: that this exam was asked for, and of whom, is not shown");
+    e.remarks.emplace_back(msg("there is no ticket: that this exam was asked for, and of whom, is not shown"));
 }
 
 /// What was tried to leave a locked exam.
 void say_attempts(SessionExplanation& e, const SessionReader& session) {
   for (const LockSummary& s : lock_summary(session.events()))
-    e.remarks.push_back(fmt::format("during the exam, {} s after its beginning: {}{}", fixed(static_cast<double>(s.first_tick) * 1e-3, 1),
-                                    lock_words(s.first), s.times > 1 ? fmt::format(" ({} times in all)", s.times) : ""));
+    e.remarks.push_back(msg("during the exam, {} after its beginning: {}{}", as_s(static_cast<double>(s.first_tick) * 1e-3, 1), lock_words(s.first),
+                            s.times > 1 ? msg(" ({} times in all)", s.times) : Message()));
 }
 
 /// Where it was recorded, how the clocks ran, and what lies beside the file.
 void say_circumstances(SessionExplanation& e, const SessionReader& session, const std::string& path) {
   for (const auto& event : session.events())
     if (event.as<RecordingMoved>() != nullptr)
-      e.remarks.push_back(
-          fmt::format("from {} s on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam",
-                      fixed(static_cast<double>(event.tick) * 1e-3, 1)));
+      e.remarks.push_back(msg("from {} on it was recorded at another place, for the first one refused: what lies there is the beginning of this exam",
+                              as_s(static_cast<double>(event.tick) * 1e-3, 1)));
   say_attempts(e, session);
   for (const auto& r : check_clocks(session))
-    e.remarks.push_back(fmt::format("from tick {} ({} s): {}", r.first_tick, fixed(static_cast<double>(r.first_tick) * 1e-3, 1), r.what));
+    e.remarks.push_back(msg("from tick {} ({}): {}", r.first_tick, as_s(static_cast<double>(r.first_tick) * 1e-3, 1), r.what));
   if (std::error_code none; std::filesystem::exists(path + "-wal", none) && std::filesystem::file_size(path + "-wal", none) > 0)
     e.remarks.push_back(
-        fmt::format("a log lies beside the file ({}-wal) and was read with it: when something does not hold, look at the file without it", path));
+        msg("a log lies beside the file ({}-wal) and was read with it: when something does not hold, look at the file without it", path));
 }
 
 /// What no file can show.
 void say_limits(SessionExplanation& e, bool closed, const std::string& station_key) {
   if (closed)
     e.remarks.push_back(
-        fmt::format("whether station {}… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own",
-                    station_key.substr(0, 16)));
-  e.remarks.emplace_back("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands");
+        msg("whether station {}… is one of the school's is known to its ledger only: anybody can sign a recording with a key of their own",
+            station_key.substr(0, 16)));
   e.remarks.emplace_back(
-      "not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "
-      "program");
-  e.remarks.emplace_back("that no other exam was sat with the same ticket is known to the ledger only");
+      msg("not shown by any file: whose hand held the stylus, and whether the station's own key or program was in the wrong hands"));
+  e.remarks.emplace_back(
+      msg("not shown by any file: that it was not ended before, where the station's memory was put back as it was, or its key was used by another "
+          "program"));
+  e.remarks.emplace_back(msg("that no other exam was sat with the same ticket is known to the ledger only"));
 }
 
 }  // namespace

@@ -163,31 +163,31 @@ std::string signed_results(const Registry& registry, const Ledger& ledger) {
   return facts.dump();
 }
 
-std::vector<std::string> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger) {
-  std::vector<std::string> findings;
+std::vector<Message> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger) {
+  std::vector<Message> findings;
   try {
     json facts = parse_json(text, "results");
     const std::string written = text.substr(0, text.find_last_not_of("\r\n") + 1);
-    if (facts.dump() != written) findings.emplace_back("the text was written anew: keys, spaces or numbers are not as the school wrote them");
+    if (facts.dump() != written) findings.emplace_back(msg("the text was written anew: keys, spaces or numbers are not as the school wrote them"));
     const std::string key = facts.at("public_key");
     const auto signature = fixed_from_hex<64>(facts.at("signature"), "signature");
     facts.erase("signature");
-    if (ledger == nullptr && !public_key.empty() && key != public_key) findings.emplace_back("the results are signed by another school's key");
+    if (ledger == nullptr && !public_key.empty() && key != public_key) findings.emplace_back(msg("the results are signed by another school's key"));
     if (!is_signed_by(fixed_from_hex<32>(key, "public_key"), results_message(facts), signature))
-      findings.emplace_back("the school's signature on the results does not hold: something was changed");
+      findings.emplace_back(msg("the school's signature on the results does not hold: something was changed"));
     if (ledger != nullptr) {
       const std::string id = facts.at("ledger");
       const Checkpoint seen = checkpoint_in(facts.at("checkpoint"), id, key, "results");
-      if (key != ledger->key_of(seen.size)) findings.emplace_back("the results are signed by a key that was not the school's at that time");
-      if (!is_signed_by_school(id, key, seen)) findings.emplace_back("the school's signature on the checkpoint does not hold");
+      if (key != ledger->key_of(seen.size)) findings.emplace_back(msg("the results are signed by a key that was not the school's at that time"));
+      if (!is_signed_by_school(id, key, seen)) findings.emplace_back(msg("the school's signature on the checkpoint does not hold"));
       check_history(*ledger, id, seen, "the export", findings);
     }
   } catch (const json::exception&) {
-    findings.emplace_back("are no exported results: name a file that `cavum ledger export --format json` wrote");
+    findings.emplace_back(msg("are no exported results: name a file that `cavum ledger export --format json` wrote"));
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(fmt::format("are no exported results: {}", e.what()));
+    findings.push_back(msg("are no exported results: {}", e.what()));
   }
   return findings;
 }

@@ -33,7 +33,7 @@ namespace cavum::ledger {
 /// Why `text` is not what signed_results wrote, in words; empty when it is. As check_receipt(): `public_key` (hexadecimal) is the school's, empty =
 /// the file's own; with a ledger's content also whether that still begins with what the export saw. The text has to be the one that was written, to
 /// the character: another program might read an object with a key twice, or a number with more digits, in another way.
-[[nodiscard]] std::vector<std::string> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
+[[nodiscard]] std::vector<Message> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
 
 /// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings, contested (their numbers),
 /// chosen, makes_up, made_up_by (entries of tickets, or empty), verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.

@@ -43,7 +43,7 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
   e.chain_sha256 = to_hex(session.seal()->chain_sha256);
   e.station_key = mark.replay.station_key;
   e.nonce = ticket_nonce_in(setup);
-  e.source = {one_line(setup.source.kind), one_line(setup.source.name), one_line(setup.source.serial)};
+  e.source = {setup.source.kind, one_line(setup.source.name), one_line(setup.source.serial)};
   e.simulated = one_line(simulated_by(session, setup));
   e.begun_utc_ns = session.created().utc_ns;
   e.closed_utc_ns = session.seal()->clocks.utc_ns;
@@ -114,8 +114,8 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   auto claimed = claims_of(ledger, session, options)(ledger.content());
   if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
     out.findings = std::move(claimed);
-    out.findings.push_back(fmt::format("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
-                                       fixed(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
+    out.findings.push_back(msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
+                               as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
     return out;
   }
   enter(ledger, image, session, grading::mark_again(session, grounds), options, std::move(claimed), seen, out);

@@ -14,9 +14,9 @@
 namespace cavum::ledger {
 
 struct Filing {
-  std::vector<std::string> findings;  ///< why it was not filed, or with what it was; empty for a sound session
-  std::vector<std::string> remarks;   ///< what is to be known beside: it was sealed by another version of grading
-  std::optional<std::uint64_t> seq;   ///< of the new entry; none: refused
+  std::vector<Message> findings;     ///< why it was not filed, or with what it was; empty for a sound session
+  std::vector<Message> remarks;      ///< what is to be known beside: it was sealed by another version of grading
+  std::optional<std::uint64_t> seq;  ///< of the new entry; none: refused
 };
 /// Simulates `session` tick by tick, runs its scenario and marks it again, checks station, source, clocks and ticket, keeps the file in the ledger's
 /// folder and enters it with the school's own mark. The file is read once: the bytes that are checked, with a log that lay beside them, are those
@@ -37,7 +37,7 @@ class MarkedRecording {
 
  private:
   friend Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options);
-  std::vector<std::string> findings_;
+  std::vector<Message> findings_;
   Bytes image_;
   SessionReader session_;
   grading::SchoolMark mark_;

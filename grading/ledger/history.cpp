@@ -60,15 +60,15 @@ Standing History::standing_of(const Checkpoint& seen) const {
 }
 
 Standing check_history(const History& ledger, const std::string& id, const Checkpoint& seen, const std::string& what,
-                       std::vector<std::string>& findings) {
+                       std::vector<Message>& findings) {
   if (ledger.ledger_id() != id) {
-    findings.push_back(what + " is of another ledger");
+    findings.push_back(msg("{} is of another ledger", what));
     return Standing::begins_with_it;
   }
   const Standing standing = ledger.standing_of(seen);
   if (standing == Standing::older_copy)
-    findings.push_back(fmt::format("the ledger was put back to an older copy: it has {} entries, {} saw {}", ledger.roots().size(), what, seen.size));
-  if (standing == Standing::rewritten) findings.push_back(fmt::format("the ledger no longer begins with what {} saw: history was rewritten", what));
+    findings.push_back(msg("the ledger was put back to an older copy: it has {} entries, {} saw {}", ledger.roots().size(), what, seen.size));
+  if (standing == Standing::rewritten) findings.push_back(msg("the ledger no longer begins with what {} saw: history was rewritten", what));
   return standing;
 }
 
@@ -76,23 +76,23 @@ void check_checkpoints(LedgerContent& c) {
   const History history(c);
   const auto& roots = history.roots();
   if (c.public_key.size() != 64 || c.public_key.find_first_not_of("0123456789abcdef") != std::string::npos) {
-    c.findings.push_back("entry 0: names no school's public key");
+    c.findings.push_back(msg("entry 0: names no school's public key"));
     return;
   }
   std::uint64_t expected = 0;
   for (const auto& p : c.checkpoints) {
     const std::string name = fmt::format("checkpoint {}", p.size);
     if (p.size != ++expected) {
-      c.findings.push_back(fmt::format("checkpoint {}: is missing", expected));
+      c.findings.push_back(msg("checkpoint {}: is missing", expected));
       expected = p.size;
     }
-    if (!is_signed_by_school(c.id, c.key_of(p.size), p)) c.findings.push_back(name + ": the school's signature does not hold");
+    if (!is_signed_by_school(c.id, c.key_of(p.size), p)) c.findings.push_back(msg("{}: the school's signature does not hold", name));
     if (p.size > roots.size())
-      c.findings.push_back(fmt::format("{}: signed for {} entries, and there are {}: entries were taken out", name, p.size, roots.size()));
+      c.findings.push_back(msg("{}: signed for {} entries, and there are {}: entries were taken out", name, p.size, roots.size()));
     else if (p.size > 0 && roots[p.size - 1] != p.root)
-      c.findings.push_back(fmt::format("{}: an entry up to number {} is not what the school signed", name, p.size - 1));
+      c.findings.push_back(msg("{}: an entry up to number {} is not what the school signed", name, p.size - 1));
   }
-  if (expected < c.entries.size()) c.findings.push_back(fmt::format("entry {}: the school has signed nothing from here on", expected));
+  if (expected < c.entries.size()) c.findings.push_back(msg("entry {}: the school has signed nothing from here on", expected));
 }
 
 void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
@@ -105,19 +105,18 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
     if (!is_signed_by_school(c.id, c.key_of(w.size), w)) {
       c.findings.push_back(
-          fmt::format("{}: the witness was changed at entry {}{}", witness_path(c.id), w.size,
-                      w.size > roots.size() ? ", or an older copy of the ledger was put back, from before the school's key was replaced" : ""));
+          msg("{}: the witness was changed at entry {}{}", witness_path(c.id), w.size,
+              w.size > roots.size() ? msg(", or an older copy of the ledger was put back, from before the school's key was replaced") : Message()));
       return;
     }
     if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;
     if (standing == Standing::rewritten && other == nullptr) other = &w;
   }
   if (ahead != nullptr)
-    c.findings.push_back(fmt::format("the ledger was put back to an older copy: it has {} entries, and had {} on {}", roots.size(), ahead->size,
-                                     utc_text(ahead->utc_ns)));
-  if (other != nullptr)
     c.findings.push_back(
-        fmt::format("the ledger's first {} entries are not those of {}: history was rewritten", other->size, utc_text(other->utc_ns)));
+        msg("the ledger was put back to an older copy: it has {} entries, and had {} on {}", roots.size(), ahead->size, utc_text(ahead->utc_ns)));
+  if (other != nullptr)
+    c.findings.push_back(msg("the ledger's first {} entries are not those of {}: history was rewritten", other->size, utc_text(other->utc_ns)));
 }
 
 }  // namespace cavum::ledger

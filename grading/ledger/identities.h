@@ -24,7 +24,7 @@ class Identities {
   /// Opens the file; with `make` makes it (mode 0600). Throws Error, also when it is missing: names that are lost are restored, not begun anew.
   explicit Identities(const std::string& path, bool make = false);
   /// What does not hold, in words: a row that the school's key did not seal, so that marks would go to somebody else.
-  [[nodiscard]] std::vector<std::string> check(const SigningKey& school);
+  [[nodiscard]] std::vector<Message> check(const SigningKey& school);
   /// Seals all rows with another key of the school. Throws Error when neither `before` nor `now` has sealed one of them.
   void seal_again(const SigningKey& before, const SigningKey& now);
   /// The candidate's pseudonym for an exam: as before, or a new one. Throws Error when `id` is empty or no plain text.

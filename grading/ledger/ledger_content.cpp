@@ -20,15 +20,15 @@ namespace cavum::ledger {
 namespace {
 
 /// What the row says, as far as it can be read; else a finding.
-LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, std::vector<std::string>& findings) {
+LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, std::vector<Message>& findings) {
   const std::string name = fmt::format("entry {}", seq);
-  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(name + ": its text was changed after it was entered");
+  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(msg("{}: its text was changed after it was entered", name));
   LedgerEntry e;
   try {
     e = read_entry(text, name);
-    if (entry_text(e) != text) findings.push_back(name + ": is not written as this program writes entries: keys, spaces or numbers");
-    if (e.seq != seq) findings.push_back(fmt::format("{}: was entered as number {}: entries were moved", name, e.seq));
-    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(name + ": begins a ledger a second time");
+    if (entry_text(e) != text) findings.push_back(msg("{}: is not written as this program writes entries: keys, spaces or numbers", name));
+    if (e.seq != seq) findings.push_back(msg("{}: was entered as number {}: entries were moved", name, e.seq));
+    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back(msg("{}: begins a ledger a second time", name));
   } catch (const Error& wrong) {
     findings.push_back(english_text(wrong.without_advice()));
     e.text = text;
@@ -55,18 +55,18 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
       const bool there = found != stored.end();
       const auto by = erased_by(c.erased, e.seq, part);
       named.insert(opening->sha256);
-      if (!there && !by) c.findings.push_back(name + " was taken out of the ledger");
-      if (there && by) c.findings.push_back(fmt::format("{} was erased by entry {}, and stands there again", name, *by));
+      if (!there && !by) c.findings.push_back(msg("{} was taken out of the ledger", name));
+      if (there && by) c.findings.push_back(msg("{} was erased by entry {}, and stands there again", name, *by));
       if (!there) continue;
       try {
         opening->value = opened_value(found->second, opening->sha256, "opening");
       } catch (const Error&) {
-        c.findings.push_back(name + " was changed after it was entered");
+        c.findings.push_back(msg("{} was changed after it was entered", name));
       }
     }
   }
   for (const auto& [hash, text] : stored)
-    if (!named.contains(hash)) c.findings.push_back(fmt::format("opening {}: belongs to no entry; it was put into the ledger's file", hash));
+    if (!named.contains(hash)) c.findings.push_back(msg("opening {}: belongs to no entry; it was put into the ledger's file", hash));
 }
 
 std::map<std::string, std::string> stored_openings(Database& db) {
@@ -84,7 +84,7 @@ void read_documents(Database& db, LedgerContent& c) {
     while (rows.step()) {
       const std::string hash = to_hex(rows.fixed_blob<32>(0));
       Bytes bytes = rows.blob(1);
-      if (to_hex(sha256(bytes)) != hash) c.findings.push_back(fmt::format("document {}: was changed after it was entered", hash));
+      if (to_hex(sha256(bytes)) != hash) c.findings.push_back(msg("document {}: was changed after it was entered", hash));
       c.documents[hash] = std::move(bytes);
     }
   }
@@ -94,10 +94,10 @@ void read_documents(Database& db, LedgerContent& c) {
       for (const auto& [name, hash] : regrade->by) {
         named.insert(hash);
         if (!c.documents.contains(hash))
-          c.findings.push_back(fmt::format("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name));
+          c.findings.push_back(msg("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name));
       }
   for (const auto& [hash, bytes] : c.documents)
-    if (!named.contains(hash)) c.findings.push_back(fmt::format("document {}: belongs to no entry; it was put into the ledger's file", hash));
+    if (!named.contains(hash)) c.findings.push_back(msg("document {}: belongs to no entry; it was put into the ledger's file", hash));
 }
 
 /// Notes and cosignatures as they are stored; read when the ledger's id and key are known.
@@ -122,7 +122,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
       if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
-        c.findings.push_back(name + ": its note is not as the school wrote it");
+        c.findings.push_back(msg("{}: its note is not as the school wrote it", name));
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
       c.findings.push_back(english_text(e.without_advice()));
@@ -184,7 +184,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
     auto rows = db.prepare("SELECT seq, text, leaf_sha256 FROM entry ORDER BY seq");
     for (std::uint64_t expected = 0; rows.step(); ++expected) {
       const auto seq = static_cast<std::uint64_t>(rows.integer(0));
-      if (seq != expected) c.findings.push_back(fmt::format("entry {}: is missing", expected));
+      if (seq != expected) c.findings.push_back(msg("entry {}: is missing", expected));
       expected = seq;
       c.entries.push_back(parse_entry(seq, rows.text(1), rows.fixed_blob<32>(2), c.findings));
     }
@@ -196,7 +196,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   take_openings(c, openings);
   const auto* init = c.entries.empty() ? nullptr : c.entries[0].as<InitEntry>();
   if (init == nullptr) {
-    c.findings.emplace_back("entry 0: does not begin a ledger");
+    c.findings.emplace_back(msg("entry 0: does not begin a ledger"));
     return c;
   }
   c.id = init->ledger;
@@ -208,7 +208,7 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
     if (e.utc_ns < before)
-      c.remarks.push_back(fmt::format("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq));
+      c.remarks.push_back(msg("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq));
     before = e.utc_ns;
   }
   return c;
@@ -228,7 +228,7 @@ LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
   } catch (const DatabaseError&) {  // a folder that may only be read, or damage: then from a copy in memory
   }
   const auto from_copy = [&] {
-    std::vector<std::string> findings;
+    std::vector<Message> findings;
     Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
     try {
       LedgerContent c = read_content(copy, places.database(), AskWitness::no);

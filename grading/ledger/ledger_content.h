@@ -47,8 +47,8 @@ struct LedgerContent {
   std::vector<Cosignature> cosignatures;   ///< by size; whose they are is not checked here
   std::map<std::string, Bytes> documents;  ///< by SHA-256 (hexadecimal): what results were marked anew by
   Erased erased;                           ///< what entries say was erased
-  std::vector<std::string> findings;       ///< in words; empty when entries, tree and signatures hold
-  std::vector<std::string> remarks;        ///< what is odd and may be harmless: a clock that was set back
+  std::vector<Message> findings;           ///< in words; empty when entries, tree and signatures hold
+  std::vector<Message> remarks;            ///< what is odd and may be harmless: a clock that was set back
   /// The key that signs a tree of this size; of a larger one than there is, the last.
   [[nodiscard]] const std::string& key_of(std::uint64_t size) const;
   /// True when the school has had it.

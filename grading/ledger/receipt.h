@@ -11,6 +11,6 @@ namespace cavum::ledger {
 [[nodiscard]] nlohmann::json make_receipt(const LedgerContent& content, std::uint64_t seq, std::uint64_t from_size = 0);
 /// What a receipt does not show, in words; empty when it holds. `public_key` (hexadecimal): the school's; empty = the receipt's own. With a ledger's
 /// content also whether that still begins with what the receipt saw.
-[[nodiscard]] std::vector<std::string> check_receipt(const nlohmann::json& receipt, const std::string& public_key, const LedgerContent* ledger);
+[[nodiscard]] std::vector<Message> check_receipt(const nlohmann::json& receipt, const std::string& public_key, const LedgerContent* ledger);
 
 }  // namespace cavum::ledger

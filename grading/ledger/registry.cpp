@@ -44,9 +44,7 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    const auto say = [&](const std::string& what) {
-      r.remarks.push_back(fmt::format("entry {}: has not released entry {}, for {}", seq, s.seq, what));
-    };
+    const auto say = [&](const std::string& what) { r.remarks.push_back(msg("entry {}: has not released entry {}, for {}", seq, s.seq, what)); };
     if (const FiledSession* other = r.chosen_instead_of(s)) {
       say(fmt::format("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;
@@ -325,7 +323,7 @@ class RegistryReader {
   void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
 
  private:
-  void say(const std::string& what) { r_.findings.push_back(fmt::format("entry {}: {}", e_->seq, what)); }
+  void say(const std::string& what) { r_.findings.push_back(msg("entry {}: {}", e_->seq, what)); }
   FiledSession& session(std::uint64_t seq) { return r_.sessions.at(by_session_.at(seq)); }
 
   /// Of the first sitting nothing counts from now on.

@@ -76,7 +76,7 @@ Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t no
   Station s;
   s.public_key = request.public_key;
   s.enrolled_utc_ns = now_utc_ns;
-  for (const auto& d : request.devices) s.devices.push_back({"device", d.name, d.serial});
+  for (const auto& d : request.devices) s.devices.push_back({SourceKind::device, d.name, d.serial});
   if (asked.code_signature.empty()) {
     Station* old = station_in(r, request.by);
     if (old == nullptr || old->revoked_utc_ns || !old->replaced_by.empty())

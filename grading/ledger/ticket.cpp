@@ -78,24 +78,23 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
   return t;
 }
 
-std::vector<std::string> check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
-  std::vector<std::string> findings;
-  if (setup.candidate != t.candidate)
-    findings.push_back(fmt::format("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate));
+std::vector<Message> check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
+  std::vector<Message> findings;
+  if (setup.candidate != t.candidate) findings.push_back(msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate));
   const auto examined = examined_artifacts(setup);
   for (const auto& [name, hash] : t.artifacts) {
     const auto found = examined.find(name);
     if (found == examined.end())
-      findings.push_back(fmt::format("the ticket promises {}, which the exam does not have", name));
+      findings.push_back(msg("the ticket promises {}, which the exam does not have", name));
     else if (found->second != hash)
-      findings.push_back(name + " is not the one that the ticket promises");
+      findings.push_back(msg("{} is not the one that the ticket promises", name));
   }
   for (const auto& [name, hash] : examined)
-    if (!t.artifacts.contains(name)) findings.push_back(fmt::format("the exam has {}, of which the ticket says nothing", name));
-  if (accommodations_in(setup) != t.grant) findings.emplace_back("the accommodations are not those that the ticket grants");
+    if (!t.artifacts.contains(name)) findings.push_back(msg("the exam has {}, of which the ticket says nothing", name));
+  if (accommodations_in(setup) != t.grant) findings.emplace_back(msg("the accommodations are not those that the ticket grants"));
   if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
-    findings.push_back(fmt::format("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns),
-                                   utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns)));
+    findings.push_back(msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns), utc_text(t.not_before_utc_ns),
+                           utc_text(t.not_after_utc_ns)));
   return findings;
 }
 

@@ -49,7 +49,7 @@ void require_signed(const Ticket& ticket, const std::string& signature, const st
 
 /// What about the exam is not as promised, in words: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
 /// time.
-[[nodiscard]] std::vector<std::string> check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
+[[nodiscard]] std::vector<Message> check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
 
 /// "2026-11-21T09:00Z" or "2026-11-21T09:00:00Z" in ns since 1970; throws Error(`where`, ...).
 [[nodiscard]] std::int64_t parse_utc(const std::string& text, const std::string& where);

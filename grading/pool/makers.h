@@ -22,7 +22,7 @@ struct Run {
 struct Made {
   std::vector<std::string> lines;    ///< in the order of the list; empty where none could be made
   std::vector<std::size_t> missing;  ///< those
-  std::vector<std::string> remarks;  ///< what was made again, and why
+  std::vector<Message> remarks;      ///< what was made again, and why
   std::size_t found = 0;             ///< lines that were there already
   Spent spent;                       ///< by those that are there, whoever made them
   double wall_s = 0;                 ///< of this run

@@ -119,7 +119,7 @@ Parts read_parts(const Work& work, const std::vector<std::string>& files) {
       kept = std::string(row->line);
       parts.spent[row->index] = row->spent;
     }
-    if (wrong > 0) parts.remarks.push_back(fmt::format("{}: {} of {} rows are damaged, or of other work", file, wrong, rows));
+    if (wrong > 0) parts.remarks.push_back(msg("{}: {} of {} rows are damaged, or of other work", file, wrong, rows));
   }
   return parts;
 }

@@ -35,7 +35,7 @@ class PartWriter {
 struct Parts {
   std::vector<std::optional<std::string>> lines;  ///< by index; none: missing
   std::vector<Spent> spent;                       ///< by index
-  std::vector<std::string> remarks;               ///< files that are damaged or of other work, each once
+  std::vector<Message> remarks;                   ///< files that are damaged or of other work, each once
   [[nodiscard]] std::vector<std::size_t> missing() const;
 };
 /// Reads part files. Throws Error when one cannot be read, or when two hold different lines of one session: then two machines do not compute the

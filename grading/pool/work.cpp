@@ -110,7 +110,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
   const std::string& name = work.sessions[index];
   json line{{"session", name}};
   try {
-    std::vector<std::string> findings;
+    std::vector<Message> findings;
     const Bytes image = read_session_image(work.folder.empty() ? name : work.folder + "/" + name, findings);
     line["sha256"] = to_hex(sha256(image));
     const SessionReader session(image, name);

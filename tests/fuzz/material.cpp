@@ -57,7 +57,7 @@ Bytes record_session() {
       const TickRecord record = make_tick_record(step(simulation.model, simulation.state, input));
       recorder.append(input, record, simulation.state.removed, state_hash(simulation.state));
       if (tick == 15) {
-        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{"device", "none"}, "none"}});
+        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{SourceKind::device, "none"}, "none"}});
         recorder.flush();
       }
     }

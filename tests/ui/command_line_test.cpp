@@ -366,7 +366,7 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
   for (const auto& row : done.event_rows())
     if (const auto* gap = row.as<RecordingGap>()) {
       ++gaps;
-      EXPECT_EQ(gap->by.source, (MotionSource{"motion_file", "go_on.csv", ""}));
+      EXPECT_EQ(gap->by.source, (MotionSource{SourceKind::motion_file, "go_on.csv", ""}));
       EXPECT_EQ(gap->by.device, "motion file");
       EXPECT_EQ(gap->by.notes, (Notes{{"motion_file", "go_on.csv"}}));
     }

@@ -23,7 +23,7 @@ class SimulatedSource final : public LiveSource {
  public:
   explicit SimulatedSource(LiveSourceOptions options) : options_(std::move(options)) {}
   [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + options_.operator_name; }
-  [[nodiscard]] MotionSource source() const override { return {"operator", options_.operator_name}; }
+  [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, options_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] Notes notes() const override {
     return {{"operator", options_.operator_name}, {"operator_seed", std::to_string(options_.seed)}, {"in_real_time", "yes"}};
@@ -52,7 +52,7 @@ class StylusSource final : public LiveSource {
     with_desk_ = std::make_unique<WithDesk>(*with_pedal_, desk_);
   }
   [[nodiscard]] std::string name() const override { return stylus_->facts().name; }
-  [[nodiscard]] MotionSource source() const override { return {"device", stylus_->facts().id, stylus_->facts().serial}; }
+  [[nodiscard]] MotionSource source() const override { return {SourceKind::device, stylus_->facts().id, stylus_->facts().serial}; }
   [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
   [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }
   [[nodiscard]] double continuous_n() const override { return stylus_->facts().continuous_n; }

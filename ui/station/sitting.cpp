@@ -134,7 +134,7 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
 
 MotionSource Sitting::source() const {
   const MotionSource hand = device_->source();
-  return options_.practice ? MotionSource{"practice", hand.name, hand.serial} : hand;
+  return options_.practice ? MotionSource{SourceKind::practice, hand.name, hand.serial} : hand;
 }
 
 Sitting::~Sitting() {

@@ -23,7 +23,7 @@ class SimulatedHand final : public StationDevice {
     static_cast<void>(scenarios::make_skill(choice_.operator_name, choice_.seed));
   }
   [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + choice_.operator_name; }
-  [[nodiscard]] MotionSource source() const override { return {"operator", choice_.operator_name}; }
+  [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, choice_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
     return {{"operator", choice_.operator_name}, {"operator_seed", std::to_string(choice_.seed)}};
@@ -50,7 +50,7 @@ class Mouse final : public StationDevice {
  public:
   explicit Mouse(const StylusKind& kind) : kind_(kind) {}
   [[nodiscard]] std::string name() const override { return kind_.facts.name; }
-  [[nodiscard]] MotionSource source() const override { return {"pointer", "mouse and keyboard"}; }
+  [[nodiscard]] MotionSource source() const override { return {SourceKind::pointer, "mouse and keyboard"}; }
   [[nodiscard]] double position_quantum_mm() const override { return kind_.facts.position_quantum_mm; }
   void prepare(const scenarios::ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;

@@ -14,7 +14,7 @@ namespace {
 
 MotionSource stylus(const std::string& id) {
   const StylusKind& kind = stylus_kinds().at(id, Name{"--stylus " + id}, {StylusHand::person});
-  return {"device", id, kind.serial ? kind.serial(load_station_stylus(kind)) : ""};
+  return {SourceKind::device, id, kind.serial ? kind.serial(load_station_stylus(kind)) : ""};
 }
 
 }  // namespace

@@ -95,8 +95,8 @@ std::unique_ptr<scenarios::InputSource> make_source(const ExamArguments& o, cons
 std::string source_name(const ExamArguments& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
 
 MotionSource motion_source(const ExamArguments& o) {
-  if (!o.motion.empty()) return {"motion_file", std::filesystem::path(o.motion).filename().string()};
-  return {"operator", o.operator_name};
+  if (!o.motion.empty()) return {SourceKind::motion_file, std::filesystem::path(o.motion).filename().string()};
+  return {SourceKind::simulated_operator, o.operator_name};
 }
 
 Notes source_notes(const ExamArguments& o) {

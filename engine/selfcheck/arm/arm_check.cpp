@@ -1,7 +1,5 @@
 #include "engine/selfcheck/arm/arm_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <vector>
@@ -30,13 +28,12 @@ void wait_until_near(ArmServo& servo, const ArmCheckOptions& o, double near) {
   servo.push({});
   const auto off_mm = [&] { return length(servo.at_mm() - o.home_mm); };
   if (off_mm() <= near) return;
-  if (o.tell) o.tell({"Bring the stylus to the middle of its reach.", 0.0});
+  if (o.tell) o.tell({msg("Bring the stylus to the middle of its reach."), 0.0});
   for (const double until = servo.now_s() + o.patience_s; off_mm() > 0.75 * near;) {
     servo.look();
     servo.push({});
     if (servo.now_s() > until)
-      throw ArmStopped(
-          fmt::format("it stands {} mm from the middle of its reach; bring it there, let go of it, and begin again", std::lround(off_mm())));
+      throw ArmStopped(msg("it stands {} mm from the middle of its reach; bring it there, let go of it, and begin again", std::lround(off_mm())));
   }
 }
 
@@ -54,7 +51,7 @@ void take_home(ArmServo& servo, const ArmCheckOptions& o, double near) {
   }
   servo.rest(o.home_mm, k_settle_s, true);
   if (length(servo.at_mm() - o.home_mm) > k_arrived_mm)
-    throw ArmStopped(fmt::format("{} N do not hold it in the middle of its reach; take the hand off it, balance it, and begin again", o.most_n));
+    throw ArmStopped(msg("{} N do not hold it in the middle of its reach; take the hand off it, balance it, and begin again", o.most_n));
   servo.set_leash(k_leash_mm);
 }
 
@@ -83,19 +80,19 @@ void require_still(ArmServo& servo, double quantum_mm) {
   for (int i = 0; i < k_watches; ++i)
     if (moved_mm = restlessness_mm(servo); moved_mm <= std::max(k_still_mm, k_still_steps * quantum_mm)) return;
   throw ArmStopped(
-      fmt::format("it moves by {:.2f} mm while it should stand still; take the hand off it, keep the table quiet, and begin again", moved_mm));
+      msg("it moves by {} while it should stand still; take the hand off it, keep the table quiet, and begin again", as_mm(moved_mm, 2)));
 }
 
 /// What the passes themselves say against the figures.
-std::string doubt_of(const ArmFigures& f) {
+Message doubt_of(const ArmFigures& f) {
   constexpr double k_most_friction_error_n = 0.03, k_most_mass_error = 0.05;
   for (std::size_t i = 0; i < 3; ++i) {
     if (f.axes[i].friction_error_n > k_most_friction_error_n)
-      return fmt::format("friction along {} was not the same twice (to {:.3f} N); take the hand off it, and begin again", k_axes_of_check[i],
-                         f.axes[i].friction_error_n);
+      return msg("friction along {} was not the same twice (to {}); take the hand off it, and begin again", k_axes_of_check[i],
+                 as_n(f.axes[i].friction_error_n, 3));
     if (f.axes[i].mass_error > k_most_mass_error)
-      return fmt::format("it did not swing evenly along {} (to {:.0f} %); take the hand off it, and begin again", k_axes_of_check[i],
-                         100.0 * f.axes[i].mass_error);
+      return msg("it did not swing evenly along {} (to {}); take the hand off it, and begin again", k_axes_of_check[i],
+                 as_percent(100.0 * f.axes[i].mass_error));
   }
   return {};
 }
@@ -103,7 +100,7 @@ std::string doubt_of(const ArmFigures& f) {
 void take_masses(const std::vector<SwingFit>& fits, ArmFigures& f) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!fits[axis].solved)
-      throw ArmStopped(fmt::format("its swing along {} could not be read; take the hand off it, and begin again", k_axes_of_check[axis]));
+      throw ArmStopped(msg("its swing along {} could not be read; take the hand off it, and begin again", k_axes_of_check[axis]));
     f.axes[axis].mass_kg = fits[axis].mass_kg;
     f.axes[axis].mass_error = fits[axis].mass_error;
   }
@@ -135,7 +132,7 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   const StylusHealth before = stylus.health();
   if (before.problem) throw Error(*before.problem);
   ArmFigures f;
-  const auto tell = [&](const char* words, double share) {
+  const auto tell = [&](const Message& words, double share) {
     if (o.tell) o.tell({words, share});
   };
   ArmServo servo(stylus, o.home_mm, std::min(o.most_n, stylus.facts().continuous_n), o.clock ? o.clock : real_arm_clock(), o.stop);
@@ -144,29 +141,29 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   try {
     wait_until_near(servo, o, near_mm(stylus));
     began_s = servo.now_s();
-    tell("Let go of the stylus. It is pushed gently, by 1 N at most.", 0.02);
+    tell(msg("Let go of the stylus. It is pushed gently, by 1 N at most."), 0.02);
     take_home(servo, o, near_mm(stylus));
     require_still(servo, stylus.facts().position_quantum_mm);
     for (std::size_t axis = 0; axis < 3; ++axis) {
-      tell("Friction: it goes slowly forth and back. Do not touch it.", 0.1 + 0.15 * static_cast<double>(axis));
+      tell(msg("Friction: it goes slowly forth and back. Do not touch it."), 0.1 + 0.15 * static_cast<double>(axis));
       drag_axis(servo, axis, f);
     }
     f.doubt = doubt_of(f);
     f.dragged = f.doubt.empty();
     for (std::size_t axis = 0; axis < 3 && f.doubt.empty(); ++axis) {
-      tell("Strength: it swings. Do not touch it.", 0.55 + 0.15 * static_cast<double>(axis));
+      tell(msg("Strength: it swings. Do not touch it."), 0.55 + 0.15 * static_cast<double>(axis));
       f.doubt = too_heavy_to_swing(servo, axis, f);
       if (f.doubt.empty()) swings[axis] = swing_axis(servo, axis, f);
     }
     stylus.cut_force();
     if (f.doubt.empty()) {
-      tell("Working it out.", 0.99);
+      tell(msg("Working it out."), 0.99);
       take_masses(fit_swings(swings), f);
     }
     if (f.doubt.empty()) f.doubt = doubt_of(f);
   } catch (const ArmStopped& stopped) {
     f.dragged = false;  // whatever stopped it may have been there before
-    f.doubt = stopped.what();
+    f.doubt = stopped.why();
   }
   stylus.cut_force();
   f.seconds = servo.now_s() - began_s;
@@ -175,7 +172,7 @@ ArmFigures check_arm(Stylus& stylus, const ArmCheckOptions& o) {
   const StylusHealth after = stylus.health();
   if (servo.now_s() > 0.0) f.rate_hz = static_cast<double>(after.readings - before.readings) / servo.now_s();
   f.jitter_ms = 1e3 * after.jitter_s;
-  tell("Done.", 1.0);
+  tell(msg("Done."), 1.0);
   return f;
 }
 

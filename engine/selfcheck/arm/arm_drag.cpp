@@ -1,7 +1,5 @@
 #include "engine/selfcheck/arm/arm_drag.h"
 
-#include <fmt/core.h>
-
 #include <array>
 #include <cmath>
 #include <vector>
@@ -47,9 +45,9 @@ void drag_axis(ArmServo& servo, std::size_t axis, ArmFigures& figures) {
       blocked_s = strained ? blocked_s + servo.dt_s() : 0.0;
       if (blocked_s > k_blocked_s)
         throw ArmStopped(
-            fmt::format("it does not follow {} N along {}: take the hand off it, and what stands in its way, and begin again; when nothing "
-                        "does, its joints are stuck",
-                        servo.most_n(), k_axis_names[axis]));
+            msg("it does not follow {} N along {}: take the hand off it, and what stands in its way, and begin again; when nothing does, its joints "
+                "are stuck",
+                servo.most_n(), k_axis_names[axis]));
     }
   };
   move_end(k_drag_mm);
@@ -63,8 +61,7 @@ void drag_axis(ArmServo& servo, std::size_t axis, ArmFigures& figures) {
     half_width.push_back(0.5 * (forth[i] - back[i]));
     middle.push_back(0.5 * (forth[i] + back[i]));
     if (!std::isfinite(half_width.back()))
-      throw ArmStopped(
-          fmt::format("it did not go the way along {}: take the hand off it, and what stands in its way, and begin again", k_axis_names[axis]));
+      throw ArmStopped(msg("it did not go the way along {}: take the hand off it, and what stands in its way, and begin again", k_axis_names[axis]));
   }
   const MeanSd friction = mean_sd(half_width);
   ArmAxis& a = figures.axes[axis];

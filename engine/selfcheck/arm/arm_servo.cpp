@@ -32,7 +32,7 @@ ArmServo::ArmServo(Stylus& stylus, Vec3 home_mm, double most_n, ArmClock clock, 
 
 void ArmServo::look() {
   constexpr int k_most_silent = 500;
-  if (stop_ && stop_()) throw ArmStopped("it was stopped; begin it again");
+  if (stop_ && stop_()) throw ArmStopped(msg("it was stopped; begin it again"));
   const std::int64_t now = clock_();
   if (last_ns_ != 0) {
     dt_s_ = static_cast<double>(now - last_ns_) * 1e-9;
@@ -64,7 +64,7 @@ void ArmServo::look() {
   at_mm_ = r.pose.tip_mm;
   if (length(at_mm_ - home_mm_) > leash_mm_) {
     stylus_.cut_force();
-    throw ArmStopped("it was carried off from where it is checked; take the hand off it, and begin again");
+    throw ArmStopped(msg("it was carried off from where it is checked; take the hand off it, and begin again"));
   }
 }
 

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "engine/device/stylus.h"
 
 namespace cavum {
@@ -16,7 +17,11 @@ namespace cavum {
 /// Why a check was given up: what was felt, and what to do.
 class ArmStopped : public std::runtime_error {
  public:
-  using std::runtime_error::runtime_error;
+  explicit ArmStopped(Message why) : std::runtime_error(english_text(why)), why_(std::move(why)) {}
+  [[nodiscard]] const Message& why() const noexcept { return why_; }
+
+ private:
+  Message why_;
 };
 
 struct ArmSample {

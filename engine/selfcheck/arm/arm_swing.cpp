@@ -1,7 +1,5 @@
 #include "engine/selfcheck/arm/arm_swing.h"
 
-#include <fmt/core.h>
-
 #include <Eigen/Dense>
 #include <algorithm>
 #include <array>
@@ -218,11 +216,11 @@ double swing_force_n(const ArmServo& servo, std::size_t axis, const ArmFigures& 
 
 }  // namespace
 
-std::string too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
+Message too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
   constexpr double k_least_over_friction = 1.15;
   if (swing_force_n(servo, axis, figures) >= k_least_over_friction * figures.axes[axis].friction_n) return {};
-  return fmt::format("weight and friction along {} leave too little of {} N to swing it; balance it, or have its joints seen to", k_swing_names[axis],
-                     servo.most_n());
+  return msg("weight and friction along {} leave too little of {} to swing it; balance it, or have its joints seen to", k_swing_names[axis],
+             as_n(servo.most_n(), k_as_needed));
 }
 
 std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
@@ -244,8 +242,7 @@ std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const Arm
       lowest_mm = at = -at;
       turned_s = servo.now_s();
     } else if (servo.now_s() - turned_s > k_lost_s) {
-      throw ArmStopped(
-          fmt::format("it does not swing along {}: take the hand off it, and what stands in its way, and begin again", k_swing_names[axis]));
+      throw ArmStopped(msg("it does not swing along {}: take the hand off it, and what stands in its way, and begin again", k_swing_names[axis]));
     }
     Vec3 force = servo.hold(servo.home_mm());
     force += along_axis(axis, weight + way * swing_n - on_axis(force, axis));

@@ -31,7 +31,7 @@ struct SwingFit {
 [[nodiscard]] std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swings);
 
 /// Why a newton does not swing the arm along `axis` as it was dragged; empty when it does.
-[[nodiscard]] std::string too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures);
+[[nodiscard]] Message too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures);
 /// Swings the arm along `axis`, whose friction and weight are known from its drag; leaves it at home. Throws ArmStopped when it does not swing.
 [[nodiscard]] std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const ArmFigures& figures);
 

@@ -59,7 +59,7 @@ void name_side(std::vector<CuspTip>& side, bool buccal, std::size_t before) {
 
 }  // namespace
 
-std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table, double least_z, std::vector<std::string>& notes) {
+std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table, double least_z, std::vector<Message>& notes) {
   auto peaks = find_peaks(maps.cusps, k_worn_cusp_mm);
   std::erase_if(peaks, [&](const Peak& p) { return maps.cusps.at(p.cell) < least_z; });
   std::vector<Vec3> clear;
@@ -87,9 +87,12 @@ std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<Occlu
         if (std::any_of(table->edge.begin(), table->edge.end(), [&](int c) { return flat_distance(maps.cusps.place(c), at) < k_on_edge_mm; }))
           take(p, sides[s]);
       }
-      const char* name = s == 0 ? "buccal" : "lingual";
-      notes.push_back(sides[s].empty() ? fmt::format("no {} cusp stands out by {:.2f} mm", name, k_worn_cusp_mm)
-                                       : fmt::format("the {} cusps are worn or small: they stand out by less than {:.2f} mm", name, k_cusp_mm));
+      const Number out = as_mm(k_worn_cusp_mm, 2);
+      const bool none = sides[s].empty();
+      notes.push_back(s == 0 ? none ? msg("no buccal cusp stands out by {}", out)
+                                    : msg("the buccal cusps are worn or small: they stand out by less than {}", out)
+                      : none ? msg("no lingual cusp stands out by {}", out)
+                             : msg("the lingual cusps are worn or small: they stand out by less than {}", out));
     }
   }
   const std::size_t buccal = sides[0].size();

@@ -131,7 +131,7 @@ void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std:
     ground.high_x = std::max(ground.high_x, map.place(c).x);
   }
   if (!groove || !marks.mesial.lowest_mm || !marks.distal.lowest_mm) {
-    marks.notes.emplace_back("no ridges and fissures: no groove runs from end to end between a buccal and a lingual side");
+    marks.notes.emplace_back(msg("no ridges and fissures: no groove runs from end to end between a buccal and a lingual side"));
     marks.central_pit = middle_hollow(ground, k_fossa_mm, {});
     return;
   }
@@ -145,13 +145,15 @@ void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std:
   for (const auto& pit : std::array{marks.mesial_pit, marks.distal_pit})
     if (pit) pits.push_back(*pit);
   marks.central_pit = middle_hollow(ground, k_central_mm, pits);
-  for (const auto& [pit, word] : {std::pair{mesial, "mesial"}, {distal, "distal"}})
+  for (const auto& [pit, is_mesial] : {std::pair{mesial, true}, {distal, false}})
     if (!pit)
       marks.notes.push_back(
-          fmt::format("no {} pit: the groove runs over the ridge; the fissure is drawn to {:.1f} mm from its crest", word, k_usual_from_crest_mm));
+          is_mesial
+              ? msg("no mesial pit: the groove runs over the ridge; the fissure is drawn to {} from its crest", as_mm(k_usual_from_crest_mm, 1))
+              : msg("no distal pit: the groove runs over the ridge; the fissure is drawn to {} from its crest", as_mm(k_usual_from_crest_mm, 1)));
   const std::size_t first = fissure_begin(map, inwards, mesial), last = inwards.size() - 1 - fissure_begin(map, back, distal);
   if (first + 8 > last) {
-    marks.notes.emplace_back("no central fissure: its ends lie too near together");
+    marks.notes.emplace_back(msg("no central fissure: its ends lie too near together"));
     return;
   }
   std::vector<int> fissure(inwards.begin() + static_cast<std::ptrdiff_t>(first), inwards.begin() + static_cast<std::ptrdiff_t>(last) + 1);

@@ -55,7 +55,7 @@ double small_angle_deg(Vec3 a, Vec3 b) {
   return 2 * k_degrees * half * (1 + half * half / 6);
 }
 
-void add_notes(std::vector<std::string>& all, const std::vector<std::string>& more) { all.insert(all.end(), more.begin(), more.end()); }
+void add_notes(std::vector<Message>& all, const std::vector<Message>& more) { all.insert(all.end(), more.begin(), more.end()); }
 
 double mean_z(const std::vector<Vec3>& line) {
   double sum = 0;
@@ -68,12 +68,12 @@ Landmarks found_landmarks(const Tooth& tooth) {
   const TissueIds ids = tissue_ids(tooth);
   const CrownFrame frame = crown_frame(tooth, ids);
   if (ids.enamel == k_air || frame.enamel_leaves == 0) {
-    out.notes.emplace_back("no enamel, so no crown");
+    out.notes.emplace_back(msg("no enamel, so no crown"));
     return out;
   }
   const Vec3 crown = frame.enamel_high - frame.enamel_low;
   if (std::min({crown.x, crown.y, crown.z}) < k_least_crown_mm || std::max({crown.x, crown.y, crown.z}) > k_largest_crown_mm) {
-    out.notes.push_back(fmt::format("enamel of {:.1f} x {:.1f} x {:.1f} mm is no crown", crown.x, crown.y, crown.z));
+    out.notes.push_back(msg("enamel of {} x {} x {} is no crown", as_number(crown.x, 1), as_number(crown.y, 1), as_mm(crown.z, 1)));
     return out;
   }
   CrownMaps maps;
@@ -92,10 +92,10 @@ Landmarks found_landmarks(const Tooth& tooth) {
   out.tooth_class = guess_class(signs);
   out.long_axis.occlusal = frame.axes.row_z;
   out.long_axis.tilt_deg = small_angle_deg(frame.axes.row_z, {0, 0, 1});
-  if (!frame.own_axis) out.notes.emplace_back("the tissues tell no long axis within 25 degrees of +z: +z was taken");
+  if (!frame.own_axis) out.notes.emplace_back(msg("the tissues tell no long axis within 25 degrees of +z: +z was taken"));
   if (signs.level_share > 0.3) {
     out.long_axis.through_mm = frame.origin_mm;
-    out.notes.emplace_back("the top is level, as no crown's is: no landmarks");
+    out.notes.emplace_back(msg("the top is level, as no crown's is: no landmarks"));
     return out;
   }
   const bool front = out.tooth_class.kind == ToothClass::incisor || out.tooth_class.kind == ToothClass::canine;
@@ -104,14 +104,14 @@ Landmarks found_landmarks(const Tooth& tooth) {
     find_fissures(maps, *table, groove, marks);
     if (out.tooth_class.kind != ToothClass::molar) marks.central_pit.reset();
   } else if (!front) {
-    marks.notes.emplace_back("no hollow between the cusps, so no occlusal table and no fissures");
+    marks.notes.emplace_back(msg("no hollow between the cusps, so no occlusal table and no fissures"));
   }
   Polyline edge;
   if (front) edge = find_incisal_edge(maps);
   if (out.tooth_class.kind == ToothClass::incisor) marks.cusps.clear();
 
   Polyline neck = neck_line(walls, contour, ids);
-  if (neck.empty()) out.notes.emplace_back("the neck cannot be followed round the crown");
+  if (neck.empty()) out.notes.emplace_back(msg("the neck cannot be followed round the crown"));
   std::optional<double> neck_z;
   Vec3 through{walls.middle.x, walls.middle.y, walls.middle.z};
   if (!neck.empty()) {
@@ -170,6 +170,21 @@ std::string_view name_of(ToothClass kind) noexcept {
       return "molar";
     default:
       return "unknown";
+  }
+}
+
+Message in_words(ToothClass kind) {
+  switch (kind) {
+    case ToothClass::incisor:
+      return msg("an incisor");
+    case ToothClass::canine:
+      return msg("a canine");
+    case ToothClass::premolar:
+      return msg("a premolar");
+    case ToothClass::molar:
+      return msg("a molar");
+    default:
+      return msg("a tooth of no known class");
   }
 }
 

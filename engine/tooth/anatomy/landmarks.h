@@ -16,6 +16,8 @@ namespace cavum {
 enum class ToothClass : std::uint8_t { unknown, incisor, canine, premolar, molar };
 /// "incisor", "unknown", ...
 [[nodiscard]] std::string_view name_of(ToothClass kind) noexcept;
+/// For people: "a molar".
+[[nodiscard]] Message in_words(ToothClass kind);
 
 /// Points in a row, mm of the tooth frame. A closed one does not repeat its first point.
 using Polyline = std::vector<Vec3>;
@@ -23,7 +25,7 @@ using Polyline = std::vector<Vec3>;
 struct ClassGuess {
   ToothClass kind = ToothClass::unknown;
   double sureness = 0.0;  ///< 0 to 1: how many of the signs agree, none against the guess
-  std::string reason;     ///< the signs with their figures, for people
+  Message reason;         ///< the signs with their figures, for people
 };
 
 struct CuspTip {
@@ -69,7 +71,7 @@ struct Landmarks {
   std::vector<CanalOpening> canal_mouths;  ///< where canals leave the chamber; of a single canal: at the neck
   std::vector<Vec3> apices_mm;
   std::vector<std::string> moved;  ///< names of the points that a person put, see Tooth::placed_landmarks
-  std::vector<std::string> notes;  ///< what is absent or doubtful, and why, for people
+  std::vector<Message> notes;      ///< what is absent or doubtful, and why, for people
 };
 
 /// Finds them. Uses only + - * / and sqrt in a fixed order: the same tooth gives the same bits everywhere. Below 2 s for a molar of 0.05 mm leaves.

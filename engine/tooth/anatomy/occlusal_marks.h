@@ -32,12 +32,12 @@ struct OcclusalMarks {
   Polyline central_fissure;
   std::vector<Polyline> branches;
   std::optional<Vec3> mesial_pit, central_pit, distal_pit;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
 };
 
 /// Cusps of a crown with or without a table, named by their place; only peaks above `least_z` count.
 [[nodiscard]] std::vector<CuspTip> find_cusps(const CrownMaps& maps, const std::optional<OcclusalTable>& table, double least_z,
-                                              std::vector<std::string>& notes);
+                                              std::vector<Message>& notes);
 
 /// Cells of a crown's table that are its lowest: along the groove, clear of the ridges; where there is none, hollows of k_table_mm and more.
 [[nodiscard]] std::vector<int> lowest_of_table(const CrownMaps& maps, const std::optional<Groove>& groove);

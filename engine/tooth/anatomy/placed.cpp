@@ -150,7 +150,7 @@ void draw_fissure(Landmarks& l) {
   for (std::size_t i = 0; i + 1 < pits.size(); ++i)
     for (int k = 0; k < k_parts; ++k) l.central_fissure_mm.push_back(pits[i] + (pits[i + 1] - pits[i]) * (static_cast<double>(k) / k_parts));
   l.central_fissure_mm.push_back(pits.back());
-  l.notes.emplace_back("the central fissure is drawn straight between the pits that were put by hand");
+  l.notes.emplace_back(msg("the central fissure is drawn straight between the pits that were put by hand"));
 }
 
 }  // namespace
@@ -166,7 +166,8 @@ void place_landmarks(const std::vector<NamedPoint>& placed, Landmarks& landmarks
     if (known && put(*known, at, landmarks))
       landmarks.moved.push_back(name);
     else
-      landmarks.notes.push_back(fmt::format("the point '{}' that was put is {}", name, known ? "beyond the end of its list" : "of no known name"));
+      landmarks.notes.push_back(known ? msg("the point '{}' that was put is beyond the end of its list", name)
+                                      : msg("the point '{}' that was put is of no known name", name));
   }
   draw_fissure(landmarks);
 }

@@ -180,7 +180,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
   const Slices s = slices_of(tooth, frame, pulp);
   const auto cells = std::count(s.in.begin(), s.in.end(), std::uint8_t{1});
   if (pulp == k_air || static_cast<double>(cells) * k_cell * k_cell * k_cell < k_least_pulp_mm3) {
-    marks.notes.emplace_back("no pulp");
+    marks.notes.emplace_back(msg("no pulp"));
     return marks;
   }
   int widest = 0;
@@ -233,7 +233,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
       const auto main = std::max_element(pieces.begin(), pieces.end(), [](const PulpPiece& a, const PulpPiece& b) { return a.cells < b.cells; });
       if (main != pieces.end()) marks.mouths.push_back(opening_of(s, *main, *neck_z));
     }
-    marks.notes.emplace_back("one canal: the chamber has no floor, its canal begins at the neck");
+    marks.notes.emplace_back(msg("one canal: the chamber has no floor, its canal begins at the neck"));
   }
   const auto by_x = [](Vec3 a, Vec3 b) { return a.x != b.x ? a.x > b.x : a.y > b.y; };
   std::sort(marks.horns.begin(), marks.horns.end(), by_x);
@@ -241,7 +241,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
   return marks;
 }
 
-std::vector<Vec3> find_apices(const Tooth& tooth, const CrownFrame& frame, double neck_z, std::vector<std::string>& notes) {
+std::vector<Vec3> find_apices(const Tooth& tooth, const CrownFrame& frame, double neck_z, std::vector<Message>& notes) {
   const Octree& tree = tooth.octree;
   HeightMap map;
   const auto cells = [](double a, double b) { return std::clamp(static_cast<int>((b - a) / k_cell) + 4, 1, 600); };
@@ -280,7 +280,9 @@ std::vector<Vec3> find_apices(const Tooth& tooth, const CrownFrame& frame, doubl
     else
       apices.push_back({end.x, end.y, -end.z});
   }
-  if (flat > 0) notes.push_back(fmt::format("{} of the roots' ends {} flat, as if broken or cut: no apex", flat, flat == 1 ? "is" : "are"));
+  if (flat > 0)
+    notes.push_back(msgn("{} of the roots' ends is flat, as if broken or cut: no apex",
+                         "{} of the roots' ends are flat, as if broken or cut: no apex", flat, flat));
   std::sort(apices.begin(), apices.end(), [](Vec3 a, Vec3 b) { return a.x != b.x ? a.x > b.x : a.y > b.y; });
   return apices;
 }

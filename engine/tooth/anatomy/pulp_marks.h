@@ -14,7 +14,7 @@ struct PulpMarks {
   std::vector<Vec3> horns;
   std::optional<Vec3> roof, floor;
   std::vector<CanalOpening> mouths;
-  std::vector<std::string> notes;
+  std::vector<Message> notes;
 };
 
 /// `neck_z`: mean height of the neck, where a single canal's mouth lies; none: such a canal has no mouth.
@@ -23,6 +23,6 @@ struct PulpMarks {
 
 /// Ends of the roots: the lowest places of the solid tissue that hang at least 1 mm below where they join others, below `neck_z`. An end that is flat
 /// (1 mm2 and more within 0.1 mm) was cut or broken: it is no apex, and `notes` says so.
-[[nodiscard]] std::vector<Vec3> find_apices(const Tooth& tooth, const CrownFrame& frame, double neck_z, std::vector<std::string>& notes);
+[[nodiscard]] std::vector<Vec3> find_apices(const Tooth& tooth, const CrownFrame& frame, double neck_z, std::vector<Message>& notes);
 
 }  // namespace cavum

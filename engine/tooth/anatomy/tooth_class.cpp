@@ -83,30 +83,31 @@ ClassSigns class_signs(const CrownWalls& walls, const std::vector<int>& contour,
 ClassGuess guess_class(const ClassSigns& s) {
   ClassGuess guess;
   const double area = s.wide_x_mm * s.wide_y_mm;
-  const auto say = [&](ToothClass kind, double sureness, const std::string& shape) {
-    guess = {kind, sureness, fmt::format("{}; crown {:.1f} x {:.1f} mm", shape, s.wide_x_mm, s.wide_y_mm)};
+  const auto say = [&](ToothClass kind, double sureness, const Message& shape) {
+    guess = {kind, sureness, msg("{}; crown {} x {}", shape, as_number(s.wide_x_mm, 1), as_mm(s.wide_y_mm, 1))};
   };
   if (s.level_share > 0.3) {
-    say(ToothClass::unknown, 0.0, fmt::format("{:.0f} % of the top are level", 100 * s.level_share));
+    say(ToothClass::unknown, 0.0, msg("{} of the top are level", as_percent(100 * s.level_share)));
     return guess;
   }
-  const std::string top = fmt::format("the highest millimetre is {:.1f} x {:.1f} mm", s.top_long_mm, s.top_short_mm);
+  const Number top_long = as_number(s.top_long_mm, 1), top_short = as_mm(s.top_short_mm, 1);
   const bool small = s.long_mm < 10.0;
   if (!s.table && s.cusps <= 1 && small) {
     const double slender = s.top_long_mm / std::max(s.top_short_mm, 0.1), share = s.top_long_mm / s.long_mm;
     if (slender >= 1.8 && share >= 0.6)
-      say(ToothClass::incisor, share >= 0.7 ? 0.9 : 0.7, "an edge and no table: " + top);
+      say(ToothClass::incisor, share >= 0.7 ? 0.9 : 0.7, msg("an edge and no table: the highest millimetre is {} x {}", top_long, top_short));
     else if (share <= 0.5 && slender < 2.2)
-      say(ToothClass::canine, share <= 0.45 ? 0.8 : 0.6, "one cusp and no table: " + top);
+      say(ToothClass::canine, share <= 0.45 ? 0.8 : 0.6, msg("one cusp and no table: the highest millimetre is {} x {}", top_long, top_short));
     else
-      say(ToothClass::unknown, 0.0, "between an edge and a cusp: " + top);
+      say(ToothClass::unknown, 0.0, msg("between an edge and a cusp: the highest millimetre is {} x {}", top_long, top_short));
     return guess;
   }
   if (!s.table && s.cusps <= 1) {
-    say(ToothClass::unknown, 0.0, "one cusp, no table, and wider than front teeth");
+    say(ToothClass::unknown, 0.0, msg("one cusp, no table, and wider than front teeth"));
     return guess;
   }
-  const std::string seen = fmt::format("{} cusp{}{}", s.cusps, s.cusps == 1 ? "" : "s", s.table ? " around a table" : "");
+  const Message seen =
+      s.table ? msgn("{} cusp around a table", "{} cusps around a table", s.cusps, s.cusps) : msgn("{} cusp", "{} cusps", s.cusps, s.cusps);
   const bool many = s.cusps >= 4, some = s.cusps == 3;
   if (area >= k_molar_mm2) {
     // a table of that size is a molar's, however worn its cusps are
@@ -118,7 +119,7 @@ ClassGuess guess_class(const ClassSigns& s) {
     say(many           ? ToothClass::molar
         : s.cusps == 2 ? ToothClass::premolar
                        : ToothClass::unknown,
-        many || s.cusps == 2 ? 0.6 : 0.0, seen + " of a size between");
+        many || s.cusps == 2 ? 0.6 : 0.0, msg("{}, of a size between premolar and molar", seen));
   return guess;
 }
 

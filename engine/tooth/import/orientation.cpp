@@ -1,7 +1,5 @@
 #include "engine/tooth/import/orientation.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -62,7 +60,7 @@ double width_at(const Polyline& line, double x) {
 std::optional<SeenTurn> by_bulge(const Landmarks& l) {
   const auto fall = fall_of(l.height_of_contour_mm, l.long_axis);
   if (!fall || fall->across_mm() < k_bulge_mm) return std::nullopt;
-  return SeenTurn{direction_deg(fall->y, -fall->x), false, fmt::format("the crown bulges {:.1f} mm lower there than across", fall->across_mm())};
+  return SeenTurn{direction_deg(fall->y, -fall->x), false, msg("the crown bulges {} lower there than across", as_mm(fall->across_mm(), 1))};
 }
 
 /// The buccal cusp of a premolar is the higher one; alone, it stands buccal of the axis.
@@ -73,13 +71,13 @@ std::optional<SeenTurn> by_premolar_cusps(const Landmarks& l) {
     if (higher < 0) across = -across;
     if (std::fabs(higher) >= k_higher_cusp_mm)
       return SeenTurn{direction_deg(across.y, -across.x), false,
-                      fmt::format("the cusp there is {:.1f} mm higher, as premolars have it", std::fabs(higher))};
-    return SeenTurn{line_deg_of(across.y, -across.x), true, "the two cusps stand across it"};
+                      msg("the cusp there is {} higher, as premolars have it", as_mm(std::fabs(higher), 1))};
+    return SeenTurn{line_deg_of(across.y, -across.x), true, msg("the two cusps stand across it")};
   }
   if (l.cusps.size() != 1) return std::nullopt;
   const Vec3 off = l.cusps[0].tip_mm - l.long_axis.through_mm;
   if (off.x * off.x + off.y * off.y < k_cusp_off_axis_mm * k_cusp_off_axis_mm) return std::nullopt;
-  return SeenTurn{direction_deg(off.y, -off.x), false, "the only cusp that stands out lies there"};
+  return SeenTurn{direction_deg(off.y, -off.x), false, msg("the only cusp that stands out lies there")};
 }
 
 /// The canals of a lower molar leave a chamber that is long from mesial to distal.
@@ -96,13 +94,13 @@ std::optional<SeenTurn> by_canals(const Landmarks& l) {
   }
   const double apart = std::sqrt((xx - yy) * (xx - yy) + 4 * xy * xy), n = static_cast<double>(l.canal_mouths.size());
   if (apart / n < k_canals_apart_mm * k_canals_apart_mm) return std::nullopt;
-  return SeenTurn{0.5 * direction_deg(xx - yy, 2 * xy), true, "the canals leave the chamber along it"};
+  return SeenTurn{0.5 * direction_deg(xx - yy, 2 * xy), true, msg("the canals leave the chamber along it")};
 }
 
-void count_sign(double mesial_minus_distal, double least, const char* words, Orientation& o) {
+void count_sign(double mesial_minus_distal, double least, const Message& towards_plus, const Message& towards_minus, Orientation& o) {
   if (std::fabs(mesial_minus_distal) < least) return;
   ++(mesial_minus_distal > 0 ? o.mesial_for : o.mesial_against);
-  o.mesial_signs += fmt::format("{}{} {}x", o.mesial_signs.empty() ? "" : ", ", words, mesial_minus_distal > 0 ? "+" : "-");
+  o.mesial_signs.push_back(mesial_minus_distal > 0 ? towards_plus : towards_minus);
 }
 
 /// Of back teeth: the mesial side has the higher height of contour and cervical line and is the broader one, and roots bend to distal (Nelson,
@@ -110,25 +108,26 @@ void count_sign(double mesial_minus_distal, double least, const char* words, Ori
 /// Anatomy; recalled): there heights of contour tell nothing, nor of a premolar without a number, which may be one.
 void count_mesial_signs(const Landmarks& l, bool contours_tell, bool lower_molar, Orientation& o) {
   if (const auto fall = fall_of(l.height_of_contour_mm, l.long_axis)) {
-    if (contours_tell) count_sign(-2 * fall->x, k_rise_mm, "higher contour towards", o);
+    if (contours_tell) count_sign(-2 * fall->x, k_rise_mm, msg("higher contour towards +x"), msg("higher contour towards -x"), o);
     const auto [low, high] =
         std::minmax_element(l.height_of_contour_mm.begin(), l.height_of_contour_mm.end(), [](Vec3 a, Vec3 b) { return a.x < b.x; });
     const double middle = 0.5 * (low->x + high->x), off = 0.3 * (high->x - low->x);
-    count_sign(width_at(l.height_of_contour_mm, middle + off) - width_at(l.height_of_contour_mm, middle - off), k_taper_mm, "broader towards", o);
+    count_sign(width_at(l.height_of_contour_mm, middle + off) - width_at(l.height_of_contour_mm, middle - off), k_taper_mm, msg("broader towards +x"),
+               msg("broader towards -x"), o);
   }
   if (const auto fall = fall_of(l.neck_mm, l.long_axis)) {
-    count_sign(-2 * fall->x, k_rise_mm, "higher neck towards", o);
+    count_sign(-2 * fall->x, k_rise_mm, msg("higher neck towards +x"), msg("higher neck towards -x"), o);
     double apex = 0;
     for (const Vec3 p : l.apices_mm) apex += (p.x - l.long_axis.through_mm.x) / static_cast<double>(l.apices_mm.size());
-    count_sign(-apex, k_root_mm, "roots bent away from", o);
+    count_sign(-apex, k_root_mm, msg("roots bent away from +x"), msg("roots bent away from -x"), o);
   }
   if (lower_molar && l.canal_mouths.size() == 3) {
     std::vector<double> x;
     for (const auto& m : l.canal_mouths) x.push_back(m.at_mm.x);
     std::sort(x.begin(), x.end());
     constexpr double k_pair = 1.5;
-    if (x[1] - x[0] > k_pair * (x[2] - x[1])) count_sign(1, 0.5, "two canals towards", o);
-    if (x[2] - x[1] > k_pair * (x[1] - x[0])) count_sign(-1, 0.5, "two canals towards", o);
+    if (x[1] - x[0] > k_pair * (x[2] - x[1])) count_sign(1, 0.5, msg("two canals towards +x"), msg("two canals towards -x"), o);
+    if (x[2] - x[1] > k_pair * (x[1] - x[0])) count_sign(-1, 0.5, msg("two canals towards +x"), msg("two canals towards -x"), o);
   }
 }
 
@@ -140,7 +139,7 @@ Orientation seen_orientation(const Landmarks& l, const std::optional<ToothNumber
   if (kind == ToothClass::incisor || kind == ToothClass::canine) {
     if (l.incisal_edge_mm.size() > 4) {
       const Vec3 way = l.incisal_edge_mm.front() - l.incisal_edge_mm.back();
-      o.turn = SeenTurn{line_deg_of(way.x, way.y), true, "the incisal edge runs along it"};
+      o.turn = SeenTurn{line_deg_of(way.x, way.y), true, msg("the incisal edge runs along it")};
     }
     return o;
   }

@@ -14,8 +14,8 @@ namespace cavum {
 /// A direction in the plane across the long axis, degrees counter-clockwise from where the frame has it, -180 to 180.
 struct SeenTurn {
   double deg = 0.0;
-  bool line = false;   ///< it may as well be the opposite one: -90 to 90
-  std::string reason;  ///< for people
+  bool line = false;  ///< it may as well be the opposite one: -90 to 90
+  Message reason;
 };
 
 /// What the shape says, in a frame whose +x should be mesial and +y buccal.
@@ -23,7 +23,7 @@ struct Orientation {
   std::optional<SeenTurn> turn;            ///< by the surest sign that the tooth has
   bool buccal_told = false;                ///< the turn is of the buccal side, not only of a line
   int mesial_for = 0, mesial_against = 0;  ///< signs that put mesial towards +x, or towards -x
-  std::string mesial_signs;                ///< for people
+  std::vector<Message> mesial_signs;
 
   /// +1 or -1 where at least three signs agree and none is against; else 0.
   [[nodiscard]] int mesial() const noexcept {

@@ -10,7 +10,6 @@
 #include "engine/base/error.h"
 #include "engine/tooth/import/orientation.h"
 #include "engine/tooth/octree_edit.h"
-#include "engine/tooth/tooth_notes.h"
 
 namespace cavum {
 namespace {
@@ -29,7 +28,7 @@ void object(const SenseOptions& options, std::string_view name, const std::strin
             ToothSense& sense) {
   if (std::find(options.confirmed.begin(), options.confirmed.end(), name) == options.confirmed.end())
     throw Error(where, what, msg("{}; where you know better, --confirm {} takes it as it is", what_to_do, name));
-  sense.warnings.push_back(fmt::format("confirmed against what was measured ({}): {}", name, english_text(what)));
+  sense.warnings.push_back(msg("confirmed against what was measured ({}): {}", name, what));
 }
 
 bool is_crown_width(double mm) { return mm >= k_least_crown_width_mm && mm <= k_most_crown_width_mm; }
@@ -77,9 +76,9 @@ double rotate_deg(const FrameOptions& frame, double deg) {
   return (to > 180 ? to - 360 : to <= -180 ? to + 360 : to) + 0.0;  // no -0
 }
 
-std::string other_number(const SenseOptions& options) {
-  return options.number ? fmt::format("give the number of the other side, {}, if it is that tooth", options.number->other_side().fdi)
-                        : "give its --tooth-number: those of quadrants 2 and 4 are mirrored";
+Message other_number(const SenseOptions& options) {
+  return options.number ? msg("give the number of the other side, {}, if it is that tooth", options.number->other_side().fdi)
+                        : msg("give its --tooth-number: those of quadrants 2 and 4 are mirrored");
 }
 
 /// The user has said nothing of where mesial and buccal are: the file's axes stand for them by rule alone.
@@ -92,32 +91,34 @@ bool said_nothing_of_sides(const FrameOptions& frame, const SenseOptions& option
 void sense_orientation(const Landmarks& l, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense) {
   const Orientation seen = seen_orientation(l, options.number);
   const int mesial = seen.mesial();
+  const List signs{seen.mesial_signs};
   const auto contradict = [&](std::string_view name, const Message& what, const Message& what_to_do) {
     if (said_nothing_of_sides(frame, options))
-      sense.warnings.push_back(fmt::format("nothing was said of mesial, and by rule {}; {}", english_text(what), english_text(what_to_do)));
+      sense.warnings.push_back(msg("nothing was said of mesial, and by rule {}; {}", what, what_to_do));
     else
       object(options, name, where, what, what_to_do, sense);
   };
   if (seen.turn) {
     const auto& [deg, line, reason] = *seen.turn;
-    sense.guesses.push_back(line ? fmt::format("mesiodistal line {:.0f} degrees from +x: {}", deg, reason)
-                                 : fmt::format("buccal {:.0f} degrees from +y: {}", deg, reason));
+    sense.guesses.push_back(line ? msg("mesiodistal line {} degrees from +x: {}", as_number(deg, 0), reason)
+                                 : msg("buccal {} degrees from +y: {}", as_number(deg, 0), reason));
     const double off = std::fabs(deg);
     const std::string turn = fmt::format("--rotate-deg {:.0f}", rotate_deg(frame, deg));
-    const std::string what = line ? fmt::format("+x should be mesial, but the shape puts the mesiodistal line {:.0f} degrees off ({})", deg, reason)
-                                  : fmt::format("+y should be buccal, but the shape puts that side {:.0f} degrees off ({})", deg, reason);
+    const Number degrees = as_number(deg, 0);
+    const Message what = line ? msg("+x should be mesial, but the shape puts the mesiodistal line {} degrees off ({})", degrees, reason)
+                              : msg("+y should be buccal, but the shape puts that side {} degrees off ({})", degrees, reason);
     if (off > 180 - k_wrong_deg && (mesial > 0 || (mesial == 0 && frame.mesial_axis)))
-      contradict("side", what + (mesial > 0 ? ", and mesial where it should be: the tooth of the other side of the jaw" : ""),
+      contradict("side", mesial > 0 ? msg("{}, and mesial where it should be: the tooth of the other side of the jaw", what) : what,
                  msg("{}, or say {} if mesial is on the other end", other_number(options), turn));
     else if (off > k_wrong_deg)
-      contradict("mesial", what, msg("say {}{}", turn, frame.mesial_axis ? msg(", or another --mesial-axis") : Message()));
+      contradict("mesial", what, frame.mesial_axis ? msg("say {}, or another --mesial-axis", turn) : msg("say {}", turn));
     else if (off > k_askew_deg)
-      sense.warnings.push_back(fmt::format("{}: {} would bring it there", what, turn));
+      sense.warnings.push_back(msg("{}: {} would bring it there", what, turn));
     if (off > k_wrong_deg) return;  // confirmed: mesial's own signs were looked for along the wrong line
   }
-  if (mesial != 0) sense.guesses.push_back(fmt::format("mesial towards {}x: {}", mesial > 0 ? '+' : '-', seen.mesial_signs));
+  if (mesial != 0) sense.guesses.push_back(mesial > 0 ? msg("mesial towards +x: {}", signs) : msg("mesial towards -x: {}", signs));
   if (mesial < 0) {
-    const std::string what = fmt::format("+x should be mesial, but the shape puts that side towards -x ({})", seen.mesial_signs);
+    const Message what = msg("+x should be mesial, but the shape puts that side towards -x ({})", signs);
     const std::string turn = fmt::format("--rotate-deg {:.0f}", rotate_deg(frame, 180));
     if (seen.buccal_told)
       contradict("side", msg("{}, and buccal where it should be: the tooth of the other side of the jaw", what), other_number(options));
@@ -125,9 +126,9 @@ void sense_orientation(const Landmarks& l, const FrameOptions& frame, const Sens
       contradict("mesial", what, msg("say {}", turn));
   }
   if (!seen.turn && mesial == 0 && l.tooth_class.kind != ToothClass::unknown)
-    sense.warnings.emplace_back("neither buccal nor mesial could be told from the shape: where they are was not checked");
+    sense.warnings.emplace_back(msg("neither buccal nor mesial could be told from the shape: where they are was not checked"));
   else if (!frame.mesial_axis && mesial == 0)
-    sense.warnings.emplace_back("which end is mesial was neither said nor told by the shape: +x was taken by rule, see the frame");
+    sense.warnings.emplace_back(msg("which end is mesial was neither said nor told by the shape: +x was taken by rule, see the frame"));
 }
 
 }  // namespace
@@ -156,20 +157,20 @@ void check_crown_size(Vec3 extent, const SenseOptions& options, const std::strin
   const double width = std::max(extent.x, extent.y);
   if (is_crown_width(width)) return;
   const double given = options.units.empty() ? 1.0 : mm_per_unit(options.units);
-  std::string likely, option;
+  std::vector<Message> likely, options_likely;
   for (const auto& u : k_mesh_units)
     if (u.mm != given && is_crown_width(width / given * u.mm)) {
-      likely += fmt::format("{}{} ({:.1f} mm)", likely.empty() ? "" : " or ", u.text, width / given * u.mm);
-      option += fmt::format("{}--units {}", option.empty() ? "" : " or ", u.name);
+      likely.push_back(msg("{} ({})", Term{std::string(u.text)}, as_mm(width / given * u.mm, 1)));
+      options_likely.push_back(msg("--units {}", u.name));
     }
-  const std::string wide =
-      fmt::format("the enamel is {:.4g} mm wide, and human crowns {:.1f} to {:.0f} mm", width, k_least_crown_width_mm, k_most_crown_width_mm);
+  const Message wide = msg("the enamel is {} wide, and human crowns {} to {}", as_mm(width, k_as_needed), as_number(k_least_crown_width_mm, 1),
+                           as_mm(k_most_crown_width_mm, 0));
   if (likely.empty())
     object(options, "size", where, msg("{}; no unit known here makes it one", wide),
            msg("check file and unit, and that it is one tooth alone, without its neighbours"), sense);
   else
-    object(options, "size", where, msg("{}; the file is probably in {}", wide, likely), of_volume ? msg("give --spacing-mm") : msg("say {}", option),
-           sense);
+    object(options, "size", where, msg("{}; the file is probably in one of: {}", wide, List{likely}),
+           of_volume ? msg("give --spacing-mm") : msg("say one of: {}", List{options_likely}), sense);
 }
 
 void check_closed_pulp(const OpenPulp& open, const SenseOptions& options, const std::string& where, ToothSense& sense) {
@@ -185,9 +186,9 @@ void tell_bare_dentin(const BareDentin& bare, ToothSense& sense) {
   constexpr double k_bare_mm2 = 0.3;  // some leaves are bare where two meshes end upon each other
   if (bare.largest_mm2 <= k_bare_mm2) return;
   sense.warnings.push_back(
-      fmt::format("dentin lies bare in the crown: {:.1f} mm2 of it, the largest place of {:.1f} mm2 about ({:.1f} {:.1f} {:.1f}) mm: worn, or the "
-                  "enamel has a hole, a crack or a cavity; look at it (tooth show) before it is an exam's tooth",
-                  bare.mm2, bare.largest_mm2, bare.at_mm.x, bare.at_mm.y, bare.at_mm.z));
+      msg("dentin lies bare in the crown: {} of it, the largest place of {} about ({} {} {}) mm: worn, or the enamel has a hole, a crack or a "
+          "cavity; look at it (tooth show) before it is an exam's tooth",
+          as_mm2(bare.mm2, 1), as_mm2(bare.largest_mm2, 1), as_number(bare.at_mm.x, 1), as_number(bare.at_mm.y, 1), as_number(bare.at_mm.z, 1)));
 }
 
 void tell_loose_layers(const LayersApart& apart, const Overlaps& overlaps, ToothSense& sense) {
@@ -195,17 +196,17 @@ void tell_loose_layers(const LayersApart& apart, const Overlaps& overlaps, Tooth
   constexpr double k_apart = 0.01, k_enamel_in_dentin = 0.015, k_pulp_in_dentin = 0.03;
   const bool pulp_apart = overlaps.of_the_pulp > k_pulp_in_dentin && overlaps.of_the_pulp < 0.5;  // more: the dentin has no chamber, and is meant so
   if (apart.share <= k_apart && overlaps.of_the_enamel <= k_enamel_in_dentin && !pulp_apart) return;
-  sense.warnings.push_back(fmt::format(
-      "the surfaces fit loosely: void at {:.1f} % of the places where enamel and dentin face each other, {:.1f} % of the enamel and {:.1f} "
-      "% of the pulp in the dentin, too; see that all are of one tooth and in one frame",
-      100 * apart.share, 100 * overlaps.of_the_enamel, pulp_apart ? 100 * overlaps.of_the_pulp : 0.0));
+  sense.warnings.push_back(msg(
+      "the surfaces fit loosely: void at {} of the places where enamel and dentin face each other, {} of the enamel and {} of the pulp in the "
+      "dentin, too; see that all are of one tooth and in one frame",
+      as_percent(100 * apart.share, 1), as_percent(100 * overlaps.of_the_enamel, 1), as_percent(pulp_apart ? 100 * overlaps.of_the_pulp : 0.0, 1)));
 }
 
 void tell_pieces(const EnamelPieces& pieces, ToothSense& sense) {
   if (pieces.apart_mm3 > 0)
-    sense.warnings.push_back(
-        fmt::format("{:.2f} mm3 of the enamel lie apart from the crown, about ({:.1f} {:.1f} {:.1f}) mm: a pearl, or a part of it", pieces.apart_mm3,
-                    pieces.apart_mm.x, pieces.apart_mm.y, pieces.apart_mm.z));
+    sense.warnings.push_back(msg("{} of the enamel lie apart from the crown, about ({} {} {}) mm: a pearl, or a part of it",
+                                 as_mm3(pieces.apart_mm3, 2), as_number(pieces.apart_mm.x, 1), as_number(pieces.apart_mm.y, 1),
+                                 as_number(pieces.apart_mm.z, 1)));
 }
 
 void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, const SenseOptions& options, const std::string& where,
@@ -213,38 +214,39 @@ void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, co
   const Vec3 along = enamel_centroid - dentin_centroid;
   if (options.number && !options.patient_frame.empty() && (occlusal.z < 0) != options.number->upper())
     object(options, "upright", where,
-           msg("the crown points {} in the patient, and tooth {} is {}", occlusal.z < 0 ? msg("down") : msg("up"), options.number->text(),
-               options.number->upper() ? msg("an upper one") : msg("a lower one")),
+           occlusal.z < 0 ? msg("the crown points down in the patient, and tooth {} is an upper one", options.number->text())
+                          : msg("the crown points up in the patient, and tooth {} is a lower one", options.number->text()),
            msg("give another number or --patient-frame"), sense);
   if (!(length(along) > k_centroids_apart_mm)) return;
   const Vec3 way = normalized(along);
   const double cosine = dot(way, occlusal);
   if (cosine > k_across_cosine) return;
-  const char* how = cosine < -k_across_cosine ? "points to the root: the tooth would stand upside down" : "runs across the tooth";
+  const Number x = as_number(way.x, 2), y = as_number(way.y, 2), z = as_number(way.z, 2);
   object(options, "upright", where,
-         msg("the occlusal axis {}; the enamel lies towards ({} {} {})", how, as_number(way.x, 2), as_number(way.y, 2), as_number(way.z, 2)),
-         msg("give --occlusal-axis {},{},{}, or leave it out", as_number(way.x, 2), as_number(way.y, 2), as_number(way.z, 2)), sense);
+         cosine < -k_across_cosine
+             ? msg("the occlusal axis points to the root: the tooth would stand upside down; the enamel lies towards ({} {} {})", x, y, z)
+             : msg("the occlusal axis runs across the tooth; the enamel lies towards ({} {} {})", x, y, z),
+         msg("give --occlusal-axis {},{},{}, or leave it out", x, y, z), sense);
 }
 
 void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense) {
   const Landmarks l = find_landmarks(tooth);
   sense.tooth_class = l.tooth_class;
-  const std::string kind(name_of(l.tooth_class.kind));
+  const Message kind = in_words(l.tooth_class.kind);
   if (l.tooth_class.kind == ToothClass::unknown)
-    sense.guesses.push_back(fmt::format("class not told{}{}", l.tooth_class.reason.empty() ? "" : ": ", l.tooth_class.reason));
+    sense.guesses.push_back(l.tooth_class.reason.empty() ? msg("class not told") : msg("class not told: {}", l.tooth_class.reason));
   else
-    sense.guesses.push_back(fmt::format("class {}, sure to {:.2f}: {}", kind, l.tooth_class.sureness, l.tooth_class.reason));
+    sense.guesses.push_back(msg("{}, sure to {}: {}", kind, as_number(l.tooth_class.sureness, 2), l.tooth_class.reason));
   if (options.number) {
-    const char* article = l.tooth_class.kind == ToothClass::incisor ? "an" : "a";
     const ToothClass said = options.number->tooth_class();
     if (l.tooth_class.kind == ToothClass::unknown)
-      sense.warnings.push_back("whether it is tooth " + options.number->text() + " could not be checked");
+      sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->text()));
     else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
       object(options, "class", where,
-             msg("it is said to be tooth {}, but has the shape of {} {} ({})", options.number->text(), article, kind, l.tooth_class.reason),
+             msg("it is said to be tooth {}, but has the shape of {} ({})", options.number->text(), kind, l.tooth_class.reason),
              msg("give another number"), sense);
     else if (l.tooth_class.kind != said)
-      sense.warnings.push_back(fmt::format("tooth {} has rather the shape of {} {}", options.number->text(), article, kind));
+      sense.warnings.push_back(msg("tooth {} has rather the shape of {}", options.number->text(), kind));
   }
   if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
     object(options, "pulp", where,
@@ -258,8 +260,8 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
                as_mm(bay, 1)),
            msg("look at the surfaces and cut off what is not of this tooth"), sense);
   if (options.number && frame.mirror)
-    sense.warnings.push_back(fmt::format("tooth {} is taken as its mirror image, so that +x is mesial and +y buccal in every task, picture and word",
-                                         options.number->fdi));
+    sense.warnings.push_back(
+        msg("tooth {} is taken as its mirror image, so that +x is mesial and +y buccal in every task, picture and word", options.number->fdi));
   sense_orientation(l, frame, options, where, sense);
 }
 
@@ -269,9 +271,9 @@ void name_tooth(const ToothSense& sense, const SenseOptions& options, bool mirro
     tooth.source += fmt::format("; tooth number given: FDI {}, universal {}; +y is {}", options.number->fdi, options.number->universal(),
                                 options.number->place() <= 3 ? "labial" : "buccal");
   }
-  if (mirrored) note_mirror_image(tooth);
-  for (const auto& g : sense.guesses) add_guess(tooth, g);
-  for (const auto& w : sense.warnings) add_warning(tooth, w);
+  if (mirrored) tooth.notes.push_back({ToothNote::Kind::mirror_image, {}});
+  for (const auto& g : sense.guesses) tooth.notes.push_back({ToothNote::Kind::guess, g});
+  for (const auto& w : sense.warnings) tooth.notes.push_back({ToothNote::Kind::warning, w});
 }
 
 }  // namespace cavum

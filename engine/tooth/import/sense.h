@@ -37,8 +37,8 @@ struct SenseOptions {
 /// What was found; every line is for people.
 struct ToothSense {
   ClassGuess tooth_class;
-  std::vector<std::string> guesses;   ///< with reasons: class, mesiodistal line, side
-  std::vector<std::string> warnings;  ///< what was taken although it contradicts, and what could not be checked
+  std::vector<Message> guesses;   ///< with reasons: class, mesiodistal line, side
+  std::vector<Message> warnings;  ///< what was taken although it contradicts, and what could not be checked
 };
 
 /// Least and largest width of a human crown, mm: mean mesiodistal widths run from 5 (lower central incisor) to 11 (lower first molar), buccolingual

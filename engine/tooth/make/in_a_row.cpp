@@ -1,7 +1,5 @@
 #include "engine/tooth/make/in_a_row.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <optional>
 
@@ -35,25 +33,25 @@ Places places_of(const RowTooth& tooth) {
   }
 }
 
-std::string words_for(const RowTooth& tooth) {
-  if (const auto n = number_in(tooth.name)) return fmt::format("tooth {}", n->fdi);
-  return fmt::format("'{}', by its shape a {}", tooth.name, name_of(tooth.shape.kind));
+Message words_for(const RowTooth& tooth) {
+  if (const auto n = number_in(tooth.name)) return msg("tooth {}", n->fdi);
+  return msg("'{}', by its shape {}", tooth.name, in_words(tooth.shape.kind));
 }
 
 /// By numbers alone; none where one of them was not said.
 std::optional<RowVerdict> by_numbers(const RowTooth& tooth, const RowTooth& beside, int side) {
   const auto n = number_in(tooth.name), other = number_in(beside.name);
   if (!n || !other) return std::nullopt;
-  const char* where = side > 0 ? "mesial" : "distal";
   if (side > 0 && n->place() == 1)
-    return RowVerdict{
-        fmt::format("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it", n->fdi,
-                    n->other_side().fdi),
-        ""};
-  if (side < 0 && n->place() == k_last_place) return RowVerdict{fmt::format("no tooth stands distal of tooth {}", n->fdi), ""};
+    return RowVerdict{msg("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it",
+                          n->fdi, n->other_side().fdi),
+                      {}};
+  if (side < 0 && n->place() == k_last_place) return RowVerdict{msg("no tooth stands distal of tooth {}", n->fdi), {}};
   const int wanted = n->fdi - side;
   if (other->fdi == wanted) return RowVerdict{};
-  return RowVerdict{fmt::format("{} of tooth {} stands tooth {}, and this is tooth {}", where, n->fdi, wanted, other->fdi), ""};
+  return RowVerdict{side > 0 ? msg("mesial of tooth {} stands tooth {}, and this is tooth {}", n->fdi, wanted, other->fdi)
+                             : msg("distal of tooth {} stands tooth {}, and this is tooth {}", n->fdi, wanted, other->fdi),
+                    {}};
 }
 
 }  // namespace
@@ -62,18 +60,20 @@ RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int sid
   if (const auto verdict = by_numbers(tooth, beside, side)) return *verdict;
   const auto jaw = upper_in(tooth.name), other_jaw = upper_in(beside.name);
   if (jaw && other_jaw && *jaw != *other_jaw)
-    return {
-        fmt::format("'{}' is {} tooth and '{}' {} one", tooth.name, *jaw ? "an upper" : "a lower", beside.name, *other_jaw ? "an upper" : "a lower"),
-        ""};
+    return {*jaw ? msg("'{}' is an upper tooth and '{}' a lower one", tooth.name, beside.name)
+                 : msg("'{}' is a lower tooth and '{}' an upper one", tooth.name, beside.name),
+            {}};
   const Places own = places_of(tooth), other = places_of(beside);
-  if (own.first == 0 || other.first == 0)
-    return {"", fmt::format("whether '{}' may stand beside '{}' could not be checked: {} class is not told", beside.name, tooth.name,
-                            own.first == 0 ? "the tooth's" : "its")};
+  if (own.first == 0)
+    return {{}, msg("whether '{}' may stand beside '{}' could not be checked: the tooth's class is not told", beside.name, tooth.name)};
+  if (other.first == 0) return {{}, msg("whether '{}' may stand beside '{}' could not be checked: its class is not told", beside.name, tooth.name)};
   if (std::max(own.first - side, other.first) > std::min(own.last - side, other.last))
-    return {fmt::format("no tooth like {} stands {} of {}", words_for(beside), side > 0 ? "mesial" : "distal", words_for(tooth)), ""};
+    return {side > 0 ? msg("no tooth like {} stands mesial of {}", words_for(beside), words_for(tooth))
+                     : msg("no tooth like {} stands distal of {}", words_for(beside), words_for(tooth)),
+            {}};
   const bool made = jaw && other_jaw && !number_in(tooth.name) && !number_in(beside.name);  // by our makers: they have kinds, and no numbers
   if (made) return {};
-  return {"", fmt::format("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said", beside.name, tooth.name)};
+  return {{}, msg("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said", beside.name, tooth.name)};
 }
 
 }  // namespace cavum

@@ -14,8 +14,8 @@ struct RowTooth {
 };
 
 struct RowVerdict {
-  std::string why_not;    ///< what speaks against it; empty: nothing does
-  std::string unchecked;  ///< what could not be told; empty: all was
+  Message why_not;    ///< what speaks against it; empty: nothing does
+  Message unchecked;  ///< what could not be told; empty: all was
 };
 /// `side`: +1 where `beside` is to stand mesial of `tooth`, -1 distal.
 [[nodiscard]] RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int side);

@@ -18,7 +18,6 @@
 #include "engine/tooth/make/formula_tooth.h"
 #include "engine/tooth/make/in_a_row.h"
 #include "engine/tooth/octree_edit.h"
-#include "engine/tooth/tooth_notes.h"
 
 namespace cavum {
 namespace {
@@ -165,7 +164,7 @@ struct Side {
   Placed placed;
   ContactFacts facts;
   double limit_x_mm = 0.0;
-  std::string doubt;  ///< whether it stands beside the tooth in a jaw: confirmed, or not checked
+  Message doubt;  ///< whether it stands beside the tooth in a jaw: confirmed, or not checked
 };
 
 void lay_neighbour(TissueGrid& grid, const Side& s, const BesideIds& ids) {
@@ -222,8 +221,8 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   const Landmarks other = find_landmarks(s.filled);
   const RowVerdict row = stand_in_a_row({tooth.name, marks.tooth_class}, {beside.tooth->name, other.tooth_class}, side);
   if (!row.why_not.empty() && !spec.confirmed)
-    throw Error(place, Name{row.why_not}, msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
-  s.doubt = row.why_not.empty() ? row.unchecked : "confirmed (neighbours): " + row.why_not;
+    throw Error(place, row.why_not, msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
+  s.doubt = row.why_not.empty() ? row.unchecked : msg("confirmed (neighbours): {}", row.why_not);
   const Vec3 *own_contact = furthest_along(marks.height_of_contour_mm, Vec3{1.0 * side, 0, 0}),
              *its_contact = furthest_along(other.height_of_contour_mm, Vec3{-1.0 * side, 0, 0});
   if (own_contact != nullptr && its_contact != nullptr) {
@@ -344,7 +343,7 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
   for (Side& s : sides) s.placed.tree = &s.filled.octree;  // the list has grown
 
   SetBeside out;
-  out.tooth = Tooth{{}, tooth.tissues, tooth.name, tooth.source, tooth.placed_landmarks};
+  out.tooth = Tooth{{}, tooth.tissues, tooth.name, tooth.source, tooth.placed_landmarks, tooth.notes};
   const BesideIds ids = ids_for(out.tooth, !sides.empty(), spec.gum);
   TissueGrid grid = grid_for(tooth, sides, spec.gum, where);
   std::vector<Vec3> contacts;
@@ -353,7 +352,7 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
     contacts.push_back(s.facts.at_mm);
     (s.side > 0 ? out.mesial : out.distal) = s.facts;
     out.tooth.source += words_of(s, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg);
-    if (!s.doubt.empty()) add_warning(out.tooth, s.doubt);
+    if (!s.doubt.empty()) out.tooth.notes.push_back({ToothNote::Kind::warning, s.doubt});
   }
   if (spec.gum) {
     add_gum(grid, out.tooth.tissues, ids, marks, contacts, where);

@@ -11,10 +11,10 @@
 namespace cavum {
 
 struct ReadMesh {
-  TriangleMesh mesh;               ///< unused vertices removed, faces outwards (cavities: towards the cavity)
-  double volume_mm3 = 0.0;         ///< of the closed surface, cavities subtracted
-  Vec3 centroid_mm;                ///< of that volume
-  std::vector<std::string> notes;  ///< what was put right on the way
+  TriangleMesh mesh;           ///< unused vertices removed, faces outwards (cavities: towards the cavity)
+  double volume_mm3 = 0.0;     ///< of the closed surface, cavities subtracted
+  Vec3 centroid_mm;            ///< of that volume
+  std::vector<Message> notes;  ///< what was put right on the way
 };
 
 /// Throws Error unless there is a file at `path`.

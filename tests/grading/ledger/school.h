@@ -84,7 +84,7 @@ class School {
     scenarios::ExamOptions options;
     options.candidate = ticket.empty() ? "nobody" : ledger::parse_ticket(ticket, "", "ticket").candidate;
     options.device = "emulated stylus";
-    options.source = {"device", "emulated stylus", "E1"};
+    options.source = {SourceKind::device, "emulated stylus", "E1"};
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     if (!ticket.empty()) options.notes.emplace_back(ledger::k_ticket_note, ticket);
     if (change) change(options);

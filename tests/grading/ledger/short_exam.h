@@ -44,7 +44,7 @@ inline void sit_shortly(const std::string& scenario, const std::string& path, co
   scenarios::ExamOptions options;
   options.candidate = ledger::parse_ticket(ticket, "", "ticket").candidate;
   options.device = "emulated stylus";
-  options.source = {"device", "emulated stylus", "E1"};
+  options.source = {SourceKind::device, "emulated stylus", "E1"};
   options.notes.emplace_back(ledger::k_ticket_note, ticket);
   const auto setup = scenarios::prepare_exam(scenario, options);
   std::int64_t ticks = 0;

@@ -1,0 +1,169 @@
+#include "engine/base/message_json.h"
+
+#include <fmt/args.h>
+#include <fmt/format.h>
+
+#include <cmath>
+#include <mutex>
+#include <set>
+#include <stdexcept>
+
+namespace cavum {
+namespace {
+
+using Json = nlohmann::ordered_json;
+constexpr std::size_t k_most_bytes = 4096, k_most_values = 64, k_most_messages = 10'000;
+constexpr int k_deepest = 8, k_most_digits = 12;
+
+[[noreturn]] void refuse(const char* why) { throw std::invalid_argument(why); }
+
+Json json_of(const Value& value) {
+  struct Coder {
+    Json operator()(std::int64_t whole) const { return whole; }
+    Json operator()(const Number& n) const {
+      Json j = {{"value", n.value}};
+      if (n.unit != Unit::none) j["unit"] = unit_sign(n.unit);
+      if (n.digits != k_as_needed) j["digits"] = n.digits;
+      if (n.bound != 0) j["bound"] = n.bound;
+      if (n.sign) j["sign"] = true;
+      return j;
+    }
+    Json operator()(const ClockTime& c) const { return {{"clock_s", c.seconds}}; }
+    Json operator()(const Vec3& p) const { return {{"place_mm", {p.x, p.y, p.z}}}; }
+    Json operator()(const Name& n) const { return n.text; }
+    Json operator()(const FilePlace& p) const { return {{"file", p.file}, {"line", p.line}, {"column", p.column}}; }
+    Json operator()(const Term& t) const { return {{"term", t.english}}; }
+    Json operator()(const Authored& a) const { return {{"authored", a.english}}; }
+    Json operator()(const List& l) const {
+      Json j = {{"list", encode(l.items)}};
+      if (l.sentences) j["sentences"] = true;
+      return j;
+    }
+    Json operator()(const Message& m) const { return encode(m); }
+  };
+  return std::visit(Coder{}, static_cast<const Value::variant&>(value));
+}
+
+/// The same text for as long as the program runs: a message points to its sentence.
+const char* lasting(const std::string& text) {
+  static std::mutex lock;
+  static std::set<std::string> texts;
+  const std::lock_guard guard(lock);
+  if (texts.size() >= k_most_messages && !texts.contains(text)) refuse("other sentences than ours");
+  return texts.insert(text).first->c_str();
+}
+
+std::string text_of(const nlohmann::json& j) {
+  const auto* text = j.get_ptr<const std::string*>();
+  if (text == nullptr || text->size() > k_most_bytes) refuse("a text is missing or too long");
+  return *text;
+}
+
+double number_of(const nlohmann::json& j) {
+  if (!j.is_number() || !std::isfinite(j.get<double>())) refuse("a number is missing");
+  return j.get<double>();
+}
+
+int small_number(const nlohmann::json& j, int most) {
+  if (!j.is_number_integer()) refuse("a whole number is missing");
+  const auto n = j.get<std::int64_t>();
+  if (n < -1 || n > most) refuse("a number is out of its range");
+  return static_cast<int>(n);
+}
+
+void check_gaps(const std::string& english, std::size_t values) {
+  fmt::dynamic_format_arg_store<fmt::format_context> store;
+  for (std::size_t i = 0; i < values; ++i) store.push_back(std::string_view());
+  try {
+    (void)fmt::vformat(english, store);
+  } catch (const fmt::format_error&) {
+    refuse("the gaps are not those of the values");
+  }
+}
+
+Message message_of(const nlohmann::json& j, int depth);
+
+std::vector<Message> messages_of(const nlohmann::json& j, int depth) {
+  if (!j.is_array() || j.size() > k_most_messages) refuse("a list of messages is missing or too long");
+  std::vector<Message> out;
+  for (const auto& m : j) out.push_back(message_of(m, depth));
+  return out;
+}
+
+Value value_of(const nlohmann::json& j, int depth) {
+  if (j.is_number_integer()) return j.get<std::int64_t>();
+  if (j.is_string()) return Name{text_of(j)};
+  if (!j.is_object()) refuse("a value of no known kind");
+  if (j.contains("value")) {
+    Number n{number_of(j.at("value")), Unit::none, k_as_needed};
+    if (j.contains("unit")) {
+      const std::string sign = text_of(j.at("unit"));
+      int unit = 0;
+      while (unit <= static_cast<int>(Unit::byte) && unit_sign(static_cast<Unit>(unit)) != sign) ++unit;
+      if (unit > static_cast<int>(Unit::byte)) refuse("a unit that is not known");
+      n.unit = static_cast<Unit>(unit);
+    }
+    if (j.contains("digits")) n.digits = small_number(j.at("digits"), k_most_digits);
+    if (j.contains("bound")) n.bound = number_of(j.at("bound"));
+    n.sign = j.contains("sign");
+    return n;
+  }
+  if (j.contains("clock_s")) return ClockTime{number_of(j.at("clock_s"))};
+  if (j.contains("place_mm")) {
+    const auto& p = j.at("place_mm");
+    if (!p.is_array() || p.size() != 3) refuse("a place without three numbers");
+    return Vec3{number_of(p[0]), number_of(p[1]), number_of(p[2])};
+  }
+  if (j.contains("file")) {
+    constexpr int k_most_lines = 1'000'000'000;
+    return FilePlace{text_of(j.at("file")), small_number(j.value("line", nlohmann::json(0)), k_most_lines),
+                     small_number(j.value("column", nlohmann::json(0)), k_most_lines)};
+  }
+  if (j.contains("term")) return Term{text_of(j.at("term"))};
+  if (j.contains("authored")) return Authored{text_of(j.at("authored"))};
+  if (j.contains("list")) return List{messages_of(j.at("list"), depth + 1), j.contains("sentences")};
+  return message_of(j, depth + 1);
+}
+
+Message message_of(const nlohmann::json& j, int depth) {
+  if (depth > k_deepest) refuse("too many messages inside each other");
+  if (!j.is_object() || !j.contains("say")) refuse("no message");
+  const auto values_of = j.value("of", nlohmann::json::array());
+  if (!values_of.is_array() || values_of.size() > k_most_values) refuse("the values of a message are no list or too many");
+  const std::string english = text_of(j.at("say"));
+  check_gaps(english, values_of.size());
+  std::vector<Value> values;
+  for (const auto& v : values_of) values.push_back(value_of(v, depth));
+  if (!j.contains("many")) return {lasting(english), nullptr, 0, std::move(values)};
+  const std::string many = text_of(j.at("many"));
+  check_gaps(many, values.size());
+  if (!j.contains("count") || !j.at("count").is_number_integer()) refuse("a count is missing");
+  return {lasting(english), lasting(many), j.at("count").get<std::int64_t>(), std::move(values)};
+}
+
+}  // namespace
+
+nlohmann::ordered_json encode(const Message& message) {
+  Json j = {{"say", message.empty() ? "" : message.english()}};
+  if (!message.empty() && message.plural() != nullptr) {
+    j["many"] = message.plural();
+    j["count"] = message.count();
+  }
+  if (!message.values().empty()) {
+    j["of"] = Json::array();
+    for (const Value& v : message.values()) j["of"].push_back(json_of(v));
+  }
+  return j;
+}
+
+nlohmann::ordered_json encode(const std::vector<Message>& messages) {
+  Json list = Json::array();
+  for (const Message& m : messages) list.push_back(encode(m));
+  return list;
+}
+
+Message decode_message(const nlohmann::json& json) { return message_of(json, 0); }
+
+std::vector<Message> decode_messages(const nlohmann::json& json) { return messages_of(json, 0); }
+
+}  // namespace cavum

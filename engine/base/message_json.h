@@ -1,0 +1,27 @@
+// Messages in JSON. For other programs: the English sentence. In our own files: {"say": "the wall {} lacks {}", "of": ["mesial", {"value": 0.31, "unit": "mm³", "digits": 2}]}. What is kept so can
+// still be said in every language.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <vector>
+
+#include "engine/base/message.h"
+
+namespace cavum {
+
+/// For whoever reads JSON: the English sentence.
+template <class Json>
+void to_json(Json& json, const Message& message) {
+  json = english_text(message);
+}
+
+// As our own files keep it.
+[[nodiscard]] nlohmann::ordered_json encode(const Message& message);
+[[nodiscard]] nlohmann::ordered_json encode(const std::vector<Message>& messages);
+/// Throws std::invalid_argument for what is no message: other fields, gaps that are not as many as the values, more than 4096 bytes of a text, 64
+/// values, 8 messages inside each other.
+[[nodiscard]] Message decode_message(const nlohmann::json& json);
+/// At most 10,000.
+[[nodiscard]] std::vector<Message> decode_messages(const nlohmann::json& json);
+
+}  // namespace cavum
