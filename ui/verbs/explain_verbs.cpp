@@ -138,7 +138,7 @@ bool ran_table(const ExplainArgs& a) {
 
 void run_explain(const ExplainArgs& a) {
   if (a.laws) {
-    say(explain::laws_page());
+    std::cout << explain::laws_page();  // a page of the documentation
     return;
   }
   if (!a.protocol.empty()) {

@@ -151,7 +151,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
 
 int run_grade(const GradeArguments& o) {
   if (o.measures) {
-    say(grading::measures_page());
+    std::cout << grading::measures_page();  // a page of the documentation
     return 0;
   }
   if (!o.out.empty()) {

@@ -67,9 +67,7 @@ Json landmarks_json(const Tooth& tooth, const Landmarks& l) {
 void print_landmarks(const Tooth& tooth, const Landmarks& l) {
   Lines out;
   out.add(Name{tooth.name});
-  out.add(
-      msg("class: {}, sure to {}: {}", Term{std::string(name_of(l.tooth_class.kind))}, as_number(l.tooth_class.sureness, 2), l.tooth_class.reason),
-      2);
+  out.add(msg("class: {}, sure to {}: {}", in_words(l.tooth_class.kind), as_number(l.tooth_class.sureness, 2), l.tooth_class.reason), 2);
   const Vec3 up = l.long_axis.occlusal;
   out.add(msg("axis: ({} {} {}), {} from +z", as_number(up.x, 3), as_number(up.y, 3), as_number(up.z, 3), as_deg(l.long_axis.tilt_deg, 1)), 2);
   std::size_t cusp = 0;

@@ -27,18 +27,18 @@ int ledger_verify(const LedgerOptions& o) {
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(fmt::format("{}: {}", path, f));
+    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(msg("{}: {}", path, f));
   }
   const auto cosigners = cosigners_of(o);
   ledger::check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
     const auto note = ledger::check_cosigned(read_text_file(path), cosigners, content);
-    for (const auto& f : note.findings) check.findings.push_back(fmt::format("{}: {}", path, f));
-    for (const auto& n : note.not_checked) check.not_checked.push_back(fmt::format("{}: {}", path, n));
+    for (const auto& f : note.findings) check.findings.push_back(msg("{}: {}", path, f));
+    for (const auto& n : note.not_checked) check.not_checked.push_back(msg("{}: {}", path, n));
   }
   if (!o.results.empty())
     for (auto& f : ledger::check_results(read_text_file(o.results), content.public_key, &content))
-      check.findings.push_back(fmt::format("{}: {}", o.results, f));
+      check.findings.push_back(msg("{}: {}", o.results, f));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},
@@ -85,7 +85,7 @@ List all_of_it(const ledger::FiledSession& s) {
 int ledger_show(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   const ledger::Registry registry = ledger::read_registry(content);
-  std::vector<std::string> findings = content.findings;
+  std::vector<Message> findings = content.findings;
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
   if (!findings.empty())
     say_error(

@@ -91,11 +91,11 @@ int ledger_add(const LedgerOptions& o) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
       if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
-      filing.findings.emplace_back(e.what());
+      filing.findings.push_back(e.message());
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back(fmt::format("{}: cannot be filed ({}); use an intact copy", path, e.what()));
+      filing.findings.push_back(msg("{}: cannot be filed ({}); use an intact copy", path, e.what()));
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};

@@ -46,7 +46,7 @@ MarkedSession marked_session(const std::string& path, Marking by, grading::ExamG
   }
   if (!old) return g;
   g.comparison = grading::compare(*old, again ? *again : g.result, old_rubric, g.result, g.rubric);
-  g.comparison->by = english_text(anew ? by.by : msg("this version of the program"));
+  g.comparison->by = anew ? by.by : msg("this version of the program");
   g.regrade = anew || g.comparison->differs();
   return g;
 }

@@ -56,7 +56,7 @@ void run_neighbour(NeighbourArgs a) {
     print_json(d);
     return;
   }
-  print_tooth(d);
+  print_tooth(done.tooth, d);
   Lines out;
   add_contact(out, msg("mesial"), done.mesial);
   add_contact(out, msg("distal"), done.distal);

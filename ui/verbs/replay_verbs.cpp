@@ -49,7 +49,7 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
     o.report = verify_session(path, station_key);
   } catch (const Error& e) {
     o.report.file = path;
-    o.report.findings.emplace_back(e.what());
+    o.report.findings.push_back(e.message());
     o.unreadable = std::current_exception();
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -91,7 +91,7 @@ json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
       sum["first_divergence"] = one["first_divergence"];
       sum["first_divergence"]["file"] = o.report.file;
     }
-    for (const auto& f : o.report.findings) sum["findings"].push_back(fmt::format("{}: {}", o.report.file, f));
+    for (const auto& f : o.report.findings) sum["findings"].push_back(msg("{}: {}", o.report.file, f));
     sessions.push_back(std::move(one));
   }
   sum["ticks"] = ticks;
@@ -119,10 +119,10 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
       continue;
     }
     std::string lines;
-    for (const auto& f : o.report.findings) lines += f + "\n";
+    for (const auto& f : o.report.findings) lines += english_text(f) + "\n";
     const char* tag = o.readable() ? "failure" : "error";
-    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : o.report.findings.front()) << "\">"
-        << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
+    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front()))
+        << "\">" << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
   return out.str();

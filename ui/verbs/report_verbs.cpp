@@ -46,7 +46,7 @@ report::ReportIntegrity integrity_of(const std::string& path, const ReportArgume
   if (replayed_then && i.findings.empty()) {
     i.replay = report::ReportIntegrity::Replay::agrees;
     i.at_filing = true;
-    i.remarks = {"the motion was simulated again when the ledger took the session in, and the file is the same since then"};
+    i.remarks = {msg("the motion was simulated again when the ledger took the session in, and the file is the same since then")};
   }
   return i;
 }
@@ -116,8 +116,8 @@ bool is_practice(const grading::GradedSession& s) {
 /// The report of one session, as a file of that name holds it.
 struct MadeReport {
   std::string text;
-  std::string verdict;  ///< a person's, where one decided
-  std::string finding;  ///< the first of what does not hold; empty: nothing
+  Message verdict;  ///< a person's, where one decided
+  Message finding;  ///< the first of what does not hold; empty: nothing
 };
 
 /// `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
@@ -147,8 +147,8 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   source.integrity = integrity_of(session, o, filed, grounds);
   const bool decided = source.filing && source.filing->regrade && !source.filing->regrade->person.empty();
   return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source),
-          decided ? source.filing->regrade->verdict : grading::verdict_name(m.result.verdict),
-          source.integrity.findings.empty() ? "" : source.integrity.findings.front()};
+          decided ? msg("{}", Term{source.filing->regrade->verdict}) : grading::word_of(m.result.verdict),
+          source.integrity.findings.empty() ? Message() : source.integrity.findings.front()};
 }
 
 void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
@@ -157,8 +157,8 @@ void write_report(const std::string& session, const std::string& out, const Repo
   write_text_file(out, made.text);
   if (out.ends_with(".svg")) return;
   if (!made.finding.empty()) say_error(msg("notice: {}: does not hold: {}", session, made.finding));
-  say(made.finding.empty() ? msg("written: {} ({})", out, Term{made.verdict})
-                           : msg("written: {} ({}, of a session that does not hold)", out, Term{made.verdict}));
+  say(made.finding.empty() ? msg("written: {} ({})", out, made.verdict)
+                           : msg("written: {} ({}, of a session that does not hold)", out, made.verdict));
 }
 
 void run_report(const ReportArguments& o) {

@@ -12,7 +12,6 @@
 #include "engine/base/scratch_folder.h"
 #include "engine/language/say.h"
 #include "engine/tooth/anatomy/landmarks.h"
-#include "engine/tooth/tooth_notes.h"
 #include "grading/battery/battery.h"
 #include "grading/result/result_json.h"
 #include "scenarios/exam/exam.h"
@@ -99,7 +98,7 @@ Message against(const std::string& text, const std::string& file, Trial& trial) 
   trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
   if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent) {
     const Number percent = as_percent(trial.expert_percent, 0);
-    const Term verdict{grading::verdict_name(solved.result->verdict)};
+    const Message verdict = grading::word_of(solved.result->verdict);
     return solved.reasons.empty() ? msg("the built-in expert gets {} of the points ({})", percent, verdict)
                                   : msg("the built-in expert gets {} of the points ({}): {}", percent, verdict, List{solved.reasons, true});
   }
@@ -125,7 +124,6 @@ int make_for_tooth(const NewArguments& o) {
   if (!o.untried) tried = [&](const std::string& text) { return english_text(against(text, file, trial)); };
   const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, file), o.out, task, tried);
   write_text_file(o.out, written.text, {.may_replace = o.force});
-  const ToothNotes notes = notes_of(tooth);
   if (o.json) {
     Json warnings = Json::array();
     for (const auto& p : written.problems) warnings.push_back(english_text(p.message()));
@@ -137,13 +135,13 @@ int make_for_tooth(const NewArguments& o) {
                     {"task", task},
                     {"chosen", written.chosen},
                     {"warnings", warnings},
-                    {"tooth_guesses", notes.guesses},
-                    {"tooth_notices", notes.warnings}});
+                    {"tooth_guesses", tooth.notes_of(ToothNote::Kind::guess)},
+                    {"tooth_notices", tooth.notes_of(ToothNote::Kind::warning)}});
     return 0;
   }
   say(msg("written: {}; {} on {}: {}", o.out, task, tooth.name, written.chosen));
   for (const auto& p : written.problems) say(p.message());
-  for (const auto& warning : notes.warnings) say(msg("notice: {}", warning));
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) say(msg("notice: {}", warning));
   if (o.untried) {
     say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg && cavum scenario solve {} --battery", o.out, o.out)));
   } else {

@@ -47,11 +47,11 @@ int check(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
       j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
-                               {"where", english_text(p.where)},
+                               {"where", p.where},
                                {"line", p.where.line},
                                {"column", p.where.column},
-                               {"what", english_text(p.what)},
-                               {"what_to_do", english_text(p.what_to_do)}});
+                               {"what", p.what},
+                               {"what_to_do", p.what_to_do}});
     j["expert_s"] = checked.expert.time_s ? nlohmann::ordered_json(std::round(*checked.expert.time_s)) : nlohmann::ordered_json(nullptr);
     if (checked.expert.time_s) j["expert_reach_percent"] = std::round(100 * checked.expert.reach);
     print_json(j);
@@ -165,7 +165,7 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
 nlohmann::ordered_json to_json(const Caught& c) {
   const auto result = grading::to_json(c.result);
   nlohmann::ordered_json j{
-      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(c.criterion.reason)}, {"what_to_do", english_text(c.advice)}};
+      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(msg("{}", c.criterion.reason))}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
 }
@@ -173,7 +173,7 @@ nlohmann::ordered_json to_json(const Caught& c) {
 Lines to_text(const Caught& c) {
   Lines out;
   const Number points = as_points(c.result.points), most = as_points(c.result.max_points);
-  const Term verdict{grading::verdict_name(c.result.verdict)};
+  const Message verdict = grading::word_of(c.result.verdict);
   out.add(c.as_named ? msg("careless: failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict)
                      : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict));
   if (c.as_named) return out;
@@ -218,9 +218,8 @@ int solve(const ScenarioArguments& o) {
       auto result = grading::to_json(*solved.result);
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
-    j["reasons"] = nlohmann::ordered_json::array();
-    for (const auto& reason : solved.reasons) j["reasons"].push_back(english_text(reason));
-    j["what_to_do"] = english_text(solved.advice);
+    j["reasons"] = solved.reasons;
+    j["what_to_do"] = solved.advice;
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
     if (battery) j["battery"] = grading::battery_json(*battery);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
@@ -232,7 +231,7 @@ int solve(const ScenarioArguments& o) {
   if (solved.result) {
     const grading::Result& r = *solved.result;
     const Number points{r.points, Unit::none, 1, r.points_bound}, most = as_points(r.max_points), mark = as_percent(r.pass_percent, 0);
-    const Term verdict{grading::verdict_name(r.verdict)};
+    const Message verdict = grading::word_of(r.verdict);
     say(r.compensatory ? msg("score: {} of {} points, {}; pass mark {}", points, most, verdict, mark)
                        : msg("score: {} of {} points, {}; pass mark {} of each criterion", points, most, verdict, mark));
     say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0),

@@ -20,7 +20,7 @@ nlohmann::json entry_json(const CheckEntry& e) {
   j.erase("signature");
   j.erase("previous");
   j["utc"] = utc_text(e.utc_ns);
-  if (e.kind == CheckEntry::Kind::check) j["words"] = english_text(in_words(e.verdict));
+  if (e.kind == CheckEntry::Kind::check) j["words"] = in_words(e.verdict);
   return j;
 }
 
@@ -40,20 +40,6 @@ Lines figures_text(const ArmFigures& f) {
   return out;
 }
 
-Message outcome_words(CheckOutcome outcome) {
-  switch (outcome) {
-    case CheckOutcome::learning:
-      return msg("still learning");
-    case CheckOutcome::unchanged:
-      return msg("unchanged");
-    case CheckOutcome::changed:
-      return msg("changed");
-    case CheckOutcome::doubtful:
-      break;
-  }
-  return msg("nothing can be said");
-}
-
 int show_history(const SelfCheckArguments& o) {
   const CheckHistory history(check_history_path());
   nlohmann::json all = nlohmann::json::array();
@@ -65,7 +51,7 @@ int show_history(const SelfCheckArguments& o) {
     }
     const std::string when = utc_text(e.utc_ns);
     if (e.kind == CheckEntry::Kind::check)
-      say(msg("{}  {}  {}: {}", when, e.stylus.id, outcome_words(e.verdict.outcome), in_words(e.verdict)));
+      say(msg("{}  {}  {}: {}", when, e.stylus.id, word_of(e.verdict.outcome), in_words(e.verdict)));
     else if (e.kind == CheckEntry::Kind::decision)
       say(e.go_on ? msg("{}  {}  decided to go on ({}): {}", when, e.stylus.id, e.by, e.reason)
                   : msg("{}  {}  decided to stop ({}): {}", when, e.stylus.id, e.by, e.reason));
@@ -109,7 +95,7 @@ int self_check(const SelfCheckArguments& o) {
   if (o.json) {
     print_json(entry_json(done.entry));
   } else {
-    say(msg("{}, {}: {}", done.entry.station, done.name, outcome_words(v.outcome)));
+    say(msg("{}, {}: {}", done.entry.station, done.name, word_of(v.outcome)));
     if (done.entry.figures.doubt.empty()) say(figures_text(done.entry.figures));
     say(msg("{}", in_words(v)), 2);
     if (v.outcome == CheckOutcome::changed) {

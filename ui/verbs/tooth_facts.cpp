@@ -4,7 +4,6 @@
 #include <cmath>
 
 #include "engine/tooth/octree_edit.h"
-#include "engine/tooth/tooth_notes.h"
 #include "ui/parts/say.h"
 
 namespace cavum::ui {
@@ -42,7 +41,6 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
     if (count[t.id] > 0)
       tissues.push_back(
           {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
-  const ToothNotes notes = notes_of(tooth);
   return {{"name", tooth.name},
           {"source", tooth.source},
           {"leaf_mm", o.leaf_mm()},
@@ -51,20 +49,20 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
           {"memory_bytes", o.memory_bytes()},
           {"file_bytes", file_bytes},
           {"hash", tooth_hash(tooth)},
-          {"guesses", notes.guesses},
-          {"warnings", notes.warnings},
-          {"mirror_image", notes.mirror_image}};
+          {"guesses", tooth.notes_of(ToothNote::Kind::guess)},
+          {"warnings", tooth.notes_of(ToothNote::Kind::warning)},
+          {"mirror_image", !tooth.notes_of(ToothNote::Kind::mirror_image).empty()}};
 }
 
-void print_tooth(const nlohmann::ordered_json& d) {
+void print_tooth(const Tooth& tooth, const nlohmann::ordered_json& d) {
   Lines out;
-  out.add(Name{d["name"].get<std::string>()});
-  out.add(msg("from: {}", d["source"].get<std::string>()), 2);
+  out.add(Name{tooth.name});
+  out.add(msg("from: {}", tooth.source), 2);
   const auto corner = [&d](const char* which) {
     const auto& at = d["bounds_mm"][which];
     return Vec3{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
   };
-  out.add(msg("leaf: {}; from {} to {}", as_mm(d["leaf_mm"].get<double>(), k_as_needed), corner("low"), corner("high")), 2);
+  out.add(msg("leaf: {}; from {} to {}", as_mm(tooth.octree.leaf_mm(), k_as_needed), corner("low"), corner("high")), 2);
   for (const auto& t : d["tissues"])
     out.row({msg("{}", Term{t["name"].get<std::string>()}), msg("{}", as_mm3(t["volume_mm3"].get<double>(), 3)),
              t["solid"].get<bool>() ? Message() : msg("(not solid)")},
@@ -72,8 +70,8 @@ void print_tooth(const nlohmann::ordered_json& d) {
   out.add(msg("memory: {} MB, file {} MB", as_number(d["memory_bytes"].get<double>() / 1e6, 2), as_number(d["file_bytes"].get<double>() / 1e6, 2)),
           2);
   out.add(msg("hash: {}", d["hash"].get<std::string>()), 2);
-  for (const auto& guess : d["guesses"]) out.add(msg("guess: {}", guess.get<std::string>()), 2);
-  for (const auto& warning : d["warnings"]) out.add(msg("notice: {}", warning.get<std::string>()), 2);
+  for (const auto& guess : tooth.notes_of(ToothNote::Kind::guess)) out.add(msg("guess: {}", guess), 2);
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) out.add(msg("notice: {}", warning), 2);
   say(out);
 }
 

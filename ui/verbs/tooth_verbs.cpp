@@ -77,7 +77,7 @@ void finish(const Tooth& tooth, const std::string& path, bool json, const Json& 
     d.update(more);
     print_json(d);
   } else {
-    print_tooth(d);
+    print_tooth(tooth, d);
     say(msg("written: {}", path), 2);
   }
 }
@@ -418,7 +418,7 @@ void add_info(CLI::App& tooth) {
     if (*json)
       print_json(d);
     else
-      print_tooth(d);
+      print_tooth(t, d);
   });
 }
 

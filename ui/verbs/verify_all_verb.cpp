@@ -159,10 +159,9 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
   const double real_time = made.spent.core_s > 0 ? session_s / made.spent.core_s : 0.0;
   const double efficiency = made.workers > 0 && made.found == 0 ? made.spent.wall_s / (made.wall_s * static_cast<double>(made.workers)) : 0.0;
   if (o.as_json) {
-    json all{{"sessions", work.sessions.size()}, {"sound", sums.sound},          {"wrong", json::array()},       {"missing", json::array()},
+    json all{{"sessions", work.sessions.size()}, {"sound", sums.sound},          {"wrong", sums.wrong},          {"missing", json::array()},
              {"session_s", session_s},           {"tasks_s", made.spent.wall_s}, {"cores_s", made.spent.core_s}, {"wall_s", made.wall_s},
              {"workers", made.workers},          {"found", made.found},          {"x_realtime_core", real_time}, {"efficiency", efficiency}};
-    for (const auto& w : sums.wrong) all["wrong"].push_back(english_text(w));
     for (const auto i : made.missing) all["missing"].push_back(work.sessions[i]);
     if (ledger != nullptr) all["ledger"] = {{"findings", ledger->findings}, {"not_checked", ledger->not_checked}, {"remarks", ledger->remarks}};
     print_json(all);
