@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/explain/inference/search.h"
 
 namespace cavum::explain {
@@ -85,11 +86,11 @@ struct ExplainOptions {
 
 /// The names of docs/contracts.md (JSON).
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
-[[nodiscard]] std::string to_text(const Explanation& explanation);
+[[nodiscard]] Lines to_text(const Explanation& explanation);
 /// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
 [[nodiscard]] std::vector<std::string> fold_names(const Explanation& explanation);
 /// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the
 /// position may make as much. Else empty.
-[[nodiscard]] std::string left_over_words(const Explanation& explanation);
+[[nodiscard]] Message left_over_words(const Explanation& explanation);
 
 }  // namespace cavum::explain

@@ -1,6 +1,5 @@
 #include "engine/explain/inference/stiffness_table.h"
 
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
@@ -193,22 +192,31 @@ TableExplanation explain_table(const StiffnessTable& table) {
   return e;
 }
 
-std::string to_text(const TableExplanation& e) {
+Lines to_text(const TableExplanation& e) {
   const Explanation& said = e.said;
   if (said.verdict == "data_fault") return to_text(said);
-  std::string out = said.verdict == "alias" ? "verdict: alias. A force is missing that does not depend on k; the table cannot tell which.\n"
-                                            : "verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it.\n";
+  Lines out;
+  out.add(said.verdict == "alias" ? msg("verdict: alias. A force is missing that does not depend on k; the table cannot tell which.")
+                                  : msg("verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it."));
   for (const auto& c : said.causes) {
-    out += printed("\ncause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, %.4f N at every k\n", c.effect_n);
-    out += "  none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest\n";
+    out.gap();
+    out.add(msg("cause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, {} at every k", as_n(c.effect_n, 4)));
+    out.add(msg("none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest"), 2);
   }
-  const auto fit = [](const char* name, const TableFit& f) {
-    return printed("  %-26s F = %7.3f k %+7.3f √k %+7.3f N   rms %.4f N, row left out %.4f N\n", name, f.slope_mm, f.root, f.intercept_n, f.rms_n,
-                   f.left_out_rms_n);
+  const auto fit = [&out](const Message& name, const TableFit& f) {
+    const auto term = [](double v) { return Number{v, cavum::Unit::none, 3, 0.0, true}; };
+    out.row({name, msg("F = {} k {} √k {} N", as_number(f.slope_mm, 3), term(f.root), term(f.intercept_n)),
+             msg("rms {}, row left out {}", as_n(f.rms_n, 4), as_n(f.left_out_rms_n, 4))},
+            2);
   };
-  out += fmt::format("\n{}{}{}\n", fit("Voigt law, k X + c V", e.voigt), fit("k X and an intercept", e.line), fit("all three", e.all));
-  for (const auto& s : said.notes) out += wrapped("- " + s);
-  out += "\n" + wrapped("next experiment: " + said.next_experiment);
+  out.gap();
+  fit(msg("Voigt law, k X + c V"), e.voigt);
+  fit(msg("k X and an intercept"), e.line);
+  fit(msg("all three"), e.all);
+  out.gap();
+  for (const auto& s : said.notes) out.add(msg("- {}", s));
+  out.gap();
+  out.add(msg("next experiment: {}", said.next_experiment));
   return out;
 }
 

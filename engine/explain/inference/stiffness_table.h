@@ -44,7 +44,7 @@ struct TableExplanation {
 /// Verdict `alias` when the table needs an intercept, else `not_testable`; `data_fault` below five rows or four stiffnesses.
 [[nodiscard]] TableExplanation explain_table(const StiffnessTable& table);
 
-[[nodiscard]] std::string to_text(const TableExplanation& explanation);
+[[nodiscard]] Lines to_text(const TableExplanation& explanation);
 /// The names of docs/contracts.md (JSON), and `table` beside it: the fits.
 [[nodiscard]] nlohmann::json to_json(const TableExplanation& explanation);
 

@@ -4,7 +4,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/print.h"
 #include "engine/explain/inference/explain.h"
 #include "engine/explain/inference/probability.h"
 
@@ -26,14 +25,20 @@ json own_gain(const Explanation& e, const Cause& c) {
   return out;
 }
 
-std::string in_words(const Explanation& e) {
-  if (e.verdict == "clean") return "nothing that these data can show is missing from the simulation";
-  if (e.verdict == "not_testable") return "these data cannot show anything either way: every mechanism that matters can hide behind k and c";
-  if (e.verdict == "data_fault") return "the recording cannot be trusted, so nothing was explained";
-  if (e.verdict == "unexplained") return "the force depends on something that no mechanism here describes";
-  const std::string more = e.unexplained ? fmt::format(", and that is not all: something about {} stays unexplained", e.unexplained->variable) : "";
-  if (e.verdict == "alias") return "something is missing, but these data cannot tell which of several mechanisms it is" + more;
-  return "the simulation lacks what is named below" + more;
+Message in_words(const Explanation& e) {
+  if (e.verdict == "clean") return msg("nothing that these data can show is missing from the simulation");
+  if (e.verdict == "not_testable") return msg("these data cannot show anything either way: every mechanism that matters can hide behind k and c");
+  if (e.verdict == "data_fault") return msg("the recording cannot be trusted, so nothing was explained");
+  if (e.verdict == "unexplained") return msg("the force depends on something that no mechanism here describes");
+  if (e.verdict == "alias")
+    return e.unexplained
+               ? msg("something is missing, but these data cannot tell which of several mechanisms it is, and that is not all: something about {} "
+                     "stays unexplained",
+                     e.unexplained->variable)
+               : msg("something is missing, but these data cannot tell which of several mechanisms it is");
+  return e.unexplained
+             ? msg("the simulation lacks what is named below, and that is not all: something about {} stays unexplained", e.unexplained->variable)
+             : msg("the simulation lacks what is named below");
 }
 
 }  // namespace
@@ -92,51 +97,53 @@ std::vector<std::string> fold_names(const Explanation& e) {
   return out;
 }
 
-std::string left_over_words(const Explanation& e) {
+Message left_over_words(const Explanation& e) {
   constexpr double k_more_than_noise = 1.5;
-  if (e.verdict != "clean" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return "";
-  return printed(
-      "The simulation misses by %.4f N rms where the noise of the force is %.4f N: as much as the errors of the position may make (%.4f N).",
-      e.gain.base_rmse_n, e.gain.noise_floor_n, e.position_error_n);
+  if (e.verdict != "clean" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return {};
+  return msg("The simulation misses by {} rms where the noise of the force is {}: as much as the errors of the position may make ({}).",
+             as_n(e.gain.base_rmse_n, 4), as_n(e.gain.noise_floor_n, 4), as_n(e.position_error_n, 4));
 }
 
-std::string to_text(const Explanation& e) {
-  std::string out = fmt::format("verdict: {}. {}.\n", e.verdict, in_words(e));
-  for (const auto& f : e.data_faults) out += wrapped("fault: " + f);
+Lines to_text(const Explanation& e) {
+  Lines out;
+  out.add(msg("verdict: {}: {}", e.verdict, in_words(e)));
+  for (const auto& f : e.data_faults) out.add(msg("fault: {}", f));
   if (e.verdict == "data_fault") return out;
   for (const auto& c : e.causes) {
     const Mechanism& m = mechanism_of(c);
-    out += printed("\ncause: %s (%s), %.4f N rms, p = %.2g\n", m.name, m.words, c.effect_n, c.p_value);
-    out += printed("  force %s\n", m.equation);
-    out += printed("  %s: %.0f %%", probability_words(c.probability), 100.0 * c.probability);
-    if (!c.aliases.empty()) out += printed("; that it is this or one that fits as well: %.0f %%", 100.0 * c.set_probability);
-    out += "\n";
-    out += printed("  alone it lowers the error on sessions not seen by %.1f %% (%.1f to %.1f)\n", c.gain_percent.value, c.gain_percent.low,
-                   c.gain_percent.high);
-    for (const auto& [name, i] : c.parameters) out += printed("  %-20s %12.5g   95 %%: %.5g to %.5g\n", name.c_str(), i.value, i.low, i.high);
-    if (!c.aliases.empty()) {
-      out += "  fits as well:";
-      for (const auto& a : c.aliases) out += " " + a;
-      out += "\n";
-    }
+    out.gap();
+    out.add(msg("cause: {} ({}), {} rms, p = {}", m.name, cavum::Term{m.words}, as_n(c.effect_n, 4), as_number(c.p_value, 3)));
+    out.add(msg("force {}", m.equation), 2);
+    const cavum::Term how_likely{probability_words(c.probability)};
+    out.add(c.aliases.empty() ? msg("{}: {}", how_likely, as_percent(100.0 * c.probability))
+                              : msg("{}: {}; that it is this or one that fits as well: {}", how_likely, as_percent(100.0 * c.probability),
+                                    as_percent(100.0 * c.set_probability)),
+            2);
+    out.add(msg("alone it lowers the error on sessions not seen by {} ({} to {})", as_percent(c.gain_percent.value, 1),
+                as_number(c.gain_percent.low, 1), as_percent(c.gain_percent.high, 1)),
+            2);
+    for (const auto& [name, i] : c.parameters)
+      out.row({Name{name}, msg("{}", as_number(i.value)), msg("95 %: {} to {}", as_number(i.low), as_number(i.high))}, 2);
+    if (!c.aliases.empty()) out.add(msg("fits as well: {}", list_of(c.aliases)), 2);
   }
   if (e.unexplained)
-    out += wrapped(printed("unexplained: the force depends on %s (%s), %.4f N rms.", e.unexplained->variable.c_str(), e.unexplained->form.c_str(),
-                           e.unexplained->effect_n));
-  if (const std::string left = left_over_words(e); !left.empty()) out += wrapped(left);
-  out += printed("\nk = %.5g N/mm (%.5g to %.5g), c = %.5g N s/mm (%.5g to %.5g)\n", e.base.k_n_per_mm, e.k.low, e.k.high, e.base.c_n_s_per_mm,
-                 e.c.low, e.c.high);
-  out += printed("on sessions not seen: base %.4f N, extended %.4f N rms; noise floor %.4f N\n", e.gain.base_rmse_n, e.gain.extended_rmse_n,
-                 e.gain.noise_floor_n);
-  out += printed("gain %.1f %% (%.1f to %.1f), %.0f %% of what could be explained\n", e.gain.percent.value, e.gain.percent.low, e.gain.percent.high,
-                 e.gain.share_percent);
+    out.add(
+        msg("unexplained: the force depends on {} ({}), {} rms.", e.unexplained->variable, e.unexplained->form, as_n(e.unexplained->effect_n, 4)));
+  if (const Message left = left_over_words(e); !left.empty()) out.add(left);
+  out.gap();
+  out.add(msg("k = {} ({} to {}), c = {} N s/mm ({} to {})", as_unit(e.base.k_n_per_mm, cavum::Unit::n_per_mm), as_number(e.k.low),
+              as_number(e.k.high), as_number(e.base.c_n_s_per_mm), as_number(e.c.low), as_number(e.c.high)));
+  out.add(msg("on sessions not seen: base {}, extended {} rms; noise floor {}", as_n(e.gain.base_rmse_n, 4), as_n(e.gain.extended_rmse_n, 4),
+              as_n(e.gain.noise_floor_n, 4)));
+  out.add(msg("gain {} ({} to {}), {} of what could be explained", as_percent(e.gain.percent.value, 1), as_number(e.gain.percent.low, 1),
+              as_percent(e.gain.percent.high, 1), as_percent(e.gain.share_percent)));
   if (!e.not_testable.empty()) {
-    std::string list = "not testable with these data:";
-    for (const auto& n : e.not_testable) list += " " + n.mechanism;
-    out += wrapped(list);
+    std::vector<std::string> names;
+    for (const auto& n : e.not_testable) names.push_back(n.mechanism);
+    out.add(msg("not testable with these data: {}", list_of(names)));
   }
-  out += wrapped("next experiment: " + e.next_experiment);
-  for (const auto& n : e.notes) out += wrapped("note: " + n);
+  out.add(msg("next experiment: {}", e.next_experiment));
+  for (const auto& n : e.notes) out.add(msg("note: {}", n));
   return out;
 }
 

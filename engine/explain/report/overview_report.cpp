@@ -1,8 +1,5 @@
 #include "engine/explain/report/overview_report.h"
 
-#include <fmt/core.h>
-
-#include "engine/base/print.h"
 #include "engine/base/text.h"
 
 namespace cavum::explain {
@@ -22,20 +19,24 @@ json as_json(const ColumnSeen& c) {
   return j;
 }
 
-std::string line_of(const ColumnSeen& c) {
-  const std::string from = c.header == c.name ? "" : fmt::format(" from '{}'", c.header);
-  const std::string unit = c.unit.empty() ? ""
-                                          : fmt::format(", {}{}{}{}", c.unit, c.factor == 1.0 ? "" : fmt::format(" × {}", plain_number(c.factor)),
-                                                        c.declared ? "" : " (not said, taken for granted)", c.negated ? ", other way round" : "");
-  return fmt::format("  {}{}{}: {} to {}\n", c.name, from, unit, plain_number(c.low), plain_number(c.high));
+/// "f from 'Kraft [mN]', mN × 0.001: 0 to 3"
+Message line_of(const ColumnSeen& c) {
+  List said{{c.header == c.name ? msg("{}", c.name) : msg("{} from '{}'", c.name, c.header)}, false};
+  if (!c.unit.empty()) {
+    said.items.push_back(c.factor == 1.0 ? msg("{}", c.unit) : msg("{} × {}", c.unit, as_number(c.factor)));
+    if (!c.declared) said.items.push_back(msg("unit not said, taken for granted"));
+    if (c.negated) said.items.push_back(msg("other way round"));
+  }
+  return msg("{}: {} to {}", said, as_number(c.low), as_number(c.high));
 }
 
-std::string contact_words(const Conventions& c) {
+Message contact_words(const Conventions& c) {
   if (!c.contact)
-    return "contact: the force does not leave a level in air at one place: wholly in air, wholly in contact, or hidden by other forces\n";
-  return fmt::format("contact: begins at x = {} mm, towards {} x; {} N in air, {} N at the far end\n", plain_number(c.contact->at_mm),
-                     c.contact->towards > 0 ? "greater" : "smaller", plain_number(c.contact->air_n),
-                     plain_number(c.contact->air_n + c.contact->reached_n));
+    return msg("contact: the force does not leave a level in air at one place: wholly in air, wholly in contact, or hidden by other forces");
+  const Number at = as_mm(c.contact->at_mm, k_as_needed), air = as_n(c.contact->air_n, k_as_needed),
+               far = as_n(c.contact->air_n + c.contact->reached_n, k_as_needed);
+  return c.contact->towards > 0 ? msg("contact: begins at x = {}, towards greater x; {} in air, {} at the far end", at, air, far)
+                                : msg("contact: begins at x = {}, towards smaller x; {} in air, {} at the far end", at, air, far);
 }
 
 }  // namespace
@@ -63,26 +64,32 @@ json to_json(const Overview& o) {
   return j;
 }
 
-std::string to_text(const Overview& o) {
-  std::string out =
-      fmt::format("{} rows, {} session{}, {} Hz{}\n", o.rows, o.sessions.size(), o.sessions.size() == 1 ? "" : "s", plain_number(o.rate_hz),
-                  o.uneven > 0.02 ? fmt::format(", stamps uneven by {} %", plain_number(100.0 * o.uneven)) : ", stamps even");
-  out += fmt::format("longest gap between rows: {} s\n", plain_number(o.longest_gap_s));
+Lines to_text(const Overview& o) {
+  Lines out;
+  const auto sessions = static_cast<std::int64_t>(o.sessions.size());
+  const Message rows = msg("{} rows", o.rows), of = msgn("{} session", "{} sessions", sessions, sessions);
+  const Message stamps = o.uneven > 0.02 ? msg("stamps uneven by {}", as_percent(100.0 * o.uneven, k_as_needed)) : msg("stamps even");
+  out.add(msg("{}", List{{rows, of, msg("{}", as_unit(o.rate_hz, cavum::Unit::hz)), stamps}, false}));
+  out.add(msg("longest gap between rows: {}", as_s(o.longest_gap_s, k_as_needed)));
   if (o.header_line > 0)
-    out += fmt::format("table: header in line {} ({} before it), cells parted by {}, decimal {}{}\n", o.header_line, o.lines_before, o.separator,
-                       o.decimal, o.unit_line ? ", units below the header" : "");
-  out += fmt::format("time: {}\ncolumns:\n", o.time_words);
-  for (const ColumnSeen& c : o.columns) out += line_of(c);
-  out += "sessions:\n";
+    out.add(o.unit_line ? msg("table: header in line {} ({} before it), cells parted by {}, decimal {}, units below the header", o.header_line,
+                              o.lines_before, cavum::Term{o.separator}, cavum::Term{o.decimal})
+                        : msg("table: header in line {} ({} before it), cells parted by {}, decimal {}", o.header_line, o.lines_before,
+                              cavum::Term{o.separator}, cavum::Term{o.decimal}));
+  out.add(msg("time: {}", o.time_words));
+  out.add(msg("columns:"));
+  for (const ColumnSeen& c : o.columns) out.add(line_of(c), 2);
+  out.add(msg("sessions:"));
   for (std::size_t i = 0; i < o.sessions.size() && i < k_most_sessions_in_words; ++i)
-    out += fmt::format("  {}: {} rows, {} s\n", one_line(o.sessions[i].name), o.sessions[i].rows, plain_number(o.sessions[i].lasts_s));
-  if (o.sessions.size() > k_most_sessions_in_words) out += fmt::format("  and {} more\n", o.sessions.size() - k_most_sessions_in_words);
-  out += fmt::format("steps: position {} mm, force {} N (0: none seen)\n", plain_number(o.position_quantum_mm), plain_number(o.force_quantum_n));
-  out += contact_words(o.conventions);
-  for (const Doubt& d : o.conventions.doubts) out += wrapped(fmt::format("{}: {}; give {}", d.clear ? "refused" : "doubt", d.what, d.options));
-  for (const std::string& fault : o.faults) out += wrapped("fault: " + fault);
-  for (const std::string& note : o.notes) out += wrapped("note: " + note);
-  out += o.refused() ? "explain would not take it as it is\n" : "explain would take it\n";
+    out.add(msg("{}: {} rows, {}", o.sessions[i].name, o.sessions[i].rows, as_s(o.sessions[i].lasts_s, k_as_needed)), 2);
+  if (o.sessions.size() > k_most_sessions_in_words) out.add(msg("and {} more", o.sessions.size() - k_most_sessions_in_words), 2);
+  out.add(msg("steps: position {}, force {} (0: none seen)", as_mm(o.position_quantum_mm, k_as_needed), as_n(o.force_quantum_n, k_as_needed)));
+  out.add(contact_words(o.conventions));
+  for (const Doubt& d : o.conventions.doubts)
+    out.add(d.clear ? msg("refused: {}; give {}", d.what, d.options) : msg("doubt: {}; give {}", d.what, d.options));
+  for (const auto& fault : o.faults) out.add(msg("fault: {}", fault));
+  for (const auto& note : o.notes) out.add(msg("note: {}", note));
+  out.add(o.refused() ? msg("explain would not take it as it is") : msg("explain would take it"));
   return out;
 }
 

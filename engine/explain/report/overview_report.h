@@ -4,12 +4,13 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/base/lines.h"
 #include "engine/explain/recording/overview.h"
 
 namespace cavum::explain {
 
 /// The names of docs/contracts.md (dry run).
 [[nodiscard]] nlohmann::json to_json(const Overview& overview);
-[[nodiscard]] std::string to_text(const Overview& overview);
+[[nodiscard]] Lines to_text(const Overview& overview);
 
 }  // namespace cavum::explain
