@@ -2,10 +2,8 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <thread>
 
-#include "engine/base/text.h"
 #include "engine/device/device_error.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/open_stylus.h"
@@ -16,6 +14,7 @@
 #include "engine/selfcheck/check_note.h"
 #include "scenarios/candidates/candidate_device.h"
 #include "ui/parts/interrupt.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -68,7 +67,7 @@ class StylusSource final : public LiveSource {
     if (!options_.point.empty()) {
       const auto at = std::find(setup.point_names.begin(), setup.point_names.end(), options_.point);
       if (at == setup.point_names.end())
-        throw Error("--point " + options_.point, msg("is not on this scenario's tray"), msg("name one of its points"));
+        throw Error(Name{"--point " + options_.point}, msg("is not on this scenario's tray"), msg("name one of its points"));
       desk_.point = static_cast<int>(at - setup.point_names.begin());
     }
     using Clock = std::chrono::steady_clock;
@@ -80,7 +79,7 @@ class StylusSource final : public LiveSource {
       if (Interrupt::asked()) throw Error(msg("exam"), msg("was interrupted before it began"), msg("begin it again"));
       if (now->message() == told) continue;
       told = now->message();
-      std::fprintf(stderr, "cavum: %s\n", one_line(english_text(told)).c_str());
+      say_error(told);
     }
     first_mm_ = first_pose(*stylus_, 1.0).tip_mm;
   }
@@ -118,13 +117,13 @@ std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
   const StylusKind& kind = stylus_kinds().at(options.device, Name{"--device " + options.device}, {StylusHand::candidate, StylusHand::person});
   if (kind.hand == StylusHand::candidate) {
     if (options.operator_name.empty())
-      throw Error("--device simulated", msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));
+      throw Error(Name{"--device simulated"}, msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));
     if (!options.point.empty())
-      throw Error("--point", msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the point that fits"));
+      throw Error(Name{"--point"}, msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the point that fits"));
     return std::make_unique<SimulatedSource>(options);
   }
   if (!options.operator_name.empty())
-    throw Error("--operator " + options.operator_name, msg("holds only the simulated stylus"), msg("leave it out, or take --device simulated"));
+    throw Error(Name{"--operator " + options.operator_name}, msg("holds only the simulated stylus"), msg("leave it out, or take --device simulated"));
   return std::make_unique<StylusSource>(options, kind);
 }
 

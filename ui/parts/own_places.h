@@ -24,10 +24,10 @@ inline void require_own_places(const std::vector<NamedFile>& written, const std:
   for (std::size_t i = 0; i < written.size(); ++i) {
     if (written[i].path.empty()) continue;
     for (const NamedFile& r : read)
-      if (same(written[i], r)) throw Error(written[i].named, msg("is also what is read"), msg("write to another file"));
+      if (same(written[i], r)) throw Error(Name{written[i].named}, msg("is also what is read"), msg("write to another file"));
     for (std::size_t j = 0; j < i; ++j)
       if (same(written[i], written[j]))
-        throw Error(written[i].named, msg("is the same file as {}", written[j].named), msg("give each a name of its own"));
+        throw Error(Name{written[i].named}, msg("is the same file as {}", written[j].named), msg("give each a name of its own"));
     require_writable(written[i].path);
   }
 }
@@ -35,7 +35,7 @@ inline void require_own_places(const std::vector<NamedFile>& written, const std:
 /// For a rig.toml that is written beside a recording: throws Error when there is one that no rig wrote.
 inline void require_rigs_own(const std::string& rig_toml) {
   if (std::filesystem::exists(rig_toml) && !read_text_file(rig_toml).starts_with("# Virtual testing machine"))
-    throw Error(rig_toml, msg("was not written by a rig, and would be lost"), msg("write the recording into another folder"));
+    throw Error(Name{rig_toml}, msg("was not written by a rig, and would be lost"), msg("write the recording into another folder"));
 }
 
 }  // namespace cavum::ui

@@ -4,6 +4,7 @@
 #include <iostream>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 
 namespace cavum::ui {

@@ -1,4 +1,4 @@
-// The texts of a scenario in the reader's language, where it has them: after this shown() knows them.
+// The texts of a scenario in the reader's language, where it has them: after this a message with one of them (Authored) is in it.
 #pragma once
 
 #include "engine/language/language.h"
@@ -11,7 +11,7 @@ inline void show_texts_of(const scenarios::Scenario& scenario) {
   if (const auto own = scenario.languages.find(language()); own != scenario.languages.end()) add_translations(own->second);
 }
 
-/// One of its texts, while it is still being written and shown() does not know it.
+/// One of its texts, while it is still being written.
 [[nodiscard]] inline std::string text_of(const scenarios::Scenario& scenario, const std::string& english) {
   const auto own = scenario.languages.find(language());
   if (own == scenario.languages.end()) return english;

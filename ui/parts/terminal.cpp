@@ -7,7 +7,6 @@
 #include <string>
 
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
 
 namespace cavum::ui {
 namespace {
@@ -20,20 +19,6 @@ bool write_whole(int fd, std::string_view text) {
     text.remove_prefix(static_cast<std::size_t>(n));
   }
   return true;
-}
-
-constexpr std::size_t k_buffer = 1024;  // glibc's of a terminal; a pipe's is larger
-
-/// A line that begins anew over what stands in it ("\r") is one by itself.
-std::string in_language(const std::string& text) {
-  std::string out;
-  for (std::size_t at = 0;;) {
-    const std::size_t end = text.find('\r', at);
-    out += shown(std::string_view(text).substr(at, end == std::string::npos ? end : end - at));
-    if (end == std::string::npos) return out;
-    out += '\r';
-    at = end + 1;
-  }
 }
 
 /// A stream of C++ that writes to one of C.
@@ -71,13 +56,7 @@ struct SafeTerminal::Stream {
     stream_.rdbuf(buffer_before_);
     standard_ = before_;
     std::fclose(filtered_);
-    write_whole(fd_, translate_ ? in_language(terminal_text(rest_)) : without_marks(terminal_text(rest_)));
-  }
-  void translate(bool on) {
-    if (filtered_ == nullptr) return;
-    std::fflush(filtered_);
-    stream_.flush();
-    translate_ = on;
+    write_whole(fd_, terminal_text(rest_));
   }
   Stream(const Stream&) = delete;
   Stream& operator=(const Stream&) = delete;
@@ -85,12 +64,10 @@ struct SafeTerminal::Stream {
   /// What fopencookie asks for: the bytes that were taken, 0 when it failed. No exception may pass through the C library.
   ssize_t write(std::string_view text) noexcept try {
     rest_ += text;
-    std::size_t whole = whole_characters(rest_);
-    // a line that the buffer cut in two is translated when the rest of it is there
-    if (const std::size_t line = rest_.rfind('\n'); translate_ && text.size() >= k_buffer && line != std::string::npos) whole = line + 1;
-    std::string safe = terminal_text(std::string_view(rest_).substr(0, whole));
+    const std::size_t whole = whole_characters(rest_);
+    const std::string safe = terminal_text(std::string_view(rest_).substr(0, whole));
     rest_.erase(0, whole);
-    return write_whole(fd_, translate_ ? in_language(safe) : without_marks(std::move(safe))) ? static_cast<ssize_t>(text.size()) : 0;
+    return write_whole(fd_, safe) ? static_cast<ssize_t>(text.size()) : 0;
   } catch (const std::exception&) {
     return 0;
   }
@@ -103,7 +80,6 @@ struct SafeTerminal::Stream {
   std::ostream& stream_;
   std::streambuf* buffer_before_ = nullptr;
   std::unique_ptr<ToFile> to_file_;
-  bool translate_ = false;
   std::string rest_;  // the first bytes of a character that is still to come
 };
 
@@ -112,11 +88,6 @@ SafeTerminal::SafeTerminal()
       err_(std::make_unique<Stream>(stderr, STDERR_FILENO, std::cerr, _IONBF)) {}
 
 SafeTerminal::~SafeTerminal() = default;
-
-void SafeTerminal::translate(bool out) {
-  out_->translate(out);
-  err_->translate(true);
-}
 
 void command_terminal(const char* sequence) {
   std::cout.flush();

@@ -1,6 +1,5 @@
 // What reaches the terminal: everything that the program prints, with printf or a stream, passes one place that takes out what could command a
-// terminal. Files come from strangers, and a verdict or a name in one may hold escape sequences. It is also where the verbs' English words are
-// translated.
+// terminal. Files come from strangers, and a verdict or a name in one may hold escape sequences.
 #pragma once
 
 #include <cstdio>
@@ -15,9 +14,6 @@ class SafeTerminal {
  public:
   SafeTerminal();
   ~SafeTerminal();
-  /// From now on what is printed is English, and is shown in the reader's language, line by line (engine/language/shown.h): errors and notices
-  /// always, what the verb says on standard output where `out`.
-  void translate(bool out);
   SafeTerminal(const SafeTerminal&) = delete;
   SafeTerminal& operator=(const SafeTerminal&) = delete;
 

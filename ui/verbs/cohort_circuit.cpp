@@ -1,19 +1,17 @@
 #include "ui/verbs/cohort_circuit.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <iostream>
 #include <map>
 #include <memory>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "grading/cohort/circuit.h"
 #include "grading/ledger/erasure.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -29,9 +27,9 @@ std::pair<std::string, std::string> marks_file(const CircuitArguments& o, const 
   const auto at = given.find('=');
   const std::string exam = given.substr(0, at);
   if (at == std::string::npos || at + 1 == given.size())
-    throw Error("--marks " + given, msg("does not say which exam's marks these are"), msg("write --marks EXAM=FILE"));
+    throw Error(Name{"--marks " + given}, msg("does not say which exam's marks these are"), msg("write --marks EXAM=FILE"));
   if (std::find(o.exams.begin(), o.exams.end(), exam) == o.exams.end())
-    throw Error("--marks " + given, msg("is of no exam of the circuit"), msg("name it with --exams, too"));
+    throw Error(Name{"--marks " + given}, msg("is of no exam of the circuit"), msg("name it with --exams, too"));
   return {exam, given.substr(at + 1)};
 }
 
@@ -39,7 +37,7 @@ void measure_circuit(const CircuitArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   const ledger::Registry registry = ledger::read_registry(content);
   ledger::Identities identities(places.identities());
   ledger::remove_forgotten(content, identities);
@@ -47,12 +45,12 @@ void measure_circuit(const CircuitArguments& o) {
   std::vector<NamedFile> kept{{"", places.database()}, {"", places.identities()}};
   for (const auto& given : o.marks) {
     const auto [exam, file] = marks_file(o, given);
-    if (!marks.try_emplace(exam).second) throw Error("--marks " + given, msg("gives marks of an exam twice"), msg("put them into one file"));
+    if (!marks.try_emplace(exam).second) throw Error(Name{"--marks " + given}, msg("gives marks of an exam twice"), msg("put them into one file"));
     marks[exam] = cohort::parse_marks(read_text_file(file), identities, exam, file, cohort::points_of_exam(registry, exam));
     kept.push_back({"", file});
   }
   if (!o.out.empty()) {
-    if (!o.out.ends_with(".csv")) throw Error("--out " + o.out, msg("is no table"), msg("use a name ending in .csv"));
+    if (!o.out.ends_with(".csv")) throw Error(Name{"--out " + o.out}, msg("is no table"), msg("use a name ending in .csv"));
     require_own_places({{"--out " + o.out, o.out}}, kept);
   }
   const cohort::CircuitFigures figures = cohort::circuit_figures(registry, identities, o.exams, marks);
@@ -60,8 +58,8 @@ void measure_circuit(const CircuitArguments& o) {
   if (o.as_json) {
     print_json(to_json(figures));
   } else {
-    std::cout << to_text(figures);
-    if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
+    say(to_text(figures));
+    if (!o.out.empty()) say(msg("written: {}", o.out));
   }
 }
 
@@ -69,12 +67,13 @@ void measure_circuit(const CircuitArguments& o) {
 
 void add_cohort_circuit(CLI::App& cohort, int& exit_code) {
   const auto o = std::make_shared<CircuitArguments>();
-  auto* v = cohort.add_subcommand("circuit", "Several exams of one class: how dependable they are together, and which station or judge is severe");
-  v->add_option("ledger", o->folder, "the ledger's folder")->required();
-  v->add_option("--exams", o->exams, "ids of the scenarios, two at least: a,b,c")->required()->delimiter(',');
-  v->add_option("--marks", o->marks, "people's marks of one exam: EXAM=FILE, CSV `candidate,judge,points`");
-  v->add_option("--out", o->out, "also a table of the candidates, raw and adjusted marks (.csv)");
-  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  auto* v =
+      cohort.add_subcommand("circuit", tr("Several exams of one class: how dependable they are together, and which station or judge is severe"));
+  v->add_option("ledger", o->folder, tr("the ledger's folder"))->required();
+  v->add_option("--exams", o->exams, tr("ids of the scenarios, two at least: a,b,c"))->required()->delimiter(',');
+  v->add_option("--marks", o->marks, tr("people's marks of one exam: EXAM=FILE, CSV `candidate,judge,points`"));
+  v->add_option("--out", o->out, tr("also a table of the candidates, raw and adjusted marks (.csv)"));
+  v->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   v->callback([o, &exit_code] {
     measure_circuit(*o);
     exit_code = 0;

@@ -12,11 +12,12 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "grading/cohort/form_difficulty.h"
 #include "grading/cohort/sit_forms.h"
-#include "ui/parts/number_check.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/print_json.h"
-#include "ui/parts/seed_check.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -68,34 +69,42 @@ nlohmann::ordered_json to_json(const cohort::FormsSat& sat, const cohort::FormsJ
   return j;
 }
 
-/// What to do about one form.
-std::string advice(const cohort::FormDifficulty& d) {
+/// What was found of one form, and what to do about it.
+Message verdict_words(const cohort::FormDifficulty& d) {
   using cohort::FormVerdict;
-  if (d.verdict == FormVerdict::alike) return "";
-  if (d.verdict == FormVerdict::doubtful) return "not known well enough";
-  return d.depends_on_skill ? "leave it out: no constant equates it" : "leave it out, or show equated points beside the raw ones";
+  switch (d.verdict) {
+    case FormVerdict::alike:
+      return msg("as hard as the others");
+    case FormVerdict::doubtful:
+      return msg("doubtful: not known well enough");
+    case FormVerdict::too_easy:
+      return d.depends_on_skill ? msg("too easy; leave it out: no constant equates it")
+                                : msg("too easy; leave it out, or show equated points beside the raw ones");
+    case FormVerdict::too_hard:
+      break;
+  }
+  return d.depends_on_skill ? msg("too hard; leave it out: no constant equates it")
+                            : msg("too hard; leave it out, or show equated points beside the raw ones");
 }
 
-std::string to_text(const cohort::FormsSat& sat, const cohort::FormsJudged& judged) {
-  std::string s = fmt::format(
-      "{} forms, each sat by the same {} simulated students; percent of a form's points\n"
-      "{:<32} {:>12} {:>7} {:>22} {:>12} {:>9}  {}\n",
-      judged.forms.size(), judged.candidates, "form", "mean", "passed", "easier than all forms", "weak, able", "constant", "verdict");
+Lines to_text(const cohort::FormsSat& sat, const cohort::FormsJudged& judged) {
+  Lines out;
+  out.add(msg("{} forms, each sat by the same {} simulated students; percent of a form's points", judged.forms.size(), judged.candidates));
+  out.row({msg("form"), msg("mean"), msg("passed"), msg("easier than all forms"), msg("weak, able"), msg("constant"), msg("verdict")});
   bool doubtful = false;
   for (std::size_t f = 0; f < judged.forms.size(); ++f) {
     const cohort::FormDifficulty& d = judged.forms[f];
-    const std::string to_do = advice(d);
     doubtful = doubtful || d.verdict == cohort::FormVerdict::doubtful;
-    s += fmt::format("{:<32} {:>12} {:>7} {:>22} {:>12} {:>9}  {}{}\n", one_line(sat.ids[f]), fixed(d.mean, 1) + " ± " + fixed(d.mean_error, 1),
-                     sat.passed[f], fmt::format("{} ({} to {})", fixed(d.easier, 1), fixed(d.low, 1), fixed(d.high, 1)),
-                     fixed(d.easier_for_weak, 1) + ", " + fixed(d.easier_for_able, 1), fixed(d.constant, 1), form_verdict_name(d.verdict),
-                     to_do.empty() ? "" : "; " + to_do);
+    out.row({Name{sat.ids[f]}, msg("{}", Number{d.mean, Unit::none, 1, d.mean_error}), msg("{}", sat.passed[f]),
+             msg("{} ({} to {})", as_number(d.easier, 1), as_number(d.low, 1), as_number(d.high, 1)),
+             msg("{}, {}", as_number(d.easier_for_weak, 1), as_number(d.easier_for_able, 1)), msg("{}", as_number(d.constant, 1)), verdict_words(d)});
   }
-  s += fmt::format("between forms: {} beyond chance; forms of equal difficulty differ as much in {} of 1000 draws\n", fixed(judged.spread, 1),
-                   fixed(1000 * judged.chance, 0));
-  s += fmt::format("limit: {} to either side. Intervals hold in all forms at once in 95 of 100 exams\n", fixed(judged.limit, 1));
-  if (doubtful) s += fmt::format("doubtful ones: some {} students would tell\n", candidates_needed(judged));
-  return s + "Simulated students are no people. No mark was changed: the constant is what equating by the mean would add.\n";
+  out.add(msg("between forms: {} beyond chance; forms of equal difficulty differ as much in {} of 1000 draws", as_number(judged.spread, 1),
+              as_number(1000 * judged.chance, 0)));
+  out.add(msg("limit: {} to either side. Intervals hold in all forms at once in 95 of 100 exams", as_number(judged.limit, 1)));
+  if (doubtful) out.add(msg("doubtful ones: some {} students would tell", candidates_needed(judged)));
+  out.add(msg("Simulated students are no people. No mark was changed: the constant is what equating by the mean would add."));
+  return out;
 }
 
 /// 1 where a form is too easy or too hard.
@@ -105,9 +114,9 @@ int measure(const DifficultyArguments& o) {
   const bool shown = !o.as_json && ::isatty(STDERR_FILENO) == 1;
   const std::size_t exams = o.wanted.scenarios.size() * static_cast<std::size_t>(o.wanted.candidates);
   const cohort::FormsSat sat = sit_forms(o.wanted, [&](int i) {
-    if (shown) std::fprintf(stderr, "\r%d of %zu", i, exams);
+    if (shown) std::cerr << "\r" << tr("{} of {}", i, exams) << std::flush;
   });
-  if (shown) std::fprintf(stderr, "\r%20s\r", "");
+  if (shown) std::cerr << "\r" << std::string(20, ' ') << "\r";
   const double limit = o.limit > 0 ? o.limit : sat.borderline_percent > 0 ? sat.borderline_percent : k_usual_limit_percent;
   const std::vector<double> skill(sat.level.begin(), sat.level.end());
   const cohort::FormsJudged judged = cohort::judge_forms(sat.percent, skill, limit, o.wanted.seed);
@@ -115,7 +124,7 @@ int measure(const DifficultyArguments& o) {
   if (o.as_json)
     print_json(to_json(sat, judged));
   else
-    std::cout << to_text(sat, judged);
+    say(to_text(sat, judged));
   return std::any_of(
              judged.forms.begin(), judged.forms.end(),
              [](const cohort::FormDifficulty& d) { return d.verdict == cohort::FormVerdict::too_easy || d.verdict == cohort::FormVerdict::too_hard; })
@@ -127,19 +136,19 @@ int measure(const DifficultyArguments& o) {
 
 void add_cohort_difficulty(CLI::App& cohort, int& exit_code) {
   const auto o = std::make_shared<DifficultyArguments>();
-  auto* v = cohort.add_subcommand("difficulty", "Whether the forms of an exam are equally hard: the same simulated students sit each of them");
-  v->add_option("scenarios", o->wanted.scenarios, "scenario files (.toml), a form each")->required();
-  v->add_option("--candidates", o->wanted.candidates, "simulated students, of skills from beginner to expert")
-      ->check(CLI::Range(static_cast<int>(cohort::k_fewest_candidates), 1000))
+  auto* v = cohort.add_subcommand("difficulty", tr("Whether the forms of an exam are equally hard: the same simulated students sit each of them"));
+  v->add_option("scenarios", o->wanted.scenarios, tr("scenario files (.toml), a form each"))->required();
+  v->add_option("--candidates", o->wanted.candidates, tr("simulated students, of skills from beginner to expert"))
+      ->check(between(static_cast<int>(cohort::k_fewest_candidates), 1000))
       ->capture_default_str();
   v->add_option(
        "--limit", o->limit,
-       "percent of the points from which on a form is too easy or too hard (default: the forms' borderline band, within which a person decides)")
+       tr("percent of the points from which on a form is too easy or too hard (default: the forms' borderline band, within which a person decides)"))
       ->check(between(0.1, 50));
-  v->add_option("--seed", o->wanted.seed, "the same seed gives the same students")->check(seed_check())->capture_default_str();
-  v->add_option("--at-once", o->wanted.at_once, "exams side by side")->check(CLI::Range(1, 16))->capture_default_str();
-  v->add_option("--out", o->out, "also every mark (.csv): a student a row, a form a column");
-  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  v->add_option("--seed", o->wanted.seed, tr("the same seed gives the same students"))->check(seed_check())->capture_default_str();
+  v->add_option("--at-once", o->wanted.at_once, tr("exams side by side"))->check(between(1, 16))->capture_default_str();
+  v->add_option("--out", o->out, tr("also every mark (.csv): a student a row, a form a column"));
+  v->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   v->callback([o, &exit_code] { exit_code = measure(*o); });
 }
 

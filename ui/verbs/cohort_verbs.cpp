@@ -1,5 +1,4 @@
 // `cavum cohort`: a class as a whole, and a class that is simulated.
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,11 +11,13 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "grading/cohort/simulated_class.h"
 #include "grading/ledger/erasure.h"
-#include "ui/parts/number_check.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/report/class_report.h"
 #include "ui/report/report.h"
 #include "ui/verbs/cohort_circuit.h"
@@ -44,22 +45,22 @@ void simulate(const CohortArguments& o) {
   const auto start = std::chrono::steady_clock::now();
   const bool shown = !o.as_json && ::isatty(STDERR_FILENO) == 1;
   const auto sat = cohort::simulate_class(o.wanted, ledger, identities, [&](int i) {
-    if (shown) std::fprintf(stderr, "\r%d of %d", i, o.wanted.n);
+    if (shown) std::cerr << "\r" << tr("{} of {}", i, o.wanted.n) << std::flush;
   });
-  if (shown) std::fprintf(stderr, "\r%20s\r", "");
+  if (shown) std::cerr << "\r" << std::string(20, ' ') << "\r";
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (o.as_json)
     print_json(json{{"sat", sat.sat}, {"filed", sat.filed}, {"seconds", seconds}, {"bytes", sat.bytes}});
   else
-    std::printf("%d exams sat, %d verified and filed, %.1f s, %.1f MB of sessions\n", sat.sat, sat.filed, seconds,
-                static_cast<double>(sat.bytes) * 1e-6);
+    say(msg("{} exams sat, {} verified and filed, {}, {} MB of sessions", sat.sat, sat.filed, as_s(seconds, 1),
+            as_number(static_cast<double>(sat.bytes) * 1e-6, 1)));
 }
 
 void report(const CohortArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   const ledger::Registry registry = ledger::read_registry(content);
   std::vector<cohort::HumanMark> marks;
   if (!o.marks.empty()) {
@@ -72,26 +73,26 @@ void report(const CohortArguments& o) {
       return std::any_of(marks.begin(), marks.end(), [&](const cohort::HumanMark& m) { return m.rating && holds(*m.rating); });
     };
     if (!rating_is([&](double r) { return r <= o.borderline; }) || !rating_is([&](double r) { return r >= o.borderline; }))
-      throw Error("--borderline " + plain_number(o.borderline), msg("does not lie within the ratings that the marks give"),
+      throw Error(Name{"--borderline " + plain_number(o.borderline)}, msg("does not lie within the ratings that the marks give"),
                   msg("name a rating that judges used"));
   }
   const auto figures = cohort::class_figures(registry, o.exam, marks, o.borderline);
   if (!o.out.empty()) {
     if (!o.out.ends_with(".pdf") && !o.out.ends_with(".html"))
-      throw Error("--out " + o.out, msg("is no kind of report"), msg("use a name ending in .html or .pdf"));
+      throw Error(Name{"--out " + o.out}, msg("is no kind of report"), msg("use a name ending in .html or .pdf"));
     report::require_report_place(o.out);
     require_own_places({{"--out " + o.out, o.out}}, {{"", o.marks}, {"", places.database()}, {"", places.identities()}});
     const auto tooth = cohort::class_tooth(registry, places, o.exam);
-    for (const auto& finding : tooth->findings) std::cerr << "cavum: notice: not in the pictures: " << one_line(finding) << "\n";
+    for (const auto& finding : tooth->findings) say_error(msg("notice: not in the pictures: {}", finding));
     if (tooth->left_out > 0)
-      std::cerr << "cavum: notice: not in the pictures: " << tooth->left_out << " who sat it with another text, tooth or leaf size than most\n";
+      say_error(msg("notice: not in the pictures: {} who sat it with another text, tooth or leaf size than most", tooth->left_out));
     write_text_file(o.out, o.out.ends_with(".pdf") ? report::class_pdf(figures, *tooth) : report::class_html(figures, *tooth));
   }
   if (o.as_json) {
     print_json(to_json(figures));
   } else {
-    std::cout << cohort::to_text(figures);
-    if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
+    say(cohort::to_text(figures));
+    if (!o.out.empty()) say(msg("written: {}", o.out));
   }
 }
 
@@ -99,29 +100,29 @@ void report(const CohortArguments& o) {
 
 void add_cohort_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<CohortArguments>();
-  auto* cohort = app.add_subcommand("cohort", "A class as a whole: how hard, how reliable, how fair the exam was");
+  auto* cohort = app.add_subcommand("cohort", tr("A class as a whole: how hard, how reliable, how fair the exam was"));
   cohort->require_subcommand(1);
-  auto* v = cohort->add_subcommand("simulate", "A class of simulated students of differing skill sits an exam and is filed");
-  v->add_option("scenario", o->wanted.scenario, "scenario file (.toml)")->required();
-  v->add_option("--ledger", o->folder, "the ledger's folder")->required();
-  v->add_option("--sessions", o->wanted.sessions, "folder for their sessions")->required();
-  v->add_option("--n", o->wanted.n, "students")->check(CLI::Range(1, 10000))->capture_default_str();
-  v->add_option("--seed", o->wanted.seed, "the same seed gives the same class")->capture_default_str();
-  v->add_option("--at-once", o->wanted.at_once, "exams side by side")->check(CLI::Range(1, 16))->capture_default_str();
-  v->add_option("--key", o->key, "the school's signing key (default: $CAVUM_HOME/school.key)");
-  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  auto* v = cohort->add_subcommand("simulate", tr("A class of simulated students of differing skill sits an exam and is filed"));
+  v->add_option("scenario", o->wanted.scenario, tr("scenario file (.toml)"))->required();
+  v->add_option("--ledger", o->folder, tr("the ledger's folder"))->required();
+  v->add_option("--sessions", o->wanted.sessions, tr("folder for their sessions"))->required();
+  v->add_option("--n", o->wanted.n, tr("students"))->check(between(1, 10000))->capture_default_str();
+  v->add_option("--seed", o->wanted.seed, tr("the same seed gives the same class"))->capture_default_str();
+  v->add_option("--at-once", o->wanted.at_once, tr("exams side by side"))->check(between(1, 16))->capture_default_str();
+  v->add_option("--key", o->key, tr("the school's signing key (default: $CAVUM_HOME/school.key)"));
+  v->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   v->callback([o, &exit_code] {
     simulate(*o);
     exit_code = 0;
   });
-  v = cohort->add_subcommand("report", "Figures of one exam over all who sat it");
-  v->add_option("ledger", o->folder, "the ledger's folder")->required();
-  v->add_option("--exam", o->exam, "id of the scenario")->required();
-  v->add_option("--marks", o->marks, "people's marks, CSV `candidate,judge,points[,rating]`");
+  v = cohort->add_subcommand("report", tr("Figures of one exam over all who sat it"));
+  v->add_option("ledger", o->folder, tr("the ledger's folder"))->required();
+  v->add_option("--exam", o->exam, tr("id of the scenario"))->required();
+  v->add_option("--marks", o->marks, tr("people's marks, CSV `candidate,judge,points[,rating]`"));
   const auto* borderline =
-      v->add_option("--borderline", o->borderline, "the rating that means borderline")->check(between(-1000, 1000))->capture_default_str();
-  v->add_option("--out", o->out, "also a report (.html or .pdf)");
-  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+      v->add_option("--borderline", o->borderline, tr("the rating that means borderline"))->check(between(-1000, 1000))->capture_default_str();
+  v->add_option("--out", o->out, tr("also a report (.html or .pdf)"));
+  v->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   v->callback([o, borderline, &exit_code] {
     o->borderline_given = borderline->count() > 0;
     report(*o);

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -11,16 +10,17 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "engine/device/device_error.h"
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/hardware/station_pedal.h"
 #include "engine/device/hardware/stylus_kind.h"
+#include "engine/language/say.h"
 #include "engine/selfcheck/check_history.h"
 #include "engine/statistics/order.h"
 #include "ui/parts/interrupt.h"
-#include "ui/parts/number_check.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/parts/terminal.h"
 #include "ui/verbs/self_check_verb.h"
 #include "ui/verbs/stylus_devices.h"
@@ -91,26 +91,32 @@ void list(const DeviceArguments& o) {
     print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", problem_text(calibration_problem)}, {"styluses", styluses_json(o.live)}});
     return;
   }
-  std::cout << "pedals\n";
+  Lines out;
+  out.add(msg("pedals"));
   for (const auto& p : pedals) {
-    std::cout << "  " << p.id() << "  " << one_line(p.name) << "  (" << one_line(p.path) << ", " << p.axes.size()
-              << (p.axes.size() == 1 ? " axis" : " axes") << (calibrated(p) ? ", calibrated" : "") << ")\n";
+    const auto axes = static_cast<std::int64_t>(p.axes.size());
+    out.add(calibrated(p) ? msgn("{}  {}  ({}, {} axis, calibrated)", "{}  {}  ({}, {} axes, calibrated)", axes, p.id(), p.name, p.path, axes)
+                          : msgn("{}  {}  ({}, {} axis)", "{}  {}  ({}, {} axes)", axes, p.id(), p.name, p.path, axes),
+            2);
     if (p.problem)
-      std::cout << "    " << one_line(problem_text(p.problem)) << "\n";
+      out.add(p.problem->message(), 4);
     else if (!calibrated(p))
-      std::cout << "    not calibrated; run `cavum devices --calibrate-pedal --pedal " << p.id() << "`\n";
+      out.add(msg("not calibrated; run `cavum devices --calibrate-pedal --pedal {}`", p.id()), 4);
   }
-  if (pedals.empty()) std::cout << "  none; without one the handpiece stands still\n";
+  if (pedals.empty()) out.add(msg("none; without one the handpiece stands still"), 2);
   if (station && std::none_of(pedals.begin(), pedals.end(), calibrated))
-    std::cout << "  " << usb_id(station->vendor, station->product) << "  is calibrated for this station, and not plugged in\n";
-  if (calibration_problem) std::cout << "  " << problem_text(calibration_problem) << "\n";
-  std::cout << styluses_text(o.live) << std::flush;
+    out.add(msg("{} is calibrated for this station, and not plugged in", usb_id(station->vendor, station->product)), 2);
+  if (calibration_problem) out.add(calibration_problem->message(), 2);
+  out.append(styluses_text(o.live));
+  say(out);
+  std::cout << std::flush;
 }
 
 int test(const DeviceArguments& o) {
   const HidPedalInfo pedal = chosen(list_hid_pedals(), o.id);
   if (pedal.problem) throw Error(*pedal.problem);
-  if (!o.json) std::cout << "move the pedal " << pedal.id() << " for " << plain_number(o.seconds) << " s ...\n" << std::flush;
+  if (!o.json) say(msg("move the pedal {} for {} ...", pedal.id(), as_s(o.seconds, k_as_needed)));
+  std::cout << std::flush;
   const PedalHearing heard = hear_pedal(pedal.vendor, pedal.product, o.seconds);
   // Continuous enough: no silence as long as the one after which the servo no longer believes the pedal.
   const bool continuous = heard.reports > 1 && heard.longest_gap_s < HidPedal::k_stale_after_s;
@@ -129,15 +135,17 @@ int test(const DeviceArguments& o) {
                               {"speaks_continuously", continuous},
                               {"axes", axes}});
   } else if (heard.reports == 0) {
-    std::cout << "it said nothing: the handpiece would stand still\n";
+    say(msg("it said nothing: the handpiece would stand still"));
   } else {
-    std::cout << heard.reports << " reports, " << plain_number(rate_hz) << " Hz, jitter " << fixed(1e3 * heard.jitter_s, 2) << " ms, longest gap "
-              << fixed(1e3 * heard.longest_gap_s, 1) << " ms: " << (continuous ? "speaks continuously" : "speaks when it moves") << "\n";
+    const Number rate = as_unit(rate_hz, Unit::hz), jitter = as_unit(1e3 * heard.jitter_s, Unit::ms, 2),
+                 gap = as_unit(1e3 * heard.longest_gap_s, Unit::ms, 1);
+    say(continuous ? msg("{} reports, {}, jitter {}, longest gap {}: speaks continuously", heard.reports, rate, jitter, gap)
+                   : msg("{} reports, {}, jitter {}, longest gap {}: speaks when it moves", heard.reports, rate, jitter, gap));
     for (std::size_t i = 0; i < heard.numbers.size(); ++i) {
       const auto& numbers = heard.numbers[i];
       if (numbers.empty()) continue;
       const auto [low, high] = std::minmax_element(numbers.begin(), numbers.end());
-      std::cout << "  axis " << i << ": " << *low << " to " << *high << ", quantum " << quantum_of(numbers) << "\n";
+      say(msg("axis {}: {} to {}, quantum {}", i, *low, *high, quantum_of(numbers)), 2);
     }
   }
   return heard.reports > 0 ? 0 : 1;
@@ -149,13 +157,14 @@ void calibrate(const DeviceArguments& o) {
   const std::string path = station_pedal_path();
   make_private_folder(std::filesystem::path(path).parent_path().string());
   require_writable(path);
-  const auto listen = [&](const char* what) {
-    std::cerr << what << " for " << plain_number(o.seconds) << " s, then press Enter\n";
+  const auto listen = [&](const std::string& what) {
+    std::cerr << what << "\n";
     std::string line;
     std::getline(std::cin, line);
     return hear_pedal(pedal.vendor, pedal.product, o.seconds);
   };
-  const PedalHearing off = listen("take the foot off the pedal; hold"), down = listen("press the pedal down; hold it");
+  const PedalHearing off = listen(tr("take the foot off the pedal for {}, then press Enter", as_s(o.seconds, k_as_needed))),
+                     down = listen(tr("press the pedal down and hold it for {}, then press Enter", as_s(o.seconds, k_as_needed)));
   if (off.reports + down.reports == 0)
     throw Error(DeviceError::silent, msg("pedal {}", pedal.id()), msg("said nothing"), msg("press it a few times to wake it, and begin again"));
   std::vector<AxisHeard> axes(down.numbers.size());
@@ -173,8 +182,10 @@ void calibrate(const DeviceArguments& o) {
   const bool continuous = off.reports > 1 && down.reports > 1 && std::max(off.longest_gap_s, down.longest_gap_s) < HidPedal::k_stale_after_s;
   const StationPedal made{.vendor = pedal.vendor, .product = pedal.product, .calibration = calibrate_pedal(axes, down.ranges, !continuous)};
   write_private_text_file(path, to_toml(made));
-  std::cout << "axis " << made.calibration.axis << ", released " << made.calibration.released << ", pressed " << made.calibration.pressed << ", "
-            << (continuous ? "speaks continuously" : "speaks when it moves") << "\nwritten: " << path << "\n";
+  const auto& c = made.calibration;
+  say(continuous ? msg("axis {}, released {}, pressed {}, speaks continuously", c.axis, c.released, c.pressed)
+                 : msg("axis {}, released {}, pressed {}, speaks when it moves", c.axis, c.released, c.pressed));
+  say(msg("written: {}", path));
 }
 
 /// The list anew twice a second, until Ctrl-C.
@@ -192,40 +203,43 @@ void watch(const DeviceArguments& o) {
 
 void add_device_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<DeviceArguments>();
-  auto* devices = app.add_subcommand("devices", "What is plugged in and what is wrong with it");
-  devices->add_option("--pedal", o->id, "vendor and product, for example 068e:00f2; needed when there are several");
-  auto* stylus = devices->add_option("--stylus", o->stylus,
-                                     stylus_kinds().ids({StylusHand::person, StylusHand::candidate}) + ": for --test, --self-check and --place");
+  auto* devices = app.add_subcommand("devices", tr("What is plugged in and what is wrong with it"));
+  devices->add_option("--pedal", o->id, tr("vendor and product, for example 068e:00f2; needed when there are several"));
+  auto* stylus = devices->add_option(
+      "--stylus", o->stylus, tr("{}: for --test, --self-check and --place", as_is(stylus_kinds().ids({StylusHand::person, StylusHand::candidate}))));
   auto* test_flag =
       devices->add_flag("--test", o->test,
-                        "listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "
-                        "and friction in air");
-  devices->add_flag("--no-push", o->no_push, "with --test --stylus: leave out the friction, which needs gentle pushes")
+                        tr("listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "
+                           "and friction in air"));
+  devices->add_flag("--no-push", o->no_push, tr("with --test --stylus: leave out the friction, which needs gentle pushes"))
       ->needs(test_flag)
       ->needs(stylus);
-  devices->add_flag("--place", o->place, "touch four marks, so that the stylus stands where the tooth is; kept for this station")
+  devices->add_flag("--place", o->place, tr("touch four marks, so that the stylus stands where the tooth is; kept for this station"))
       ->needs(stylus)
       ->excludes(test_flag);
-  auto* self_flag = devices
-                        ->add_flag("--self-check", o->self_check,
-                                   "let go of the stylus: friction, strength, step and rate in a minute, held against this station's earlier checks; "
-                                   "ends with 1 when something changed")
-                        ->excludes(test_flag);
-  devices->add_flag("--history", o->history, "with --self-check: only what was kept")->needs(self_flag);
-  const auto* anew = devices->add_option("--new-history", o->new_history, "with --self-check: why earlier checks no longer count, such as a repair")
-                         ->needs(self_flag);
+  auto* self_flag =
+      devices
+          ->add_flag("--self-check", o->self_check,
+                     tr("let go of the stylus: friction, strength, step and rate in a minute, held against this station's earlier checks; "
+                        "ends with 1 when something changed"))
+          ->excludes(test_flag);
+  devices->add_flag("--history", o->history, tr("with --self-check: only what was kept"))->needs(self_flag);
+  const auto* anew =
+      devices->add_option("--new-history", o->new_history, tr("with --self-check: why earlier checks no longer count, such as a repair"))
+          ->needs(self_flag);
   const auto* go_on =
-      devices->add_option("--go-on", o->go_on, "with --self-check: why exams go on with what the last check found; checks nothing")->needs(self_flag);
-  devices->add_option("--station-name", o->station_name, "name this station, as checks and sessions shall say it");
-  devices->add_flag("--live", o->live, "the list again twice a second, until Ctrl-C")->excludes(test_flag);
-  devices->add_flag("--calibrate-pedal", o->calibrate, "find the axis and its ends, and keep them for this station")->excludes(test_flag);
-  devices->add_option("--seconds", o->seconds, "how long to listen, 0.2 to 600")->check(between(0.2, 600.0))->capture_default_str();
-  devices->add_flag("--json", o->json, "one JSON object on standard output");
+      devices->add_option("--go-on", o->go_on, tr("with --self-check: why exams go on with what the last check found; checks nothing"))
+          ->needs(self_flag);
+  devices->add_option("--station-name", o->station_name, tr("name this station, as checks and sessions shall say it"));
+  devices->add_flag("--live", o->live, tr("the list again twice a second, until Ctrl-C"))->excludes(test_flag);
+  devices->add_flag("--calibrate-pedal", o->calibrate, tr("find the axis and its ends, and keep them for this station"))->excludes(test_flag);
+  devices->add_option("--seconds", o->seconds, tr("how long to listen, 0.2 to 600"))->check(between(0.2, 600.0))->capture_default_str();
+  devices->add_flag("--json", o->json, tr("one JSON object on standard output"));
   devices->callback([o, anew, go_on, &exit_code] {
     exit_code = 0;
     for (const CLI::Option* option : {anew, go_on})
       if (option->count() > 0 && option->as<std::string>().empty())
-        throw Error(option->get_name(), msg("gives no reason"), msg("say what was done, or why"));
+        throw Error(Name{option->get_name()}, msg("gives no reason"), msg("say what was done, or why"));
     if (!o->station_name.empty()) set_station_name(o->station_name);
     if (o->self_check)
       exit_code = self_check({o->stylus, o->new_history, o->go_on, o->history, o->json});
@@ -234,7 +248,7 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
     else if (o->test && !o->stylus.empty())
       exit_code = test_stylus(o->stylus, o->seconds, !o->no_push, o->json);
     else if (!o->stylus.empty())
-      throw Error("--stylus " + o->stylus, msg("says of which, but not what"), msg("add --test, --self-check or --place"));
+      throw Error(Name{"--stylus " + o->stylus}, msg("says of which, but not what"), msg("add --test, --self-check or --place"));
     else if (o->live)
       watch(*o);
     else if (o->calibrate)

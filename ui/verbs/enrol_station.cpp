@@ -1,13 +1,13 @@
 #include "ui/verbs/enrol_station.h"
 
 #include <filesystem>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/device/hardware/stylus_kind.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/station_ticket.h"
 #include "grading/ledger/stations.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -20,12 +20,12 @@ MotionSource stylus(const std::string& id) {
 }  // namespace
 
 void enrol_station(const EnrolOptions& o) {
-  if (o.replace_key && !o.code.empty()) throw Error("--replace-key", msg("was asked for together with --enrol"), msg("give one of them"));
+  if (o.replace_key && !o.code.empty()) throw Error(Name{"--replace-key"}, msg("was asked for together with --enrol"), msg("give one of them"));
   const std::string school = ledger::station_school_key();
   if (school.empty())
-    throw Error(ledger::school_public_key_path(), msg("this station knows no school yet"),
+    throw Error(Name{ledger::school_public_key_path()}, msg("this station knows no school yet"),
                 msg("copy the school's public key there: `cavum ledger init` writes it"));
-  if (std::filesystem::is_directory(o.out)) throw Error("--out " + o.out, msg("is a folder"), msg("name the file to write the request to"));
+  if (std::filesystem::is_directory(o.out)) throw Error(Name{"--out " + o.out}, msg("is a folder"), msg("name the file to write the request to"));
   require_writable(o.out);
   std::vector<MotionSource> devices;
   for (const auto& id : o.styluses) devices.push_back(stylus(id));
@@ -46,8 +46,8 @@ void enrol_station(const EnrolOptions& o) {
     write_text_file(o.out, request + "\n");
   }
   remember_enrolled(path, key);
-  std::cout << "this station's key: " << to_hex(key.public_key) << "\nbring " << o.out << " to the school: `cavum ledger station LEDGER --enrol "
-            << o.out << "`\n";
+  say(msg("this station's key: {}", to_hex(key.public_key)));
+  say(msg("bring {} to the school: `cavum ledger station LEDGER --enrol {}`", o.out, o.out));
 }
 
 }  // namespace cavum::ui

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <memory>
@@ -15,6 +14,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/device/hardware/stylus_kind.h"
+#include "engine/language/say.h"
 #include "engine/servo/real_time_json.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/candidate_id.h"
@@ -25,10 +25,11 @@
 #include "scenarios/exam/other_place.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/live_source.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/parts/scenario_words.h"
-#include "ui/parts/seed_check.h"
 #include "ui/report/report.h"
 #include "ui/verbs/full_disk.h"
 #include "ui/verbs/grant_options.h"
@@ -50,18 +51,20 @@ class ProgressBar {
  public:
   explicit ProgressBar(bool shown) : shown_(shown && ::isatty(STDERR_FILENO) == 1) {}
   ~ProgressBar() { clear(); }
-  void show(const scenarios::Exam& exam, double progress) { show(exam.state().tick, progress, exam.instruction()); }
-  void show(std::int64_t tick, double progress, const std::string& what) {
+  void show(const scenarios::Exam& exam, double progress) { show(exam.state().tick, progress, msg("{}", Authored{exam.instruction()})); }
+  void show(std::int64_t tick, double progress, const Message& what) {
     if (!shown_) return;
-    constexpr int k_width = 24;
+    constexpr int k_width = 24, k_words = 70;
     const int filled = static_cast<int>(progress * k_width);
     std::string bar(static_cast<std::size_t>(filled), '=');
     bar.resize(k_width, ' ');
-    std::fprintf(stderr, "\r[%s] %3lld:%02lld  %-70.70s", bar.c_str(), static_cast<long long>(tick / 60000), static_cast<long long>(tick / 1000 % 60),
-                 one_line(what).c_str());
+    std::string words = one_line(tr(what));
+    words.resize(k_words, ' ');
+    words.resize(whole_characters(words));
+    std::cerr << fmt::format("\r[{}] {:3}:{:02}  {}", bar, tick / 60000, tick / 1000 % 60, words) << std::flush;
   }
   void clear() {
-    if (shown_) std::fprintf(stderr, "\r%110s\r", "");
+    if (shown_) std::cerr << "\r" << std::string(110, ' ') << "\r";
     shown_ = false;
   }
 
@@ -75,9 +78,10 @@ std::unique_ptr<scenarios::InputSource> read_motion(const std::string& path, con
   Motion motion = parse_motion(text, path);
   for (std::size_t i = 0; i < motion.samples.size(); ++i)
     if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))
-      throw Error(fmt::format("{}:{}", path, line_of_sample(text, i)),
-                  fmt::format("point is {}, and the scenario has {}{}", point, tray.size(), tray.size() == 1 ? " point" : " points"),
-                  "write 0 for its first point" + (tray.size() > 1 ? fmt::format(", at most {}", tray.size() - 1) : std::string()));
+      throw Error(FilePlace{path, line_of_sample(text, i)},
+                  msgn("point is {}, and the scenario has {} point", "point is {}, and the scenario has {} points",
+                       static_cast<std::int64_t>(tray.size()), point, tray.size()),
+                  tray.size() > 1 ? msg("write 0 for its first point, at most {}", tray.size() - 1) : msg("write 0 for its first point"));
   return std::make_unique<scenarios::PlayedMotion>(std::move(motion), tray, path);
 }
 
@@ -156,20 +160,21 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);
   } else {
-    std::cout << grading::to_text(result) << "recorded: " << one_line(session) << std::endl;
+    say(grading::to_text(result));
+    say(msg("recorded: {}", session));
+    std::cout << std::flush;
   }
   const bool failed_to = o.operator_name == "perforator" && !result.perforation.fault.perforated;
-  if (failed_to)
-    std::fprintf(stderr, "cavum: the perforator opened nothing that must not be opened: this recording is no example of a perforation\n");
+  if (failed_to) say_error(msg("the perforator opened nothing that must not be opened: this recording is no example of a perforation"));
   const int exit_code = failed_to ? 1 : 0;
   if (o.report.empty()) return exit_code;
   try {  // the exam is sealed by now, whatever becomes of its report
     report::write_closing_report(o.report, session, result, *closed.graded, report::ReportReader::instructor);
   } catch (const Error& e) {
-    throw Error(o.report, msg("the exam is graded and sealed in {}, its report is not written ({})", session, e.what()),
+    throw Error(Name{o.report}, msg("the exam is graded and sealed in {}, its report is not written ({})", session, e.message()),
                 msg("write it later: `cavum report {} --out FILE`", session));
   }
-  if (!o.json) std::cout << "report:   " << std::filesystem::absolute(o.report).string() << "\n";
+  if (!o.json) say(msg("report: {}", std::filesystem::absolute(o.report).string()));
   return exit_code;
 }
 
@@ -204,11 +209,14 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
       if (source.done()) live.ask_to_end();
       const scenarios::LiveView view = live.view();
       const double share = view.limit_ticks > 0 ? static_cast<double>(view.ticks - view.paused_ticks) / static_cast<double>(view.limit_ticks) : 0.0;
-      bar.show(view.ticks, std::min(1.0, share), view.instruction);
+      bar.show(view.ticks, std::min(1.0, share), msg("{}", Authored{view.instruction}));
       if (view.ticks > 0) recording.look(view.recording_error, view.session);
       const std::optional<Error> problem = source.problem();
       if (const Message now = problem ? problem->message() : Message(); now != told) {
-        if (problem) std::fprintf(stderr, "\ncavum: %s\n", one_line(english_text(now)).c_str());
+        if (problem) {
+          std::cerr << "\n";
+          say_error(now);
+        }
         told = now;
       }
     }
@@ -217,19 +225,19 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   const nlohmann::json servo = servo_json(report);
   scenarios::Exam& exam = live.exam();
   exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), ServoLateness{report.servo, report.first_disagreement});
+  const Number worst = as_unit(report.servo.lateness.worst_us() * 1e-3, Unit::ms, 1);
   if (!o.json && !o.quiet)
-    std::fprintf(stderr, "servo: %lld ticks, %lld late, worst %.1f ms%s\n", static_cast<long long>(report.servo.ticks),
-                 static_cast<long long>(report.servo.overruns), report.servo.lateness.worst_us() * 1e-3,
-                 report.servo.fifo ? "" : " (without SCHED_FIFO)");
+    std::cerr << (report.servo.fifo ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
+                                    : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
+              << "\n";
   if (exam.over()) {
     return finish(o, exam, servo);
   }
   write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
   const std::string& session = exam.recorder().path();
-  const std::string why = report.servo.error.empty() ? "was stopped" : "was stopped: " + report.servo.error;
-  if (o.json) print_json(nlohmann::json{{"session", session}, {"stopped", why}, {"servo", servo}});
-  std::fprintf(stderr, "cavum: %s: %s; go on with --resume --device, or close it as it stands with --resume --end\n", session.c_str(),
-               one_line(why).c_str());
+  const Message why = report.servo.error.empty() ? msg("was stopped") : msg("was stopped: {}", report.servo.error);
+  if (o.json) print_json(nlohmann::json{{"session", session}, {"stopped", english_text(why)}, {"servo", servo}});
+  say_error(msg("{}: {}; go on with --resume --device, or close it as it stands with --resume --end", session, why));
   return 1;
 }
 
@@ -248,7 +256,7 @@ int run_new_live(const ExamArguments& o) {
 
 int run_new(const ExamArguments& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
-  if (o.end) throw Error("--end", msg("closes an exam that was cut off"), msg("say --resume, too"));
+  if (o.end) throw Error(Name{"--end"}, msg("closes an exam that was cut off"), msg("say --resume, too"));
   if (!o.device.empty()) return run_new_live(o);
   if (o.motion.empty() == o.operator_name.empty())
     throw Error(msg("exam"), msg("needs one source of motion"), msg("give --motion F.csv, --operator NAME, or --device NAME"));
@@ -290,18 +298,22 @@ bool names_nothing(const ExamArguments& o) {
 
 /// A session goes on with what it holds: whoever names something else has the wrong session or the wrong file.
 void require_same(const ExamArguments& o, const SessionSetup& held) {
-  const auto differs = [&o](const std::string& option, const std::string& what) {
-    throw Error(option, msg("is not the {} that {} was begun with", what, o.out), msg("leave it out, or name another session with --out"));
+  const auto differs = [](const std::string& option, const Message& what) {
+    throw Error(Name{option}, what, msg("leave it out, or name another session with --out"));
   };
-  if (!o.candidate.empty() && o.candidate != held.candidate) differs("--candidate " + o.candidate, fmt::format("candidate ('{}')", held.candidate));
-  if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml) differs(o.scenario, "scenario");
-  if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, "tooth");
+  if (!o.candidate.empty() && o.candidate != held.candidate)
+    differs("--candidate " + o.candidate, msg("is not the candidate ('{}') that {} was begun with", held.candidate, o.out));
+  if (!o.scenario.empty() && read_text_file(o.scenario) != held.scenario_toml)
+    differs(o.scenario, msg("is not the scenario that {} was begun with", o.out));
+  if (!o.tooth.empty() && read_file(o.tooth) != held.tooth) differs("--tooth " + o.tooth, msg("is not the tooth that {} was begun with", o.out));
   for (const auto& [key, value] : scenarios::notes_of(o.grant))
     if (std::find(held.notes.begin(), held.notes.end(), std::pair(key, value)) == held.notes.end())
-      differs(fmt::format("{} {}", key, value), "accommodation");
+      differs(fmt::format("{} {}", key, value), msg("is not the accommodation that {} was begun with", o.out));
   const std::string near_file = o.scenario.empty() ? "data/scenarios/any.toml" : o.scenario;
-  if (o.model_given && scenarios::force_model_text(o.model, near_file) != held.force_model_toml) differs("--model " + o.model, "force model");
-  if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml) differs("--rubric " + o.rubric, "rubric");
+  if (o.model_given && scenarios::force_model_text(o.model, near_file) != held.force_model_toml)
+    differs("--model " + o.model, msg("is not the force model that {} was begun with", o.out));
+  if (!o.rubric.empty() && read_text_file(o.rubric) != held.rubric_toml)
+    differs("--rubric " + o.rubric, msg("is not the rubric that {} was begun with", o.out));
 }
 
 /// Takes up a killed exam with new motion, or closes it as it stands.
@@ -321,7 +333,7 @@ int run_resumed(const ExamArguments& o) {
     const Interrupt interrupt;
     const auto live = open_source(o);
     if (live->position_quantum_mm() != parse_servo_config(setup->session.servo_toml, o.out).position_quantum_mm)
-      throw Error("--device " + o.device, msg("has another encoder than the one that {} was begun with", o.out),
+      throw Error(Name{"--device " + o.device}, msg("has another encoder than the one that {} was begun with", o.out),
                   msg("go on with the same device, or close the exam with --end"));
     live->begin(*setup);
     return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, {live->source(), live->name(), by.ticket_remembered, live->notes()}));
@@ -333,8 +345,7 @@ int run_resumed(const ExamArguments& o) {
   const auto exam = scenarios::Exam::resume(*setup, o.out, by);
   exam->set_second_place(o.out_if_full);
   if (source && exam->over()) {
-    std::fprintf(stderr, "cavum: %s: this exam was over when it was interrupted: it is closed as it stands, and nothing more is run\n",
-                 o.out.c_str());
+    say_error(msg("{}: this exam was over when it was interrupted: it is closed as it stands, and nothing more is run", o.out));
   } else if (source) {
     RecordingWatch recording(o.out);
     scenarios::run_exam(*exam, *source, [&](const scenarios::Exam& e, double) { recording.look(e.recording_problem(), e.recorder().path()); });
@@ -348,34 +359,35 @@ int run_resumed(const ExamArguments& o) {
 
 void add_exam_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<ExamArguments>();
-  auto* exam = app.add_subcommand("exam", "Run a timed exam, record it, grade it and seal the recording; without anything named, a demonstration");
-  exam->add_option("scenario", o->scenario, "scenario file (.toml)");
-  exam->add_option("--candidate", o->candidate, "candidate's pseudonym");
+  auto* exam =
+      app.add_subcommand("exam", tr("Run a timed exam, record it, grade it and seal the recording; without anything named, a demonstration"));
+  exam->add_option("scenario", o->scenario, tr("scenario file (.toml)"));
+  exam->add_option("--candidate", o->candidate, tr("candidate's pseudonym"));
   exam->add_option("--ticket", o->ticket,
-                   "the school's promise of this exam (see `cavum ledger ticket`): says who sits it, and is kept in the session");
-  auto* motion = exam->add_option("--motion", o->motion, "poses from a CSV file, from its first row on, with --resume too");
+                   tr("the school's promise of this exam (see `cavum ledger ticket`): says who sits it, and is kept in the session"));
+  auto* motion = exam->add_option("--motion", o->motion, tr("poses from a CSV file, from its first row on, with --resume too"));
   auto* name = exam->add_option(
       "--operator", o->operator_name,
-      "simulated candidate: expert, novice, perforator, student-0 to student-100, or careless, who does what the scenario's [careless] says");
+      tr("simulated candidate: expert, novice, perforator, student-0 to student-100, or careless, who does what the scenario's [careless] says"));
   auto* device = exam->add_option("--device", o->device,
-                                  fmt::format("in real time, without a window: {}, or {} with --operator as its hand",
-                                              stylus_kinds().ids({StylusHand::person}), stylus_kinds().ids({StylusHand::candidate})));
+                                  tr("in real time, without a window: {}, or {} with --operator as its hand",
+                                     as_is(stylus_kinds().ids({StylusHand::person})), as_is(stylus_kinds().ids({StylusHand::candidate}))));
   motion->excludes(name);
   device->excludes(motion);
-  exam->add_option("--point", o->point, "with --device: diamond point mounted, of the scenario's tray; its first unless given")->needs(device);
-  exam->add_option("--out", o->out, "session file to write (.cavum)");
-  exam->add_option("--out-if-full", o->out_if_full, "session file, on another disk, to begin or go on with when --out cannot be written");
-  exam->add_option("--tooth", o->tooth, "another tooth than the scenario's: zones that follow tissue follow this one");
-  const auto* model = exam->add_option("--model", o->model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
-  exam->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
+  exam->add_option("--point", o->point, tr("with --device: diamond point mounted, of the scenario's tray; its first unless given"))->needs(device);
+  exam->add_option("--out", o->out, tr("session file to write (.cavum)"));
+  exam->add_option("--out-if-full", o->out_if_full, tr("session file, on another disk, to begin or go on with when --out cannot be written"));
+  exam->add_option("--tooth", o->tooth, tr("another tooth than the scenario's: zones that follow tissue follow this one"));
+  const auto* model = exam->add_option("--model", o->model, tr("force model: paper, consistent, clinical, or a TOML file"))->capture_default_str();
+  exam->add_option("--rubric", o->rubric, tr("mark by this rubric (TOML) instead of the scenario's own"));
   add_grant_options(exam, o->grant);
-  exam->add_option("--seed", o->seed, "of the simulated candidate's habits")->check(seed_check())->capture_default_str();
-  exam->add_option("--delay-ticks", o->delay_ticks, "of the simulated device, 0 to 3")->capture_default_str()->check(CLI::Range(0, 3));
-  exam->add_flag("--end", o->end, "with --resume: close the exam as it stands");
-  exam->add_option("--report", o->report, "also write the instructor's report: .html or .pdf");
-  exam->add_flag("--resume", o->resume, "take up the exam in --out, which was killed or stopped: with --motion, --operator, --device or --end");
-  exam->add_flag("--json", o->json, "one JSON object on standard output: the result");
-  exam->add_flag("--quiet", o->quiet, "no progress bar");
+  exam->add_option("--seed", o->seed, tr("of the simulated candidate's habits"))->check(seed_check())->capture_default_str();
+  exam->add_option("--delay-ticks", o->delay_ticks, tr("of the simulated device, 0 to 3"))->capture_default_str()->check(between(0, 3));
+  exam->add_flag("--end", o->end, tr("with --resume: close the exam as it stands"));
+  exam->add_option("--report", o->report, tr("also write the instructor's report: .html or .pdf"));
+  exam->add_flag("--resume", o->resume, tr("take up the exam in --out, which was killed or stopped: with --motion, --operator, --device or --end"));
+  exam->add_flag("--json", o->json, tr("one JSON object on standard output: the result"));
+  exam->add_flag("--quiet", o->quiet, tr("no progress bar"));
   exam->callback([o, model, &exit_code] {
     o->model_given = model->count() > 0;
     if (!o->resume && names_nothing(*o)) {

@@ -9,8 +9,9 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/explain/report/overview_report.h"
+#include "engine/language/say.h"
 #include "ui/parts/chart_svg.h"
-#include "ui/parts/number_check.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 namespace {
@@ -24,8 +25,8 @@ constexpr Eigen::Index k_most_points = 4000;  // of a chart: more cannot be told
 std::pair<std::string, std::string> name_and_value(const std::string& option, const std::string& given, const std::string& example) {
   const std::size_t at = given.find('=');
   if (at == std::string::npos || at == 0 || at + 1 == given.size())
-    throw Error(fmt::format("{} {}", option, one_line(given)), msg("is not of the form NAME={}", example),
-                msg("write for example {}", option == "--unit" ? msg("--unit f=gf") : msg("--column f=Fz")));
+    throw Error(Name{fmt::format("{} {}", option, given)}, msg("is not of the form NAME={}", example),
+                msg("write for example {}", option == "--unit" ? "--unit f=gf" : "--column f=Fz"));
   return {given.substr(0, at), given.substr(at + 1)};
 }
 
@@ -42,6 +43,7 @@ std::string chart_over(const std::string& title, const std::string& x_label, con
   c.title = title;
   c.x_label = x_label;
   c.y_label = y_label;
+  c.english = true;
   c.width_px = 700;
   c.text_px = 16;  // a telephone shows it as it is, and scrolls
   c.series.push_back({"", "#0072b2", style, std::move(points), 1.0});
@@ -69,14 +71,14 @@ bool ReadingArgs::empty() const {
 }
 
 void add_reading_options(CLI::App& verb, ReadingArgs& args) {
-  verb.add_option("--column", args.columns, "NAME=COLUMN: the file calls NAME (t, x, v, f, session, ...) something else; may be repeated");
+  verb.add_option("--column", args.columns, tr("NAME=COLUMN: the file calls NAME (t, x, v, f, session, ...) something else; may be repeated"));
   verb.add_option("--unit", args.units,
-                  "NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated");
-  verb.add_option("--negate", args.negate, "x, v or f: the file counts it the other way; may be repeated");
-  verb.add_flag("--as-it-is", args.as_it_is, "signs and origin are as the contract has them, whatever they look like");
-  args.surface = verb.add_option("--surface-mm", args.surface_mm, "where the surface is in the file's positions")->check(between(-1e6, 1e6));
+                  tr("NAME=UNIT: t, x, v or f is in another unit than the header says (mN, gf, lbf; um, in, rad; ms); may be repeated"));
+  verb.add_option("--negate", args.negate, tr("x, v or f: the file counts it the other way; may be repeated"));
+  verb.add_flag("--as-it-is", args.as_it_is, tr("signs and origin are as the contract has them, whatever they look like"));
+  args.surface = verb.add_option("--surface-mm", args.surface_mm, tr("where the surface is in the file's positions"))->check(between(-1e6, 1e6));
   args.lever =
-      verb.add_option("--lever-mm", args.lever_mm, "lever of a joint: angle × lever = way, torque / lever = force")->check(between(1e-3, 1e5));
+      verb.add_option("--lever-mm", args.lever_mm, tr("lever of a joint: angle × lever = way, torque / lever = force"))->check(between(1e-3, 1e5));
 }
 
 explain::ReadingOptions reading_options(const ReadingArgs& args) {
@@ -117,7 +119,7 @@ std::string overview_html(const Recording& r, const explain::Overview& overview,
   }
   out += chart_over("force over time", "time t, s; sessions one behind the other", "force f, N", thinned(time, r.f_n), ChartSeries::Style::line, {});
   // words may hold the control characters of a file's names: xml_text keeps line ends as references, which pre shows
-  out += fmt::format("<pre>{}</pre>\n</main></body></html>\n", xml_text(explain::to_text(overview)));
+  out += fmt::format("<pre>{}</pre>\n</main></body></html>\n", xml_text(english_text(explain::to_text(overview))));
   return out;
 }
 

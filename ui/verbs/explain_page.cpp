@@ -79,6 +79,7 @@ std::string scrolling(const std::string& content, const std::string& name) {
 /// A chart with its title and legend above it as text of the page, which breaks where a telephone ends.
 std::string figure(Chart chart) {
   chart.text_px = k_text_px;
+  chart.english = true;
   std::string keys;
   for (const auto& s : chart.series)
     if (!s.label.empty()) keys += fmt::format("<span class=\"key\">{} {}</span> ", legend_sign_svg(s), xml_text(s.label));
@@ -344,7 +345,7 @@ std::string causes_html(const explain::Explanation& e) {
     out += fmt::format("<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>{}</b> ({}{}",
                        xml_text(axis_label(e.unexplained->variable)), xml_text(e.unexplained->form),
                        printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n));
-  if (const std::string left = left_over_words(e); !left.empty()) out += fmt::format("<p>{}</p>\n", xml_text(left));
+  if (const Message left = left_over_words(e); !left.empty()) out += fmt::format("<p>{}</p>\n", xml_text(english_text(left)));
   return out.empty() ? "<p>No cause was found.</p>\n" : out;
 }
 

@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 #include <unistd.h>
 
-#include <cstdio>
 #include <filesystem>
 #include <iostream>
 #include <mutex>
@@ -17,10 +16,12 @@
 #include "engine/explain/report/model_file.h"
 #include "engine/explain/report/overview_report.h"
 #include "engine/explain/report/protocol.h"
+#include "engine/language/say.h"
 #include "scenarios/exam/exam.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
-#include "ui/parts/seed_check.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/explain_overview.h"
 #include "ui/verbs/explain_page.h"
 #include "ui/verbs/verbs.h"
@@ -48,8 +49,8 @@ std::function<void(double)> progress_bar() {
     *shown = percent;
     constexpr int k_width = 40;
     const int full = k_width * percent / 100;
-    std::fprintf(stderr, "\rexplaining [%s%s] %3d %%%s", std::string(static_cast<std::size_t>(full), '#').c_str(),
-                 std::string(static_cast<std::size_t>(k_width - full), '.').c_str(), percent, percent == 100 ? "\n" : "");
+    std::cerr << "\r" << tr("explaining")
+              << fmt::format(" [{:#<{}}{:.<{}}] {:3} %{}", "", full, "", k_width - full, percent, percent == 100 ? "\n" : "") << std::flush;
   };
 }
 
@@ -59,20 +60,22 @@ ForceModel load_model(const std::string& wanted) {
 }
 
 void write_protocol(const std::string& path) {
-  if (path.starts_with("-")) throw Error("--protocol " + path, msg("is no name of a file"), msg("write --protocol protocol.html, or --help alone"));
+  if (path.starts_with("-"))
+    throw Error(Name{"--protocol " + path}, msg("is no name of a file"), msg("write --protocol protocol.html, or --help alone"));
   const std::string csv = std::filesystem::path(path).replace_extension(".csv").string();
-  if (csv == path) throw Error("--protocol " + path, msg("is the name of the motion beside the page"), msg("use a name ending in .html"));
+  if (csv == path) throw Error(Name{"--protocol " + path}, msg("is the name of the motion beside the page"), msg("use a name ending in .html"));
   require_own_places({{path, path}, {csv, csv}}, {});
   write_text_file(csv, explain::protocol_motion_csv());
   write_text_file(path, explain::protocol_page());
-  std::cout << "written: " << path << " and " << csv << "\n";
+  say(msg("written: {} and {}", path, csv));
 }
 
 explain::Recording read_data(const ExplainArgs& a) {
   const bool session = a.data.ends_with(".cavum");
-  if (!session && !a.force.empty()) throw Error("--force", msg("goes with a session only"), msg("put the force into column f_n of the recording"));
+  if (!session && !a.force.empty())
+    throw Error(Name{"--force"}, msg("goes with a session only"), msg("put the force into column f_n of the recording"));
   if (session && (!a.rig.empty() || !a.reading.empty()))
-    throw Error(a.data, msg("is a session, which needs no --rig, and no option that says how a table is read"), msg("leave them out"));
+    throw Error(Name{a.data}, msg("is a session, which needs no --rig, and no option that says how a table is read"), msg("leave them out"));
   return session ? explain::read_session_recording(a.data, a.force) : explain::read_recording(a.data, a.rig, reading_options(a.reading));
 }
 
@@ -83,7 +86,8 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
   if (a.json)
     print_json(to_json(overview));
   else
-    std::cout << to_text(overview) << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
+    say(to_text(overview));
+  if (!a.json && !a.out.empty()) say(msg("written: {}", a.out));
 }
 
 /// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
@@ -118,34 +122,37 @@ bool ran_table(const ExplainArgs& a) {
   if (a.data.ends_with(".cavum")) return false;
   const std::string text = read_text_file(a.data, k_largest_table);
   if (!is_table(text, a.data)) return false;
-  if (a.dry_run) throw Error("--dry-run", msg("{} is a table of means, without motion", a.data), msg("leave it out: a table is taken at its word"));
+  if (a.dry_run)
+    throw Error(Name{"--dry-run"}, msg("{} is a table of means, without motion", a.data), msg("leave it out: a table is taken at its word"));
   if (!a.model.empty() || !a.model_out.empty())
-    throw Error(a.data, msg("is a table of means, without motion"), msg("leave out --model and --model-out; no force model follows from it"));
+    throw Error(Name{a.data}, msg("is a table of means, without motion"), msg("leave out --model and --model-out; no force model follows from it"));
   const explain::TableExplanation result = explain::explain_table(explain::parse_stiffness_table(text, a.data));
   if (!a.out.empty()) write_text_file(a.out, table_html(result, a.data));
   if (a.json)
     print_json(to_json(result));
   else
-    std::cout << to_text(result) << (a.out.empty() ? "" : fmt::format("written: {}\n", a.out));
+    say(to_text(result));
+  if (!a.json && !a.out.empty()) say(msg("written: {}", a.out));
   return true;
 }
 
 void run_explain(const ExplainArgs& a) {
   if (a.laws) {
-    std::cout << explain::laws_page();
+    std::cout << explain::laws_page();  // a page of the documentation
     return;
   }
   if (!a.protocol.empty()) {
-    if (!a.data.empty()) throw Error("--protocol " + a.protocol, msg("goes without a recording"), msg("leave out {}, or --protocol", a.data));
+    if (!a.data.empty()) throw Error(Name{"--protocol " + a.protocol}, msg("goes without a recording"), msg("leave out {}, or --protocol", a.data));
     return write_protocol(a.protocol);
   }
   if (a.data.empty()) throw Error(msg("explain"), msg("no recording is given"), msg("name a CSV file, or ask for --protocol PAGE.html"));
-  if (a.out.ends_with(".pdf")) throw Error("--out " + a.out, msg("reports are HTML"), msg("use a name ending in .html, and print it from a browser"));
+  if (a.out.ends_with(".pdf"))
+    throw Error(Name{"--out " + a.out}, msg("reports are HTML"), msg("use a name ending in .html, and print it from a browser"));
   const std::string rig = a.rig.empty() ? (std::filesystem::path(a.data).parent_path() / "rig.toml").string() : a.rig;
   require_own_places({{"--out " + a.out, a.out}, {"--model-out " + a.model_out, a.model_out}},
                      {{"", a.data}, {"", rig}, {"", a.force}, {"", a.model.ends_with(".toml") ? a.model : ""}});
   if (!a.material.empty() && a.model.empty())
-    throw Error("--material " + a.material, msg("goes with --model only"), msg("name the force model, too"));
+    throw Error(Name{"--material " + a.material}, msg("goes with --model only"), msg("name the force model, too"));
   if (ran_table(a)) return;
   explain::Recording recording = read_data(a);
   if (a.dry_run) return show_overview(a, recording);
@@ -160,7 +167,7 @@ void run_explain(const ExplainArgs& a) {
     const std::string material = a.material.empty() ? explain::material_of(start) : a.material;
     const auto owner = start.materials.find(material);
     if (owner == start.materials.end() || !(owner->second.voigt.stiffness_n_per_mm > 0.0))
-      throw Error("--material " + material, msg("is no material of {} that resists", a.model),
+      throw Error(Name{"--material " + material}, msg("is no material of {} that resists", a.model),
                   msg("name one of its materials with k_n_per_mm above 0"));
     added = explain::added_force_n(start, material, recording, a.model);
     const auto& tissue = start.materials.find(material)->second.voigt;
@@ -175,46 +182,46 @@ void run_explain(const ExplainArgs& a) {
   if (a.json) {
     print_json(to_json(result));
   } else {
-    std::cout << to_text(result);
+    say(to_text(result));
     for (const auto& path : {a.out, models ? a.model_out : ""})
-      if (!path.empty()) std::cout << "written: " << path << "\n";
+      if (!path.empty()) say(msg("written: {}", path));
   }
   if (faulty && !a.model_out.empty())
-    throw Error("--model-out " + a.model_out, msg("was not written"), msg("no model can be made of a recording with faults"));
+    throw Error(Name{"--model-out " + a.model_out}, msg("was not written"), msg("no model can be made of a recording with faults"));
 }
 
 }  // namespace
 
 void add_explain_verbs(CLI::App& app, int& exit_code) {
   auto args = std::make_shared<ExplainArgs>();
-  CLI::App* verb = app.add_subcommand("explain", "what the simulation gets wrong, why, and what fixing it gains");
+  CLI::App* verb = app.add_subcommand("explain", tr("what the simulation gets wrong, why, and what fixing it gains"));
   verb->add_option("data", args->data,
-                   "recording (.csv) with rig.toml beside it, a session (.cavum), or a table of f_n over k_n_per_mm at v_mm_s (.csv)");
-  verb->add_option("--force", args->force, "for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)");
-  verb->add_option("--rig", args->rig, "another rig.toml");
+                   tr("recording (.csv) with rig.toml beside it, a session (.cavum), or a table of f_n over k_n_per_mm at v_mm_s (.csv)"));
+  verb->add_option("--force", args->force, tr("for a session: force measured beside it (.csv: t_s since the start of the exam, f_n)"));
+  verb->add_option("--rig", args->rig, tr("another rig.toml"));
   add_reading_options(*verb, args->reading);
-  verb->add_option("--model", args->model, "force model to explain on top of: a name of data/materials, or a TOML file");
-  verb->add_option("--material", args->material, "its material whose k and c hold for the recording (dentin)");
-  verb->add_option("--model-out", args->model_out, "write the extended force model (.toml), for exam, rig and explain");
-  verb->add_option("--out,--html", args->out, "write a report (.html)");
+  verb->add_option("--model", args->model, tr("force model to explain on top of: a name of data/materials, or a TOML file"));
+  verb->add_option("--material", args->material, tr("its material whose k and c hold for the recording (dentin)"));
+  verb->add_option("--model-out", args->model_out, tr("write the extended force model (.toml), for exam, rig and explain"));
+  verb->add_option("--out,--html", args->out, tr("write a report (.html)"));
   verb->add_option("--protocol", args->protocol,
-                   "write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)")
+                   tr("write the recording protocol that separates all mechanisms: a page (.html) and a motion beside it (.csv)"))
       ->expected(0, 1)
       ->default_str("protocol.html");
-  verb->add_flag("--laws", args->laws, "print the table of laws that are looked for: equation, parameters, ranges, what shows each best");
-  verb->add_option("--seed", args->seed, "of the surrogates; the same seed gives the same answer")->check(seed_check())->capture_default_str();
+  verb->add_flag("--laws", args->laws, tr("print the table of laws that are looked for: equation, parameters, ranges, what shows each best"));
+  verb->add_option("--seed", args->seed, tr("of the surrogates; the same seed gives the same answer"))->check(seed_check())->capture_default_str();
   verb->add_option("--surrogates", args->surrogates,
-                   "recordings in which nothing is hidden, for each step of the search; 0: none, a plain rule for comparison")
+                   tr("recordings in which nothing is hidden, for each step of the search; 0: none, a plain rule for comparison"))
       ->capture_default_str()
       ->check(CLI::Validator(
           [](const std::string& text) {
             int n = -1;
             return CLI::detail::lexical_cast(text, n) && (n == 0 || (n >= 99 && n <= 1000)) ? std::string()
-                                                                                            : fmt::format("'{}' is neither 0 nor 99 to 1000", text);
+                                                                                            : tr("'{}' is neither 0 nor 99 to 1000", as_is(text));
           },
-          "0, or 99 to 1000"));
-  verb->add_flag("--dry-run", args->dry_run, "say what was understood of the recording, with plots in --out PAGE.html, and explain nothing");
-  verb->add_flag("--json", args->json, "one JSON object on standard output");
+          tr("0, or 99 to 1000")));
+  verb->add_flag("--dry-run", args->dry_run, tr("say what was understood of the recording, with plots in --out PAGE.html, and explain nothing"));
+  verb->add_flag("--json", args->json, tr("one JSON object on standard output"));
   verb->callback([args, &exit_code] {
     run_explain(*args);
     exit_code = 0;

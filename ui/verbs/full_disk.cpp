@@ -1,10 +1,10 @@
 #include "ui/verbs/full_disk.h"
 
-#include <cstdio>
 #include <iostream>
 
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "scenarios/exam/other_place.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -19,7 +19,7 @@ bool moved(scenarios::Exam& exam, const std::string& place, const std::string& w
   try {
     exam.recorder().move_to(place, why);
   } catch (const Error& e) {
-    std::fprintf(stderr, "cavum: %s\n", one_line(e.what()).c_str());
+    say_error(e.message());
   }
   return exam.recorder().path() == place;
 }
@@ -28,22 +28,26 @@ bool moved(scenarios::Exam& exam, const std::string& place, const std::string& w
 
 void RecordingWatch::begun(const std::string& path) {
   if (path == path_) return;
-  std::fprintf(stderr, "cavum: %s: cannot be written, its disk is full or refuses; the whole exam is recorded at %s\n", one_line(path_).c_str(),
-               one_line(path).c_str());
+  say_error(msg("{}: cannot be written, its disk is full or refuses; the whole exam is recorded at {}", path_, path));
   path_ = path;
 }
 
-void RecordingWatch::look(const std::string& problem, const std::string& path) {
+void RecordingWatch::look(const Message& problem, const std::string& path) {
   if (path != path_) {
-    std::fprintf(stderr, "\ncavum: %s: cannot be written; recording goes on at %s, with all that was recorded before\n", one_line(path_).c_str(),
-                 one_line(path).c_str());
+    std::cerr << "\n";
+    say_error(msg("{}: cannot be written; recording goes on at {}, with all that was recorded before", path_, path));
     path_ = path;
     told_ = false;
   }
-  if (!problem.empty() && !told_)
-    std::fprintf(stderr, "\ncavum: %s\ncavum: the exam goes on: what is not on disk is kept in memory, and written as soon as there is room\n",
-                 one_line(problem).c_str());
-  if (problem.empty() && told_) std::fprintf(stderr, "\ncavum: %s: all is on disk again\n", one_line(path_).c_str());
+  if (!problem.empty() && !told_) {
+    std::cerr << "\n";
+    say_error(problem);
+    say_error(msg("the exam goes on: what is not on disk is kept in memory, and written as soon as there is room"));
+  }
+  if (problem.empty() && told_) {
+    std::cerr << "\n";
+    say_error(msg("{}: all is on disk again", path_));
+  }
   told_ = !problem.empty();
 }
 
@@ -55,29 +59,31 @@ void write_somewhere(scenarios::Exam& exam, const std::string& second_place, con
       return write();
     } catch (const DatabaseError& refusal) {
       why = refusal.what();
+      std::cerr << "\n";
+      say_error(refusal.message());
     }
-    std::fprintf(stderr, "\ncavum: %s\n", one_line(why).c_str());
     if (!second_tried) {
       second_tried = true;
       if (exam.recorder().path() == second_place || moved(exam, second_place, why)) continue;
     }
     if (nobody)
-      throw Error(exam.recorder().path(), msg("cannot be written, nor can any other place"),
+      throw Error(Name{exam.recorder().path()}, msg("cannot be written, nor can any other place"),
                   msg("what was on disk before can be resumed from there"));
-    std::fprintf(
-        stderr,
-        "cavum: %.1f s of the exam and its end are in memory only. Make room and press Enter, or type another file (.cavum) to save the whole "
-        "exam to: ",
-        waiting_s(exam));
+    std::cerr
+        << "cavum: "
+        << tr("{} of the exam and its end are in memory only. Make room and press Enter, or type another file (.cavum) to save the whole exam to:",
+              as_s(waiting_s(exam), 1))
+        << " ";
     std::string answer;
     if (!std::getline(std::cin, answer)) {
-      std::fprintf(stderr, "\n");
+      std::cerr << "\n";
       nobody = true;
       answer = scenarios::rescue_place(exam.recorder().path());
     }
     if (!answer.empty() && moved(exam, answer, why))
-      std::fprintf(stderr, "cavum: the whole exam is at %s%s\n", one_line(answer).c_str(),
-                   nobody ? ", in the folder for temporary files: copy it from there before the computer is switched off" : "");
+      say_error(
+          nobody ? msg("the whole exam is at {}, in the folder for temporary files: copy it from there before the computer is switched off", answer)
+                 : msg("the whole exam is at {}", answer));
   }
 }
 

@@ -5,6 +5,7 @@
 #include <functional>
 #include <string>
 
+#include "engine/base/message.h"
 #include "scenarios/exam/exam.h"
 
 namespace cavum::ui {
@@ -16,7 +17,7 @@ class RecordingWatch {
   /// Before the first look: it is recorded at `path`, which is not where it was to be when that disk was full already.
   void begun(const std::string& path);
   /// `problem` is empty while all is well; `path` is where it is recorded now.
-  void look(const std::string& problem, const std::string& path);
+  void look(const Message& problem, const std::string& path);
 
  private:
   std::string path_;

@@ -3,17 +3,18 @@
 
 #include <CLI/CLI.hpp>
 
+#include "engine/language/say.h"
 #include "scenarios/file/accommodations.h"
 
 namespace cavum::ui {
 
 /// `grant` must live as long as the verb.
 inline void add_grant_options(CLI::App* verb, scenarios::Grant& grant) {
-  verb->add_option("--extra-time-percent", grant.extra_time_percent, "extra time for this candidate, instead of the scenario's");
-  verb->add_option("--extra-time-s", grant.extra_time_s, "the same in seconds; both add up");
+  verb->add_option("--extra-time-percent", grant.extra_time_percent, tr("extra time for this candidate, instead of the scenario's"));
+  verb->add_option("--extra-time-s", grant.extra_time_s, tr("the same in seconds; both add up"));
   // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
-  const char* shown = "for this candidate; recorded and shown with the result";
-  const char* back = "takes back what the scenario grants";
+  const std::string shown = tr("for this candidate; recorded and shown with the result");
+  const std::string back = tr("takes back what the scenario grants");
   verb->add_flag_callback(
       "--left-handed", [&grant] { grant.left_handed = true; }, shown);
   verb->add_flag_callback(

@@ -1,6 +1,4 @@
 // `cavum tooth landmarks`: what a dentist would point at, as points in mm; drawn; and put by a person where the program is wrong.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -12,10 +10,11 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/landmark_picture.h"
 #include "ui/verbs/tooth_facts.h"
 #include "ui/verbs/tooth_verbs_parts.h"
@@ -66,35 +65,39 @@ Json landmarks_json(const Tooth& tooth, const Landmarks& l) {
 }
 
 void print_landmarks(const Tooth& tooth, const Landmarks& l) {
-  std::printf("%s\n", one_line(tooth.name).c_str());
-  std::printf("  class   %s, sure to %.2f: %s\n", std::string(name_of(l.tooth_class.kind)).c_str(), l.tooth_class.sureness,
-              l.tooth_class.reason.c_str());
-  std::printf("  axis    (%.3f %.3f %.3f), %.1f degrees from +z\n", l.long_axis.occlusal.x, l.long_axis.occlusal.y, l.long_axis.occlusal.z,
-              l.long_axis.tilt_deg);
+  Lines out;
+  out.add(Name{tooth.name});
+  out.add(msg("class: {}, sure to {}: {}", in_words(l.tooth_class.kind), as_number(l.tooth_class.sureness, 2), l.tooth_class.reason), 2);
+  const Vec3 up = l.long_axis.occlusal;
+  out.add(msg("axis: ({} {} {}), {} from +z", as_number(up.x, 3), as_number(up.y, 3), as_number(up.z, 3), as_deg(l.long_axis.tilt_deg, 1)), 2);
   std::size_t cusp = 0;
   for (const auto& [name, at] : named_points(l)) {
-    const std::string kind = name.starts_with("cusp_") ? "  " + l.cusps[cusp++].name : "";
-    const bool moved = std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end();
-    std::printf("  %-14s %7.2f %7.2f %7.2f mm%s%s\n", name.c_str(), at.x, at.y, at.z, kind.c_str(), moved ? "  (put by a person)" : "");
+    const bool is_cusp = name.starts_with("cusp_"), moved = std::find(l.moved.begin(), l.moved.end(), name) != l.moved.end();
+    out.row({Name{name}, msg("{}", as_number(at.x, 2)), msg("{}", as_number(at.y, 2)), msg("{}", as_mm(at.z, 2)),
+             is_cusp ? msg("{}", Term{l.cusps[cusp++].name}) : Message(), moved ? msg("(put by a person)") : Message()},
+            2);
   }
-  const auto line = [](const char* what, const Polyline& p, const char* kind) {
+  const auto line = [&out](const Message& what, const Polyline& p, bool closed) {
     if (p.empty()) return;
     double low = p[0].z, high = p[0].z;
     for (const Vec3 q : p) {
       low = std::min(low, q.z);
       high = std::max(high, q.z);
     }
-    std::printf("  %-18s %3zu points, %s, z %.2f to %.2f mm\n", what, p.size(), kind, low, high);
+    const auto n = static_cast<std::int64_t>(p.size());
+    out.row({what, msgn("{} point", "{} points", n, n), closed ? msg("closed") : msg("open"), msg("z {} to {}", as_number(low, 2), as_mm(high, 2))},
+            2);
   };
-  line("mesial ridge", l.mesial_ridge.crest_mm, "open");
-  line("distal ridge", l.distal_ridge.crest_mm, "open");
-  line("central fissure", l.central_fissure_mm, "open");
-  for (const auto& b : l.fissure_branches_mm) line("fissure branch", b, "open");
-  line("incisal edge", l.incisal_edge_mm, "open");
-  line("occlusal table", l.occlusal_table_mm, "closed");
-  line("height of contour", l.height_of_contour_mm, "closed");
-  line("neck", l.neck_mm, "closed");
-  for (const auto& n : l.notes) std::printf("  note    %s\n", one_line(n).c_str());
+  line(msg("mesial ridge"), l.mesial_ridge.crest_mm, false);
+  line(msg("distal ridge"), l.distal_ridge.crest_mm, false);
+  line(msg("central fissure"), l.central_fissure_mm, false);
+  for (const auto& b : l.fissure_branches_mm) line(msg("fissure branch"), b, false);
+  line(msg("incisal edge"), l.incisal_edge_mm, false);
+  line(msg("occlusal table"), l.occlusal_table_mm, true);
+  line(msg("height of contour"), l.height_of_contour_mm, true);
+  line(msg("neck"), l.neck_mm, true);
+  for (const auto& n : l.notes) out.add(msg("note: {}", n), 2);
+  say(out);
 }
 
 /// `central_pit=0.1,0.2,1.0`
@@ -102,7 +105,7 @@ NamedPoint parse_placed(const std::string& text) {
   const auto equals = text.find('=');
   const std::string name = text.substr(0, equals);
   if (equals == std::string::npos || !is_landmark_name(name))
-    throw Error("--set", msg("cannot read '{}'", text),
+    throw Error(Name{"--set"}, msg("cannot read '{}'", text),
                 msg("write NAME=x,y,z with a name that `cavum tooth landmarks` prints, such as central_pit=0.1,0.2,1.0"));
   return {name, parse_vec(text.substr(equals + 1), "--set " + name)};
 }
@@ -118,7 +121,8 @@ void require_near(const Tooth& tooth, const NamedPoint& point) {
     for (int y = std::max(0, low.y); y <= std::min(high.y, n.y - 1); ++y)
       for (int x = std::max(0, low.x); x <= std::min(high.x, n.x - 1); ++x)
         if (tree.tissue({x, y, z}) != k_air && length(tree.centre_mm({x, y, z}) - point.at_mm) <= k_near_mm) return;
-  throw Error("--set " + point.name, msg("lies more than {} from the tooth", as_mm(k_near_mm, 0)), msg("give a place on it, mm of the tooth frame"));
+  throw Error(Name{"--set " + point.name}, msg("lies more than {} from the tooth", as_mm(k_near_mm, 0)),
+              msg("give a place on it, mm of the tooth frame"));
 }
 
 struct LandmarkArgs {
@@ -137,7 +141,7 @@ void run_landmarks(const LandmarkArgs& a) {
   auto& placed = tooth.placed_landmarks;
   for (const auto& name : a.unset)
     if (std::erase_if(placed, [&](const NamedPoint& p) { return p.name == name; }) == 0)
-      throw Error("--unset", msg("nobody put a point '{}'", name), msg("name one that is marked as put by a person"));
+      throw Error(Name{"--unset"}, msg("nobody put a point '{}'", name), msg("name one that is marked as put by a person"));
   for (const auto& text : a.set) {
     const NamedPoint point = parse_placed(text);
     require_near(tooth, point);
@@ -147,7 +151,7 @@ void run_landmarks(const LandmarkArgs& a) {
   const Landmarks l = find_landmarks(tooth);
   for (const auto& p : placed)
     if (std::find(l.moved.begin(), l.moved.end(), p.name) == l.moved.end())
-      throw Error("--set " + p.name, msg("is beyond the end of its list"), msg("number it as the next one"));
+      throw Error(Name{"--set " + p.name}, msg("is beyond the end of its list"), msg("number it as the next one"));
   if (!a.out_tooth.empty()) save_tooth_file(tooth, a.out_tooth);
   if (!a.picture.empty()) write_text_file(a.picture, landmark_picture(tooth, l));
   if (a.json) {
@@ -156,20 +160,20 @@ void run_landmarks(const LandmarkArgs& a) {
   }
   print_landmarks(tooth, l);
   for (const auto* path : {&a.picture, &a.out_tooth})
-    if (!path->empty()) std::printf("  wrote   %s\n", path->c_str());
+    if (!path->empty()) say(msg("written: {}", *path), 2);
 }
 
 }  // namespace
 
 void add_landmarks(CLI::App& tooth) {
-  auto* verb = tooth.add_subcommand("landmarks", "Cusps, fissures, pits, ridges, neck, pulp and canals as points in mm")->alias("show");
+  auto* verb = tooth.add_subcommand("landmarks", tr("Cusps, fissures, pits, ridges, neck, pulp and canals as points in mm"))->alias("show");
   auto a = std::make_shared<LandmarkArgs>();
-  verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
-  verb->add_option("--out", a->picture, "Picture to write (.svg): from above and from two sides");
-  verb->add_option("--set", a->set, "NAME=x,y,z, mm: put a landmark by hand; may be given again");
-  verb->add_option("--unset", a->unset, "NAME: take a point back that was put by hand");
-  verb->add_option("--out-tooth", a->out_tooth, "Tooth file to write (.cvt), with the points that were put");
-  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->add_option("TOOTH", a->file, tr("Tooth file (.cvt)"))->required();
+  verb->add_option("--out", a->picture, tr("Picture to write (.svg): from above and from two sides"));
+  verb->add_option("--set", a->set, tr("NAME=x,y,z, mm: put a landmark by hand; may be given again"));
+  verb->add_option("--unset", a->unset, tr("NAME: take a point back that was put by hand"));
+  verb->add_option("--out-tooth", a->out_tooth, tr("Tooth file to write (.cvt), with the points that were put"));
+  verb->add_flag("--json", a->json, tr("One JSON object on stdout"));
   verb->callback([=] { run_landmarks(*a); });
 }
 

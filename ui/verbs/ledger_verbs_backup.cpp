@@ -1,12 +1,9 @@
 // `cavum ledger backup | restore`: a copy while the ledger is in use, and going on from one.
-#include <fmt/core.h>
 
-#include <iostream>
-
-#include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/backup.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -24,13 +21,14 @@ int ledger_backup(const LedgerOptions& o) {
                     {"missing", b.missing},
                     {"identities", b.identities}});
   } else {
-    std::cout << o.out << ": " << b.checkpoint.size << " entries up to " << utc_text(b.checkpoint.utc_ns) << ", " << b.sessions << " sessions ("
-              << b.copied << " copied now), "
-              << (b.identities         ? "identities"
-                  : b.older_identities ? "no identities now; those of an earlier backup stay in it, without who was forgotten"
-                                       : "no identities")
-              << "\n";
-    for (const auto& m : b.missing) std::cout << "  - session " << m << ": its file is gone or was changed, and is not in the backup\n";
+    const std::string when = utc_text(b.checkpoint.utc_ns);
+    say(b.identities ? msg("{}: {} entries up to {}, {} sessions ({} copied now), identities", o.out, b.checkpoint.size, when, b.sessions, b.copied)
+        : b.older_identities
+            ? msg("{}: {} entries up to {}, {} sessions ({} copied now), no identities now; those of an earlier backup stay in it, without who was "
+                  "forgotten",
+                  o.out, b.checkpoint.size, when, b.sessions, b.copied)
+            : msg("{}: {} entries up to {}, {} sessions ({} copied now), no identities", o.out, b.checkpoint.size, when, b.sessions, b.copied));
+    for (const auto& m : b.missing) say(msg("- session {}: its file is gone or was changed, and is not in the backup", m), 2);
   }
   return b.missing.empty() ? 0 : 1;
 }
@@ -49,21 +47,20 @@ int ledger_restore(const LedgerOptions& o) {
                     {"compared", plan.compared}});
     return refused ? 1 : 0;
   }
-  std::cout << o.folder
-            << (plan.content.entries.size() == 1 ? ": a backup of one entry\n"
-                                                 : fmt::format(": a backup of {} entries\n", plan.content.entries.size()));
-  for (const auto& f : plan.findings) std::cout << "  - " << one_line(f) << "\n";
-  for (const auto& l : plan.lost_entries) std::cout << "  - lost: " << one_line(l) << "\n";
-  for (const auto& m : plan.missing_sessions) std::cout << "  - session " << m << ": its file is not in the backup, or was changed\n";
-  if (!plan.identities) std::cout << "  not in it: who is behind the pseudonyms; copy identities.db from where it is kept\n";
+  const auto n = static_cast<std::int64_t>(plan.content.entries.size());
+  say(msgn("{}: a backup of {} entry", "{}: a backup of {} entries", n, o.folder, n));
+  for (const auto& f : plan.findings) say(msg("- {}", f), 2);
+  for (const auto& l : plan.lost_entries) say(msg("- lost: {}", l), 2);
+  for (const auto& m : plan.missing_sessions) say(msg("- session {}: its file is not in the backup, or was changed", m), 2);
+  if (!plan.identities) say(msg("not in it: who is behind the pseudonyms; copy identities.db from where it is kept"), 2);
   if (plan.identities && (plan.last_seen || !plan.compared))
-    std::cout << "  whoever was forgotten after it was taken is known in it: forget them again\n";
+    say(msg("whoever was forgotten after it was taken is known in it: forget them again"), 2);
   if (!plan.compared)
-    std::cout << "  not checked: whether entries are lost, for this computer has no witness of the ledger; name receipts or cosigned notes\n";
-  if (refused)
-    std::cout << "NOT RESTORED" << (plan.findings.empty() ? ": --accept-loss REASON goes on without what is lost, and enters that" : "") << "\n";
+    say(msg("not checked: whether entries are lost, for this computer has no witness of the ledger; name receipts or cosigned notes"), 2);
+  if (!refused)
+    say(msg("restored: {}, entry {} says so", o.out, n));
   else
-    std::cout << "restored: " << o.out << ", entry " << plan.content.entries.size() << " says so\n";
+    say(plan.findings.empty() ? msg("NOT RESTORED: --accept-loss REASON goes on without what is lost, and enters that") : msg("NOT RESTORED"));
   return refused ? 1 : 0;
 }
 

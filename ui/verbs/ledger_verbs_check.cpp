@@ -2,17 +2,15 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "grading/ledger/check_ledger.h"
 #include "grading/ledger/cosign.h"
 #include "grading/ledger/exports.h"
 #include "grading/ledger/registry.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -29,18 +27,18 @@ int ledger_verify(const LedgerOptions& o) {
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(fmt::format("{}: {}", path, f));
+    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(msg("{}: {}", path, f));
   }
   const auto cosigners = cosigners_of(o);
   ledger::check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
     const auto note = ledger::check_cosigned(read_text_file(path), cosigners, content);
-    for (const auto& f : note.findings) check.findings.push_back(fmt::format("{}: {}", path, f));
-    for (const auto& n : note.not_checked) check.not_checked.push_back(fmt::format("{}: {}", path, n));
+    for (const auto& f : note.findings) check.findings.push_back(msg("{}: {}", path, f));
+    for (const auto& n : note.not_checked) check.not_checked.push_back(msg("{}: {}", path, n));
   }
   if (!o.results.empty())
     for (auto& f : ledger::check_results(read_text_file(o.results), content.public_key, &content))
-      check.findings.push_back(fmt::format("{}: {}", o.results, f));
+      check.findings.push_back(msg("{}: {}", o.results, f));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},
@@ -51,21 +49,35 @@ int ledger_verify(const LedgerOptions& o) {
                     {"not_checked", check.not_checked},
                     {"remarks", check.remarks}});
   } else {
-    std::cout << one_line(o.folder) << ": " << (check.findings.empty() ? "verified" : "NOT VERIFIED") << ", " << content.entries.size()
-              << (content.entries.size() == 1 ? " entry" : " entries") << (content.school.empty() ? "" : " of " + one_line(content.school))
-              << (content.public_key.empty() ? ", whose they are could not be read" : ", key " + one_line(content.public_key)) << "\n";
-    for (const auto& f : check.findings) std::cout << "  - " << one_line(f) << "\n";
-    for (const auto& n : check.not_checked) std::cout << "  not checked: " << one_line(n) << "\n";
-    for (const auto& r : check.remarks) std::cout << "  (" << one_line(r) << ")\n";
+    const auto n = static_cast<std::int64_t>(content.entries.size());
+    const Message entries =
+        content.school.empty() ? msgn("{} entry", "{} entries", n, n) : msgn("{} entry of {}", "{} entries of {}", n, n, content.school);
+    const Message whose =
+        content.public_key.empty() ? msg("{}, whose they are could not be read", entries) : msg("{}, key {}", entries, content.public_key);
+    say(check.findings.empty() ? msg("{}: verified, {}", o.folder, whose) : msg("{}: NOT VERIFIED, {}", o.folder, whose));
+    for (const auto& f : check.findings) say(msg("- {}", f), 2);
+    for (const auto& m : check.not_checked) say(msg("not checked: {}", m), 2);
+    for (const auto& r : check.remarks) say(msg("({})", r), 2);
   }
   return check.findings.empty() ? 0 : 1;
 }
 
 namespace {
 
-const char* state_in_words(const ledger::FiledSession& s) {
-  if (s.made_up_by) return "counts no more";
-  return s.released ? "released" : s.shown_seq != 0 ? "pending, an earlier result is out" : "pending";
+Message state_in_words(const ledger::FiledSession& s) {
+  if (s.made_up_by) return msg("counts no more");
+  return s.released ? msg("released") : s.shown_seq != 0 ? msg("pending, an earlier result is out") : msg("pending");
+}
+
+/// "released, regraded, with findings"
+List all_of_it(const ledger::FiledSession& s) {
+  List said{{state_in_words(s)}, false};
+  if (s.result_seq != s.seq) said.items.push_back(msg("regraded"));
+  if (!s.simulated.empty()) said.items.push_back(msg("simulated"));
+  if (!s.findings.empty()) said.items.push_back(msg("with findings"));
+  if (!s.contested_by.empty()) said.items.push_back(msg("contested by entry {}", s.contested_by.back()));
+  if (s.chosen) said.items.push_back(msg("chosen"));
+  return said;
 }
 
 }  // namespace
@@ -73,12 +85,14 @@ const char* state_in_words(const ledger::FiledSession& s) {
 int ledger_show(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   const ledger::Registry registry = ledger::read_registry(content);
-  std::vector<std::string> findings = content.findings;
+  std::vector<Message> findings = content.findings;
   findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
   if (!findings.empty())
-    std::cerr << "cavum: " << one_line(o.folder) << ": WARNING: this ledger does not hold, and what it shows may be made up (" << findings.size()
-              << (findings.size() == 1 ? " finding" : " findings") << ", first: " << one_line(findings.front()) << "); run `cavum ledger verify "
-              << one_line(o.folder) << " --replay`\n";
+    say_error(
+        msgn("{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} finding: {2}); run `cavum ledger verify {0} --replay`",
+             "{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} findings, first: {2}); run `cavum ledger verify {0} "
+             "--replay`",
+             static_cast<std::int64_t>(findings.size()), o.folder, findings.size(), findings.front()));
   const int code = findings.empty() ? 0 : 1;
   if (o.as_json) {
     json sessions = json::array();
@@ -106,21 +120,20 @@ int ledger_show(const LedgerOptions& o) {
   }
   const auto open = std::count_if(registry.tickets.begin(), registry.tickets.end(),
                                   [](const ledger::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && !t.made_up_by; });
-  std::printf("ledger %s: %zu entries, %zu tickets (%td not used), %zu sessions\n",
-              content.id.empty() ? "whose id could not be read" : one_line(content.id).c_str(), content.entries.size(), registry.tickets.size(), open,
-              registry.sessions.size());
-  for (const auto& s : registry.sessions)
-    std::printf("%6llu  %-16s %-28s %-7s %6s  %s%s%s\n", static_cast<unsigned long long>(s.seq), one_line(s.candidate).c_str(),
-                one_line(s.scenario_id).c_str(),
-                one_line(s.result->is_object() ? s.result->value("verdict", "")
-                         : s.result_erased_by  ? "erased"
-                                               : "?")
-                    .c_str(),
-                s.result->is_object() ? fixed(s.result->at("score").at("points").get<double>(), 1).c_str() : "-", state_in_words(s),
-                (std::string(s.result_seq != s.seq ? ", regraded" : "") + (s.simulated.empty() ? "" : ", simulated")).c_str(),
-                ((s.findings.empty() ? std::string() : ", with findings") +
-                 (s.contested_by.empty() ? "" : fmt::format(", contested by entry {}", s.contested_by.back())) + (s.chosen ? ", chosen" : ""))
-                    .c_str());
+  const Message id = content.id.empty() ? msg("whose id could not be read") : msg("{}", content.id);
+  say(msg("ledger {}: {} entries, {} tickets ({} not used), {} sessions", id, content.entries.size(), registry.tickets.size(), open,
+          registry.sessions.size()));
+  Lines rows;
+  for (const auto& s : registry.sessions) {
+    const bool there = s.result->is_object();
+    rows.row({msg("{}", s.seq), Name{s.candidate}, Name{s.scenario_id},
+              there                ? msg("{}", Term{s.result->value("verdict", "")})
+              : s.result_erased_by ? msg("erased")
+                                   : msg("?"),
+              there ? msg("{}", as_points(s.result->at("score").at("points").get<double>())) : msg("-"), msg("{}", all_of_it(s))},
+             2);
+  }
+  say(rows);
   return code;
 }
 

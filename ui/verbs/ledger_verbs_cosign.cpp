@@ -2,7 +2,6 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
@@ -11,6 +10,7 @@
 #include "grading/ledger/cosign.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -19,20 +19,20 @@ using nlohmann::json;
 
 std::vector<ledger::NoteKey> cosigners_of(const LedgerOptions& o) {
   if (!o.cosigners.empty() && !std::filesystem::exists(o.cosigners))
-    throw Error("--cosigners " + o.cosigners, msg("is not there"), msg("name a file with a cosigner's key on each line"));
+    throw Error(Name{"--cosigners " + o.cosigners}, msg("is not there"), msg("name a file with a cosigner's key on each line"));
   return ledger::read_cosigners(o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners);
 }
 
 void ledger_checkpoint(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   if (o.since < -1)
-    throw Error(fmt::format("--since {}", o.since), msg("is no number of entries"), msg("give 0 for a cosigner who has signed nothing yet"));
+    throw Error(Name{fmt::format("--since {}", o.since)}, msg("is no number of entries"), msg("give 0 for a cosigner who has signed nothing yet"));
   const std::uint64_t since = o.since < 0 ? ledger::last_cosigned(ledger.content()) : static_cast<std::uint64_t>(o.since);
   const std::string request = ledger::cosign_request(ledger.content(), since);
   require_new(o, o.out);
   write_text_file(o.out, request);
-  std::cout << "written: " << o.out << ", " << ledger.content().entries.size() << " entries, proved since " << since
-            << "\nfor `cavum ledger cosign`; the school's public key: " << ledger.content().public_key << "\n";
+  say(msg("written: {}, {} entries, proved since {}", o.out, ledger.content().entries.size(), since));
+  say(msg("for `cavum ledger cosign`; the school's public key: {}", ledger.content().public_key));
 }
 
 int ledger_cosign(const LedgerOptions& o) {
@@ -43,12 +43,12 @@ int ledger_cosign(const LedgerOptions& o) {
     const json receipt = parse_json_or_null(read_text_file(path));
     cosigner.key_entries.push_back(text_in(receipt, "entry"));
     if (cosigner.key_entries.back().empty())
-      throw Error(path, msg("is no receipt"), msg("name the receipt of the entry by which the school replaced its key"));
+      throw Error(Name{path}, msg("is no receipt"), msg("name the receipt of the entry by which the school replaced its key"));
   }
   const std::string request = read_text_file(o.folder);
   require_own_places({{"--out " + o.out, o.out}}, {{"", o.folder}, {"", o.key}});
   if (!o.overwrite && std::filesystem::exists(o.out))
-    throw Error("--out " + o.out, msg("is there already"), msg("name another file, or add --overwrite"));
+    throw Error(Name{"--out " + o.out}, msg("is there already"), msg("name another file, or add --overwrite"));
   cosigner.key = load_signing_key(o.key.empty() ? station_path("cosigner.key") : o.key, "cosigner");
   cosigner.name = o.name_of_cosigner.empty() ? "cavum.cosigner/" + to_hex(cosigner.key.public_key).substr(0, 16) : o.name_of_cosigner;
   constexpr std::int64_t k_ns = 1'000'000'000;
@@ -62,11 +62,12 @@ int ledger_cosign(const LedgerOptions& o) {
                     {"cosigner", key},
                     {"findings", cosigned.findings}});
   } else if (cosigned.findings.empty()) {
-    std::cout << "cosigned: " << cosigned.size << " entries of ledger " << cosigned.ledger_id << "\nwritten: " << o.out
-              << "\nthis cosigner's key line, for $CAVUM_HOME/cosigners at the school: " << key << "\n";
+    say(msg("cosigned: {} entries of ledger {}", cosigned.size, cosigned.ledger_id));
+    say(msg("written: {}", o.out));
+    say(msg("this cosigner's key line, for $CAVUM_HOME/cosigners at the school: {}", key));
   } else {
-    std::cout << o.folder << ": NOT COSIGNED\n";
-    for (const auto& f : cosigned.findings) std::cout << "  - " << f << "\n";
+    say(msg("{}: NOT COSIGNED", o.folder));
+    for (const auto& f : cosigned.findings) say(msg("- {}", f), 2);
   }
   return cosigned.findings.empty() ? 0 : 1;
 }
@@ -79,15 +80,15 @@ int ledger_add_cosignature(const LedgerOptions& o) {
     auto note = ledger::check_cosigned(read_text_file(path), cosigners, ledger.content());
     if (note.findings.empty() && note.cosignatures.empty())
       throw Error(
-          path, msg("bears no cosignature of a cosigner that is known here"),
+          Name{path}, msg("bears no cosignature of a cosigner that is known here"),
           msg("put the key line that `cavum ledger cosign` shows into {}", (o.cosigners.empty() ? ledger::known_cosigners_path() : o.cosigners)));
-    std::cout << path << ": " << (note.findings.empty() ? "kept: " : "NOT KEPT\n");
-    for (const auto& f : note.findings) std::cout << "  - " << f << "\n";
+    if (!note.findings.empty()) say(msg("{}: NOT KEPT", path));
+    for (const auto& f : note.findings) say(msg("- {}", f), 2);
     all = all && note.findings.empty();
     if (!note.findings.empty()) continue;
     ledger.keep_cosignatures(note.checkpoint->size, note.cosignatures);
-    std::cout << note.cosignatures.size() << (note.cosignatures.size() == 1 ? " cosignature" : " cosignatures") << " under " << note.checkpoint->size
-              << " entries\n";
+    const auto n = static_cast<std::int64_t>(note.cosignatures.size());
+    say(msgn("{}: kept: {} cosignature under {} entries", "{}: kept: {} cosignatures under {} entries", n, path, n, note.checkpoint->size));
   }
   return all ? 0 : 1;
 }

@@ -2,13 +2,13 @@
 #include <fmt/core.h>
 
 #include <filesystem>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/base/memory_reserve.h"
 #include "engine/base/text.h"
 #include "grading/ledger/filing.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 #include "ui/verbs/session_files.h"
 
@@ -25,9 +25,9 @@ void require_new(const LedgerOptions& o, const std::string& path) {
   for (const std::string& kept : {places.database(), places.identities(), ledger::school_key_path(), ledger::school_public_key_path(), o.key,
                                   station_path("station.key"), station_path("used_tickets")})
     if (!kept.empty() && std::filesystem::weakly_canonical(path, none) == std::filesystem::weakly_canonical(kept, none))
-      throw Error("--out " + path, msg("holds a key, identities or entries"), msg("name another file: it is never written over"));
+      throw Error(Name{"--out " + path}, msg("holds a key, identities or entries"), msg("name another file: it is never written over"));
   if (!o.overwrite && std::filesystem::exists(path))
-    throw Error("--out " + path, msg("is there already"), msg("name another file, or add --overwrite"));
+    throw Error(Name{"--out " + path}, msg("is there already"), msg("name another file, or add --overwrite"));
 }
 
 void write_school_file(const LedgerOptions& o, const std::string& path, const std::string& text) {
@@ -51,7 +51,7 @@ bool was_cut_off(const ledger::LedgerPlaces& places, const std::string& school, 
 void ledger_init(const LedgerOptions& o) {
   constexpr std::size_t k_longest_school = 254;
   if (o.school.empty() || o.school.size() > k_longest_school || !is_plain_text(o.school))
-    throw Error("--school",
+    throw Error(Name{"--school"},
                 o.school.empty()                     ? msg("names no school")
                 : o.school.size() > k_longest_school ? msg("is longer than {} bytes", k_longest_school)
                                                      : msg("holds a control character or bytes that are no UTF-8"),
@@ -66,10 +66,11 @@ void ledger_init(const LedgerOptions& o) {
     print_json(json{{"ledger", content.id}, {"public_key", content.public_key}, {"folder", o.folder}});
     return;
   }
-  std::cout << "ledger " << content.id << " in " << o.folder << "\nthe school's public key: " << content.public_key
-            << "\nkeep apart from it, and in a backup: " << (o.key.empty() ? ledger::school_key_path() : o.key) << " (signs), "
-            << ledger::witness_path(content.id) << " (shows when an older copy is put back)\nto each station's own folder goes a copy of " << known
-            << "\n";
+  say(msg("ledger {} in {}", content.id, o.folder));
+  say(msg("the school's public key: {}", content.public_key));
+  say(msg("keep apart from it, and in a backup: {} (signs), {} (shows when an older copy is put back)",
+          o.key.empty() ? ledger::school_key_path() : o.key, ledger::witness_path(content.id)));
+  say(msg("to each station's own folder goes a copy of {}", known));
 }
 
 int ledger_add(const LedgerOptions& o) {
@@ -90,11 +91,11 @@ int ledger_add(const LedgerOptions& o) {
       throw;  // the disk: what was acknowledged stands, and nothing more can be
     } catch (const Error& e) {
       if (o.sessions.size() == 1 && !std::filesystem::is_directory(o.sessions[0])) throw;
-      filing.findings.emplace_back(e.what());
+      filing.findings.push_back(e.message());
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back(fmt::format("{}: cannot be filed ({}); use an intact copy", path, e.what()));
+      filing.findings.push_back(msg("{}: cannot be filed ({}); use an intact copy", path, e.what()));
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
@@ -103,9 +104,9 @@ int ledger_add(const LedgerOptions& o) {
       if (!o.out.empty()) write_private_text_file(fmt::format("{}/receipt-{}.json", o.out, *filing.seq), one["receipt"].dump(2) + "\n");
     }
     if (!o.as_json) {
-      std::cout << one_line(path) << ": " << (filing.seq ? fmt::format("entry {}", *filing.seq) : std::string("NOT FILED")) << "\n";
-      for (const auto& f : filing.findings) std::cout << "  - " << one_line(f) << "\n";
-      for (const auto& r : filing.remarks) std::cout << "  (" << one_line(r) << ")\n";
+      say(filing.seq ? msg("{}: entry {}", path, *filing.seq) : msg("{}: NOT FILED", path));
+      for (const auto& f : filing.findings) say(msg("- {}", f), 2);
+      for (const auto& r : filing.remarks) say(msg("({})", r), 2);
     }
     printed.push_back(std::move(one));
   }
@@ -116,14 +117,14 @@ int ledger_add(const LedgerOptions& o) {
 void ledger_receipt(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error(fmt::format("--entry {}", o.session_seq), msg("is no entry of this ledger"), msg("see `cavum ledger show {}`", o.folder));
+    throw Error(Name{fmt::format("--entry {}", o.session_seq)}, msg("is no entry of this ledger"), msg("see `cavum ledger show {}`", o.folder));
   if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error(fmt::format("--from-size {}", o.from_size), msg("is no number of entries that this ledger has had"),
+    throw Error(Name{fmt::format("--from-size {}", o.from_size)}, msg("is no number of entries that this ledger has had"),
                 msg("give 1 to {}", ledger.content().entries.size()));
   require_new(o, o.out);
   const json receipt = ledger::make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
   write_school_file(o, o.out, receipt.dump(2) + "\n");
-  std::cout << "written: " << one_line(o.out) << "\n";
+  say(msg("written: {}", o.out));
 }
 
 }  // namespace cavum::ui

@@ -1,40 +1,49 @@
 // `cavum ledger forget | erase | key`: what the school keeps about people and for how long, and the key that it signs with.
 #include <filesystem>
-#include <iostream>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/school_keys.h"
 #include "grading/ledger/ticket.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
 
 using nlohmann::json;
 
+namespace {
+
+void say_late(std::int64_t late) {
+  say(msgn("{} identity removed that entries said was forgotten", "{} identities removed that entries said were forgotten", late, late));
+}
+
+}  // namespace
+
 void ledger_forget(const LedgerOptions& o) {
   ledger::require_candidate_id("--candidate", o.candidate);
   ledger::Ledger ledger(o.folder, key_of(o));
   ledger::Identities identities(ledger.places().identities());
-  if (const auto late = ledger::remove_forgotten(ledger.content(), identities); late > 0)
-    std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
+  if (const auto late = ledger::remove_forgotten(ledger.content(), identities); late > 0) say_late(late);
   std::vector<std::string> pseudonyms;
   for (const auto& i : identities.of_person(o.candidate)) pseudonyms.push_back(i.pseudonym);
   if (pseudonyms.empty())
-    throw Error("--candidate " + o.candidate, msg("is not among the identities"),
+    throw Error(Name{"--candidate " + o.candidate}, msg("is not among the identities"),
                 msg("nothing is known of that candidate, or it was forgotten before"));
   ledger::forget(ledger, pseudonyms, {.motion = !o.keep_motion, .results = !o.keep_results});
   for (const auto& p : pseudonyms) {
     identities.forget(p);
-    std::cout << one_line(p) << ": the identity is removed\n";
+    say(msg("{}: the identity is removed", p));
   }
-  const auto said = [](bool kept) { return kept ? "kept, with what they tell of accommodations, under pseudonyms that lead to nobody" : "erased"; };
-  std::cout << "recordings are " << said(o.keep_motion) << "; results are " << said(o.keep_results) << "; all proofs stay valid\n";
-  std::cout << "not reached from here: backups, exports, receipts and tickets that were given out, and recordings left on stations\n";
+  say(o.keep_motion ? msg("recordings are kept, with what they tell of accommodations, under pseudonyms that lead to nobody")
+                    : msg("recordings are erased"));
+  say(o.keep_results ? msg("results are kept, with what they tell of accommodations, under pseudonyms that lead to nobody")
+                     : msg("results are erased"));
+  say(msg("all proofs stay valid"));
+  say(msg("not reached from here: backups, exports, receipts and tickets that were given out, and recordings left on stations"));
 }
 
 void ledger_erase(const LedgerOptions& o) {
@@ -45,11 +54,12 @@ void ledger_erase(const LedgerOptions& o) {
       throw Error(msg("ledger erase"), msg("needs to know of which sessions"), msg("give --session for each, or --before"));
     ledger.wipe();
     const auto removed = ledger::remove_erased_recordings(ledger.content(), ledger.places());
-    std::cout << removed << (removed == 1 ? " recording" : " recordings") << " removed that entries said were erased\n";
+    const auto n = static_cast<std::int64_t>(removed);
+    say(msgn("{} recording removed that entries said was erased", "{} recordings removed that entries said were erased", n, n));
     if (std::filesystem::exists(ledger.places().identities())) {
       ledger::Identities identities(ledger.places().identities());
       const auto late = ledger::remove_forgotten(ledger.content(), identities);
-      std::cout << late << (late == 1 ? " identity" : " identities") << " removed that entries said were forgotten\n";
+      say_late(late);
     }
     return;
   }
@@ -63,11 +73,11 @@ void ledger_erase(const LedgerOptions& o) {
     return print_json(json{{"erased", list}});
   }
   if (erased.empty()) {
-    std::cout << "nothing is left to erase of these sessions\n";
+    say(msg("nothing is left to erase of these sessions"));
     return;
   }
-  std::cout << "entry " << ledger.content().entries.back().seq << ": erased\n";
-  for (const auto& one : erased) std::cout << "  entry " << one.entry << ": " << ledger::word_of(one.what) << "\n";
+  say(msg("entry {}: erased", ledger.content().entries.back().seq));
+  for (const auto& one : erased) say(msg("entry {}: {}", one.entry, Term{ledger::word_of(one.what)}), 2);
 }
 
 void ledger_key(const LedgerOptions& o) {
@@ -75,22 +85,22 @@ void ledger_key(const LedgerOptions& o) {
   const std::int64_t until = o.until.empty() ? 0 : ledger::parse_utc(o.until, "--until");
   if (!o.replace && o.until.empty()) {
     for (const auto& k : ledger::read_ledger({o.folder}).keys)
-      std::cout << k.public_key << "  signs from " << k.first_size << " entries on"
-                << (k.until_utc_ns > 0 ? ", good until " + utc_text(k.until_utc_ns) : "") << "\n";
+      say(k.until_utc_ns > 0 ? msg("{} signs from {} entries on, good until {}", k.public_key, k.first_size, utc_text(k.until_utc_ns))
+                             : msg("{} signs from {} entries on", k.public_key, k.first_size));
     return;
   }
   if (!o.replace) {
     ledger::Ledger ledger(o.folder, key_of(o));
     ledger::limit_school_key(ledger, until, o.reason);
-    std::cout << "entry " << ledger.content().entries.back().seq << ": the school's key is good until " << utc_text(until) << "\n";
+    say(msg("entry {}: the school's key is good until {}", ledger.content().entries.back().seq, utc_text(until)));
     return;
   }
   const std::string before = to_hex(ledger::load_school_key(path).public_key);
   const std::string now = ledger::replace_school_key(o.folder, path, until, o.reason, ledger::school_public_key_path());
-  std::cout << "the school's key is now " << now << "\nthe one before it is kept as " << ledger::old_key_path(path, before)
-            << ": other ledgers of the school still need it\ncopy " << ledger::school_public_key_path()
-            << " to each station; give cosigners the receipt of entry " << ledger::read_ledger({o.folder}).keys.back().first_size - 1
-            << " (`cavum ledger cosign --key-receipt`); back up the new key\n";
+  say(msg("the school's key is now {}", now));
+  say(msg("the one before it is kept as {}: other ledgers of the school still need it", ledger::old_key_path(path, before)));
+  say(msg("copy {} to each station; give cosigners the receipt of entry {} (`cavum ledger cosign --key-receipt`); back up the new key",
+          ledger::school_public_key_path(), ledger::read_ledger({o.folder}).keys.back().first_size - 1));
 }
 
 }  // namespace cavum::ui

@@ -2,12 +2,10 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "grading/ledger/appeal.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/class_regrade.h"
@@ -19,8 +17,10 @@
 #include "grading/ledger/release.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -31,7 +31,7 @@ void ledger_release(const LedgerOptions& o) {
   if (!o.all && o.chosen.empty() && o.chosen_sessions.empty())
     throw Error(msg("ledger release"), msg("needs to know whose results"), msg("give --all, --candidate for each, or --session for each"));
   if (o.all && !(o.chosen.empty() && o.chosen_sessions.empty()))
-    throw Error("--all", msg("is given with names"), msg("give either --all, or --candidate and --session"));
+    throw Error(Name{"--all"}, msg("is given with names"), msg("give either --all, or --candidate and --session"));
   ledger::Ledger ledger(o.folder, key_of(o));
   ledger::Identities identities = sound_identities(ledger);
   ledger::ReleaseWish wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
@@ -46,28 +46,24 @@ void ledger_release(const LedgerOptions& o) {
     if (wish.candidates.size() == before) wish.candidates.push_back(who);
   }
   const ledger::Release released = ledger::release_results(ledger, wish);
-  if (o.as_json)
-    print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}, {"to_decide", released.to_decide}});
-  else
-    std::cout << released.results.size() << (released.results.size() == 1 ? " result released" : " results released")
-              << (released.kept_back > 0
-                      ? fmt::format(", {} kept back: filed with findings or contested by another ending of the same exam "
-                                    "(--candidate or --session with --with-findings releases one after an appeal), taken back, "
-                                    "or filed after all of the exam was marked anew, and not marked so yet (--session releases one)",
-                                    released.kept_back)
-                      : "")
-              << (released.to_decide > 0
-                      ? fmt::format(", {} kept back: a person has to decide (cavum ledger decide {})", released.to_decide, one_line(o.folder))
-                      : "")
-              << "\n";
+  if (o.as_json) return print_json(json{{"released", released.results.size()}, {"kept_back", released.kept_back}, {"to_decide", released.to_decide}});
+  const auto n = static_cast<std::int64_t>(released.results.size());
+  say(msgn("{} result released", "{} results released", n, n));
+  if (released.kept_back > 0)
+    say(
+        msg("{} kept back: filed with findings or contested by another ending of the same exam (--candidate or --session with --with-findings "
+            "releases one "
+            "after an appeal), taken back, or filed after all of the exam was marked anew, and not marked so yet (--session releases one)",
+            released.kept_back));
+  if (released.to_decide > 0) say(msg("{} kept back: a person has to decide (cavum ledger decide {})", released.to_decide, o.folder));
 }
 
 /// "pass, 80.8 of 100"
-std::string in_words(const json& result) {
-  if (!result.is_object()) return "no result";
+Message in_words(const json& result) {
+  if (!result.is_object()) return msg("no result");
   const json& score = result.at("score");
-  return fmt::format("{}, {} of {}", one_line(result.value("verdict", "")), fixed(score.at("points").get<double>(), 1),
-                     plain_number(score.at("max").get<double>()));
+  return msg("{}, {} of {}", Term{result.value("verdict", "")}, as_points(score.at("points").get<double>()),
+             as_number(score.at("max").get<double>()));
 }
 
 void regrade_session(const LedgerOptions& o) {
@@ -75,7 +71,7 @@ void regrade_session(const LedgerOptions& o) {
   const ledger::Registry registry = ledger::read_registry(ledger.content());
   const ledger::FiledSession* found = registry.session(static_cast<std::uint64_t>(o.session_seq));
   if (found == nullptr)
-    throw Error(fmt::format("--session {}", o.session_seq), msg("is no session's entry"), msg("see `cavum ledger show {}`", o.folder));
+    throw Error(Name{fmt::format("--session {}", o.session_seq)}, msg("is no session's entry"), msg("see `cavum ledger show {}`", o.folder));
   const ledger::RegradeBasis basis = ledger::read_basis(o.rubric, o.scenario);
   const auto graded = grading::load_for_grading(ledger::recording_of(ledger.places(), *found));
   if (auto scenario = ledger::scenario_of(basis, o.scenario)) {
@@ -92,8 +88,9 @@ void regrade_session(const LedgerOptions& o) {
                     {"after", result.at("score")},
                     {"verdict", result.at("verdict")}});
   else
-    std::cout << "entry " << entry.seq << ": " << in_words(*found->result) << " before; " << in_words(result) << " now"
-              << (found->shown->is_null() ? "" : "; the old result stands until the new one is released") << "\n";
+    say(found->shown->is_null() ? msg("entry {}: {} before; {} now", entry.seq, in_words(*found->result), in_words(result))
+                                : msg("entry {}: {} before; {} now; the old result stands until the new one is released", entry.seq,
+                                      in_words(*found->result), in_words(result)));
 }
 
 /// A whole exam: nothing is entered before each session of it is marked.
@@ -105,6 +102,7 @@ int regrade_exam(const LedgerOptions& o) {
   ledger::take_lines(plan, make_lines(work, o.pool).lines, o.folder);
   std::size_t other_verdict = 0, other_points = 0;
   json table = json::array();
+  Lines rows;
   for (const auto& s : plan.sessions) {
     other_verdict += s.other_verdict() ? 1 : 0;
     other_points += s.other_points() ? 1 : 0;
@@ -114,17 +112,19 @@ int regrade_exam(const LedgerOptions& o) {
                      {"verdict_before", text_in(*s.before, "verdict")},
                      {"after", member_of(s.after, "score")},
                      {"verdict", text_in(s.after, "verdict")}});
-    if (!o.as_json && (s.other_verdict() || s.other_points()))
-      std::cout << fmt::format("{:>6}  {:<16} {} before; {} now\n", s.session, one_line(s.candidate), in_words(*s.before), in_words(s.after));
+    if (s.other_verdict() || s.other_points())
+      rows.row({msg("{}", s.session), Name{s.candidate}, msg("{} before; {} now", in_words(*s.before), in_words(s.after))}, 2);
   }
   const std::size_t entered = o.preview ? 0 : ledger::enter_class_regrade(ledger, plan, o.reason);
-  if (o.as_json)
+  if (o.as_json) {
     print_json(json{
         {"sessions", table}, {"other_verdict", other_verdict}, {"other_points", other_points}, {"entered", entered}, {"left_out", plan.left_out}});
-  else
-    std::cout << fmt::format("{} sessions: {} with another verdict, {} with other points; {}{}\n", plan.sessions.size(), other_verdict, other_points,
-                             o.preview ? "nothing was entered" : fmt::format("{} entered, which wait for their release", entered),
-                             plan.left_out == 0 ? "" : fmt::format("; {} left out, for their recording or result is erased", plan.left_out));
+    return 0;
+  }
+  say(rows);
+  say(msg("{} sessions: {} with another verdict, {} with other points", plan.sessions.size(), other_verdict, other_points));
+  say(o.preview ? msg("nothing was entered") : msg("{} entered, which wait for their release", entered));
+  if (plan.left_out > 0) say(msg("{} left out, for their recording or result is erased", plan.left_out));
   return 0;
 }
 
@@ -133,9 +133,10 @@ int ledger_regrade(const LedgerOptions& o) {
     throw Error(msg("ledger regrade"), msg("needs to know by what"), msg("give --rubric R.toml or --scenario S.toml"));
   if (o.exam.empty() == (o.session_seq < 0))
     throw Error(msg("ledger regrade"), msg("needs to know what"), msg("give --session, or --exam for all of an exam"));
-  if (o.reason.empty() && !o.preview) throw Error("--reason", msg("is no line of text"), msg("say in one line of UTF-8 why the result changes"));
+  if (o.reason.empty() && !o.preview)
+    throw Error(Name{"--reason"}, msg("is no line of text"), msg("say in one line of UTF-8 why the result changes"));
   if (!o.exam.empty()) return regrade_exam(o);
-  if (o.preview) throw Error("--preview", msg("is of a whole exam"), msg("give it with --exam"));
+  if (o.preview) throw Error(Name{"--preview"}, msg("is of a whole exam"), msg("give it with --exam"));
   regrade_session(o);
   return 0;
 }
@@ -144,9 +145,10 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.session_seq < 0) {
     const ledger::LedgerContent content = ledger::read_ledger({o.folder});
     if (!content.findings.empty())
-      throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+      throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
     const auto queue = ledger::review_queue(ledger::read_registry(content));
     json list = json::array();
+    Lines rows;
     for (const auto& d : queue) {
       list.push_back({{"session", d.session},
                       {"candidate", d.candidate},
@@ -154,17 +156,13 @@ void ledger_decide(const LedgerOptions& o) {
                       {"points", d.points},
                       {"max", d.max},
                       {"reasons", d.reasons}});
-      if (o.as_json) continue;
-      std::cout << fmt::format("{:>6}  {:<16} {:<28} {} of {}\n", d.session, one_line(d.candidate), one_line(d.scenario_id), fixed(d.points, 1),
-                               plain_number(d.max));
-      for (const auto& reason : d.reasons) std::cout << "          " << one_line(reason) << "\n";
+      rows.row({msg("{}", d.session), Name{d.candidate}, Name{d.scenario_id}, msg("{} of {}", as_points(d.points), as_number(d.max))}, 2);
+      for (const auto& reason : d.reasons) rows.add(msg("{}", reason), 10);
     }
-    if (o.as_json)
-      print_json(json{{"to_decide", list}});
-    else
-      std::cout << (queue.size() == 1 ? "1 result waits for a person's decision"
-                                      : fmt::format("{} results wait for a person's decision", queue.size()))
-                << "\n";
+    if (o.as_json) return print_json(json{{"to_decide", list}});
+    say(rows);
+    const auto n = static_cast<std::int64_t>(queue.size());
+    say(msgn("{} result waits for a person's decision", "{} results wait for a person's decision", n, n));
     return;
   }
   if (o.verdict.empty() || o.person.empty() || o.reason.empty())
@@ -175,7 +173,7 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.as_json)
     print_json(json{{"seq", entry.seq}, {"session", o.session_seq}, {"verdict", o.verdict}, {"person", o.person}});
   else
-    std::cout << fmt::format("entry {}: {}, decided by {}; it waits for its release", entry.seq, o.verdict, one_line(o.person)) << "\n";
+    say(msg("entry {}: {}, decided by {}; it waits for its release", entry.seq, Term{o.verdict}, o.person));
 }
 
 void ledger_retract(const LedgerOptions& o) {
@@ -185,8 +183,9 @@ void ledger_retract(const LedgerOptions& o) {
   if (o.as_json)
     print_json(json{{"seq", entry.seq}, {"retracted", taken}});
   else
-    std::cout << fmt::format("entry {}: {} taken back; what was exported or handed out before is still there\n", entry.seq,
-                             taken == 1 ? "1 result" : fmt::format("{} results", taken));
+    say(msgn("entry {}: {} result taken back; what was exported or handed out before is still there",
+             "entry {}: {} results taken back; what was exported or handed out before is still there", static_cast<std::int64_t>(taken), entry.seq,
+             taken));
 }
 
 namespace {
@@ -195,9 +194,10 @@ namespace {
 void print_appeals(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   if (!content.findings.empty())
-    throw Error(o.folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
   json list = json::array();
-  std::size_t open = 0;
+  Lines rows;
+  std::int64_t open = 0;
   for (const auto& s : ledger::read_registry(content).sessions)
     for (const auto& a : s.appeals) {
       open += a.closed_by ? 0 : 1;
@@ -207,15 +207,12 @@ void print_appeals(const LedgerOptions& o) {
                       {"reason", a.reason},
                       {"outcome", a.closed_by ? json(ledger::word_of(a.outcome)) : json()},
                       {"answer", a.closed_by ? json(a.answer) : json()}});
-      if (o.as_json) continue;
-      std::cout << fmt::format("{:>6}  {:<16} {}\n", s.seq, one_line(s.candidate), one_line(a.reason));
-      std::cout << "          " << (a.closed_by ? fmt::format("{}: {}", ledger::word_of(a.outcome), one_line(a.answer)) : std::string("open"))
-                << "\n";
+      rows.row({msg("{}", s.seq), Name{s.candidate}, Name{a.reason}}, 2);
+      rows.add(a.closed_by ? msg("{}: {}", Term{ledger::word_of(a.outcome)}, a.answer) : msg("not answered yet"), 10);
     }
-  if (o.as_json)
-    print_json(json{{"appeals", list}});
-  else
-    std::cout << (open == 1 ? "1 appeal is open" : fmt::format("{} appeals are open", open)) << "\n";
+  if (o.as_json) return print_json(json{{"appeals", list}});
+  say(rows);
+  say(msgn("{} appeal is open", "{} appeals are open", open, open));
 }
 
 }  // namespace
@@ -230,9 +227,7 @@ void ledger_appeal(const LedgerOptions& o) {
   if (o.as_json)
     print_json(json{{"seq", entry.seq}, {"session", session}, {"outcome", o.outcome.empty() ? json() : json(o.outcome)}});
   else
-    std::cout << (o.outcome.empty() ? fmt::format("entry {}: the appeal is open", entry.seq)
-                                    : fmt::format("entry {}: the appeal is answered: {}", entry.seq, o.outcome))
-              << "\n";
+    say(o.outcome.empty() ? msg("entry {}: the appeal is open", entry.seq) : msg("entry {}: the appeal is answered: {}", entry.seq, Term{o.outcome}));
 }
 
 void ledger_export(const LedgerOptions& o) {
@@ -248,27 +243,36 @@ void ledger_export(const LedgerOptions& o) {
   require_own_places({{"--out " + o.out, o.out}}, {{"", ledger.places().database()}, {"", ledger.places().identities()}});
   require_new(o, o.out);
   write_school_file(o, o.out, text);
-  std::cout << "written: " << one_line(o.out) << "\n";
+  say(msg("written: {}", o.out));
   if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [](const ledger::FiledSession& s) { return s.shown->is_object(); }))
-    std::cout << "no result is released; " << registry.sessions.size() << (registry.sessions.size() == 1 ? " is" : " are") << " pending\n";
+    say(msgn("no result is released; {} is pending", "no result is released; {} are pending", static_cast<std::int64_t>(registry.sessions.size()),
+             registry.sessions.size()));
   if (const auto simulated = ledger::released_simulated(registry); simulated > 0 && (o.format == "moodle" || o.format == "lti"))
-    std::cout << simulated << (simulated == 1 ? " released result of a simulated operator is " : " released results of simulated operators are ")
-              << (o.with_simulated ? "in it, marked SIMULATED, under no student's number\n" : "left out (--with-simulated writes them, marked)\n");
+    say(o.with_simulated ? msgn("{} released result of a simulated operator is in it, marked SIMULATED, under no student's number",
+                                "{} released results of simulated operators are in it, marked SIMULATED, under no student's number",
+                                static_cast<std::int64_t>(simulated), simulated)
+                         : msgn("{} released result of a simulated operator is left out (--with-simulated writes it, marked)",
+                                "{} released results of simulated operators are left out (--with-simulated writes them, marked)",
+                                static_cast<std::int64_t>(simulated), simulated));
   if (left_out > 0)
-    std::cout << "left out, for nobody is known by name behind them: " << left_out << (left_out == 1 ? " released result\n" : " released results\n");
+    say(msgn("left out, for nobody is known by name behind it: {} released result",
+             "left out, for nobody is known by name behind them: {} released results", left_out, left_out));
 }
 
 void ledger_candidates(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   ledger::Identities identities = sound_identities(ledger);
   json all = json::array();
+  Lines rows;
   for (const auto& i : identities.all()) {
     all.push_back({{"candidate", i.pseudonym}, {"exam", i.exam}, {"id", i.id}, {"name", i.name}});
-    if (!o.as_json)
-      std::cout << one_line(fmt::format("{}  {}  {}{}", i.pseudonym, i.exam.empty() ? "any exam" : i.exam, i.id, i.name.empty() ? "" : ", " + i.name))
-                << "\n";
+    rows.row(
+        {Name{i.pseudonym}, i.exam.empty() ? msg("any exam") : msg("{}", i.exam), i.name.empty() ? msg("{}", i.id) : msg("{}, {}", i.id, i.name)});
   }
-  if (o.as_json) print_json(json{{"candidates", all}});
+  if (o.as_json)
+    print_json(json{{"candidates", all}});
+  else
+    say(rows);
 }
 
 }  // namespace cavum::ui

@@ -1,12 +1,11 @@
 // `cavum ledger station`: whose recordings count.
-#include <iostream>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "grading/ledger/registry.h"
 #include "grading/ledger/stations.h"
 #include "grading/ledger/ticket.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -17,10 +16,10 @@ namespace {
 
 constexpr std::int64_t k_week_ns = 7 * 86'400'000'000'000;
 
-std::string state_of(const ledger::Station& s) {
-  if (!s.replaced_by.empty()) return "replaced by " + s.replaced_by.substr(0, 16);
-  if (s.revoked_utc_ns) return "revoked on " + utc_text(*s.revoked_utc_ns);
-  return s.until_utc_ns > 0 ? "until " + utc_text(s.until_utc_ns) : "enrolled";
+Message state_of(const ledger::Station& s) {
+  if (!s.replaced_by.empty()) return msg("replaced by {}", s.replaced_by.substr(0, 16));
+  if (s.revoked_utc_ns) return msg("revoked on {}", utc_text(*s.revoked_utc_ns));
+  return s.until_utc_ns > 0 ? msg("until {}", utc_text(s.until_utc_ns)) : msg("enrolled");
 }
 
 void list_stations(const LedgerOptions& o) {
@@ -30,13 +29,14 @@ void list_stations(const LedgerOptions& o) {
   for (const auto& s : stations.stations) {
     json devices = json::array();
     for (const auto& d : s.devices) devices.push_back({{"name", d.name}, {"serial", d.serial}});
-    printed.push_back({{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"state", state_of(s)}, {"styluses", devices}});
-    if (!o.as_json) std::cout << s.public_key << "  " << one_line(s.name) << ", " << state_of(s) << "\n";
+    printed.push_back(
+        {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"state", english_text(state_of(s))}, {"styluses", devices}});
+    if (!o.as_json) say(msg("{}  {}, {}", s.public_key, s.name, state_of(s)));
   }
   if (o.as_json)
     print_json(json{{"stations", printed}});
   else if (stations.stations.empty())
-    std::cout << "no station is enrolled: what is filed has a finding. Begin with --invite NAME\n";
+    say(msg("no station is enrolled: what is filed has a finding. Begin with --invite NAME"));
 }
 
 }  // namespace
@@ -47,11 +47,9 @@ void ledger_station(const LedgerOptions& o) {
     ledger::Ledger ledger(o.folder, key_of(o));
     const std::int64_t good_until = until > 0 ? until : read_clocks().utc_ns + k_week_ns;
     const std::string code = ledger::invite_station(ledger, o.invite, good_until);
-    if (o.as_json)
-      print_json(json{{"code", code}, {"name", o.invite}, {"until", utc_text(good_until)}});
-    else
-      std::cout << code << "  for " << one_line(o.invite) << ", good once until " << utc_text(good_until)
-                << "\non the station: cavum station --enrol " << code << " --out request.json\n";
+    if (o.as_json) return print_json(json{{"code", code}, {"name", o.invite}, {"until", utc_text(good_until)}});
+    say(msg("{} for {}, good once until {}", code, o.invite, utc_text(good_until)));
+    say(msg("on the station: cavum station --enrol {} --out request.json", code));
   } else if (!o.enrol.empty()) {
     ledger::Ledger ledger(o.folder, key_of(o));
     const auto seq = ledger::enrol_station(ledger, read_text_file(o.enrol), until, o.enrol).seq;
@@ -60,14 +58,14 @@ void ledger_station(const LedgerOptions& o) {
     if (o.as_json)
       print_json(json{{"entry", seq}, {"name", s.name}, {"public_key", s.public_key}});
     else
-      std::cout << "entry " << seq << ": station '" << one_line(s.name) << "', key " << s.public_key << "\n";
+      say(msg("entry {}: station '{}', key {}", seq, s.name, s.public_key));
   } else if (!o.revoke.empty()) {
     ledger::Ledger ledger(o.folder, key_of(o));
     const auto seq = ledger::revoke_station(ledger, parse_public_key(o.revoke, "--revoke"), o.reason).seq;
     if (o.as_json)
       print_json(json{{"entry", seq}});
     else
-      std::cout << "entry " << seq << ": revoked\n";
+      say(msg("entry {}: revoked", seq));
   } else {
     list_stations(o);
   }

@@ -2,12 +2,9 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <cstdio>
-#include <iostream>
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
-#include "engine/base/text.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/erasure.h"
@@ -16,6 +13,7 @@
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/accommodations.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/ledger_verbs_parts.h"
 
 namespace cavum::ui {
@@ -30,7 +28,7 @@ int ledger_ticket(const LedgerOptions& o) {
   const std::vector<ledger::Person> people = o.candidates.empty() ? std::vector<ledger::Person>{{o.candidate, o.name}}
                                                                   : ledger::parse_people(read_text_file(o.candidates), o.candidates, o.passed_over);
   const std::int64_t from = ledger::parse_utc(o.from, "--from"), until = ledger::parse_utc(o.until, "--until");
-  if (until <= from) throw Error("--until", msg("is not after --from"), msg("give the last moment at which the exam may begin"));
+  if (until <= from) throw Error(Name{"--until"}, msg("is not after --from"), msg("give the last moment at which the exam may begin"));
   scenarios::ExamOptions exam;
   exam.tooth_file = o.tooth;
   exam.rubric_file = o.rubric;
@@ -42,11 +40,12 @@ int ledger_ticket(const LedgerOptions& o) {
   ledger::Ticket ticket = ledger::promise(*setup, ledger.content(), from, until);
   ticket.begun_at_ledger = o.begin_at_ledger;
   const bool folder = !o.candidates.empty();
-  if (until < read_clocks().utc_ns) std::fprintf(stderr, "cavum: --until %s: is past already\n", o.until.c_str());
+  if (until < read_clocks().utc_ns) say_error(msg("--until {}: is past already", o.until));
   if (folder) make_private_folder(o.out);
   const auto file_for = [&](const std::string& candidate) { return folder ? fmt::format("{}/{}.ticket", o.out, file_name_of(candidate)) : o.out; };
   for (const auto& p : people) require_new(o, file_for(identities.enrol(p.id, p.name, ticket.exam, ledger.key())));
   json printed = json::array();
+  Lines rows;
   int refused = 0;
   const ledger::ListWish wish{ticket,        people,  std::vector(people.size(), ledger::TimeSpan{from, until}),   o.candidates, 0,
                               people.size(), o.grant, o.another ? ledger::Another::allow : ledger::Another::refuse};
@@ -57,20 +56,21 @@ int ledger_ticket(const LedgerOptions& o) {
     const auto& p = one.person;
     if (one.refused) {
       if (!folder) throw *one.refused;
-      std::fprintf(stderr, "cavum: %s: %s\n", one_line(p.id).c_str(), one_line(one.refused->what()).c_str());
+      say_error(msg("{}: {}", p.id, one.refused->message()));
       ++refused;
       continue;
     }
-    const std::string file = file_for(one.candidate),
-                      granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, "the ticket"));
+    const std::string file = file_for(one.candidate);
+    const Message granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, "the ticket"));
     printed.push_back(
         {{"candidate", one.candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
-    if (!o.as_json)
-      std::cout << one_line(fmt::format("{}  {}  {}{}{}", one.candidate, file, p.id, p.name.empty() ? "" : ", " + p.name,
-                                        granted.empty() ? "" : "; " + granted))
-                << "\n";
+    const Message who = p.name.empty() ? msg("{}", p.id) : msg("{}, {}", p.id, p.name);
+    rows.row({Name{one.candidate}, Name{file}, granted.empty() ? who : msg("{}; {}", who, granted)});
   }
-  if (o.as_json) print_json(json{{"tickets", printed}, {"refused", refused}});
+  if (o.as_json)
+    print_json(json{{"tickets", printed}, {"refused", refused}});
+  else
+    say(rows);
   return refused == 0 ? 0 : 1;
 }
 
@@ -79,33 +79,36 @@ void ledger_tickets(const LedgerOptions& o) {
   const ledger::Registry registry = ledger::read_registry(content);
   const std::int64_t now = read_clocks().utc_ns;
   json printed = json::array();
+  Lines rows;
   for (const auto& t : registry.tickets) {
-    const std::string state = t.made_up_by                      ? fmt::format("made up by entry {}", *t.made_up_by)
-                              : t.used_by                       ? fmt::format("used by entry {}", *t.used_by)
-                              : t.cancelled_by                  ? fmt::format("cancelled by entry {}", *t.cancelled_by)
-                              : now > t.ticket.not_after_utc_ns ? "run out"
-                              : !t.begins.empty()               ? fmt::format("let begin by entry {}", t.begins.back().seq)
-                                                                : "live";
+    const Message state = t.made_up_by                      ? msg("made up by entry {}", *t.made_up_by)
+                          : t.used_by                       ? msg("used by entry {}", *t.used_by)
+                          : t.cancelled_by                  ? msg("cancelled by entry {}", *t.cancelled_by)
+                          : now > t.ticket.not_after_utc_ns ? msg("run out")
+                          : !t.begins.empty()               ? msg("let begin by entry {}", t.begins.back().seq)
+                                                            : msg("live");
     printed.push_back({{"entry", t.seq},
                        {"candidate", t.ticket.candidate},
                        {"exam", t.ticket.exam},
                        {"not_before", utc_text(t.ticket.not_before_utc_ns)},
                        {"not_after", utc_text(t.ticket.not_after_utc_ns)},
-                       {"state", state}});
-    if (!o.as_json)
-      std::printf("%6llu  %-16s %-28s %s to %s  %s\n", static_cast<unsigned long long>(t.seq), one_line(t.ticket.candidate).c_str(),
-                  one_line(t.ticket.exam).c_str(), utc_text(t.ticket.not_before_utc_ns).c_str(), utc_text(t.ticket.not_after_utc_ns).c_str(),
-                  state.c_str());
+                       {"state", english_text(state)}});
+    rows.row({msg("{}", t.seq), Name{t.ticket.candidate}, Name{t.ticket.exam},
+              msg("{} to {}", utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns)), state},
+             2);
   }
-  if (o.as_json) print_json(json{{"tickets", printed}});
+  if (o.as_json)
+    print_json(json{{"tickets", printed}});
+  else
+    say(rows);
 }
 
 void ledger_cancel(const LedgerOptions& o) {
-  if (o.session_seq < 0) throw Error("--ticket", msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
+  if (o.session_seq < 0) throw Error(Name{"--ticket"}, msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
   ledger::Ledger ledger(o.folder, key_of(o));
   const auto& entry = ledger::cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
-  std::cout << "entry " << entry.seq << ": the ticket of entry " << o.session_seq
-            << " does not count any more; an exam that is begun with it is filed with findings only\n";
+  say(msg("entry {}: the ticket of entry {} does not count any more; an exam that is begun with it is filed with findings only", entry.seq,
+          o.session_seq));
 }
 
 void ledger_begin(const LedgerOptions& o) {
@@ -116,8 +119,8 @@ void ledger_begin(const LedgerOptions& o) {
   writing.overwrite = o.overwrite || !o.again.empty();  // the word before does not count any more
   require_new(writing, out);
   write_school_file(writing, out, ledger::let_begin(ledger, ticket.nonce, o.again) + "\n");
-  std::cout << "written: " << one_line(out) << "\nkeep it beside the ticket on the station; the exam of " << one_line(ticket.candidate)
-            << " may begin now\n";
+  say(msg("written: {}", out));
+  say(msg("keep it beside the ticket on the station; the exam of {} may begin now", ticket.candidate));
 }
 
 }  // namespace cavum::ui

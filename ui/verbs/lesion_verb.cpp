@@ -6,9 +6,11 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/tooth/make/lesion_site.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/tooth_verbs_parts.h"
 
 namespace cavum::ui {
@@ -38,21 +40,22 @@ void grow(const LesionArgs& a) {
         {"tooth", a.out}, {"site", a.site.surface}, {"centre_mm", {c.x, c.y, c.z}}, {"radii_mm", {r.x, r.y, r.z}}, {"lesion_mm3", mm3}});
     return;
   }
-  std::printf("%s: %s, %.2f mm3, around [%.2f, %.2f, %.2f] mm\nnext: cavum scenario new --tooth %s --task lesion --out F.toml\n", a.out.c_str(),
-              what.c_str(), mm3, c.x, c.y, c.z, a.out.c_str());
+  say(msg("{}: {} lesion, {} wide, {} into dentin, {}, around {}", a.out, Term{a.site.surface}, as_mm(a.site.width_mm, 1), as_mm(a.site.depth_mm, 1),
+          as_mm3(mm3, 2), c));
+  say(msg("next: {}", fmt::format("cavum scenario new --tooth {} --task lesion --out F.toml", a.out)));
 }
 
 }  // namespace
 
 void add_lesion(CLI::App& tooth) {
-  auto* verb = tooth.add_subcommand("lesion", "Grow a hidden lesion into the dentin of a tooth");
+  auto* verb = tooth.add_subcommand("lesion", tr("Grow a hidden lesion into the dentin of a tooth"));
   auto a = std::make_shared<LesionArgs>();
-  verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
-  verb->add_option("--site", a->site.surface, "where it begins: occlusal, mesial, distal, buccal, lingual")->capture_default_str();
-  verb->add_option("--width-mm", a->site.width_mm, "along the border of enamel and dentin")->capture_default_str();
-  verb->add_option("--depth-mm", a->site.depth_mm, "into dentin from that border")->capture_default_str();
-  verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
-  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->add_option("TOOTH", a->file, tr("Tooth file (.cvt)"))->required();
+  verb->add_option("--site", a->site.surface, tr("where it begins: occlusal, mesial, distal, buccal, lingual"))->capture_default_str();
+  verb->add_option("--width-mm", a->site.width_mm, tr("along the border of enamel and dentin"))->capture_default_str();
+  verb->add_option("--depth-mm", a->site.depth_mm, tr("into dentin from that border"))->capture_default_str();
+  verb->add_option("--out", a->out, tr("Tooth file to write (.cvt)"))->required();
+  verb->add_flag("--json", a->json, tr("One JSON object on stdout"));
   verb->callback([a] { grow(*a); });
 }
 

@@ -23,7 +23,10 @@
 #include "engine/servo/servo.h"
 #include "grading/ledger/class_list.h"
 #include "scenarios/file/parse.h"
+#include "ui/parts/option_checks.h"
+#include "ui/parts/say.h"
 #include "ui/parts/terminal.h"
+#include "ui/verbs/command_line_error.h"
 #include "ui/verbs/help_in_language.h"
 #include "ui/verbs/verbs.h"
 
@@ -35,21 +38,19 @@ int main(int argc, char** argv) {
     const std::string asked = cavum::take_language_option(arguments);
     cavum::set_language(asked.empty() ? cavum::language_of_environment() : asked);
   } catch (const cavum::Error& e) {
-    std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());
+    cavum::ui::say_error(e.message());
     return 2;
   }
-  CLI::App app{"Cavum examines cavity opening on virtual teeth: exams, grades, replays."};
-  app.set_version_flag("--version", fmt::format("cavum {}, physics {}", cavum::version(), cavum::k_physics_version));
+  if (!arguments.empty() && arguments[0] == "manual") cavum::set_language("en");  // packaged once, for all
+  CLI::App app{cavum::tr("Cavum examines cavity opening on virtual teeth: exams, grades, replays.")};
+  cavum::ui::help_in_language(app);
+  app.set_version_flag("--version", fmt::format("cavum {}, physics {}", cavum::version(), cavum::k_physics_version),
+                       cavum::tr("Display program version information and exit"));
   app.require_subcommand(1);
-  std::string language;  // taken out above: the verbs' help is in it already
+  std::string language;  // taken out above
   app.add_option("--language", language,
                  cavum::tr("language of what is shown ({}); else the first that there is of $LANGUAGE, $LC_ALL, $LC_MESSAGES, $LANG",
-                           cavum::as_is(fmt::format("{}", fmt::join(cavum::languages(), ", ")))));
-  // what programs read stays English: JSON, the manual page; the help is translated where it is laid out
-  const auto has = [&](std::string_view word) { return std::find(arguments.begin(), arguments.end(), word) != arguments.end(); };
-  const bool for_programs = has("--json") || (!arguments.empty() && arguments[0] == "manual");
-  terminal.translate(!for_programs && !has("--help") && !has("-h") && !has("--help-all") && !has("--version"));
-  app.formatter(std::make_shared<cavum::ui::HelpInLanguage>());
+                           cavum::list_of(cavum::languages())));
   app.failure_message(CLI::FailureMessage::simple);
   int exit_code = 0;
   cavum::ui::add_tooth_verbs(app, exit_code);
@@ -73,8 +74,7 @@ int main(int argc, char** argv) {
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
       std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == arguments[0]; })) {
-    std::fprintf(stderr, "cavum: %s\n",
-                 fmt::format("command line: there is no verb '{}'; see `cavum --help`", cavum::one_line(arguments[0])).c_str());
+    cavum::ui::say_error(cavum::msg("command line: there is no verb '{}'; see `cavum --help`", arguments[0]));
     return 2;
   }
   cavum::keep_memory_reserve();
@@ -88,24 +88,25 @@ int main(int argc, char** argv) {
   } catch (const CLI::CallForVersion& e) {
     return app.exit(e);
   } catch (const CLI::ParseError& e) {
-    std::fprintf(stderr, "cavum: %s\n",
-                 fmt::format("command line: {}; see `cavum --help` or `cavum VERB --help`", cavum::one_line(e.what())).c_str());
+    cavum::ui::say_error(cavum::ui::command_line_error(e, app, arguments));
     return 2;
   } catch (const cavum::scenarios::ProblemsError& e) {
-    for (const auto& p : e.problems()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(cavum::english_text(p.message())).c_str());
+    for (const auto& p : e.problems()) cavum::ui::say_error(p.message());
     return 2;
   } catch (const cavum::ledger::ListMistakes& e) {
-    for (const auto& text : e.texts()) std::fprintf(stderr, "cavum: %s\n", cavum::one_line(text).c_str());
+    for (const auto& text : e.texts()) cavum::ui::say_error(cavum::msg("{}", text));
     return 2;
   } catch (const std::bad_alloc&) {
-    std::fprintf(stderr, "cavum: %s\n", "memory: there is not enough; close other programs, and try again");
+    cavum::ui::say_error(cavum::msg("memory: there is not enough; close other programs, and try again"));
     return 2;
   } catch (const std::filesystem::filesystem_error& e) {
-    std::fprintf(stderr, "cavum: %s\n",
-                 fmt::format("{}: {}; give another file or folder", cavum::one_line(e.path1().string().substr(0, 300)), e.code().message()).c_str());
+    cavum::ui::say_error(cavum::msg("{}: {}; give another file or folder", e.path1().string().substr(0, 300), e.code().message()));
+    return 2;
+  } catch (const cavum::Error& e) {
+    cavum::ui::say_error(e.message());
     return 2;
   } catch (const std::exception& e) {
-    std::fprintf(stderr, "cavum: %s\n", cavum::one_line(e.what()).c_str());
+    cavum::ui::say_error(cavum::msg("{}", e.what()));
     return 2;
   }
   return exit_code;

@@ -8,6 +8,7 @@
 #include "engine/base/version.h"
 #include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/hardware/udev_rule.h"
+#include "engine/language/say.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {
@@ -116,10 +117,11 @@ void add_manual_verbs(CLI::App& app, int& exit_code) {
     bool man = false, completion = false, udev = false;
   };
   const auto o = std::make_shared<Options>();
-  auto* verb = app.add_subcommand("manual", "The manual page (roff), the completion of bash, or the udev rules of the styluses");
-  auto* man = verb->add_flag("--man", o->man, "the manual page: cavum manual --man | man -l -");
-  auto* completion = verb->add_flag("--completion", o->completion, "what bash is to source, so that it completes verbs and options")->excludes(man);
-  verb->add_flag("--udev-rules", o->udev, "lets whoever sits at the screen use a stylus: for /etc/udev/rules.d/60-cavum.rules")
+  auto* verb = app.add_subcommand("manual", tr("The manual page (roff), the completion of bash, or the udev rules of the styluses"));
+  auto* man = verb->add_flag("--man", o->man, tr("the manual page: cavum manual --man | man -l -"));
+  auto* completion =
+      verb->add_flag("--completion", o->completion, tr("what bash is to source, so that it completes verbs and options"))->excludes(man);
+  verb->add_flag("--udev-rules", o->udev, tr("lets whoever sits at the screen use a stylus: for /etc/udev/rules.d/60-cavum.rules"))
       ->excludes(man)
       ->excludes(completion);
   verb->callback([o, &app, &exit_code] {

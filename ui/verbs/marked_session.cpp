@@ -1,11 +1,9 @@
 #include "ui/verbs/marked_session.h"
 
-#include <iostream>
-
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/file/rubric_check.h"
+#include "ui/parts/say.h"
 #include "ui/parts/scenario_words.h"
 
 namespace cavum::ui {
@@ -15,8 +13,12 @@ MarkedSession marked_session(const std::string& path, const MarkingOptions& o, g
   m.another_task = o.another_task;
   if (!o.scenario.empty()) m.scenario = scenarios::load_scenario(o.scenario);
   if (!o.rubric.empty()) m.rubric = scenarios::parse_rubric(read_text_file(o.rubric), o.rubric);
-  m.by = o.rubric.empty() ? "" : "the rubric " + o.rubric;
-  if (!o.scenario.empty()) m.by += (o.rubric.empty() ? "" : " and ") + ("the scenario " + o.scenario);
+  if (!o.rubric.empty() && !o.scenario.empty())
+    m.by = msg("the rubric {} and the scenario {}", o.rubric, o.scenario);
+  else if (!o.rubric.empty())
+    m.by = msg("the rubric {}", o.rubric);
+  else if (!o.scenario.empty())
+    m.by = msg("the scenario {}", o.scenario);
   return marked_session(path, std::move(m), grounds);
 }
 
@@ -44,14 +46,14 @@ MarkedSession marked_session(const std::string& path, Marking by, grading::ExamG
   }
   if (!old) return g;
   g.comparison = grading::compare(*old, again ? *again : g.result, old_rubric, g.result, g.rubric);
-  g.comparison->by = anew ? by.by : "this version of the program";
+  g.comparison->by = anew ? by.by : msg("this version of the program");
   g.regrade = anew || g.comparison->differs();
   return g;
 }
 
 void require_sound_marking(const MarkingOptions& o) {
   const auto warn = [](const scenarios::RubricSpec& rubric) {
-    for (const auto& p : scenarios::turned_round(rubric)) std::cerr << "cavum: " << one_line(english_text(p.message())) << "\n";
+    for (const auto& p : scenarios::turned_round(rubric)) say_error(p.message());
   };
   if (!o.rubric.empty()) warn(scenarios::parse_rubric(read_text_file(o.rubric), o.rubric));
   if (o.scenario.empty()) return;

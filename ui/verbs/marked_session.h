@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 
+#include "engine/base/message.h"
 #include "grading/result/compare.h"
 #include "grading/session_input.h"
 
@@ -22,7 +23,7 @@ struct Marking {
   std::optional<scenarios::Scenario> scenario;
   std::optional<scenarios::RubricSpec> rubric;
   bool another_task = false;
-  std::string by;  ///< in words: "the rubric r.toml"
+  Message by;  ///< "the rubric r.toml"
   [[nodiscard]] bool anew() const { return scenario || rubric; }
 };
 

@@ -1,6 +1,4 @@
 // `cavum tooth neighbour`: sets teeth beside a tooth, and gum around their necks.
-#include <fmt/core.h>
-
 #include <cstdio>
 #include <filesystem>
 #include <memory>
@@ -8,9 +6,12 @@
 #include <string>
 #include <vector>
 
+#include "engine/language/say.h"
 #include "engine/tooth/make/set_beside.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/tooth_facts.h"
 #include "ui/verbs/tooth_verbs_parts.h"
 
@@ -32,10 +33,11 @@ nlohmann::ordered_json facts_json(const std::optional<ContactFacts>& c) {
           {"height_mm", rounded(c->height_mm, 0.01)}};
 }
 
-void print_contact(const char* side, const std::optional<ContactFacts>& c) {
+void add_contact(Lines& out, const Message& side, const std::optional<ContactFacts>& c) {
   if (!c) return;
-  std::printf("  %-7s touches at [%.2f, %.2f, %.2f] mm, %.3f mm apart; nearer than %.2f mm over %.1f x %.1f mm\n", side, c->at_mm.x, c->at_mm.y,
-              c->at_mm.z, c->gap_mm, c->gap_mm + 0.05, c->width_mm, c->height_mm);
+  out.add(msg("{}: touches at {}, {} apart; nearer than {} over {} × {}", side, c->at_mm, as_mm(c->gap_mm, 3), as_mm(c->gap_mm + 0.05, 2),
+              as_number(c->width_mm, 1), as_mm(c->height_mm, 1)),
+          2);
 }
 
 void run_neighbour(NeighbourArgs a) {
@@ -54,30 +56,31 @@ void run_neighbour(NeighbourArgs a) {
     print_json(d);
     return;
   }
-  print_tooth(d);
-  print_contact("mesial", done.mesial);
-  print_contact("distal", done.distal);
-  std::printf("  wrote   %s\n", a.out.c_str());
+  print_tooth(done.tooth, d);
+  Lines out;
+  add_contact(out, msg("mesial"), done.mesial);
+  add_contact(out, msg("distal"), done.distal);
+  out.add(msg("written: {}", a.out), 2);
+  say(out);
 }
 
 }  // namespace
 
 void add_neighbour(CLI::App& tooth) {
-  auto* verb = tooth.add_subcommand("neighbour", "Set teeth beside a tooth, and gum around their necks");
+  auto* verb = tooth.add_subcommand("neighbour", tr("Set teeth beside a tooth, and gum around their necks"));
   auto a = std::make_shared<NeighbourArgs>();
-  verb->add_option("TOOTH", a->file, "Tooth file (.cvt)")->required();
-  verb->add_option("--mesial", a->mesial, "Tooth file of the mesial neighbour");
-  verb->add_option("--distal", a->distal, "Tooth file of the distal neighbour");
-  verb->add_option("--contact-mm", a->spec.contact_mm, "Least distance at the contact, 0 to 1.5 leaves")->capture_default_str();
-  verb->add_option("--reach-mm", a->spec.reach_mm, "How far beyond the contact a neighbour is kept, 1 to 6")->capture_default_str();
-  verb->add_option("--mesial-turn-deg", a->spec.mesial.turn_deg, "Turns the mesial neighbour about z, from mesial towards buccal")
+  verb->add_option("TOOTH", a->file, tr("Tooth file (.cvt)"))->required();
+  verb->add_option("--mesial", a->mesial, tr("Tooth file of the mesial neighbour"));
+  verb->add_option("--distal", a->distal, tr("Tooth file of the distal neighbour"));
+  verb->add_option("--contact-mm", a->spec.contact_mm, tr("Least distance at the contact, 0 to 1.5 leaves"))->capture_default_str();
+  verb->add_option("--reach-mm", a->spec.reach_mm, tr("How far beyond the contact a neighbour is kept, 1 to 6"))->capture_default_str();
+  verb->add_option("--mesial-turn-deg", a->spec.mesial.turn_deg, tr("Turns the mesial neighbour about z, from mesial towards buccal"))
       ->capture_default_str();
-  verb->add_option("--distal-turn-deg", a->spec.distal.turn_deg, "Turns the distal neighbour")->capture_default_str();
-  verb->add_flag("--gum", a->spec.gum, "Gum around the necks, with a papilla below each contact");
-  verb->add_option("--confirm", a->confirmed, "neighbours: set teeth side by side that no jaw has so")
-      ->check(CLI::IsMember(std::vector<std::string>{"neighbours"}));
-  verb->add_option("--out", a->out, "Tooth file to write (.cvt)")->required();
-  verb->add_flag("--json", a->json, "One JSON object on stdout");
+  verb->add_option("--distal-turn-deg", a->spec.distal.turn_deg, tr("Turns the distal neighbour"))->capture_default_str();
+  verb->add_flag("--gum", a->spec.gum, tr("Gum around the necks, with a papilla below each contact"));
+  verb->add_option("--confirm", a->confirmed, tr("neighbours: set teeth side by side that no jaw has so"))->check(one_of({"neighbours"}));
+  verb->add_option("--out", a->out, tr("Tooth file to write (.cvt)"))->required();
+  verb->add_flag("--json", a->json, tr("One JSON object on stdout"));
   verb->callback([a] { run_neighbour(*a); });
 }
 

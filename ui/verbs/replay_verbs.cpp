@@ -14,10 +14,12 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/session/station_key.h"
 #include "engine/session/verify.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
 
@@ -47,7 +49,7 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
     o.report = verify_session(path, station_key);
   } catch (const Error& e) {
     o.report.file = path;
-    o.report.findings.emplace_back(e.what());
+    o.report.findings.push_back(e.message());
     o.unreadable = std::current_exception();
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -89,7 +91,7 @@ json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
       sum["first_divergence"] = one["first_divergence"];
       sum["first_divergence"]["file"] = o.report.file;
     }
-    for (const auto& f : o.report.findings) sum["findings"].push_back(fmt::format("{}: {}", o.report.file, f));
+    for (const auto& f : o.report.findings) sum["findings"].push_back(msg("{}: {}", o.report.file, f));
     sessions.push_back(std::move(one));
   }
   sum["ticks"] = ticks;
@@ -117,10 +119,10 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
       continue;
     }
     std::string lines;
-    for (const auto& f : o.report.findings) lines += f + "\n";
+    for (const auto& f : o.report.findings) lines += english_text(f) + "\n";
     const char* tag = o.readable() ? "failure" : "error";
-    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : o.report.findings.front()) << "\">"
-        << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
+    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front()))
+        << "\">" << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
   return out.str();
@@ -128,12 +130,10 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
 
 void print(const Outcome& o) {
   const VerifyReport& r = o.report;
-  std::printf("%s: %s\n", one_line(r.file).c_str(), r.verified ? "verified" : "NOT VERIFIED");
-  if (r.ticks_replayed > 0)
-    std::printf("  %lld of %lld ticks replayed, %.0f times real time\n", static_cast<long long>(r.ticks_replayed), static_cast<long long>(r.ticks),
-                r.speed_x_realtime);
-  if (r.closed) std::printf("  closed by station %s\n", one_line(r.station_key).c_str());
-  for (const auto& f : r.findings) std::printf("  - %s\n", one_line(f).c_str());
+  say(r.verified ? msg("{}: verified", r.file) : msg("{}: NOT VERIFIED", r.file));
+  if (r.ticks_replayed > 0) say(msg("{} of {} ticks replayed, {} times real time", r.ticks_replayed, r.ticks, as_number(r.speed_x_realtime, 0)), 2);
+  if (r.closed) say(msg("closed by station {}", r.station_key), 2);
+  for (const auto& f : r.findings) say(msg("- {}", f), 2);
 }
 
 int run(const ReplayArguments& options) {
@@ -160,12 +160,12 @@ int run(const ReplayArguments& options) {
 
 void add_replay_verbs(CLI::App& app, int& exit_code) {
   const auto options = std::make_shared<ReplayArguments>();
-  CLI::App* verb = app.add_subcommand("replay", "Simulate a recorded session again and compare every tick");
-  verb->add_option("session", options->path, "a .cavum file, or a folder searched for them")->required();
-  verb->add_flag("--verify", options->verify, "check chain, signature, every tick, every removed leaf and the final tooth")->required();
-  verb->add_flag("--json", options->as_json, "one JSON object on stdout");
-  verb->add_option("--junit", options->junit, "also write JUnit XML, one test case a session");
-  verb->add_option("--station-key", options->station_key, "public key (hexadecimal) of the station that must have closed it");
+  CLI::App* verb = app.add_subcommand("replay", tr("Simulate a recorded session again and compare every tick"));
+  verb->add_option("session", options->path, tr("a .cavum file, or a folder searched for them"))->required();
+  verb->add_flag("--verify", options->verify, tr("check chain, signature, every tick, every removed leaf and the final tooth"))->required();
+  verb->add_flag("--json", options->as_json, tr("one JSON object on stdout"));
+  verb->add_option("--junit", options->junit, tr("also write JUnit XML, one test case a session"));
+  verb->add_option("--station-key", options->station_key, tr("public key (hexadecimal) of the station that must have closed it"));
   verb->callback([options, &exit_code] { exit_code = run(*options); });
 }
 

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <optional>
 
@@ -11,11 +10,12 @@
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
 #include "engine/base/scratch_folder.h"
-#include "engine/base/text.h"
 #include "engine/language/say.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/regrade.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
+#include "ui/parts/say.h"
 #include "ui/report/figures/section_pictures.h"
 #include "ui/report/integrity.h"
 #include "ui/report/ledger_facts.h"
@@ -46,7 +46,7 @@ report::ReportIntegrity integrity_of(const std::string& path, const ReportArgume
   if (replayed_then && i.findings.empty()) {
     i.replay = report::ReportIntegrity::Replay::agrees;
     i.at_filing = true;
-    i.remarks = {"the motion was simulated again when the ledger took the session in, and the file is the same since then"};
+    i.remarks = {msg("the motion was simulated again when the ledger took the session in, and the file is the same since then")};
   }
   return i;
 }
@@ -57,14 +57,15 @@ Marking marking_of(const report::ReportLedger& ledger, const ledger::FiledSessio
   const auto basis = ledger::kept_basis(ledger.content, regrade);
   if (!basis && !regrade.person.empty()) return {};  // a decision on the first mark: the exam's own rubric
   if (!basis)
-    throw Error(entry, msg("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
+    throw Error(msg("entry {}", regrade.seq), msg("is a regrade of entry {} by a rubric that the ledger did not keep then", session.seq),
                 msg("name it with `cavum report --rubric` or --scenario, or enter the regrade again: it is kept from now on"));
   Marking m;
   m.scenario = ledger::scenario_of(*basis, entry + ": scenario.toml");
   m.rubric = ledger::rubric_of(*basis, entry + ": rubric.toml");
   m.another_task = true;  // was allowed when it was entered
-  m.by = fmt::format("{}{}{} that the ledger keeps with {}", m.rubric ? "the rubric" : "", m.rubric && m.scenario ? " and " : "",
-                     m.scenario ? "the scenario" : "", entry);
+  m.by = m.rubric && m.scenario ? msg("the rubric and the scenario that the ledger keeps with entry {}", regrade.seq)
+         : m.scenario           ? msg("the scenario that the ledger keeps with entry {}", regrade.seq)
+                                : msg("the rubric that the ledger keeps with entry {}", regrade.seq);
   return m;
 }
 
@@ -94,15 +95,15 @@ std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession&
   b->marked = marked_session(file, o.marking, grounds);
   const grading::ReportFacts &mine = own.session->facts, &other = b->marked.session->facts;
   if (mine.tooth_hash != other.tooth_hash || own.session->scenario.id != b->marked.session->scenario.id)
-    throw Error("--beside " + o.beside, msg("is of another task or tooth"), msg("name a session of the same exam, or `expert`"));
+    throw Error(Name{"--beside " + o.beside}, msg("is of another task or tooth"), msg("name a session of the same exam, or `expert`"));
   if (o.for_whom() == report::ReportReader::student && !expert && mine.candidate != other.candidate)
-    throw Error("--beside " + o.beside, msg("is another candidate's, which a student's report does not show"),
+    throw Error(Name{"--beside " + o.beside}, msg("is another candidate's, which a student's report does not show"),
                 msg("name an attempt of the same candidate, or `expert`"));
   if (o.for_whom() == report::ReportReader::student && !expert && ledger != nullptr)
     report::require_released_result(ledger->session(to_hex(sha256(read_file(o.beside))), o.beside), b->marked.result);
   b->input.emplace(b->marked.session->input());
   b->source.emplace(report::report_source(b->marked.result, *b->input, other, b->marked.rubric));
-  const std::string points = fixed(b->marked.result.points, 1), most = fixed(b->marked.result.max_points, 1);
+  const Number points = as_points(b->marked.result.points), most = as_points(b->marked.result.max_points);
   b->name = expert ? tr("the built-in expert, {} of {} points", points, most)
                    : tr("candidate {}, {}, {} of {} points", as_is(other.candidate), as_is(other.created), points, most);
   return b;
@@ -115,8 +116,8 @@ bool is_practice(const grading::GradedSession& s) {
 /// The report of one session, as a file of that name holds it.
 struct MadeReport {
   std::string text;
-  std::string verdict;  ///< a person's, where one decided
-  std::string finding;  ///< the first of what does not hold; empty: nothing
+  Message verdict;  ///< a person's, where one decided
+  Message finding;  ///< the first of what does not hold; empty: nothing
 };
 
 /// `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
@@ -129,7 +130,7 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   if (out.ends_with(".svg")) return {report::sections_svg(m.result, input), {}, {}};
   if (filed != nullptr && o.for_whom() == report::ReportReader::student) report::require_released_result(*filed, m.result);
   if (filed == nullptr && o.for_whom() == report::ReportReader::student && m.session->scenario.hold_results && !is_practice(*m.session))
-    throw Error(session, msg("its scenario holds results until the school releases them"), msg("name the ledger that holds it: --ledger"));
+    throw Error(Name{session}, msg("its scenario holds results until the school releases them"), msg("name the ledger that holds it: --ledger"));
   report::ReportSource source = report::report_source(m.result, input, m.session->facts, m.rubric);
   if (m.regrade) source.regrade = &*m.comparison;
   source.reader = o.for_whom();
@@ -146,8 +147,8 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   source.integrity = integrity_of(session, o, filed, grounds);
   const bool decided = source.filing && source.filing->regrade && !source.filing->regrade->person.empty();
   return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source),
-          decided ? source.filing->regrade->verdict : grading::verdict_name(m.result.verdict),
-          source.integrity.findings.empty() ? "" : source.integrity.findings.front()};
+          decided ? msg("{}", Term{source.filing->regrade->verdict}) : grading::word_of(m.result.verdict),
+          source.integrity.findings.empty() ? Message() : source.integrity.findings.front()};
 }
 
 void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
@@ -155,18 +156,19 @@ void write_report(const std::string& session, const std::string& out, const Repo
   const MadeReport made = made_report(session, out, o, ledger, filed, grounds);
   write_text_file(out, made.text);
   if (out.ends_with(".svg")) return;
-  if (!made.finding.empty()) std::cerr << "cavum: notice: " << one_line(session) << ": does not hold: " << one_line(made.finding) << "\n";
-  std::cout << "written: " << one_line(out) << " (" << made.verdict << (made.finding.empty() ? "" : ", of a session that does not hold") << ")\n";
+  if (!made.finding.empty()) say_error(msg("notice: {}: does not hold: {}", session, made.finding));
+  say(made.finding.empty() ? msg("written: {} ({})", out, made.verdict)
+                           : msg("written: {} ({}, of a session that does not hold)", out, made.verdict));
 }
 
 void run_report(const ReportArguments& o) {
   const bool picture = o.out.ends_with(".svg");
   if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
-    throw Error(o.out, msg("the kind of report is not clear from its name"),
+    throw Error(Name{o.out}, msg("the kind of report is not clear from its name"),
                 msg("use a name ending in .html or .pdf, or in .svg for the sections alone"));
-  if (o.with_name && o.ledger.empty()) throw Error("--with-name", msg("names are known to a ledger only"), msg("add --ledger with its folder"));
+  if (o.with_name && o.ledger.empty()) throw Error(Name{"--with-name"}, msg("names are known to a ledger only"), msg("add --ledger with its folder"));
   if (picture && !o.beside.empty())
-    throw Error("--beside " + o.beside, msg("is shown in a report, not in a picture of sections"), msg("use a name ending in .html or .pdf"));
+    throw Error(Name{"--beside " + o.beside}, msg("is shown in a report, not in a picture of sections"), msg("use a name ending in .html or .pdf"));
   report::require_report_place(o.out, o.overwrite);
   require_own_places({{"--out " + o.out, o.out}}, {{"session", o.session}, {"--beside", o.beside}});
   require_sound_marking(o.marking);
@@ -183,7 +185,8 @@ int run_all(const ReportArguments& o) {
   const report::ReportLedger ledger(o.ledger);
   std::error_code failed_to_make;
   std::filesystem::create_directories(o.out, failed_to_make);
-  if (failed_to_make) throw Error("--out " + o.out, msg("cannot be made ({})", failed_to_make.message()), msg("name a folder that you may write to"));
+  if (failed_to_make)
+    throw Error(Name{"--out " + o.out}, msg("cannot be made ({})", failed_to_make.message()), msg("name a folder that you may write to"));
   ReportArguments each = o;
   each.reader = "student";
   grading::ExamGrounds grounds;  // of the class
@@ -197,10 +200,11 @@ int run_all(const ReportArguments& o) {
       ++written;
     } catch (const Error& e) {
       ++failed;
-      std::cerr << "cavum: " << one_line(e.what()) << "\n";
+      say_error(e.message());
     }
   }
-  std::cout << written << (written == 1 ? " report" : " reports") << " written" << (failed > 0 ? fmt::format(", {} not", failed) : "") << "\n";
+  say(msgn("{} report written", "{} reports written", written, written));
+  if (failed > 0) say(msgn("{} report not written", "{} reports not written", failed, failed));
   return failed > 0 ? 1 : 0;
 }
 
@@ -219,32 +223,32 @@ std::string filed_report(const std::string& ledger_folder, const std::string& re
 
 void add_report_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<ReportArguments>();
-  auto* one = app.add_subcommand("report", "Write the report of a recorded exam, or its sections as a picture");
-  one->add_option("session", o->session, "session file (.cavum)")->required();
-  one->add_option("--out", o->out, "file to write: .html or .pdf for the report, .svg for three sections alone")->required();
-  one->add_option("--for", o->reader, "instructor: every figure; student: the verdict, the criteria, and where each point went")
-      ->check(CLI::IsMember({"student", "instructor"}))
+  auto* one = app.add_subcommand("report", tr("Write the report of a recorded exam, or its sections as a picture"));
+  one->add_option("session", o->session, tr("session file (.cavum)"))->required();
+  one->add_option("--out", o->out, tr("file to write: .html or .pdf for the report, .svg for three sections alone"))->required();
+  one->add_option("--for", o->reader, tr("instructor: every figure; student: the verdict, the criteria, and where each point went"))
+      ->check(one_of({"student", "instructor"}))
       ->capture_default_str();
-  one->add_option("--beside", o->beside, "another session of the same exam, or `expert`: its cavity and its replay beside this one's");
-  one->add_option("--ledger", o->ledger, "the ledger that holds the session: other attempts, release, receipt");
-  one->add_flag("--with-name", o->with_name, "with --ledger: also the candidate's name, once the result is released");
-  one->add_flag("--no-replay", o->no_replay, "do not simulate the exam again to prove it");
-  one->add_option("--rubric", o->marking.rubric, "mark by this rubric (TOML) instead of the session's own");
-  one->add_option("--scenario", o->marking.scenario, "mark by this corrected scenario (TOML)");
-  one->add_flag("--another-task", o->marking.another_task, "let --scenario be that of another task than the session's");
-  one->add_flag("--overwrite", o->overwrite, "write over a file that is no report");
+  one->add_option("--beside", o->beside, tr("another session of the same exam, or `expert`: its cavity and its replay beside this one's"));
+  one->add_option("--ledger", o->ledger, tr("the ledger that holds the session: other attempts, release, receipt"));
+  one->add_flag("--with-name", o->with_name, tr("with --ledger: also the candidate's name, once the result is released"));
+  one->add_flag("--no-replay", o->no_replay, tr("do not simulate the exam again to prove it"));
+  one->add_option("--rubric", o->marking.rubric, tr("mark by this rubric (TOML) instead of the session's own"));
+  one->add_option("--scenario", o->marking.scenario, tr("mark by this corrected scenario (TOML)"));
+  one->add_flag("--another-task", o->marking.another_task, tr("let --scenario be that of another task than the session's"));
+  one->add_flag("--overwrite", o->overwrite, tr("write over a file that is no report"));
   one->callback([o, &exit_code] {
     run_report(*o);
     exit_code = 0;
   });
 
   const auto a = std::make_shared<ReportArguments>();
-  auto* all = app.get_subcommand("ledger")->add_subcommand("report", "A student's report for each released result, named by pseudonym and entry");
-  all->add_option("folder", a->ledger, "the ledger's folder")->required();
-  all->add_option("--out", a->out, "folder for the reports")->required();
-  all->add_flag("--pdf", a->pdf, "as PDF instead of HTML");
-  all->add_flag("--with-name", a->with_name, "also the candidates' names");
-  all->add_flag("--overwrite", a->overwrite, "write over files that are no reports");
+  auto* all = app.get_subcommand("ledger")->add_subcommand("report", tr("A student's report for each released result, named by pseudonym and entry"));
+  all->add_option("folder", a->ledger, tr("the ledger's folder"))->required();
+  all->add_option("--out", a->out, tr("folder for the reports"))->required();
+  all->add_flag("--pdf", a->pdf, tr("as PDF instead of HTML"));
+  all->add_flag("--with-name", a->with_name, tr("also the candidates' names"));
+  all->add_flag("--overwrite", a->overwrite, tr("write over files that are no reports"));
   all->callback([a, &exit_code] { exit_code = run_all(*a); });
 }
 

@@ -104,10 +104,12 @@ void scale_cube_charts(Chart& force, Chart& rest, double largest_k) {
 
 std::string cube_svg(const CubeResult& r) {
   Chart force;
+  force.english = true;
   force.title = "Steady cutting force";
   force.x_label = "spring coefficient k, N/mm";
   force.y_label = "force, N";
   Chart rest;
+  rest.english = true;
   rest.title = "What a straight line leaves over (with friction)";
   rest.x_label = force.x_label;
   rest.y_label = "mean force - fitted line, mN";
@@ -128,11 +130,13 @@ std::string cube_svg(const CubeResult& r) {
 
 std::string tooth_svg(const ToothRigResult& r) {
   Chart whole;
+  whole.english = true;
   whole.title = "From the first contact";
   whole.x_label = "time since contact, s";
   whole.y_label = "force on the load cell, N";
   whole.width_px = 560;
   Chart fall;
+  fall.english = true;
   fall.title = "Around the pulp's roof";
   fall.x_label = "time since the pulp was reached, s";
   fall.y_label = whole.y_label;

@@ -1,15 +1,12 @@
 // `cavum scan`: a prepared tooth, scanned, marked as a virtual one.
-#include <fmt/core.h>
-
 #include <chrono>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/tooth/beside.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "grading/result/result_json.h"
@@ -19,6 +16,7 @@
 #include "scenarios/zones/zone_map.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/report/report.h"
 #include "ui/verbs/verbs.h"
 
@@ -66,14 +64,14 @@ Json facts_json(const grading::ScanFacts& f, const ScanArguments& o, double seco
           {"took_s", grading::rounded(seconds)}};
 }
 
-std::string facts_text(const grading::ScanFacts& f, double seconds) {
-  return fmt::format("scan: {} triangles, laid upon the tooth with {} mm RMS over {} % of its surface; {} % of the crown is seen; {} s\n",
-                     f.triangles, fixed(f.fit.rms_mm, 3), fixed(100 * f.fit.fits, 1), fixed(100 * f.fit.crown_seen, 1), fixed(seconds, 1));
+Message facts_text(const grading::ScanFacts& f, double seconds) {
+  return msg("scan: {} triangles, laid upon the tooth with {} RMS over {} of its surface; {} of the crown is seen; {}", f.triangles,
+             as_mm(f.fit.rms_mm, 3), as_percent(100 * f.fit.fits, 1), as_percent(100 * f.fit.crown_seen, 1), as_s(seconds, 1));
 }
 
 void run_scan_grade(const ScanArguments& o) {
   if (!o.out.empty() && std::filesystem::exists(o.out))
-    throw Error(o.out, msg("exists already, and a result is never overwritten"), msg("choose another name"));
+    throw Error(Name{o.out}, msg("exists already, and a result is never overwritten"), msg("choose another name"));
   require_own_places({{"--out " + o.out, o.out}, {"--out-tooth " + o.out_tooth, o.out_tooth}, {"--report " + o.report, o.report}},
                      {{"", o.scan}, {"", o.scenario}, {"", o.tooth}, {"", o.rubric}});
   if (!o.report.empty()) report::require_report_place(o.report);
@@ -94,28 +92,30 @@ void run_scan_grade(const ScanArguments& o) {
   if (!o.out_tooth.empty()) save_tooth_file(g.after, o.out_tooth);
   if (!o.report.empty()) report::write_scan_report(o.report, o.scan, g, g.input(scenario, tooth, zones), rubric);
   if (o.json) return print_json(marked);
-  std::cout << grading::to_text(g.result) << facts_text(g.facts, seconds);
-  if (!o.report.empty()) std::cout << "report: " << one_line(o.report) << '\n';
+  say(grading::to_text(g.result));
+  say(facts_text(g.facts, seconds));
+  if (!o.report.empty()) say(msg("report: {}", o.report));
 }
 
 }  // namespace
 
 void add_scan_verbs(CLI::App& app, int& exit_code) {
-  auto* scan = app.add_subcommand("scan", "Prepared teeth that were scanned");
+  auto* scan = app.add_subcommand("scan", tr("Prepared teeth that were scanned"));
   scan->require_subcommand(1);
   auto* v = scan->add_subcommand(
-      "grade", "Mark a scan of a prepared tooth as an exam of the scenario is marked, in whatever pose it lies; time, way and force are not judged");
+      "grade",
+      tr("Mark a scan of a prepared tooth as an exam of the scenario is marked, in whatever pose it lies; time, way and force are not judged"));
   auto o = std::make_shared<ScanArguments>();
-  v->add_option("scan", o->scan, "surface of the prepared tooth (STL, PLY, OBJ, OFF), open or closed: the crown at least")->required();
-  v->add_option("--scenario", o->scenario, "the task (TOML)")->required();
-  v->add_option("--tooth", o->tooth, "the unprepared tooth (.cvt), from `tooth import` or `tooth make`; left out: the scenario's");
-  v->add_option("--rubric", o->rubric, "mark by this rubric (TOML) instead of the scenario's own");
-  v->add_option("--units", o->units, "unit of the scan: mm, cm, m, um or in")->capture_default_str();
-  v->add_flag("--mirror", o->mirror, "the scan is of the real tooth, and the tooth was imported as its mirror image");
-  v->add_option("--out", o->out, "write the JSON to this file too, which must not exist yet");
-  v->add_option("--out-tooth", o->out_tooth, "write the tooth as the scan shows it (.cvt)");
-  v->add_option("--report", o->report, "write a report with the tooth in 3D, sections and every figure (.html or .pdf)");
-  v->add_flag("--json", o->json, "one JSON object on standard output");
+  v->add_option("scan", o->scan, tr("surface of the prepared tooth (STL, PLY, OBJ, OFF), open or closed: the crown at least"))->required();
+  v->add_option("--scenario", o->scenario, tr("the task (TOML)"))->required();
+  v->add_option("--tooth", o->tooth, tr("the unprepared tooth (.cvt), from `tooth import` or `tooth make`; left out: the scenario's"));
+  v->add_option("--rubric", o->rubric, tr("mark by this rubric (TOML) instead of the scenario's own"));
+  v->add_option("--units", o->units, tr("unit of the scan: mm, cm, m, um or in"))->capture_default_str();
+  v->add_flag("--mirror", o->mirror, tr("the scan is of the real tooth, and the tooth was imported as its mirror image"));
+  v->add_option("--out", o->out, tr("write the JSON to this file too, which must not exist yet"));
+  v->add_option("--out-tooth", o->out_tooth, tr("write the tooth as the scan shows it (.cvt)"));
+  v->add_option("--report", o->report, tr("write a report with the tooth in 3D, sections and every figure (.html or .pdf)"));
+  v->add_flag("--json", o->json, tr("one JSON object on standard output"));
   v->callback([o, &exit_code] {
     run_scan_grade(*o);
     exit_code = 0;

@@ -4,23 +4,21 @@
 
 #include <cmath>
 #include <filesystem>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/kept.h"
 #include "engine/base/scratch_folder.h"
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/tooth/anatomy/landmarks.h"
-#include "engine/tooth/tooth_notes.h"
 #include "grading/battery/battery.h"
 #include "grading/result/result_json.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/tooth_task.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/solved_exam.h"
 
 namespace cavum::ui {
@@ -45,7 +43,8 @@ std::string tooth_file(const NewArguments& o) {
   if (o.tooth.ends_with(".cvt")) return o.tooth;
   for (const auto& t : scenarios::shipped_teeth())
     if (t.word == o.tooth) return scenarios::find_data_file("teeth", std::string(t.file), o.out);
-  throw Error("--tooth " + o.tooth, msg("there is no such tooth to write a scenario for"), msg("choose {}, or a tooth file (.cvt)", tooth_names()));
+  throw Error(Name{"--tooth " + o.tooth}, msg("there is no such tooth to write a scenario for"),
+              msg("choose {}, or a tooth file (.cvt)", tooth_names()));
 }
 
 /// Words of before: a mesial box was the only one that there was.
@@ -62,7 +61,7 @@ std::string named_from(const std::string& out, const std::string& tooth_file) {
 }
 
 int list_tasks(const NewArguments& o) {
-  if (o.on_the_block()) throw Error("--list", msg("is for a tooth"), msg("tasks on the block: {}", list_of(scenarios::block_task_words())));
+  if (o.on_the_block()) throw Error(Name{"--list"}, msg("is for a tooth"), msg("tasks on the block: {}", list_of(scenarios::block_task_words())));
   const Tooth tooth = load_tooth_file(tooth_file(o));
   const auto offered = scenarios::offered_tasks(tooth, find_landmarks(tooth));
   if (o.json) {
@@ -71,8 +70,10 @@ int list_tasks(const NewArguments& o) {
     print_json(Json{{"tooth", tooth.name}, {"tasks", tasks}});
     return 0;
   }
+  Lines rows;
   for (const auto& t : offered)
-    std::cout << fmt::format("{:<15} {}{}\n", t.task, t.title, t.why_not.empty() ? std::string() : "; NOT offered: " + one_line(t.why_not));
+    rows.row({Name{t.task}, t.why_not.empty() ? msg("{}", Term{t.title}) : msg("{}; NOT offered: {}", Term{t.title}, t.why_not)});
+  say(rows);
   return 0;
 }
 
@@ -83,7 +84,7 @@ struct Trial {
 };
 
 /// What is against a written task as an exam: the expert must pass with nine tenths of the points, and no wrong piece of work may.
-std::string against(const std::string& text, const std::string& file, Trial& trial) {
+Message against(const std::string& text, const std::string& file, Trial& trial) {
   constexpr double k_least_percent = 90.0;
   const ScratchFolder scratch;
   const std::string scenario = scratch.file("task.toml");
@@ -96,16 +97,16 @@ std::string against(const std::string& text, const std::string& file, Trial& tri
   if (!solved.result) return solved.reasons.front();
   trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
   if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent) {
-    std::string why = fmt::format("the built-in expert gets {} % of the points ({})", fixed(trial.expert_percent, 0),
-                                  grading::verdict_name(solved.result->verdict));
-    for (std::size_t i = 0; i < solved.reasons.size(); ++i) why += (i == 0 ? ": " : "; ") + solved.reasons[i];
-    return why;
+    const Number percent = as_percent(trial.expert_percent, 0);
+    const Message verdict = grading::word_of(solved.result->verdict);
+    return solved.reasons.empty() ? msg("the built-in expert gets {} of the points ({})", percent, verdict)
+                                  : msg("the built-in expert gets {} of the points ({}): {}", percent, verdict, List{solved.reasons, true});
   }
   const grading::Battery battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   trial.wrong_work = battery.rows.size();
   for (const auto& p : battery.problems)
-    if (!p.warning) return english_text(p.what);
-  return "";
+    if (!p.warning) return p.what;
+  return {};
 }
 
 /// By the tooth's landmarks.
@@ -116,13 +117,13 @@ int make_for_tooth(const NewArguments& o) {
   std::string task = task_word(o.task);
   for (const auto& t : scenarios::offered_tasks(tooth, landmarks))
     if (task.empty() && t.why_not.empty()) task = t.task;
-  if (task.empty()) throw Error(o.tooth, msg("no task makes sense on this tooth"), msg("see why: cavum scenario new --list --tooth {}", o.tooth));
+  if (task.empty())
+    throw Error(Name{o.tooth}, msg("no task makes sense on this tooth"), msg("see why: cavum scenario new --list --tooth {}", o.tooth));
   Trial trial;
   scenarios::TaskTrial tried;
-  if (!o.untried) tried = [&](const std::string& text) { return against(text, file, trial); };
+  if (!o.untried) tried = [&](const std::string& text) { return english_text(against(text, file, trial)); };
   const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, file), o.out, task, tried);
   write_text_file(o.out, written.text, {.may_replace = o.force});
-  const ToothNotes notes = notes_of(tooth);
   if (o.json) {
     Json warnings = Json::array();
     for (const auto& p : written.problems) warnings.push_back(english_text(p.message()));
@@ -134,35 +135,35 @@ int make_for_tooth(const NewArguments& o) {
                     {"task", task},
                     {"chosen", written.chosen},
                     {"warnings", warnings},
-                    {"tooth_guesses", notes.guesses},
-                    {"tooth_notices", notes.warnings}});
+                    {"tooth_guesses", tooth.notes_of(ToothNote::Kind::guess)},
+                    {"tooth_notices", tooth.notes_of(ToothNote::Kind::warning)}});
     return 0;
   }
-  std::cout << "written: " << o.out << "; " << task << " on " << one_line(tooth.name) << ": " << written.chosen << "\n";
-  for (const auto& p : written.problems) std::cout << one_line(english_text(p.message())) << "\n";
-  for (const auto& warning : notes.warnings) std::cout << "notice: " << one_line(warning) << "\n";
-  if (o.untried)
-    std::cout << "next: cavum scenario show " << o.out << " --out F.svg && cavum scenario solve " << o.out << " --battery\n";
-  else
-    std::cout << fmt::format(
-        "tried: the built-in expert passes with {} % of the points; none of {} wrong pieces of work passes\nnext: cavum scenario show {} --out "
-        "F.svg\n",
-        fixed(trial.expert_percent, 0), trial.wrong_work, o.out);
+  say(msg("written: {}; {} on {}: {}", o.out, task, tooth.name, written.chosen));
+  for (const auto& p : written.problems) say(p.message());
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) say(msg("notice: {}", warning));
+  if (o.untried) {
+    say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg && cavum scenario solve {} --battery", o.out, o.out)));
+  } else {
+    say(msg("tried: the built-in expert passes with {} of the points; none of {} wrong pieces of work passes", as_percent(trial.expert_percent, 0),
+            trial.wrong_work));
+    say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg", o.out)));
+  }
   return 0;
 }
 
 int make_new(const NewArguments& o) {
   if (o.list) return list_tasks(o);
-  if (o.out.empty()) throw Error("--out", msg("is missing"), msg("name the file to write"));
+  if (o.out.empty()) throw Error(Name{"--out"}, msg("is missing"), msg("name the file to write"));
   require_writable(o.out);
   if (std::filesystem::exists(o.out) && !o.force)
-    throw Error(o.out, msg("the file exists already"), msg("choose another name, or overwrite it with --force"));
+    throw Error(Name{o.out}, msg("the file exists already"), msg("choose another name, or overwrite it with --force"));
   if (!o.on_the_block()) return make_for_tooth(o);
   write_text_file(o.out, scenarios::block_task(o.task.empty() ? "class_1" : o.task), {.may_replace = o.force});
   if (o.json)
     print_json(Json{{"written", o.out}});
   else
-    std::cout << "written: " << o.out << "; next: cavum scenario check " << o.out << "\n";
+    say(msg("written: {}; next: {}", o.out, "cavum scenario check " + o.out));
   return 0;
 }
 
@@ -170,16 +171,16 @@ int make_new(const NewArguments& o) {
 
 void add_scenario_new(CLI::App& scenario, int& exit_code) {
   const auto o = std::make_shared<NewArguments>();
-  auto* news = scenario.add_subcommand("new", "Write a commented scenario to start from");
-  news->add_option("--tooth", o->tooth, tooth_names() + ", or a tooth file (.cvt)")->capture_default_str();
+  auto* news = scenario.add_subcommand("new", tr("Write a commented scenario to start from"));
+  news->add_option("--tooth", o->tooth, tr("{}, or a tooth file (.cvt)", as_is(tooth_names())))->capture_default_str();
   news->add_option("--task", o->task,
-                   fmt::format("on a tooth, whose landmarks the zones follow: {}; on the block: {}; left out: the first that there is",
-                               fmt::join(scenarios::tooth_task_words(), ", "), fmt::join(scenarios::block_task_words(), ", ")));
-  news->add_option("--out", o->out, "file to write");
-  news->add_flag("--list", o->list, "which tasks make sense on the tooth, and why others do not");
-  news->add_flag("--untried", o->untried, "write a task for a tooth without trying it: the expert need not pass, wrong work may");
-  news->add_flag("--force", o->force, "overwrite");
-  news->add_flag("--json", o->json, "one JSON object on standard output");
+                   tr("on a tooth, whose landmarks the zones follow: {}; on the block: {}; left out: the first that there is",
+                      list_of(scenarios::tooth_task_words()), list_of(scenarios::block_task_words())));
+  news->add_option("--out", o->out, tr("file to write"));
+  news->add_flag("--list", o->list, tr("which tasks make sense on the tooth, and why others do not"));
+  news->add_flag("--untried", o->untried, tr("write a task for a tooth without trying it: the expert need not pass, wrong work may"));
+  news->add_flag("--force", o->force, tr("overwrite"));
+  news->add_flag("--json", o->json, tr("one JSON object on standard output"));
   news->callback([o, &exit_code] { exit_code = make_new(*o); });
 }
 

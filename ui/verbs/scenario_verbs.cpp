@@ -1,20 +1,15 @@
 // `cavum scenario check | show | solve`: authoring help.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/kept.h"
 #include "engine/base/scratch_folder.h"
-#include "engine/base/text.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/tooth/tooth.h"
 #include "grading/battery/battery_output.h"
 #include "grading/result/result_json.h"
@@ -25,8 +20,9 @@
 #include "scenarios/review/check.h"
 #include "scenarios/review/picture.h"
 #include "scenarios/zones/zone_map.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/print_json.h"
-#include "ui/parts/seed_check.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/scenario_new.h"
 #include "ui/verbs/solved_exam.h"
 #include "ui/verbs/verbs.h"
@@ -51,23 +47,23 @@ int check(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
       j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
-                               {"where", english_text(p.where)},
+                               {"where", p.where},
                                {"line", p.where.line},
                                {"column", p.where.column},
-                               {"what", english_text(p.what)},
-                               {"what_to_do", english_text(p.what_to_do)}});
+                               {"what", p.what},
+                               {"what_to_do", p.what_to_do}});
     j["expert_s"] = checked.expert.time_s ? nlohmann::ordered_json(std::round(*checked.expert.time_s)) : nlohmann::ordered_json(nullptr);
     if (checked.expert.time_s) j["expert_reach_percent"] = std::round(100 * checked.expert.reach);
     print_json(j);
   } else {
-    for (const auto& p : checked.problems) std::cout << one_line(english_text(p.message())) << "\n";
+    for (const auto& p : checked.problems) say(p.message());
     if (checked.sound()) {
-      const auto n = checked.problems.size();
-      std::cout << o.scenario << ": " << (n == 0 ? "sound" : fmt::format("no mistakes, {}{}", n, n == 1 ? " warning" : " warnings"));
+      const auto n = static_cast<std::int64_t>(checked.problems.size());
+      say(n == 0 ? msg("{}: sound", o.scenario) : msgn("{}: no mistakes, {} warning", "{}: no mistakes, {} warnings", n, o.scenario, n));
       if (checked.expert.time_s)
-        std::cout << "; the built-in expert needs about " << fixed(*checked.expert.time_s, 0) << " s and reaches "
-                  << fixed(100 * checked.expert.reach, 0) << " % of the cavity";
-      std::cout << (n == 0 ? "" : "; whether it can be passed: cavum scenario solve " + o.scenario) << "\n";
+        say(msg("the built-in expert needs about {} and reaches {} of the cavity", as_s(*checked.expert.time_s, 0),
+                as_percent(100 * checked.expert.reach, 0)));
+      if (n > 0) say(msg("whether it can be passed: {}", "cavum scenario solve " + o.scenario));
     }
   }
   return checked.sound() ? 0 : 1;
@@ -99,7 +95,7 @@ std::array<grading::BoundedVolume, scenarios::k_zones> zone_volumes(const Tooth&
 }
 
 int show(const ScenarioArguments& o) {
-  if (!o.out.ends_with(".svg")) throw Error(o.out, msg("the zones are drawn as SVG only"), msg("use a name ending in .svg"));
+  if (!o.out.ends_with(".svg")) throw Error(Name{o.out}, msg("the zones are drawn as SVG only"), msg("use a name ending in .svg"));
   require_writable(o.out);
   const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(s) : o.tooth);
@@ -121,9 +117,8 @@ int show(const ScenarioArguments& o) {
     return 0;
   }
   for (std::size_t z = 1; z < scenarios::k_zones; ++z)
-    std::cout << scenarios::zone_name(static_cast<scenarios::Zone>(z)) << ": " << fixed(volumes[z].mm3, 2) << " ± " << fixed(volumes[z].bound_mm3, 2)
-              << " mm3\n";
-  std::cout << "drawn: " << o.out << "\n";
+    say(msg("{}: {}", Term{scenarios::zone_name(static_cast<scenarios::Zone>(z))}, as_mm3(volumes[z].mm3, 2, volumes[z].bound_mm3)));
+  say(msg("drawn: {}", o.out));
   return 0;
 }
 
@@ -132,26 +127,27 @@ struct Caught {
   grading::Result result;
   grading::CriterionResult criterion;
   bool as_named = false;
-  std::string advice;  ///< what to change when it is not caught
+  Message advice;  ///< what to change when it is not caught
 };
 
 /// Why the careless candidate got away, and what to do about it.
-std::string advice_for(const Caught& c) {
+Message advice_for(const Caught& c) {
   const grading::CriterionResult& named = c.criterion;
   const bool lost_all = named.critical_failed || named.points <= 0;
   if (c.result.progress.finish == Finish::time)
-    return "time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see";
+    return msg("time ran out before the mistake told: allow more time, or make the mistake in [careless] quicker to see");
   if (lost_all && c.result.verdict == grading::Verdict::review)
-    return fmt::format("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
+    return msg("a person would have to decide: make '{}' critical, or raise the pass mark by more than the borderline band", named.id);
   if (lost_all)
-    return fmt::format(
-        "'{}' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory",
-        named.id);
-  const std::string value = named.value ? fixed(*named.value, 2) + (named.unit.empty() ? "" : " " + named.unit) : "no value";
-  return fmt::format(
+    return msg("'{}' gives no points, but the others make up for it: set its critical_above or critical_below, or make the rubric non-compensatory",
+               named.id);
+  const Message value = !named.value         ? msg("no value")
+                        : named.unit.empty() ? msg("{}", as_number(*named.value, 2))
+                                             : msg("{} {}", as_number(*named.value, 2), named.unit);
+  return msg(
       "'{}' still gives {} of {} points for {}: make the mistake in [careless] larger, or the criterion stricter so that it gives none for that, or "
       "let fails_by name another",
-      named.id, fixed(named.points, 1), fixed(named.max, 1), value);
+      named.id, as_points(named.points), as_points(named.max), value);
 }
 
 Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& setup, const std::string& session) {
@@ -168,25 +164,28 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
 
 nlohmann::ordered_json to_json(const Caught& c) {
   const auto result = grading::to_json(c.result);
-  nlohmann::ordered_json j{{"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", c.criterion.reason}, {"what_to_do", c.advice}};
+  nlohmann::ordered_json j{
+      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(msg("{}", c.criterion.reason))}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
 }
 
-std::string to_text(const Caught& c) {
-  std::string s = fmt::format("careless: {}{} ({}); {} of {} points, {}\n", c.as_named ? "failed by " : "NOT failed by ", kept(c.criterion.id),
-                              c.criterion.reason, fixed(c.result.points, 1), fixed(c.result.max_points, 1), grading::verdict_name(c.result.verdict));
-  if (c.as_named) return s;
-  for (const auto& reason : c.result.verdict_reasons) s += fmt::format("because: {}\n", english_text(reason.message()));
-  s += fmt::format("what to do: {}\n", c.advice);
-  return s;
+Lines to_text(const Caught& c) {
+  Lines out;
+  const Number points = as_points(c.result.points), most = as_points(c.result.max_points);
+  const Message verdict = grading::word_of(c.result.verdict);
+  out.add(c.as_named ? msg("careless: failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict)
+                     : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict));
+  if (c.as_named) return out;
+  for (const auto& reason : c.result.verdict_reasons) out.add(msg("because: {}", reason.message()));
+  out.add(msg("what to do: {}", c.advice));
+  return out;
 }
 
-std::string to_text(const grading::Battery& battery) {
-  std::string s = fmt::format("wrong work, marked by this rubric ({} pieces in {} s):\n{}", battery.rows.size(), fixed(battery.wall_s, 1),
-                              grading::battery_text(battery));
-  for (const auto& p : battery.problems) s += one_line(english_text(p.message())) + "\n";
-  return s;
+void say_battery(const grading::Battery& battery) {
+  say(msg("wrong work, marked by this rubric ({} pieces in {}):", battery.rows.size(), as_s(battery.wall_s, 1)));
+  say(grading::battery_text(battery));
+  for (const auto& p : battery.problems) say(p.message());
 }
 
 int solve(const ScenarioArguments& o) {
@@ -199,7 +198,7 @@ int solve(const ScenarioArguments& o) {
   options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
   const auto setup = scenarios::prepare_exam(o.scenario, options);
   if (o.careless && setup->scenario.careless.fails_by.empty())
-    throw Error(o.scenario, msg("the scenario says nothing of a careless candidate"),
+    throw Error(Name{o.scenario}, msg("the scenario says nothing of a careless candidate"),
                 msg("add [careless] with the mistake it is to catch, or leave out --careless"));
   const ScratchFolder scratch;
   const Solved solved = solve_exam(*setup, o.seed, o.out.empty() ? scratch.file("expert.cavum") : o.out);
@@ -227,23 +226,24 @@ int solve(const ScenarioArguments& o) {
     print_json(j);
     return answer;
   }
-  std::cout << one_line(fmt::format("{} on {}", setup->scenario.id, setup->tooth.name)) << ": "
-            << (passed ? "the built-in expert passes" : "the built-in expert does NOT pass") << "\n";
+  say(passed ? msg("{} on {}: the built-in expert passes", setup->scenario.id, setup->tooth.name)
+             : msg("{} on {}: the built-in expert does NOT pass", setup->scenario.id, setup->tooth.name));
   if (solved.result) {
     const grading::Result& r = *solved.result;
-    std::cout << "score  " << fixed(r.points, 1) << " ± " << fixed(r.points_bound, 1) << " of " << fixed(r.max_points, 1) << " points, "
-              << grading::verdict_name(r.verdict) << "; pass mark " << fixed(r.pass_percent, 0) << " %"
-              << (r.compensatory ? "" : " of each criterion") << "\ntime   " << fixed(r.motion.time_s, 1) << " s of " << fixed(limit_s, 1) << " s ("
-              << fixed(100 * r.motion.time_s / limit_s, 0) << " %), with " << solved.point << "\nsteps  " << r.progress.steps_completed << " of "
-              << r.progress.steps << " completed, ended: " << finish_name(r.progress.finish) << "\n";
-    for (const auto& c : r.criteria)
-      std::cout << "  " << kept(one_line(c.id)) << ": " << fixed(c.points, 1) << " of " << fixed(c.max, 1) << ", " << one_line(c.reason) << "\n";
+    const Number points{r.points, Unit::none, 1, r.points_bound}, most = as_points(r.max_points), mark = as_percent(r.pass_percent, 0);
+    const Message verdict = grading::word_of(r.verdict);
+    say(r.compensatory ? msg("score: {} of {} points, {}; pass mark {}", points, most, verdict, mark)
+                       : msg("score: {} of {} points, {}; pass mark {} of each criterion", points, most, verdict, mark));
+    say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0),
+            solved.point));
+    say(msg("steps: {} of {} completed, ended: {}", r.progress.steps_completed, r.progress.steps, Term{finish_name(r.progress.finish)}));
+    for (const auto& c : r.criteria) say(msg("{}: {} of {}, {}", c.id, as_points(c.points), as_points(c.max), c.reason), 2);
   }
-  for (const auto& reason : solved.reasons) std::cout << "because: " << one_line(reason) << "\n";
-  if (!passed) std::cout << "what to do: " << one_line(solved.advice) << "\n";
-  if (careless) std::cout << to_text(*careless);
-  if (battery) std::cout << to_text(*battery);
-  if (solved.result && !o.out.empty()) std::cout << "recorded: " << o.out << "\n";
+  for (const auto& reason : solved.reasons) say(msg("because: {}", reason));
+  if (!passed) say(msg("what to do: {}", solved.advice));
+  if (careless) say(to_text(*careless));
+  if (battery) say_battery(*battery);
+  if (solved.result && !o.out.empty()) say(msg("recorded: {}", o.out));
   return answer;
 }
 
@@ -251,32 +251,32 @@ int solve(const ScenarioArguments& o) {
 
 void add_scenario_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<ScenarioArguments>();
-  auto* verb = app.add_subcommand("scenario", "Write and check exam scenarios");
+  auto* verb = app.add_subcommand("scenario", tr("Write and check exam scenarios"));
   verb->require_subcommand(1);
 
-  auto* checks = verb->add_subcommand("check", "Name every mistake of a scenario file, and warn of what is unwise");
-  checks->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
-  checks->add_option("--tooth", o->tooth, "check the zones against this tooth instead");
-  checks->add_flag("--json", o->json, "one JSON object on standard output");
-  checks->add_flag("--no-battery", o->no_battery, "do not try wrong pieces of work on the rubric");
+  auto* checks = verb->add_subcommand("check", tr("Name every mistake of a scenario file, and warn of what is unwise"));
+  checks->add_option("scenario", o->scenario, tr("scenario file (TOML)"))->required();
+  checks->add_option("--tooth", o->tooth, tr("check the zones against this tooth instead"));
+  checks->add_flag("--json", o->json, tr("one JSON object on standard output"));
+  checks->add_flag("--no-battery", o->no_battery, tr("do not try wrong pieces of work on the rubric"));
   checks->callback([o, &exit_code] { exit_code = check(*o); });
 
-  auto* shows = verb->add_subcommand("show", "Draw the zones on three sections and from above (SVG)");
-  shows->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
-  shows->add_option("--out", o->out, "SVG file")->required();
-  shows->add_option("--tooth", o->tooth, "draw them in this tooth instead");
-  shows->add_flag("--json", o->json, "one JSON object on standard output");
+  auto* shows = verb->add_subcommand("show", tr("Draw the zones on three sections and from above (SVG)"));
+  shows->add_option("scenario", o->scenario, tr("scenario file (TOML)"))->required();
+  shows->add_option("--out", o->out, tr("SVG file"))->required();
+  shows->add_option("--tooth", o->tooth, tr("draw them in this tooth instead"));
+  shows->add_flag("--json", o->json, tr("one JSON object on standard output"));
   shows->callback([o, &exit_code] { exit_code = show(*o); });
 
-  auto* solves = verb->add_subcommand("solve", "Prove that the task can be passed: the built-in expert takes it");
-  solves->add_option("scenario", o->scenario, "scenario file (TOML)")->required();
-  solves->add_option("--tooth", o->tooth, "solve it on this tooth instead");
-  solves->add_option("--model", o->model, "force model: paper, consistent, clinical, or a TOML file")->capture_default_str();
-  solves->add_option("--seed", o->seed, "of the expert's tremor")->check(seed_check())->capture_default_str();
-  solves->add_option("--out", o->out, "keep the recording: session file to write (.cavum)");
-  solves->add_flag("--careless", o->careless, "also let the careless candidate take it: he must fail by the criterion that [careless] names");
-  solves->add_flag("--battery", o->battery, "also mark wrong pieces of work by the rubric: none may pass");
-  solves->add_flag("--json", o->json, "one JSON object on standard output");
+  auto* solves = verb->add_subcommand("solve", tr("Prove that the task can be passed: the built-in expert takes it"));
+  solves->add_option("scenario", o->scenario, tr("scenario file (TOML)"))->required();
+  solves->add_option("--tooth", o->tooth, tr("solve it on this tooth instead"));
+  solves->add_option("--model", o->model, tr("force model: paper, consistent, clinical, or a TOML file"))->capture_default_str();
+  solves->add_option("--seed", o->seed, tr("of the expert's tremor"))->check(seed_check())->capture_default_str();
+  solves->add_option("--out", o->out, tr("keep the recording: session file to write (.cavum)"));
+  solves->add_flag("--careless", o->careless, tr("also let the careless candidate take it: he must fail by the criterion that [careless] names"));
+  solves->add_flag("--battery", o->battery, tr("also mark wrong pieces of work by the rubric: none may pass"));
+  solves->add_flag("--json", o->json, tr("one JSON object on standard output"));
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 
   add_scenario_new(*verb, exit_code);

@@ -11,8 +11,8 @@
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
-#include "engine/base/kept.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/ledger_key.h"
@@ -24,7 +24,9 @@
 #include "ui/office/office.h"
 #include "ui/office/station_client.h"
 #include "ui/parts/interrupt.h"
+#include "ui/parts/option_checks.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/platform_options.h"
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
@@ -49,9 +51,9 @@ std::string typed_password() {
   const bool asks = ::isatty(STDIN_FILENO) == 1;
   termios before{};
   if (asks) ::tcgetattr(STDIN_FILENO, &before);
-  const auto typed = [&](const char* what) {
+  const auto typed = [&](const std::string& what) {
     if (asks) {
-      std::cerr << what << std::flush;
+      std::cerr << what << " " << std::flush;
       termios hidden = before;
       hidden.c_lflag &= ~static_cast<tcflag_t>(ECHO);
       ::tcsetattr(STDIN_FILENO, TCSANOW, &hidden);
@@ -64,24 +66,27 @@ std::string typed_password() {
     }
     return line;
   };
-  std::string password = typed("the account's new password: ");
-  if (asks && typed("once more: ") != password) throw Error(msg("the password"), msg("was typed differently the second time"), msg("begin again"));
+  std::string password = typed(tr("the account's new password:"));
+  if (asks && typed(tr("once more:")) != password) throw Error(msg("the password"), msg("was typed differently the second time"), msg("begin again"));
   return password;
 }
 
 void add_account(const ServeArguments& o) {
   const auto role = office::role_named(o.role);
-  if (!role) throw Error("--role " + one_line(o.role), msg("is none"), msg("say officer, examiner, invigilator or reader"));
+  if (!role) throw Error(Name{"--role " + one_line(o.role)}, msg("is none"), msg("say officer, examiner, invigilator or reader"));
   office::Accounts accounts(office_home() + "/accounts.json");
   const office::Account made = accounts.set(o.add_account, *role, typed_password(), o.second_factor, o.known_as);
-  std::cout << "written: " << accounts.path() << "\n";
-  if (o.second_factor) std::cout << "for the app, shown only now: " << office::code_address(made, "exam office") << "\n";
+  say(msg("written: {}", accounts.path()));
+  if (o.second_factor) say(msg("for the app, shown only now: {}", office::code_address(made, "exam office")));
 }
 
 void list_accounts() {
-  for (const auto& a : office::Accounts(office_home() + "/accounts.json").all())
-    std::cout << one_line(a.name) << ", " << office::name_of(a.role) << (a.code_secret.empty() ? "" : ", second factor")
-              << (a.known_as.empty() ? "" : ", known as " + one_line(a.known_as)) << "\n";
+  for (const auto& a : office::Accounts(office_home() + "/accounts.json").all()) {
+    List said{{msg("{}", a.name), msg("{}", Term{std::string(office::name_of(a.role))})}, false};
+    if (!a.code_secret.empty()) said.items.push_back(msg("second factor"));
+    if (!a.known_as.empty()) said.items.push_back(msg("known as {}", a.known_as));
+    say(msg("{}", said));
+  }
 }
 
 std::vector<std::string> exams_of(const ServeArguments& o) {
@@ -95,7 +100,7 @@ std::vector<std::string> exams_of(const ServeArguments& o) {
 std::string proxy_secret(const std::string& path) {
   const auto may = std::filesystem::status(path).permissions();
   if ((may & (std::filesystem::perms::group_all | std::filesystem::perms::others_all)) != std::filesystem::perms::none)
-    throw Error(path, msg("may be read by others"), msg("chmod 600 it: whoever knows the secret can sign in as anybody"));
+    throw Error(Name{path}, msg("may be read by others"), msg("chmod 600 it: whoever knows the secret can sign in as anybody"));
   const std::string text = read_text_file(path);
   return text.substr(0, text.find_first_of("\r\n"));
 }
@@ -103,11 +108,11 @@ std::string proxy_secret(const std::string& path) {
 void serve(const ServeArguments& o) {
   if (o.ledger.empty()) throw Error(msg("serve"), msg("needs to know which ledger"), msg("name its folder; `cavum ledger init` makes one"));
   if (o.certificate.empty() != o.certificate_key.empty())
-    throw Error("--certificate", msg("and --certificate-key belong together"), msg("give both, or neither: one is made then"));
+    throw Error(Name{"--certificate"}, msg("and --certificate-key belong together"), msg("give both, or neither: one is made then"));
   const auto colon = o.listen.rfind(':');
   const std::string port = colon == std::string::npos ? "" : o.listen.substr(colon + 1);
   if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65'535)
-    throw Error("--listen " + one_line(o.listen), msg("is no address and port"), msg("give one such as 127.0.0.1:8443"));
+    throw Error(Name{"--listen " + one_line(o.listen)}, msg("is no address and port"), msg("give one such as 127.0.0.1:8443"));
   office::OfficeOptions options;
   options.ledger_folder = o.ledger;
   options.school = ledger::load_school_key(o.key.empty() ? ledger::school_key_path() : o.key);
@@ -124,16 +129,18 @@ void serve(const ServeArguments& o) {
     office::make_certificate(options.certificate, names);
   }
   if (o.proxy_address.empty() != o.proxy_secret.empty())
-    throw Error("--proxy-address", msg("and --proxy-secret belong together"), msg("give both, or neither: nobody signs in by a proxy then"));
+    throw Error(Name{"--proxy-address"}, msg("and --proxy-secret belong together"), msg("give both, or neither: nobody signs in by a proxy then"));
   if (!o.proxy_address.empty()) options.proxy = office::proxy_sign_on(o.proxy_address, proxy_secret(o.proxy_secret), o.proxy_header);
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };
   options.student_report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording, "student"); };
   const Interrupt interrupt;
   const office::Office office(options);
-  std::cout << "the office of " << kept(one_line(office.school())) << " at https://" << o.listen.substr(0, colon) << ":" << office.port()
-            << "\ncertificate: " << options.certificate.certificate << "\nits SHA-256: " << office::fingerprint_of(options.certificate.certificate)
-            << "\nit ends with Ctrl-C" << std::endl;
+  say(msg("the office of {} at https://{}:{}", office.school(), o.listen.substr(0, colon), office.port()));
+  say(msg("certificate: {}", options.certificate.certificate));
+  say(msg("its SHA-256: {}", office::fingerprint_of(options.certificate.certificate)));
+  say(msg("it ends with Ctrl-C"));
+  std::cout << std::flush;
   while (!Interrupt::asked()) std::this_thread::sleep_for(std::chrono::milliseconds(100));
 }
 
@@ -147,7 +154,7 @@ struct OfficeArguments {
 office::StationClient client_of(const OfficeArguments& o) {
   const std::string school = ledger::station_school_key();
   if (school.empty())
-    throw Error(ledger::school_public_key_path(), msg("this station knows no school yet"),
+    throw Error(Name{ledger::school_public_key_path()}, msg("this station knows no school yet"),
                 msg("copy the school's public key there: `cavum ledger init` writes it"));
   return {o.server, o.certificate, school, load_station_key(station_key_path())};
 }
@@ -158,7 +165,7 @@ void office_enrol(const OfficeArguments& o) {
   auto client = client_of(o);
   const json done = client.enrol(ledger::station_request(key, ledger::station_school_key(), {}, o.code));
   remember_enrolled(path, key);
-  std::cout << "enrolled as '" << one_line(done.value("name", "")) << "'\n";
+  say(msg("enrolled as '{}'", done.value("name", "")));
 }
 
 void office_tickets(const OfficeArguments& o) {
@@ -170,7 +177,7 @@ void office_tickets(const OfficeArguments& o) {
     const ledger::Ticket ticket = ledger::parse_ticket(text, ledger::station_school_key(), "the office's ticket");
     const std::string file = fmt::format("{}/{}.ticket", o.out, file_name_of(ticket.candidate));
     write_private_text_file(file, text);
-    std::cout << "written: " << one_line(file) << "\n";
+    say(msg("written: {}", file));
   }
 }
 
@@ -179,16 +186,15 @@ void office_begin(const OfficeArguments& o) {
   const std::string out = ledger::begin_path(o.ticket);
   require_writable(out);
   write_private_text_file(out, client.begin(ledger::read_ticket(o.ticket).ticket.nonce) + "\n");
-  std::cout << "written: " << one_line(out) << "\n";
+  say(msg("written: {}", out));
 }
 
 void office_report(const OfficeArguments& o) {
   auto client = client_of(o);
   const json word =
       client.report({{"state", o.state}, {"candidate", o.candidate}, {"step", o.step}, {"alarm", o.alarm}, {"left_s", o.left_s}, {"heard", o.heard}});
-  if (word.contains("hold")) std::cout << "paused: " << one_line(word.at("hold").at("reason").get<std::string>()) << "\n";
-  for (const json& a : word.at("announcements"))
-    std::cout << "announcement " << a.at("entry") << ": " << one_line(a.at("text").get<std::string>()) << "\n";
+  if (word.contains("hold")) say(msg("paused: {}", word.at("hold").at("reason").get<std::string>()));
+  for (const json& a : word.at("announcements")) say(msg("announcement {}: {}", a.at("entry").get<std::int64_t>(), a.at("text").get<std::string>()));
 }
 
 int office_file(const OfficeArguments& o) {
@@ -197,7 +203,7 @@ int office_file(const OfficeArguments& o) {
   if (!o.receipts.empty()) make_private_folder(o.receipts);
   bool all = true;
   for (const auto& path : session_files(o.sessions)) {
-    std::vector<std::string> findings;
+    std::vector<Message> findings;
     const Bytes image = read_session_image(path, findings);
     const std::string hash = to_hex(sha256(image));
     json state = client.handed(hash);
@@ -209,10 +215,9 @@ int office_file(const OfficeArguments& o) {
     }
     const bool filed = state.value("state", "") == "filed";
     all = all && filed;
-    std::cout << one_line(path) << ": " << (filed ? fmt::format("entry {}", state.at("entry").get<std::uint64_t>()) : std::string("NOT FILED"))
-              << "\n";
+    say(filed ? msg("{}: entry {}", path, state.at("entry").get<std::int64_t>()) : msg("{}: NOT FILED", path));
     if (!filed)
-      for (const auto& f : state.value("findings", std::vector<std::string>())) std::cout << "  - " << one_line(f) << "\n";
+      for (const auto& f : state.value("findings", std::vector<std::string>())) say(msg("- {}", f), 2);
     if (filed && !o.receipts.empty())
       write_private_text_file(fmt::format("{}/receipt-{}.json", o.receipts, state.at("entry").get<std::uint64_t>()),
                               state.at("receipt").dump(2) + "\n");
@@ -222,27 +227,27 @@ int office_file(const OfficeArguments& o) {
 
 void add_serve_verb(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<ServeArguments>();
-  auto* serve_verb = app.add_subcommand("serve", "The exam office: a ledger over HTTPS, for people in a browser and for stations");
-  serve_verb->add_option("ledger", o->ledger, "the ledger's folder");
-  serve_verb->add_option("--listen", o->listen, "address and port")->capture_default_str();
-  serve_verb->add_option("--certificate", o->certificate, "certificate chain (PEM); without it, one of its own that is made at the first start");
-  serve_verb->add_option("--certificate-key", o->certificate_key, "the certificate's key (PEM)");
-  serve_verb->add_option("--name", o->names, "name or address that the certificate of its own is for, too; may be repeated");
-  serve_verb->add_option("--exam", o->exams, "scenario that tickets may be issued for; may be repeated; without it, all that ship");
-  serve_verb->add_option("--key", o->key, "the school's key, instead of the one in its place");
+  auto* serve_verb = app.add_subcommand("serve", tr("The exam office: a ledger over HTTPS, for people in a browser and for stations"));
+  serve_verb->add_option("ledger", o->ledger, tr("the ledger's folder"));
+  serve_verb->add_option("--listen", o->listen, tr("address and port"))->capture_default_str();
+  serve_verb->add_option("--certificate", o->certificate, tr("certificate chain (PEM); without it, one of its own that is made at the first start"));
+  serve_verb->add_option("--certificate-key", o->certificate_key, tr("the certificate's key (PEM)"));
+  serve_verb->add_option("--name", o->names, tr("name or address that the certificate of its own is for, too; may be repeated"));
+  serve_verb->add_option("--exam", o->exams, tr("scenario that tickets may be issued for; may be repeated; without it, all that ship"));
+  serve_verb->add_option("--key", o->key, tr("the school's key, instead of the one in its place"));
   serve_verb->add_option("--proxy-address", o->proxy_address,
-                         "address of a reverse proxy that signs people in by the school's accounts (OpenID Connect)");
-  serve_verb->add_option("--proxy-secret", o->proxy_secret, "file with the secret that the proxy adds as X-Cavum-Proxy-Secret")
-      ->check(CLI::ExistingFile);
-  serve_verb->add_option("--proxy-header", o->proxy_header, "field in which the proxy says who asks")->capture_default_str();
-  serve_verb->add_flag("--simulated", o->simulated, "rehearsal: files what no candidate's hand moved, too, marked as such");
+                         tr("address of a reverse proxy that signs people in by the school's accounts (OpenID Connect)"));
+  serve_verb->add_option("--proxy-secret", o->proxy_secret, tr("file with the secret that the proxy adds as X-Cavum-Proxy-Secret"))
+      ->check(existing_file());
+  serve_verb->add_option("--proxy-header", o->proxy_header, tr("field in which the proxy says who asks"))->capture_default_str();
+  serve_verb->add_flag("--simulated", o->simulated, tr("rehearsal: files what no candidate's hand moved, too, marked as such"));
   serve_verb->add_option("--add-account", o->add_account,
-                         "add an account, or give it another password: the person's name; the password is asked for");
-  serve_verb->add_option("--role", o->role, "of the account: officer, examiner, invigilator or reader");
-  serve_verb->add_flag("--second-factor", o->second_factor, "with --add-account: a secret for an authenticator app, which a release asks for");
-  serve_verb->add_option("--known-as", o->known_as, "with --add-account: what the proxy calls the person, letter by letter");
-  serve_verb->add_option("--remove-account", o->remove_account, "remove an account: who is signed in with it is out at once");
-  serve_verb->add_flag("--accounts", o->accounts, "list the accounts");
+                         tr("add an account, or give it another password: the person's name; the password is asked for"));
+  serve_verb->add_option("--role", o->role, tr("of the account: officer, examiner, invigilator or reader"));
+  serve_verb->add_flag("--second-factor", o->second_factor, tr("with --add-account: a secret for an authenticator app, which a release asks for"));
+  serve_verb->add_option("--known-as", o->known_as, tr("with --add-account: what the proxy calls the person, letter by letter"));
+  serve_verb->add_option("--remove-account", o->remove_account, tr("remove an account: who is signed in with it is out at once"));
+  serve_verb->add_flag("--accounts", o->accounts, tr("list the accounts"));
   add_platform_options(*serve_verb, o->platforms);
   serve_verb->callback([o, &exit_code] {
     if (!o->add_account.empty())
@@ -259,13 +264,13 @@ void add_serve_verb(CLI::App& app, int& exit_code) {
 
 void add_office_verb(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<OfficeArguments>();
-  auto* verb = app.add_subcommand("office", "A station's side of `cavum serve`: tickets, the word to begin, reports, exams that are handed in");
+  auto* verb = app.add_subcommand("office", tr("A station's side of `cavum serve`: tickets, the word to begin, reports, exams that are handed in"));
   verb->require_subcommand(1);
-  const auto add = [&](const char* name, const char* what, auto run) {
+  const auto add = [&](const char* name, const std::string& what, auto run) {
     auto* one = verb->add_subcommand(name, what);
-    one->add_option("--server", o->server, "address of the office, such as https://office:8443")->required();
-    one->add_option("--certificate", o->certificate, "the office's own certificate (PEM), where it is not one that this computer trusts")
-        ->check(CLI::ExistingFile);
+    one->add_option("--server", o->server, tr("address of the office, such as https://office:8443"))->required();
+    one->add_option("--certificate", o->certificate, tr("the office's own certificate (PEM), where it is not one that this computer trusts"))
+        ->check(existing_file());
     one->callback([o, run, &exit_code] { exit_code = run(*o); });
     return one;
   };
@@ -275,24 +280,26 @@ void add_office_verb(CLI::App& app, int& exit_code) {
       return 0;
     };
   };
-  add("enrol", "enrol this station with the one-time code that the office gave", done(office_enrol))
-      ->add_option("--code", o->code, "S-…")
+  add("enrol", tr("enrol this station with the one-time code that the office gave"), done(office_enrol))
+      ->add_option("--code", o->code, tr("S-…"))
       ->required();
-  add("tickets", "fetch all tickets that may be used", done(office_tickets))->add_option("--out", o->out, "folder for them")->capture_default_str();
-  add("begin", "ask whether the exam of a ticket may begin; the word is written beside it", done(office_begin))
-      ->add_option("ticket", o->ticket, "the ticket's file")
+  add("tickets", tr("fetch all tickets that may be used"), done(office_tickets))
+      ->add_option("--out", o->out, tr("folder for them"))
+      ->capture_default_str();
+  add("begin", tr("ask whether the exam of a ticket may begin; the word is written beside it"), done(office_begin))
+      ->add_option("ticket", o->ticket, tr("the ticket's file"))
       ->required()
-      ->check(CLI::ExistingFile);
-  auto* report = add("report", "tell the live board what this station does; prints what the office has to say", done(office_report));
-  report->add_option("--state", o->state, "free, check, briefing, exam, paused or ended")->required();
-  report->add_option("--candidate", o->candidate, "pseudonym of who sits");
-  report->add_option("--step", o->step, "of the exam");
-  report->add_option("--alarm", o->alarm, "what an invigilator should see to");
-  report->add_option("--left-s", o->left_s, "on the exam's clock, s");
-  report->add_option("--heard", o->heard, "number of the last announcement that was read");
-  auto* file = add("file", "hand in exams that were sat, and wait until they are filed", office_file);
-  file->add_option("sessions", o->sessions, "session files, or folders of them")->required();
-  file->add_option("--receipts", o->receipts, "folder for the receipts");
+      ->check(existing_file());
+  auto* report = add("report", tr("tell the live board what this station does; prints what the office has to say"), done(office_report));
+  report->add_option("--state", o->state, tr("free, check, briefing, exam, paused or ended"))->required();
+  report->add_option("--candidate", o->candidate, tr("pseudonym of who sits"));
+  report->add_option("--step", o->step, tr("of the exam"));
+  report->add_option("--alarm", o->alarm, tr("what an invigilator should see to"));
+  report->add_option("--left-s", o->left_s, tr("on the exam's clock, s"));
+  report->add_option("--heard", o->heard, tr("number of the last announcement that was read"));
+  auto* file = add("file", tr("hand in exams that were sat, and wait until they are filed"), office_file);
+  file->add_option("sessions", o->sessions, tr("session files, or folders of them"))->required();
+  file->add_option("--receipts", o->receipts, tr("folder for the receipts"));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "grading/result/result.h"
 #include "scenarios/candidates/simulated_exam.h"
 #include "scenarios/exam/exam.h"
@@ -19,8 +20,8 @@ namespace cavum::ui {
 struct Solved {
   std::optional<grading::Result> result;
   std::string point;
-  std::vector<std::string> reasons;  ///< why it was not passed
-  std::string advice;                ///< what to change then
+  std::vector<Message> reasons;  ///< why it was not passed
+  Message advice;                ///< what to change then
 };
 
 /// `session` is the file to write; `seed` of the expert's tremor.

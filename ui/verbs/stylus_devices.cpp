@@ -1,6 +1,5 @@
 #include "ui/verbs/stylus_devices.h"
 
-#include <fmt/core.h>
 #include <unistd.h>
 
 #include <array>
@@ -12,10 +11,11 @@
 #include <vector>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/stylus_probe.h"
+#include "engine/language/say.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -40,8 +40,8 @@ void warn_of_the_edge(const StylusKind& kind, const Placement& placed) {
   const double off_mm = length(to_tooth(placed, usual_middle_mm).tip_mm);
   constexpr double k_tooth_mm = 15.0;
   if (off_mm + k_tooth_mm > kind.facts.reach_mm)
-    std::cout << "the crown is " << fixed(off_mm, 0) << " mm from the middle of its reach of " << fixed(kind.facts.reach_mm, 0)
-              << " mm: move the device, and place it anew\n";
+    say(msg("the crown is {} from the middle of its reach of {}: move the device, and place it anew", as_mm(off_mm, 0),
+            as_mm(kind.facts.reach_mm, 0)));
 }
 
 /// Where the tip is, in the mean of a fifth of a second: hands tremble.
@@ -71,22 +71,22 @@ nlohmann::json styluses_json(bool again) {
   return all;
 }
 
-std::string styluses_text(bool again) {
-  std::string text = "styluses\n";
+Lines styluses_text(bool again) {
+  Lines out;
+  out.add(msg("styluses"));
   for (const auto& s : list_styluses(!again)) {
-    std::string id = s.id;
-    id.resize(10, ' ');
-    text += fmt::format("  {} {}{}{}\n", id, one_line(s.name), s.there ? "" : "  (not there)", placed(s.id) ? "  (placed)" : "");
-    if (s.problem) text += fmt::format("    {}\n", one_line(problem_text(s.problem)));
+    out.row({Name{s.id}, Name{s.name}, s.there ? Message() : msg("(not there)"), placed(s.id) ? msg("(placed)") : Message()}, 2);
+    if (s.problem) out.add(s.problem->message(), 4);
   }
-  return text;
+  return out;
 }
 
 int test_stylus(const std::string& id, double seconds, bool friction, bool json) {
   const auto stylus = open_stylus(id);
   const bool real = kind_of(id).hand == StylusHand::person;
   static_cast<void>(first_pose(*stylus, k_patience_s));
-  if (!json && friction) std::cout << "let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ...\n" << std::flush;
+  if (!json && friction) say(msg("let go of the stylus and let it stand free: it is pushed slowly, by 1 N at most ..."));
+  std::cout << std::flush;
   const StylusProbe p = probe_stylus(*stylus, {.listen_s = seconds, .friction = friction, .real_time = real});
   if (json) {
     nlohmann::json axes = nlohmann::json::object();
@@ -104,19 +104,17 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
                               {"friction_problem", problem_text(p.friction_problem)},
                               {"axes", axes}});
   } else {
-    std::cout << stylus->facts().name << ": " << plain_number(p.rate_hz) << " Hz, jitter " << fixed(1e3 * p.jitter_s, 2) << " ms, longest gap "
-              << fixed(1e3 * p.longest_gap_s, 1) << " ms\n";
+    say(msg("{}: {}, jitter {}, longest gap {}", stylus->facts().name, as_unit(p.rate_hz, Unit::hz), as_unit(1e3 * p.jitter_s, Unit::ms, 2),
+            as_unit(1e3 * p.longest_gap_s, Unit::ms, 1)));
     if (p.quantum_mm > 0)
-      std::cout << "  smallest step " << fixed(p.quantum_mm, 4) << " mm (" << plain_number(stylus->facts().position_quantum_mm)
-                << " mm are reckoned with)\n";
+      say(msg("smallest step {} ({} are reckoned with)", as_mm(p.quantum_mm, 4), as_mm(stylus->facts().position_quantum_mm, k_as_needed)), 2);
     else
-      std::cout << "  it did not move: the step of its positions is not known\n";
-    if (p.friction_n > 0) {
-      std::cout << "  friction in air " << fixed(p.friction_n, 2) << " N; x " << fixed(p.axes[0].friction_n(), 2) << ", y "
-                << fixed(p.axes[1].friction_n(), 2) << ", z " << fixed(p.axes[2].friction_n(), 2) << " N; pulled by itself "
-                << fixed(p.axes[2].bias_n(), 2) << " N along z\n";
-    }
-    if (p.friction_problem) std::cout << "  " << problem_text(p.friction_problem) << "\n";
+      say(msg("it did not move: the step of its positions is not known"), 2);
+    if (p.friction_n > 0)
+      say(msg("friction in air {}; x {}, y {}, z {}; pulled by itself {} along z", as_n(p.friction_n), as_n(p.axes[0].friction_n()),
+              as_n(p.axes[1].friction_n()), as_n(p.axes[2].friction_n()), as_n(p.axes[2].bias_n())),
+          2);
+    if (p.friction_problem) say(p.friction_problem->message(), 2);
   }
   return p.readings > 0 && !p.friction_problem ? 0 : 1;
 }
@@ -132,27 +130,28 @@ void place_stylus(const std::string& id) {
   options.station.placement = {};  // its own frame
   const auto stylus = kind.open(options);
   static_cast<void>(first_pose(*stylus, k_patience_s));
-  const std::array<std::pair<const char*, Vec3>, 4> marks{{{"where the middle of the crown shall be", {0, 0, 0}},
-                                                           {"20 mm to mesial (to the right) of it", {20, 0, 0}},
-                                                           {"20 mm to buccal (away from you) of it", {0, 20, 0}},
-                                                           {"20 mm above it", {0, 0, 20}}}};
+  const std::array<std::pair<std::string, Vec3>, 4> marks{{{tr("hold the tip where the middle of the crown shall be, then press Enter"), {0, 0, 0}},
+                                                           {tr("hold the tip 20 mm to mesial (to the right) of it, then press Enter"), {20, 0, 0}},
+                                                           {tr("hold the tip 20 mm to buccal (away from you) of it, then press Enter"), {0, 20, 0}},
+                                                           {tr("hold the tip 20 mm above it, then press Enter"), {0, 0, 20}}}};
   std::vector<Vec3> device, tooth;
-  for (const auto& [where, at] : marks) {
-    std::cerr << "hold the tip " << where << ", then press Enter\n";
+  for (const auto& [what, at] : marks) {
+    std::cerr << what << "\n";
     std::string line;
-    if (!std::getline(std::cin, line)) throw Error("--place", msg("was interrupted"), msg("begin it again"));
+    if (!std::getline(std::cin, line)) throw Error(Name{"--place"}, msg("was interrupted"), msg("begin it again"));
     device.push_back(held_at(*stylus));
     tooth.push_back(at);
   }
   const PlacementFit fit = fit_placement(device, tooth);
   constexpr double k_most_mm = 3.0;
   if (fit.worst_mm > k_most_mm)
-    throw Error("--place", msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
+    throw Error(Name{"--place"}, msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
                 msg("measure them with a ruler, and begin again"));
   options.station.placement = fit.placement;
   options.station.placement.tool = tool;
   write_private_text_file(path, to_toml(options.station));
-  std::cout << "marks fit within " << fixed(fit.worst_mm, 2) << " mm\nwritten: " << path << "\n";
+  say(msg("marks fit within {}", as_mm(fit.worst_mm)));
+  say(msg("written: {}", path));
   warn_of_the_edge(kind, fit.placement);
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "engine/base/lines.h"
 
 namespace cavum::ui {
 
@@ -15,7 +16,7 @@ namespace cavum::ui {
 /// `again`: asked twice a second, which not every driver likes; see list_styluses.
 [[nodiscard]] nlohmann::json styluses_json(bool again);
 /// The same as lines for a terminal.
-[[nodiscard]] std::string styluses_text(bool again);
+[[nodiscard]] Lines styluses_text(bool again);
 /// Tries the stylus `id` for `seconds` and pushes it gently. Returns 0; 1 when it says nothing or its friction could not be found. Throws Error when
 /// it cannot be opened.
 int test_stylus(const std::string& id, double seconds, bool friction, bool json);

@@ -2,11 +2,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 
-#include "engine/base/text.h"
 #include "engine/tooth/octree_edit.h"
-#include "engine/tooth/tooth_notes.h"
+#include "ui/parts/say.h"
 
 namespace cavum::ui {
 namespace {
@@ -43,7 +41,6 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
     if (count[t.id] > 0)
       tissues.push_back(
           {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
-  const ToothNotes notes = notes_of(tooth);
   return {{"name", tooth.name},
           {"source", tooth.source},
           {"leaf_mm", o.leaf_mm()},
@@ -52,25 +49,30 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
           {"memory_bytes", o.memory_bytes()},
           {"file_bytes", file_bytes},
           {"hash", tooth_hash(tooth)},
-          {"guesses", notes.guesses},
-          {"warnings", notes.warnings},
-          {"mirror_image", notes.mirror_image}};
+          {"guesses", tooth.notes_of(ToothNote::Kind::guess)},
+          {"warnings", tooth.notes_of(ToothNote::Kind::warning)},
+          {"mirror_image", !tooth.notes_of(ToothNote::Kind::mirror_image).empty()}};
 }
 
-void print_tooth(const nlohmann::ordered_json& d) {
-  std::printf("%s\n", one_line(d["name"].get<std::string>()).c_str());
-  std::printf("  from    %s\n", one_line(d["source"].get<std::string>()).c_str());
-  const auto& low = d["bounds_mm"]["low"];
-  const auto& high = d["bounds_mm"]["high"];
-  std::printf("  leaf    %g mm; x %.2f..%.2f  y %.2f..%.2f  z %.2f..%.2f mm\n", d["leaf_mm"].get<double>(), low[0].get<double>(),
-              high[0].get<double>(), low[1].get<double>(), high[1].get<double>(), low[2].get<double>(), high[2].get<double>());
+void print_tooth(const Tooth& tooth, const nlohmann::ordered_json& d) {
+  Lines out;
+  out.add(Name{tooth.name});
+  out.add(msg("from: {}", tooth.source), 2);
+  const auto corner = [&d](const char* which) {
+    const auto& at = d["bounds_mm"][which];
+    return Vec3{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};
+  };
+  out.add(msg("leaf: {}; from {} to {}", as_mm(tooth.octree.leaf_mm(), k_as_needed), corner("low"), corner("high")), 2);
   for (const auto& t : d["tissues"])
-    std::printf("  %-14s %10.3f mm3%s\n", one_line(t["name"].get<std::string>()).c_str(), t["volume_mm3"].get<double>(),
-                t["solid"].get<bool>() ? "" : "  (not solid)");
-  std::printf("  memory  %.2f MB, file %.2f MB\n", d["memory_bytes"].get<double>() / 1e6, d["file_bytes"].get<double>() / 1e6);
-  std::printf("  hash    %s\n", d["hash"].get<std::string>().c_str());
-  for (const auto& guess : d["guesses"]) std::printf("  guess   %s\n", one_line(guess.get<std::string>()).c_str());
-  for (const auto& warning : d["warnings"]) std::printf("  notice  %s\n", one_line(warning.get<std::string>()).c_str());
+    out.row({msg("{}", Term{t["name"].get<std::string>()}), msg("{}", as_mm3(t["volume_mm3"].get<double>(), 3)),
+             t["solid"].get<bool>() ? Message() : msg("(not solid)")},
+            2);
+  out.add(msg("memory: {} MB, file {} MB", as_number(d["memory_bytes"].get<double>() / 1e6, 2), as_number(d["file_bytes"].get<double>() / 1e6, 2)),
+          2);
+  out.add(msg("hash: {}", d["hash"].get<std::string>()), 2);
+  for (const auto& guess : tooth.notes_of(ToothNote::Kind::guess)) out.add(msg("guess: {}", guess), 2);
+  for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) out.add(msg("notice: {}", warning), 2);
+  say(out);
 }
 
 }  // namespace cavum::ui

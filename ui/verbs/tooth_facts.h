@@ -12,7 +12,7 @@ namespace cavum::ui {
 [[nodiscard]] double rounded(double v, double unit);
 /// The names of docs/contracts.md (JSON) for `tooth info --json`.
 [[nodiscard]] nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes);
-/// The same in words, on standard output.
-void print_tooth(const nlohmann::ordered_json& described);
+/// The same in words, on standard output; `described` is what describe() says of the tooth.
+void print_tooth(const Tooth& tooth, const nlohmann::ordered_json& described);
 
 }  // namespace cavum::ui

@@ -4,19 +4,19 @@
 #include <charconv>
 #include <filesystem>
 #include <fstream>
-#include <iostream>
 #include <memory>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/servo/tick.h"
 #include "grading/ledger/check_ledger.h"
 #include "grading/ledger/regrade.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
+#include "ui/parts/say.h"
 #include "ui/verbs/pool_options.h"
 #include "ui/verbs/session_files.h"
 #include "ui/verbs/verbs.h"
@@ -41,7 +41,7 @@ bool is_ledger(const std::string& folder) { return std::filesystem::exists(ledge
 pool::Work work_of(const VerifyAll& o) {
   pool::Work work;
   const bool anew = !o.rubric.empty() || !o.scenario.empty();
-  if (anew && o.mark) throw Error("--mark", msg("is given with a rubric or scenario"), msg("give either: --mark marks by the session's own"));
+  if (anew && o.mark) throw Error(Name{"--mark"}, msg("is given with a rubric or scenario"), msg("give either: --mark marks by the session's own"));
   const pool::What what = anew ? pool::What::regrade : o.mark ? pool::What::mark : pool::What::verify;
   if (is_ledger(o.target)) {
     work = ledger::filed_work({o.target}, what);
@@ -67,7 +67,7 @@ std::pair<std::size_t, std::size_t> parse_shard(const std::string& text) {
     return !word.empty() && wrong == std::errc() && end == word.data() + word.size();
   };
   if (slash == std::string::npos || !whole(text.substr(0, slash), shard) || !whole(text.substr(slash + 1), of) || shard < 1 || shard > of)
-    throw Error("--shard " + text, msg("is no shard"), msg("give its number and how many there are: 1/8 to 8/8"));
+    throw Error(Name{"--shard " + text}, msg("is no shard"), msg("give its number and how many there are: 1/8 to 8/8"));
   return {shard, of};
 }
 
@@ -79,13 +79,13 @@ void write_lines(const std::string& path, const std::vector<std::string>& lines)
 }
 
 int write_shard(const VerifyAll& o, const pool::Work& work) {
-  if (o.out.empty()) throw Error("--shard", msg("has no file for its part"), msg("name it by --out"));
+  if (o.out.empty()) throw Error(Name{"--shard"}, msg("has no file for its part"), msg("name it by --out"));
   const auto [shard, of] = parse_shard(o.shard);
   pool::Run run;
   run.threads = o.pool.threads;
   run.told = shown_progress();
   const std::size_t made = pool::make_shard(work, shard, of, o.out, run);
-  std::cout << "written: " << one_line(o.out) << ", " << made << (made == 1 ? " line" : " lines") << "\n";
+  say(msgn("written: {}, {} line", "written: {}, {} lines", static_cast<std::int64_t>(made), o.out, made));
   return 0;
 }
 
@@ -119,20 +119,19 @@ pool::Made merged(const VerifyAll& o, const pool::Work& work) {
   made.found = work.sessions.size() - made.missing.size();
   for (auto& line : parts.lines) made.lines.push_back(line ? std::move(*line) : std::string());
   for (const auto& s : parts.spent) made.spent += s;
-  for (const auto& r : parts.remarks) std::cerr << "cavum: notice: " << one_line(r) << "\n";
+  for (const auto& r : parts.remarks) say_error(msg("notice: {}", r));
   if (const std::string shards = missing_shards(made, o.merge.size()); !made.missing.empty() && !shards.empty())
-    std::cerr << fmt::format("cavum: {} of {} sessions have no line: the parts of {} are missing\n", made.missing.size(), work.sessions.size(),
-                             shards);
+    say_error(msg("{} of {} sessions have no line: the parts of {} are missing", made.missing.size(), work.sessions.size(), shards));
   for (std::size_t i = 0; i < made.missing.size() && i < k_named; ++i)
-    std::cerr << "cavum: " << one_line(work.sessions[made.missing[i]]) << ": is missing in the parts, or damaged there\n";
-  if (made.missing.size() > k_named) std::cerr << fmt::format("cavum: and {} more\n", made.missing.size() - k_named);
+    say_error(msg("{}: is missing in the parts, or damaged there", work.sessions[made.missing[i]]));
+  if (made.missing.size() > k_named) say_error(msg("and {} more", made.missing.size() - k_named));
   return made;
 }
 
 struct Sums {
   std::size_t sound = 0;
   std::int64_t ticks = 0;
-  std::vector<std::string> wrong;  ///< in words
+  std::vector<Message> wrong;
 };
 Sums sums_of(const pool::Made& made) {
   Sums sums;
@@ -142,9 +141,10 @@ Sums sums_of(const pool::Made& made) {
     sums.ticks += whole_in(line, "ticks");
     const json &verified = member_of(line, "verified"), &findings = member_of(line, "findings");
     if (line.contains("error"))
-      sums.wrong.push_back(text_in(line, "session") + ": " + text_in(line, "error"));
+      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), text_in(line, "error")));
     else if (verified.is_boolean() && !verified.get<bool>())
-      sums.wrong.push_back(text_in(line, "session") + ": " + (findings.empty() ? "does not hold" : findings[0].get<std::string>()));
+      sums.wrong.push_back(findings.empty() ? msg("{}: does not hold", text_in(line, "session"))
+                                            : msg("{}: {}", text_in(line, "session"), findings[0].get<std::string>()));
     else
       ++sums.sound;
   }
@@ -167,26 +167,24 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
     print_json(all);
     return sound ? 0 : 1;
   }
-  std::cout << one_line(o.target) << ": "
-            << (sound        ? "all hold"
-                : none_wrong ? "NOT COMPLETE"
-                             : "NOT ALL HOLD")
-            << ", " << sums.sound << " of " << work.sessions.size() << " sessions sound";
-  if (!made.missing.empty()) std::cout << fmt::format(", {} without a line", made.missing.size());
-  std::cout << "\n";
-  for (std::size_t i = 0; i < sums.wrong.size() && i < k_named; ++i) std::cout << "  - " << one_line(sums.wrong[i]) << "\n";
-  if (sums.wrong.size() > k_named) std::cout << "  - and " << sums.wrong.size() - k_named << " more, in the lines of --out\n";
+  List sum{{sound        ? msg("{}: all hold", o.target)
+            : none_wrong ? msg("{}: NOT COMPLETE", o.target)
+                         : msg("{}: NOT ALL HOLD", o.target),
+            msg("{} of {} sessions sound", sums.sound, work.sessions.size())},
+           false};
+  if (!made.missing.empty()) sum.items.push_back(msg("{} without a line", made.missing.size()));
+  say(msg("{}", sum));
+  for (std::size_t i = 0; i < sums.wrong.size() && i < k_named; ++i) say(msg("- {}", sums.wrong[i]), 2);
+  if (sums.wrong.size() > k_named) say(msg("- and {} more, in the lines of --out", sums.wrong.size() - k_named), 2);
   if (ledger != nullptr) {
-    for (const auto& f : ledger->findings) std::cout << "  - " << one_line(f) << "\n";
-    for (const auto& n : ledger->not_checked) std::cout << "  not checked: " << one_line(n) << "\n";
-    for (const auto& r : ledger->remarks) std::cout << "  (" << one_line(r) << ")\n";
+    for (const auto& f : ledger->findings) say(msg("- {}", f), 2);
+    for (const auto& n : ledger->not_checked) say(msg("not checked: {}", n), 2);
+    for (const auto& r : ledger->remarks) say(msg("({})", r), 2);
   }
   if (made.spent.core_s > 0)
-    std::cout << fmt::format("  {} s of exams in {} s of a core: {} times real time", fixed(session_s, 0), fixed(made.spent.core_s, 1),
-                             fixed(real_time, 0));
-  if (efficiency > 0) std::cout << fmt::format("; {} s by {} at once, {} of it work", fixed(made.wall_s, 1), made.workers, fixed(efficiency, 2));
-  if (made.spent.core_s > 0) std::cout << "\n";
-  if (!o.out.empty()) std::cout << "written: " << one_line(o.out) << "\n";
+    say(msg("{} of exams in {} of a core: {} times real time", as_s(session_s, 0), as_s(made.spent.core_s, 1), as_number(real_time, 0)), 2);
+  if (efficiency > 0) say(msg("{} by {} at once, {} of it work", as_s(made.wall_s, 1), made.workers, as_number(efficiency, 2)), 2);
+  if (!o.out.empty()) say(msg("written: {}", o.out));
   return sound ? 0 : 1;
 }
 
@@ -204,8 +202,8 @@ void require_apart(const VerifyAll& o, const pool::Work& work) {
   for (const auto& [option, path] : {std::pair{"--out", o.out}, std::pair{"--work", o.pool.work}}) {
     if (path.empty()) continue;
     const std::string named = fmt::format("{} {}", option, path);
-    if (is_ledger(o.target) && within(path)) throw Error(named, msg("lies in the ledger that is read"), msg("write outside of it"));
-    if (path.ends_with(".cavum")) throw Error(named, msg("is a name of a recording"), msg("write to a file with another ending"));
+    if (is_ledger(o.target) && within(path)) throw Error(Name{named}, msg("lies in the ledger that is read"), msg("write outside of it"));
+    if (path.ends_with(".cavum")) throw Error(Name{named}, msg("is a name of a recording"), msg("write to a file with another ending"));
     bool taken = is(path, o.target);
     for (const auto& r : read) taken = taken || is(path, r);
     if (fs::exists(path, none))
@@ -213,7 +211,7 @@ void require_apart(const VerifyAll& o, const pool::Work& work) {
         const fs::path file = fs::path(work.folder) / session;
         taken = taken || is(path, file.string()) || (fs::is_directory(path, none) && is(path, file.parent_path().string()));
       }
-    if (taken) throw Error(named, msg("is also what is read"), msg("write to another file or folder"));
+    if (taken) throw Error(Name{named}, msg("is also what is read"), msg("write to another file or folder"));
   }
   require_own_places({{"--out " + o.out, o.out}}, {});
 }
@@ -223,7 +221,7 @@ int verify_all(const VerifyAll& o) {
     pool::slurm_task(o.task, o.attempt, o.target);
     return 0;
   }
-  if (!std::filesystem::is_directory(o.target)) throw Error(o.target, msg("is no folder"), msg("name a folder of sessions, or a ledger"));
+  if (!std::filesystem::is_directory(o.target)) throw Error(Name{o.target}, msg("is no folder"), msg("name a folder of sessions, or a ledger"));
   pool::Work work = work_of(o);
   require_apart(o, work);
   if (!o.shard.empty()) return write_shard(o, work);
@@ -245,19 +243,19 @@ int verify_all(const VerifyAll& o) {
 
 void add_verify_all_verb(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<VerifyAll>();
-  auto* v = app.add_subcommand("verify-all", "Simulate and mark many sessions again, on all cores, a Slurm cluster, or in shards of a CI");
-  v->add_option("target", o->target, "a folder of sessions, or a ledger")->required();
+  auto* v = app.add_subcommand("verify-all", tr("Simulate and mark many sessions again, on all cores, a Slurm cluster, or in shards of a CI"));
+  v->add_option("target", o->target, tr("a folder of sessions, or a ledger"))->required();
   add_pool_options(*v, o->pool);
-  v->add_flag("--mark", o->mark, "mark only, without simulating");
-  v->add_option("--rubric", o->rubric, "mark only, by this rubric (TOML)");
-  v->add_option("--scenario", o->scenario, "mark only, by this corrected scenario (TOML)");
-  v->add_flag("--another-task", o->another_task, "let --scenario be that of another task than the sessions'");
-  auto* shard = v->add_option("--shard", o->shard, "make a part alone, as 3/8, and write it to --out");
-  v->add_option("--merge", o->merge, "put parts together instead, and say what is missing")->excludes(shard);
-  v->add_option("--out", o->out, "write a line of JSON for each session, in their order");
-  v->add_option("--task", o->task, "what a task of Slurm does")->group("");
-  v->add_option("--attempt", o->attempt, "of a task")->group("");
-  v->add_flag("--json", o->as_json, "one JSON object on stdout");
+  v->add_flag("--mark", o->mark, tr("mark only, without simulating"));
+  v->add_option("--rubric", o->rubric, tr("mark only, by this rubric (TOML)"));
+  v->add_option("--scenario", o->scenario, tr("mark only, by this corrected scenario (TOML)"));
+  v->add_flag("--another-task", o->another_task, tr("let --scenario be that of another task than the sessions'"));
+  auto* shard = v->add_option("--shard", o->shard, tr("make a part alone, as 3/8, and write it to --out"));
+  v->add_option("--merge", o->merge, tr("put parts together instead, and say what is missing"))->excludes(shard);
+  v->add_option("--out", o->out, tr("write a line of JSON for each session, in their order"));
+  v->add_option("--task", o->task, tr("what a task of Slurm does"))->group("");
+  v->add_option("--attempt", o->attempt, tr("of a task"))->group("");
+  v->add_flag("--json", o->as_json, tr("one JSON object on stdout"));
   v->callback([o, &exit_code] { exit_code = verify_all(*o); });
 }
 

@@ -66,7 +66,7 @@ TEST_F(ToothVerbs, ANeighbourAndGumAreSetBesideATooth) {
   EXPECT_LT(between.at("contact").at("distal").at("at_mm")[0], between.at("contact").at("mesial").at("at_mm")[0]);
   for (const char* side : {"mesial", "distal"}) EXPECT_NEAR(between.at("contact").at(side).at("gap_mm").get<double>(), 0.2, 0.05) << side;
   const std::string printed = run(verb + " --mesial " + path("n.cvt") + " --out " + path("row.cvt")).out;
-  EXPECT_NE(printed.find("mesial  touches at ["), std::string::npos) << printed;
+  EXPECT_NE(printed.find("mesial: touches at ["), std::string::npos) << printed;
   EXPECT_EQ(printed.find("gingiva"), std::string::npos) << "no gum unless it is asked for";
 
   const std::string out = " --out " + path("x.cvt");
@@ -97,8 +97,8 @@ TEST_F(ToothVerbs, ImportSaysWhichToothItIsAndRefusesAnother) {
   EXPECT_EQ(confirmed.exit_code, 0);
   EXPECT_NE(confirmed.err.find("confirmed against what was measured (class)"), std::string::npos) << confirmed.err;
   const auto info = run("tooth info " + path("w.cvt"));
-  EXPECT_NE(info.out.find("  notice  confirmed against what was measured (class)"), std::string::npos) << info.out;
-  EXPECT_NE(info.out.find("  guess   class molar"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("  notice: confirmed against what was measured (class)"), std::string::npos) << info.out;
+  EXPECT_NE(info.out.find("  guess: class molar"), std::string::npos) << info.out;
   EXPECT_EQ(run(meshes + " --tooth-number 11 --confirm all --out " + path("w.cvt")).exit_code, 2) << "by name, one by one";
   EXPECT_EQ(run(meshes + " --tooth-number 36 --universal 19 --out " + path("b.cvt")).exit_code, 2);
   EXPECT_EQ(run(meshes + " --units in --out " + path("u.cvt")).exit_code, 2);

@@ -111,7 +111,7 @@ TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
   const ForceModel answer = parse_force_model(read_text_file(k_data + "measured/hunt/answer/model.toml"), "answer");
   ASSERT_EQ(answer.term_values.size(), 1u);
   const Explanation e = explain(r);
-  ASSERT_EQ(e.causes.size(), 1u) << to_text(e);
+  ASSERT_EQ(e.causes.size(), 1u) << english_text(to_text(e));
   EXPECT_EQ(e.verdict, "named");
   EXPECT_EQ(mechanism_at(e.causes[0].term.mechanism).name, answer.term_values[0].kind);
   const auto& [name, hidden] = answer.term_values[0].parameters.at(0);
@@ -149,7 +149,7 @@ TEST(RecordRig, WithNothingHiddenItsRecordingIsCleanAndItsKIsThatOfTheModel) {
   Recording r = parse_recording(record_csv(made), "recording.csv");
   r.rig = parse_rig(record_rig_toml(made), "rig.toml");
   const Explanation e = explain(r);
-  EXPECT_EQ(e.verdict, "clean") << to_text(e);
+  EXPECT_EQ(e.verdict, "clean") << english_text(to_text(e));
   EXPECT_NEAR(e.base.k_n_per_mm, 0.8, 0.01);
 }
 

@@ -31,7 +31,7 @@ TEST(Explain, ARecordingOfTheLawItselfIsClean) {
     made::Options o;
     o.quantum_mm = quantum;
     const Explanation e = explain(made::recording(o));
-    EXPECT_EQ(e.verdict, "clean") << quantum << "\n" << to_text(e);
+    EXPECT_EQ(e.verdict, "clean") << quantum << "\n" << english_text(to_text(e));
     EXPECT_NEAR(e.base.k_n_per_mm, made::k_k, 0.02);
     EXPECT_NEAR(e.gain.noise_floor_n, 0.02, 0.003);
   }
@@ -41,7 +41,7 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   made::Options o;
   const Recording r = made::recording(o, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); });
   const Explanation e = explain(r);
-  ASSERT_EQ(e.verdict, "named") << to_text(e);
+  ASSERT_EQ(e.verdict, "named") << english_text(to_text(e));
   EXPECT_EQ(first_cause(e), "coulomb_friction");
   EXPECT_NEAR(parameter(e, "fc_n").value, 0.03, 0.003);
   EXPECT_LT(parameter(e, "fc_n").low, 0.03);
@@ -60,7 +60,7 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
 TEST(Explain, ABiasStaysInTheMeasurementAndIsTakenOff) {
   const Recording r = made::recording({}, [](const made::Row&) { return -0.02; });
   const Explanation e = explain(r);
-  ASSERT_EQ(first_cause(e), "bias") << to_text(e);
+  ASSERT_EQ(first_cause(e), "bias") << english_text(to_text(e));
   EXPECT_NEAR(parameter(e, "bias_n").value, -0.02, 0.002);
   const ForceModel extended = parse_force_model(extended_model_toml(e, paper()), "extended.toml");
   EXPECT_TRUE(extended.terms.empty());
@@ -84,8 +84,8 @@ TEST(Explain, ASurfaceThatLiesElsewhereInEachSessionIsNamedWithEachOffset) {
     made::Options o;
     o.quantum_mm = quantum;
     const Explanation e = explain(made::recording(o, surface_off_by(delta)));
-    ASSERT_EQ(first_cause(e), "contact_offset") << quantum << to_text(e);
-    EXPECT_EQ(e.verdict, "named") << to_text(e);
+    ASSERT_EQ(first_cause(e), "contact_offset") << quantum << english_text(to_text(e));
+    EXPECT_EQ(e.verdict, "named") << english_text(to_text(e));
     for (std::size_t s = 0; s < delta.size(); ++s) {
       const Interval& found = parameter(e, "delta_" + std::to_string(s + 1) + "_mm");
       EXPECT_NEAR(found.value, delta[s], 0.01) << s;
@@ -103,7 +103,7 @@ TEST(Explain, AnOffsetOfTheForceInEachSessionIsNotTakenForOneOfTheSurface) {
     if (q.first) ++s;
     return offset_n[static_cast<std::size_t>(s)];  // in air too
   }));
-  for (const auto& c : e.causes) EXPECT_STRNE(mechanism_at(c.term.mechanism).name, "contact_offset") << to_text(e);
+  for (const auto& c : e.causes) EXPECT_STRNE(mechanism_at(c.term.mechanism).name, "contact_offset") << english_text(to_text(e));
 }
 
 TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
@@ -115,7 +115,7 @@ TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
   r.f_n += 0.02 * humidity;
   r.columns.emplace_back("humidity", humidity);
   const Explanation e = explain(r);
-  EXPECT_EQ(e.verdict, "unexplained") << to_text(e);
+  EXPECT_EQ(e.verdict, "unexplained") << english_text(to_text(e));
   ASSERT_TRUE(e.unexplained);
   EXPECT_EQ(e.unexplained->variable, "humidity");
 }
@@ -125,7 +125,7 @@ TEST(Explain, OneDirectionNeverNamesFrictionBiasOrEdgeForceAlone) {
   o.one_way = true;
   for (int kind = 0; kind < 3; ++kind) {
     const Explanation e = explain(made::recording(o, [&](const made::Row& q) { return kind == 2 && q.x_mm <= 0 ? 0.0 : 0.26; }));
-    EXPECT_TRUE(e.verdict == "alias" || e.verdict == "not_testable") << to_text(e);
+    EXPECT_TRUE(e.verdict == "alias" || e.verdict == "not_testable") << english_text(to_text(e));
     EXPECT_FALSE(e.next_experiment.empty());
   }
 }
@@ -137,7 +137,7 @@ TEST(Explain, ALineKeepsItsAmplitudeWhenEverySessionHasItsPhase) {
     return q.x_mm > 0 ? 0.03 * std::sin(2 * 3.14159265358979 * 7.3 * q.t_s + phase) : 0.0;
   });
   const Explanation e = explain(r);
-  ASSERT_EQ(first_cause(e), "chatter") << to_text(e);
+  ASSERT_EQ(first_cause(e), "chatter") << english_text(to_text(e));
   EXPECT_EQ(e.causes.size(), 1u);
   EXPECT_NEAR(parameter(e, "amplitude_n").value, 0.03, 0.002);
   EXPECT_NEAR(parameter(e, "frequency_hz").value, 7.3, 0.01);
@@ -150,7 +150,7 @@ TEST(Explain, AnIntervalHoldsTheTruthOfAStiffnessThatGrows) {
     return std::max(0.0, made::k_k * std::pow(q.x_mm, 1.6) + made::k_c * q.v_mm_s) - q.base_n;  // neither of the two laws pulls
   });
   const Explanation e = explain(r);
-  ASSERT_EQ(first_cause(e), "nonlinear_stiffness") << to_text(e);
+  ASSERT_EQ(first_cause(e), "nonlinear_stiffness") << english_text(to_text(e));
   EXPECT_LT(parameter(e, "m").low, 1.6);
   EXPECT_GT(parameter(e, "m").high, 1.6);
   EXPECT_LT(parameter(e, "m").high - parameter(e, "m").low, 0.2);
@@ -160,7 +160,7 @@ TEST(Explain, WithoutSurrogatesAPlainRuleAnswersAndSaysSo) {
   ExplainOptions plain;
   plain.surrogates = 0;
   const Explanation e = explain(made::recording({}, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); }), plain);
-  EXPECT_EQ(first_cause(e), "coulomb_friction") << to_text(e);
+  EXPECT_EQ(first_cause(e), "coulomb_friction") << english_text(to_text(e));
   ASSERT_FALSE(e.notes.empty());
   EXPECT_NE(e.notes.front().find("without surrogates"), std::string::npos);
 }
@@ -186,7 +186,7 @@ TEST(Explain, MeatUnderTheIndenterRelaxesWithTwoTimeConstants) {
   const std::string path = std::string(CAVUM_SOURCE_DIR) + "/../shared/measured/zwick_relaxation/recording.csv";
   if (!std::filesystem::exists(path)) GTEST_SKIP() << path << " is not there";
   const Explanation e = explain(read_recording(path));
-  ASSERT_EQ(first_cause(e), "relaxation") << to_text(e);
+  ASSERT_EQ(first_cause(e), "relaxation") << english_text(to_text(e));
   EXPECT_GT(parameter(e, "tau1_s").value, 0.2);
   EXPECT_LT(parameter(e, "tau1_s").value, 0.8);
   EXPECT_GT(parameter(e, "tau2_s").value, 2.5);

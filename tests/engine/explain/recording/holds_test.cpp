@@ -105,7 +105,7 @@ TEST(Holds, ThatRepeatAreNoCause) {
     const Explanation e = explain(made::recording(coarse(new_seed("one programme"), true)));
     if (e.verdict == "clean") continue;
     ++named;
-    std::cout << to_text(e);
+    std::cout << english_text(to_text(e));
   }
   EXPECT_LE(named, 1);
 }
@@ -121,7 +121,7 @@ TEST(Holds, ThatRepeatDoNotHideFriction) {
     const bool told = !e.causes.empty() && (is_friction(mechanism_at(e.causes.front().term.mechanism).name) ||
                                             std::any_of(e.causes.front().aliases.begin(), e.causes.front().aliases.end(), is_friction));
     found += told ? 1 : 0;
-    if (!told) std::cout << to_text(e);
+    if (!told) std::cout << english_text(to_text(e));
   }
   EXPECT_GE(found, 2);
 }

@@ -59,8 +59,8 @@ TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) 
   EXPECT_LE(r.relative_k.maxCoeff(), 1.0 + 1e-12);
   EXPECT_LT(r.relative_k.minCoeff(), 0.9) << "the pulp resists nothing, and the motion reaches it";
   const Explanation e = explain(r);
-  ASSERT_FALSE(e.causes.empty()) << to_text(e);
-  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << to_text(e);
+  ASSERT_FALSE(e.causes.empty()) << english_text(to_text(e));
+  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << english_text(to_text(e));
   EXPECT_NEAR(e.causes.front().parameters.at(0).second.value, 0.2, 0.03);
   EXPECT_NEAR(e.base.k_n_per_mm, 0.8, 0.06);
 }
@@ -91,8 +91,8 @@ TEST(SessionRecording, TheFrictionOfTheSessionsOwnLawIsNamed) {
   }
   recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
   const Explanation e = explain(read_session_recording(path));
-  ASSERT_FALSE(e.causes.empty()) << to_text(e);
-  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << to_text(e);
+  ASSERT_FALSE(e.causes.empty()) << english_text(to_text(e));
+  EXPECT_EQ(std::string(mechanism_at(e.causes.front().term.mechanism).name), "coulomb_friction") << english_text(to_text(e));
   EXPECT_NEAR(e.causes.front().parameters.at(0).second.value, 0.03, 0.003);
 }
 

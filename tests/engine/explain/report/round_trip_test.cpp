@@ -112,11 +112,12 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   const Case c = cases()[GetParam()];
   const Recording r = with(c, {.dt_s = 0.04});  // half the rows, half the time
   const Explanation e = explain(r);
-  ASSERT_EQ(e.causes.size(), 1u) << to_text(e);
+  ASSERT_EQ(e.causes.size(), 1u) << english_text(to_text(e));
   const std::string found = mechanism_at(e.causes[0].term.mechanism).name;
   const auto& aliases = e.causes[0].aliases;
-  EXPECT_TRUE(found == c.name || std::find(aliases.begin(), aliases.end(), c.name) != aliases.end()) << to_text(e);
-  EXPECT_TRUE(std::none_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == found; })) << to_text(e);
+  EXPECT_TRUE(found == c.name || std::find(aliases.begin(), aliases.end(), c.name) != aliases.end()) << english_text(to_text(e));
+  EXPECT_TRUE(std::none_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == found; }))
+      << english_text(to_text(e));
 
   const std::string toml = extended_model_toml(e, paper());
   const ForceModel extended = parse_force_model(toml, "extended.toml");
@@ -132,7 +133,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   ExplainOptions on_top;
   on_top.fixed_n = &added;
   const Explanation rest = explain(again, on_top);
-  EXPECT_EQ(rest.verdict, "clean") << toml << to_text(rest);
+  EXPECT_EQ(rest.verdict, "clean") << toml << english_text(to_text(rest));
 
   // written once more, nothing is lost
   const ForceModel twice = parse_force_model(extended_model_toml(rest, extended), "twice.toml");
