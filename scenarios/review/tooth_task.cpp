@@ -355,7 +355,7 @@ std::string language_table(const Scenario& s, const Message& title, const Messag
   std::string lines;
   const auto add = [&](const std::string& key, const Message& english) {
     std::ostringstream text;
-    text << toml::value<std::string>(language.say(english));
+    text << toml::toml_formatter(toml::value<std::string>(language.say(english)), toml::format_flags::allow_unicode_strings);
     lines += fmt::format("{} = {}\n", key, text.str());
   };
   const auto add_known = [&](const std::string& key, const std::string& english) {
