@@ -12,7 +12,7 @@ namespace cavum {
 
 /// Where a check stands, for the screen.
 struct ArmProgress {
-  std::string words;   ///< what is done, or what the person shall do
+  Message words;       ///< what is done, or what the person shall do
   double share = 0.0;  ///< of the whole, 0..1
 };
 
