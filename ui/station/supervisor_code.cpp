@@ -16,7 +16,7 @@ namespace {
 constexpr char k_code_head[] = "cavum supervisor code 1 (Argon2id): ";
 
 void require_sodium() {
-  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("cannot be used on this computer"), msg("install it again"));
+  if (sodium_init() < 0) throw Error(Name{"libsodium"}, msg("cannot be used on this computer"), msg("install it again"));
 }
 
 }  // namespace
