@@ -17,7 +17,7 @@ Message figure(double v, int digits) { return msg("{}", as_number(v, digits)); }
 
 /// Cells of every table that say what was pressed on: k, c and delay.
 std::vector<Message> wall_cells(const PressCell& c) { return {figure(c.k_n_per_mm, 2), Name{damping_name(c.damping)}, msg("{}", c.delay_ticks)}; }
-std::vector<Message> wall_heads() { return {msg("k, N/mm"), msg("c"), msg("delay")}; }
+std::vector<Message> wall_heads() { return {msg("k, N/mm"), msg("c"), msg("delay, ticks")}; }
 std::vector<Message> joined(std::vector<Message> first, const std::vector<Message>& more) {
   first.insert(first.end(), more.begin(), more.end());
   return first;
@@ -63,8 +63,8 @@ void add_walls(const PressResult& r, Lines& out) {
     }
   }
   out.add(msg("The worst of all hands and loads, ours and explicit (k X + c V):"));
-  out.row(joined(wall_heads(), {msg("ours: sd, N"), msg("given out, mJ"), msg("peak, N"), msg("out of"), msg("explicit: sd, N"), msg("given out, mJ"),
-                                msg("peak, N"), msg("out of")}),
+  out.row(joined(wall_heads(), {msg("ours: sd, N"), msg("given out, mJ"), msg("peak, N"), msg("miss a limit"), msg("explicit: sd, N"),
+                                msg("given out, mJ"), msg("peak, N"), msg("miss a limit")}),
           2);
   for (auto& cells : forces) out.row(std::move(cells), 2);
   if (o.contact_mm_s.empty()) return;
@@ -92,7 +92,7 @@ void add_cells(const PressResult& r, Lines& out) {
     out.row(joined(wall_cells(row.cell),
                    {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1), figure(row.ours.mean_n, 3), figure(row.ours.sd_n, 4),
                     figure(given_out_mj(row.ours), 4), figure(row.explicit_voigt.mean_n, 3), figure(row.explicit_voigt.sd_n, 4),
-                    figure(given_out_mj(row.explicit_voigt), 4), row.ours.steady && row.ours.passive ? Message() : msg("OUT")}),
+                    figure(given_out_mj(row.explicit_voigt), 4), row.ours.steady && row.ours.passive ? Message() : msg("misses a limit")}),
             2);
   out.gap();
   out.row(joined(wall_heads(), {msg("hand, N/m"), msg("mm/s"), msg("bounces: ours"), msg("explicit"), msg("peak, N: ours"), msg("explicit")}), 2);

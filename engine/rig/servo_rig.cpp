@@ -102,8 +102,8 @@ Lines to_text(const ServoRigResult& r) {
   const auto times = [&](const Message& what, const Lateness& l) {
     out.row({what, msg("{}", as_number(l.mean_us(), 1)), msg("{}", as_number(l.quantile_us(0.99), 0)), msg("{}", as_number(l.worst_us(), 0))}, 2);
   };
-  times(msg("late"), s.lateness);
-  times(msg("work"), s.work);
+  times(msg("lateness of a tick"), s.lateness);
+  times(msg("work of a tick"), s.work);
   out.add(msgn("force in contact: mean {}, peak {}; {} leaf removed", "force in contact: mean {}, peak {}; {} leaves removed", r.removed_leaves,
                as_n(r.mean_force_n, 2), as_n(r.peak_force_n, 2), r.removed_leaves),
           2);
@@ -119,7 +119,7 @@ Lines to_text(const ServoRigResult& r) {
     if (n == 0) continue;
     const double share = static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(1, s.ticks));
     const std::string bar(static_cast<std::size_t>(std::ceil(40 * share)), '#');
-    out.row({i < Lateness::k_edges_us.size() ? msg("{}", Lateness::k_edges_us[i]) : msg("more"), msg("{}", n), Name{bar}}, 2);
+    out.row({i < Lateness::k_edges_us.size() ? msg("{}", Lateness::k_edges_us[i]) : msg("later"), msg("{}", n), Name{bar}}, 2);
   }
   return out;
 }

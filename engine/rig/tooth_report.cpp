@@ -41,7 +41,7 @@ Lines to_text(const ToothRigResult& r) {
                as_mm(o.at_mm->first, 2), as_mm(o.at_mm->second, 2), std::to_string(o.seed)));
   out.add(load_cell_words(o.machine));
   out.gap();
-  out.row({msg("tissue before the tip"), msg("from"), msg("to"), msg("mean force")}, 2);
+  out.row({msg("tissue before the tip"), msg("begins"), msg("ends"), msg("mean force")}, 2);
   for (const auto& l : r.layers)
     out.row({msg("{}", Term{l.tissue}), msg("{}", as_s(l.from_s.mean, 2, l.from_s.sd)), msg("{}", as_s(l.to_s.mean, 2, l.to_s.sd)),
              msg("{}", as_n(l.force_n.mean, 3, l.force_n.sd))},
