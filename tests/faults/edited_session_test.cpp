@@ -38,8 +38,8 @@ class EditedSession : public testing::Test {
   void expect_finding(const VerifyReport& report, const std::vector<std::string>& words) {
     std::string all;
     for (const auto& f : report.findings) {
-      all += "  " + f + "\n";
-      if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return text_of(f).find(w) != std::string::npos; })) return;
+      all += "  " + english_text(f) + "\n";
+      if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return english_text(f).find(w) != std::string::npos; })) return;
     }
     ADD_FAILURE() << "no finding with '" << words.front() << "' in\n" << all;
   }

@@ -16,7 +16,7 @@ TOPS = ("engine", "scenarios", "grading", "ui")
 # what stands in a folder and below it, unless a folder further down says otherwise
 NAMESPACES = {
     "engine": "cavum", "engine/explain": "cavum::explain", "scenarios": "cavum::scenarios", "grading": "cavum::grading", "grading/ledger": "cavum::ledger",
-    "grading/cohort": "cavum::cohort", "grading/pool": "cavum::pool", "ui": "cavum::ui", "ui/report": "cavum::report", "ui/station": "cavum::station", "ui/office": "cavum::office",
+    "grading/cohort": "cavum::cohort", "grading/pool": "cavum::pool", "ui": "cavum::ui", "ui/language": "cavum", "ui/report": "cavum::report", "ui/station": "cavum::station", "ui/office": "cavum::office",
 }
 PROGRAMS = {"ui/verbs/main.cpp", "ui/office/routes_ts.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
 # rooms that some builds leave out; their sources are then nobody's

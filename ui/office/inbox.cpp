@@ -79,6 +79,40 @@ Message with_place_as(const Message& message, const std::string& place, const Me
   return {message.english(), message.plural(), message.count(), std::move(values)};
 }
 
+Arriving::Arriving(const std::string& folder, std::string sha256)
+    : folder_(folder), sha256_(std::move(sha256)), path_(temporary_name_beside(folder + "/" + sha256_ + ".cavum")) {
+  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
+  if (file_ < 0) throw Error(folder_, msg("takes no file"), msg("make room on the disk"));
+  crypto_hash_sha256_init(&hash_);
+}
+
+Arriving::~Arriving() {
+  if (file_ >= 0) ::close(file_);
+  if (!path_.empty()) ::unlink(path_.c_str());
+}
+
+void Arriving::take(std::string_view part) {
+  crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
+  while (!part.empty() && !refused_) {
+    const ssize_t written = ::write(file_, part.data(), part.size());
+    if (written > 0)
+      part.remove_prefix(static_cast<std::size_t>(written));
+    else if (written == 0 || errno != EINTR)
+      refused_ = true;
+  }
+}
+
+void Arriving::keep() {
+  Sha256 hash{};
+  crypto_hash_sha256_final(&hash_, hash.data());
+  if (to_hex(hash) != sha256_) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
+  if (refused_ || ::fsync(file_) != 0) throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), 0);
+  ::close(file_);
+  file_ = -1;
+  // the same exam sent twice at once: either file is it
+  static_cast<void>(put_in_place(path_, folder_ + "/" + sha256_ + ".cavum"));
+}
+
 Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, ledger::FilingOptions options, std::function<void()> filed)
     : folder_(std::move(folder)), ledger_folder_(std::move(ledger_folder)), school_(school), options_(options), filed_(std::move(filed)) {
   make_private_folder(folder_ + "/refused");

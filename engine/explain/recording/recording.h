@@ -38,8 +38,8 @@ struct Rig {
 struct Reading {
   TableForm form;
   ColumnPlan columns;
-  Message time_words;  ///< "numbers × 0.001 s", "date stamps, from the first row"
-  bool stamped = false;    ///< times are stamps, not numbers
+  Message time_words;    ///< "numbers × 0.001 s", "date stamps, from the first row"
+  bool stamped = false;  ///< times are stamps, not numbers
   std::optional<double> surface_mm, lever_mm;
 };
 

@@ -104,8 +104,8 @@ Lines to_text(const Explanation& e) {
   for (const auto& c : e.causes) {
     const Mechanism& m = mechanism_of(c);
     out.gap();
-    out.add(
-        msg("cause: {} ({}), {} rms, p = {}", m.name, cavum::Term{m.words}, as_n(c.effect_n, 4), as_number(c.p_value, c.p_value < 0.001 ? k_as_needed : 3)));
+    out.add(msg("cause: {} ({}), {} rms, p = {}", m.name, cavum::Term{m.words}, as_n(c.effect_n, 4),
+                as_number(c.p_value, c.p_value < 0.001 ? k_as_needed : 3)));
     out.add(msg("force {}", cavum::Term{m.equation}), 2);
     const Number sure = as_percent(100.0 * c.probability);
     out.add(c.aliases.empty() ? msg("{}: {}", probability_words(c.probability), sure)

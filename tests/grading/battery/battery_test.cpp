@@ -181,7 +181,7 @@ Result with(double points, Verdict verdict, bool critical, double bound = 0) {
 TEST(GrowingErrors, RiseWithinTheBoundIsNoneAndPassingAfterFailingIsAMistake) {
   scenarios::Scenario s;
   s.path = "s.toml";
-  const Ladder ladder{"deeper", "the floor too deep", "mm", {0.1, 0.5, 1}, {}};
+  const Ladder ladder{"deeper", msg("the floor too deep"), Unit::mm, {0.1, 0.5, 1}, {}};
   const Result honest = with(100, Verdict::pass, false);
   EXPECT_TRUE(
       judge_growth(s, ladder, honest, {with(90, Verdict::pass, false), with(50, Verdict::fail, true), with(20, Verdict::fail, true)}).empty());

@@ -112,7 +112,7 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   const auto again = class_tooth(ledger::read_registry(content), school.places(), "block_cavity");
   EXPECT_EQ(again->map->sessions(), 2u);
   ASSERT_EQ(again->findings.size(), 1u);
-  EXPECT_NE(text_of(again->findings[0]).find("was changed since it was filed"), std::string::npos) << again->findings[0];
+  EXPECT_NE(english_text(again->findings[0]).find("was changed since it was filed"), std::string::npos) << again->findings[0];
 }
 
 }  // namespace

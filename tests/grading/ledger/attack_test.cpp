@@ -366,7 +366,7 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   const SessionExplanation open = explain_session(cut, "");
   EXPECT_FALSE(open.holds);
   EXPECT_TRUE(open.interrupted);
-  EXPECT_NE(to_text(open).find("INTERRUPTED"), std::string::npos);
+  EXPECT_NE(english_text(to_text(open)).find("INTERRUPTED"), std::string::npos);
   close_again(cut);
   const Filing f = file(cut);
   EXPECT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);

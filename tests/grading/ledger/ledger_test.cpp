@@ -360,7 +360,7 @@ LedgerCheck check_all(const School& school) {
   return check;
 }
 bool says(const std::vector<Message>& lines, const std::string& words) {
-  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return text_of(l).find(words) != std::string::npos; });
+  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return english_text(l).find(words) != std::string::npos; });
 }
 
 TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
@@ -465,8 +465,8 @@ TEST(Receipt, ThatIsNoneIsNamedInOurWords) {
   for (const json& none : {json::parse("not json", nullptr, false), json("text"), json::array(), json::object(), json{{"ledger", 7}}}) {
     const auto findings = check_receipt(none, "", nullptr);
     ASSERT_EQ(findings.size(), 1u);
-    EXPECT_TRUE(findings[0].starts_with("is no receipt")) << findings[0];
-    EXPECT_EQ(text_of(findings[0]).find("json.exception"), std::string::npos) << findings[0];
+    EXPECT_TRUE(english_text(findings[0]).starts_with("is no receipt")) << english_text(findings[0]);
+    EXPECT_EQ(english_text(findings[0]).find("json.exception"), std::string::npos) << findings[0];
   }
 }
 

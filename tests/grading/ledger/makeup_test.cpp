@@ -213,7 +213,7 @@ TEST_F(MakeupSitting, OfTwoSittingsOneIsShownAlsoWhereAnEntryNamesBoth) {
   EXPECT_EQ(r.sessions[0].shown_seq, 0u);
   EXPECT_EQ(r.sessions[1].shown_seq, *b.seq);
   ASSERT_EQ(r.remarks.size(), 1u);
-  EXPECT_NE(text_of(r.remarks[0]).find("counts in its place"), std::string::npos);
+  EXPECT_NE(english_text(r.remarks[0]).find("counts in its place"), std::string::npos);
 }
 
 }  // namespace

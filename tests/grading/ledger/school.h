@@ -115,7 +115,7 @@ inline void expect_finding(const std::vector<Message>& findings, const std::vect
   std::string all;
   for (const auto& f : findings) {
     all += "  " + f + "\n";
-    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return text_of(f).find(w) != std::string::npos; })) return;
+    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return english_text(f).find(w) != std::string::npos; })) return;
   }
   ADD_FAILURE() << "no finding with '" << words.front() << "' among\n" << all;
 }

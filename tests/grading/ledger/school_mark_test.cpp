@@ -63,7 +63,7 @@ class SchoolMarks : public testing::Test {
     Ledger ledger = school_.ledger();
     return file_session(ledger, path, options);
   }
-  std::vector<std::string> refused(const std::string& path) {
+  std::vector<Message> refused(const std::string& path) {
     const Filing f = file(path);
     EXPECT_FALSE(f.seq);
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
@@ -149,7 +149,8 @@ TEST_F(SchoolMarks, AnEndThatHidesWhatCameAfterIt) {
                  {"ended at tick 3000", "recorded on to tick"});
 }
 TEST_F(SchoolMarks, WhateverMovedItButAHand) {
-  for (const char* kind : {"operator", "motion_file", "practice", "pointer", "program"}) {
+  for (const SourceKind kind :
+       {SourceKind::simulated_operator, SourceKind::motion_file, SourceKind::practice, SourceKind::pointer, SourceKind::program}) {
     const std::string path = forged(school_, session_, {.setup = [&](SessionSetup& s) { s.source = {kind, "somewhat"}; }});
     expect_finding(refused(path), {"no candidate's hand moved this exam", "somewhat"});
     const AtStation here(school_.file("station"));
@@ -197,7 +198,8 @@ TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
   const AtStation second(school_.file("second"));
   const SigningKey key = load_station_key(station_key_path());
   ledger.refresh();
-  static_cast<void>(enrol_station(ledger, station_request(key, ledger.content().public_key, {{"device", "falcon", "F7"}}, code), 0, "request"));
+  static_cast<void>(
+      enrol_station(ledger, station_request(key, ledger.content().public_key, {{SourceKind::device, "falcon", "F7"}}, code), 0, "request"));
   expect_finding(file_session(ledger, school_.sit(ticket)).findings, {"stylus emulated stylus", "E1", "none that the station was enrolled with"});
 }
 TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
@@ -287,11 +289,13 @@ TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
   static_cast<void>(enrol_station(ledger, station_request(second, us, {}, first), now() + 48 * k_hour_ns, "request"));
   EXPECT_EQ(problem(second, now(), now()), "");
   EXPECT_EQ(problem(first, now(), now()), "") << "what was sat under the old key may still come in";
-  EXPECT_NE(problem(first, now(), now() + 25 * k_hour_ns).find("was replaced"), std::string::npos);
-  EXPECT_NE(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns).find("ran out"), std::string::npos);
-  EXPECT_NE(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns).find("ran out"), std::string::npos) << "a clock that was set back";
+  EXPECT_NE(english_text(problem(first, now(), now() + 25 * k_hour_ns)).find("was replaced"), std::string::npos);
+  EXPECT_NE(english_text(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns)).find("ran out"), std::string::npos);
+  EXPECT_NE(english_text(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns)).find("ran out"), std::string::npos)
+      << "a clock that was set back";
   static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "stolen"));
-  EXPECT_NE(problem(second, now() - k_hour_ns, now() + 1'000'000'000).find("revoked"), std::string::npos) << "whenever it says to have been sat";
+  EXPECT_NE(english_text(problem(second, now() - k_hour_ns, now() + 1'000'000'000)).find("revoked"), std::string::npos)
+      << "whenever it says to have been sat";
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "again")), Error);
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, std::string(64, 'a'), "unknown")), Error);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());

@@ -130,8 +130,9 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
   EXPECT_EQ(left.first.tick, 7);
   const Why w = why(c.input(), r, c.scenario.rubric, "left");
   ASSERT_FALSE(w.items.empty());
-  EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(), [](const WhyItem& i) { return i.tick == 7 && i.what.find("over the pulp's wall") == 5; }))
-      << english_text(to_text(w));
+  EXPECT_TRUE(std::any_of(w.items.begin(), w.items.end(), [](const WhyItem& i) {
+    return i.tick == 7 && english_text(i.what).find("over the pulp's wall") == 5;
+  })) << english_text(to_text(w));
   const auto json = to_json(r);
   EXPECT_EQ(json["pulp"]["dentin_over_pulp_mm"], rounded(*r.over_pulp.dentin_mm));
   EXPECT_EQ(json["pulp"]["bounds"]["dentin_over_pulp_mm"], k_leaf_mm);

@@ -41,8 +41,8 @@ TEST(Conventions, CompressionThatIsNegativeIsToldWithItsOption) {
   r.f_n = -r.f_n;
   EXPECT_EQ(proposed(r), "--negate f");
   EXPECT_THROW(static_cast<void>(require_conventions(r, "r.csv")), Error);
-  const std::vector<std::string> as_it_is = require_conventions(r, "r.csv", true);
-  EXPECT_TRUE(as_it_is.size() == 1 && as_it_is[0].starts_with("doubt: ")) << "the user's word goes before ours, and is not forgotten";
+  const std::vector<Message> as_it_is = require_conventions(r, "r.csv", true);
+  EXPECT_TRUE(as_it_is.size() == 1 && english_text(as_it_is[0]).starts_with("doubt: ")) << "the user's word goes before ours, and is not forgotten";
 }
 
 TEST(Conventions, APositionThatGrowsOutOfTheMaterialIsToldWithItsSpeed) {
@@ -97,9 +97,9 @@ TEST(Conventions, AForceThatNoHandReachesIsADoubtAndNoRefusal) {
   Recording r = made::recording({});
   r.f_n *= 1000.0;
   r.rig = {};
-  const std::vector<std::string> notes = require_conventions(r, "r.csv");
+  const std::vector<Message> notes = require_conventions(r, "r.csv");
   ASSERT_EQ(notes.size(), 1U);
-  EXPECT_NE(notes.front().find("--unit f=mN"), std::string::npos);
+  EXPECT_NE(english_text(notes.front()).find("--unit f=mN"), std::string::npos);
   r.rig.k_n_per_mm = 800.0;
   EXPECT_TRUE(require_conventions(r, "r.csv").empty()) << "a rig that says so";
 }

@@ -20,7 +20,7 @@ std::string error_of(const std::string& csv, const ColumnNames& names = {}) {
 
 bool has_fault(const Recording& r, const std::string& word) {
   for (const auto& f : data_faults(r))
-    if (f.find(word) != std::string::npos) return true;
+    if (english_text(f).find(word) != std::string::npos) return true;
   return false;
 }
 

@@ -47,7 +47,7 @@ std::string make_session(const std::string& path, bool with_force) {
   return csv;
 }
 
-std::string first_note(const Recording& r) { return r.notes.empty() ? "" : r.notes.front(); }
+std::string first_note(const Recording& r) { return r.notes.empty() ? "" : english_text(r.notes.front()); }
 
 TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) {
   const test::Folder folder;

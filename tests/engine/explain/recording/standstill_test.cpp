@@ -15,7 +15,7 @@ std::pair<Eigen::Index, Eigen::Index> middle_of(const Recording& r, std::size_t 
 }
 
 bool says(const std::vector<Message>& faults, const std::string& word) {
-  return std::any_of(faults.begin(), faults.end(), [&](const Message& f) { return text_of(f).find(word) != std::string::npos; });
+  return std::any_of(faults.begin(), faults.end(), [&](const Message& f) { return english_text(f).find(word) != std::string::npos; });
 }
 
 Recording with_speed() {

@@ -46,7 +46,7 @@ std::string refusal(const Surfaces& s, const MeshImportOptions& o) {
 }
 bool says(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
 bool says(const std::vector<Message>& lines, const std::string& part) {
-  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return says(text_of(l), part); });
+  return std::any_of(lines.begin(), lines.end(), [&](const Message& l) { return says(english_text(l), part); });
 }
 
 TEST(Sense, NumbersOfBothSystemsAreTheSameTeeth) {
