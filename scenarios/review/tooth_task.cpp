@@ -241,13 +241,15 @@ const std::vector<ToothTask>& tasks() {
   };
   const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
   static const std::vector<ToothTask> k_tasks{
-      {"class_1", "Class I cavity along the central fissure", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
+      {"class_1", said("Class I cavity along the central fissure"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
        [](const Tooth&, const Landmarks& l) { return no_fissure(l, 0); }, class_1},
-      {"class_2_mesial", "Class II cavity, mesial", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
-      {"class_2_distal", "Class II cavity, distal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
-      {"slot_mesial", "Slot at the mesial surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
-      {"slot_distal", "Slot at the distal surface", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
-      {"access", "Access to the pulp chamber", R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
+      {"class_2_mesial", said("Class II cavity, mesial"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
+      {"class_2_distal", said("Class II cavity, distal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true),
+       -1},
+      {"slot_mesial", said("Slot at the mesial surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
+      {"slot_distal", said("Slot at the distal surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false),
+       -1},
+      {"access", said("Access to the pulp chamber"), R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
        R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> Message {
          if (!has_tissue(tooth, "pulp")) return msg("it has no pulp");
@@ -255,19 +257,21 @@ const std::vector<ToothTask>& tasks() {
          return l.chamber_roof_mm ? Message() : msg("no pulp chamber is found in it");
        },
        access},
-      {"lesion", "Removal of a hidden lesion", R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
+      {"lesion", said("Removal of a hidden lesion"), R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]",
+       R"(["pulp", "periodontium"])",
        [](const Tooth& tooth, const Landmarks&) -> Message {
          return has_tissue(tooth, "lesion") ? Message() : msg("it has no lesion: `cavum tooth lesion` grows one");
        },
        lesion},
-      {"class_5", "Class V cavity, buccal", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0, side_steps_text()},
-      {"crown", "Preparation for a full crown", R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
+      {"class_5", said("Class V cavity, buccal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0,
+       side_steps_text()},
+      {"crown", said("Preparation for a full crown"), R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
        why_no_crown, crown_preparation, 0, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
-      {"dexterity_groove", "Dexterity: a straight groove", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_groove", said("Dexterity: a straight groove"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::groove), 0, side_steps_text()},
-      {"dexterity_circle", "Dexterity: a round pocket", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_circle", said("Dexterity: a round pocket"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::circle), 0, side_steps_text()},
-      {"dexterity_cross", "Dexterity: a cross", k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_cross", said("Dexterity: a cross"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::cross), 0, side_steps_text()}};
   return k_tasks;
 }
