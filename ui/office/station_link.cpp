@@ -135,7 +135,7 @@ void StationLink::speak() {
     said_.heard = heard_;
     const json report = to_json_value(said_);
     guard.unlock();
-    std::string trouble;
+    Message trouble;
     try {
       const json word = speaking_->report(report);
       if (whole_in(word, "tickets") != tickets_) {
@@ -144,8 +144,11 @@ void StationLink::speak() {
       }
       take(word);
       pause_ms = k_report_ms;
-    } catch (const std::exception& wrong) {  // the network, a refusal, an answer that is none: it goes on without
-      trouble = wrong.what();
+    } catch (const Error& wrong) {  // the network, a refusal: it goes on without
+      trouble = wrong.message();
+      pause_ms = std::min(2 * pause_ms, k_longest_wait_ms);
+    } catch (const std::exception& wrong) {  // an answer that is none
+      trouble = Name{wrong.what()};
       pause_ms = std::min(2 * pause_ms, k_longest_wait_ms);
     }
     guard.lock();

@@ -45,7 +45,7 @@ struct HandedIn {
 struct LinkView {
   bool reached = false;             ///< it answered last time
   double silent_s = 0.0;            ///< since it last answered, or since the beginning
-  std::string trouble;              ///< why it does not, in words
+  Message trouble;                  ///< why it does not
   std::uint64_t hold = 0;           ///< entry by which the exam here is paused; 0: it may run
   std::string hold_reason;          ///< why
   std::vector<Told> told;           ///< not read yet, the oldest first

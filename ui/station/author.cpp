@@ -6,13 +6,13 @@
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <thread>
 #include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "ui/parts/interrupt.h"
+#include "ui/parts/say.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/script.h"
 #include "ui/station/window.h"
@@ -43,8 +43,7 @@ class Author {
   int run() {
     while (!done_ && !ui::Interrupt::asked()) frame();
     if (!document_.unsaved() || discarded_) return 0;
-    std::fprintf(stderr, "cavum: %s: was left with changes that are not saved; they are in %s\n", document_.path().c_str(),
-                 document_.keep_aside().c_str());
+    ui::say_error(msg("{}: was left with changes that are not saved; they are in {}", document_.path(), list_of(document_.keep_aside())));
     return 1;
   }
 
@@ -179,14 +178,14 @@ class Author {
       suggestion->copy(author_.tooth_name.data(), author_.tooth_name.size() - 1);
       author_.ask_tooth = true;
       author_.close_then = close_then;
-      author_.message.clear();
+      author_.message = {};
       return false;
     }
     author_.ask_tooth = suggestion.has_value();  // and asked again, should the name not do
     const std::string name = suggestion ? author_.tooth_name.data() : "";
     document_.save(name);
     author_.ask_tooth = false;
-    author_.message = suggestion ? "Saved, and the tooth with its landmarks as " + name + "." : "Saved.";
+    author_.message = suggestion ? msg("Saved, and the tooth with its landmarks as {}.", name) : msg("Saved.");
     return true;
   }
 
@@ -198,14 +197,14 @@ class Author {
           done_ = save(wish == AuthorWish::save_and_close) && wish == AuthorWish::save_and_close;
           break;
         case AuthorWish::undo:
-          author_.message = document_.undo() ? "" : "There is nothing to take back.";
+          author_.message = document_.undo() ? Message() : msg("There is nothing to take back.");
           break;
         case AuthorWish::redo:
-          author_.message = document_.redo() ? "" : "There is nothing to make again.";
+          author_.message = document_.redo() ? Message() : msg("There is nothing to make again.");
           break;
         case AuthorWish::read_again:
           document_.read_again();
-          author_.message = "Read again from the file.";
+          author_.message = msg("Read again from the file.");
           break;
         case AuthorWish::close:
           author_.ask_close = document_.unsaved();
@@ -218,7 +217,7 @@ class Author {
           break;
       }
     } catch (const Error& e) {
-      author_.message = e.what();
+      author_.message = e.message();
     }
   }
 

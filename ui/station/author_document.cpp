@@ -67,7 +67,7 @@ void AuthorDocument::make(const scenarios::TextChange& change, const std::string
 
 void AuthorDocument::put(const std::vector<NamedPoint>& landmarks, const std::string& name) {
   if (tooth_path_.empty())
-    throw Error(path_, msg("names a tooth that could not be read"), msg("mend the text or put the tooth there, then press F5"));
+    throw Error(Name{path_}, msg("names a tooth that could not be read"), msg("mend the text or put the tooth there, then press F5"));
   if (landmarks != now_.landmarks) change_to({now_.text, landmarks}, name);
 }
 
@@ -91,7 +91,7 @@ bool AuthorDocument::redo() {
 
 AuthorDocument::ToothFile AuthorDocument::tooth_of(const std::string& text) const {
   const scenarios::Scenario s = scenarios::read_scenario(text, path_).scenario;
-  if (s.tooth_file.empty()) throw Error(path_, msg("names no tooth"), msg("write tooth = \"...\" in a text editor"));
+  if (s.tooth_file.empty()) throw Error(Name{path_}, msg("names no tooth"), msg("write tooth = \"...\" in a text editor"));
   ToothFile file{scenarios::find_tooth_file(s), {}, {}};
   const Bytes bytes = read_file(file.path);
   file.sum = sha256(bytes);
@@ -131,7 +131,7 @@ std::optional<std::string> AuthorDocument::new_tooth_name() const {
 void AuthorDocument::save(const std::string& tooth_name) {
   rest();
   if (read_text_file(path_) != on_disk_.text)
-    throw Error(path_, msg("was changed by somebody else meanwhile and is not overwritten"),
+    throw Error(Name{path_}, msg("was changed by somebody else meanwhile and is not overwritten"),
                 msg("press F5 to read it again; Ctrl+Z then brings your text back, and Ctrl+S saves it over theirs"));
   Draft saved = now_;
   if (auto file = tooth_to_write()) {
@@ -139,12 +139,12 @@ void AuthorDocument::save(const std::string& tooth_name) {
     std::string to = file->path;
     if (!anew) {
       if (tooth_name.empty() || fs::path(tooth_name).filename() != tooth_name || !tooth_name.ends_with(".cvt"))
-        throw Error(file->path, msg("stays as it is, and the landmarks need a tooth of their own"),
+        throw Error(Name{file->path}, msg("stays as it is, and the landmarks need a tooth of their own"),
                     msg("give it a name without folders that ends in .cvt"));
       to = (folder_of(path_) / tooth_name).string();
       saved.text = scenarios::with_change(now_.text, scenarios::set_text(now_.text, path_, "tooth", tooth_name));
     } else if (file->sum != tooth_sum_) {
-      throw Error(to, msg("was changed by somebody else meanwhile and is not overwritten"),
+      throw Error(Name{to}, msg("was changed by somebody else meanwhile and is not overwritten"),
                   msg("press F5 to read it again; Ctrl+Z then brings your points back"));
     }
     file->tooth.placed_landmarks = now_.landmarks;
@@ -177,14 +177,14 @@ void AuthorDocument::read_again() {
     after_.clear();
 }
 
-std::string AuthorDocument::keep_aside() const {
+std::vector<std::string> AuthorDocument::keep_aside() const {
   std::string aside = path_ + ".unsaved";
   write_text_file(aside, now_.text);
-  if (now_.landmarks == on_disk_.landmarks) return aside;
+  if (now_.landmarks == on_disk_.landmarks) return {aside};
   Tooth tooth = tooth_of(now_.text).tooth;
   tooth.placed_landmarks = now_.landmarks;
   save_tooth_file(tooth, aside + ".cvt");
-  return aside + " and " + aside + ".cvt";
+  return {aside, aside + ".cvt"};
 }
 
 }  // namespace cavum::station

@@ -48,7 +48,7 @@ class AuthorDocument {
   /// Takes what the files hold; what stood here can be had again by undo. Throws Error when the scenario cannot be read.
   void read_again();
   /// Keeps what is unsaved beside the file, NAME.unsaved and, where landmarks differ, NAME.unsaved.cvt. Returns their names.
-  [[nodiscard]] std::string keep_aside() const;
+  [[nodiscard]] std::vector<std::string> keep_aside() const;
 
  private:
   struct Draft {

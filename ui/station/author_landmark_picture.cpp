@@ -1,13 +1,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/core.h>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/author_sight.h"
 
@@ -45,13 +44,13 @@ struct Box {
   [[nodiscard]] bool meets(const Box& b) const { return low.x < b.high.x && b.low.x < high.x && low.y < b.high.y && b.low.y < high.y; }
 };
 
-std::string words_of(const AuthorLandmark& mark) { return shown(mark.title()) + (mark.by_person ? shown(" (by hand)") : ""); }
+Message words_of(const AuthorLandmark& mark) { return mark.by_person ? msg("{} (by hand)", mark.title()) : msg("{}", mark.title()); }
 
 /// The landmark's own place moved onto what it lies on; none, and a message, when the line of sight misses.
 std::optional<Vec3> met(const AuthorContext& c, const AuthorLandmark& mark, Vec3 from, Vec3 way) {
   if (c.findings == nullptr || !c.findings->tooth) return std::nullopt;
   const auto at = landmark_in_sight(*c.findings->tooth, mark.name, from, normalized(way, {0, 0, -1}), mark.at_mm);
-  if (!at) c.state.message = fmt::format("Nothing that a {} could lie on is seen there.", mark.title());
+  if (!at) c.state.message = msg("Nothing that a {} could lie on is seen there.", mark.title());
   return at;
 }
 
@@ -90,7 +89,7 @@ void draw_landmarks(const AuthorContext& c, ImDrawList& draw, const AuthorSight&
       found_sign(draw, at, r, shade(k_found));
     }
     if (chosen) draw.AddCircle(at, 12.0F * px, IM_COL32_WHITE, 24, 2.0F * px);
-    const std::string text = words_of(mark);
+    const std::string text = tr(words_of(mark));
     const ImVec2 size = ImGui::CalcTextSize(text.c_str());
     const float gap = 13 * px;
     // beside the sign, else above or below it, where nothing else stands; the chosen one's anyway
@@ -156,7 +155,7 @@ void landmark_arrows(const AuthorContext& c) {
 void landmark_list(const AuthorContext& c) {
   AuthorState& s = c.state;
   const Theme& t = c.screen.theme;
-  if (c.landmarks.empty()) quiet_text(t, "No landmark was found on this tooth.");
+  if (c.landmarks.empty()) quiet_text(t, msg("No landmark was found on this tooth."));
   const float rows = std::min(12.5F, static_cast<float>(c.landmarks.size()) + 0.5F);
   ImGui::BeginChild("landmarks", {0, rows * ImGui::GetTextLineHeightWithSpacing()}, false);
   for (std::size_t i = 0; i < c.landmarks.size(); ++i) {
@@ -169,20 +168,22 @@ void landmark_list(const AuthorContext& c) {
       found_sign(*ImGui::GetWindowDrawList(), {at.x + half, at.y + half}, 0.4F * side, k_found);
     ImGui::Dummy({side, side});
     ImGui::SameLine();
-    if (ImGui::Selectable(shown_label(words_of(mark).c_str()).c_str(), s.landmark == i)) s.landmark = i;
+    ImGui::PushID(static_cast<int>(i));
+    if (ImGui::Selectable(shown_label(words_of(mark)).c_str(), s.landmark == i)) s.landmark = i;
+    ImGui::PopID();
     if (s.landmark == i && !ImGui::IsItemVisible()) ImGui::SetScrollHereY();
   }
   ImGui::EndChild();
   if (s.landmark >= c.landmarks.size()) return;
   ImGui::Separator();
   const AuthorLandmark& mark = c.landmarks[s.landmark];
-  wrapped_text(fmt::format("{}:  {:.2f}, {:.2f}, {:.2f} mm", mark.title(), mark.at_mm.x, mark.at_mm.y, mark.at_mm.z));
+  wrapped_text(msg("{}:  {}", mark.title(), mark.at_mm));
   if (!mark.by_person)
-    quiet_text(t, "Found in the tooth.");
+    quiet_text(t, msg("Found in the tooth."));
   else if (mark.found_mm)
-    quiet_text(t, fmt::format("Put by hand, {:.2f} mm from where it was found. X: back there.", length(mark.at_mm - *mark.found_mm)));
+    quiet_text(t, msg("Put by hand, {} from where it was found. X: back there.", as_mm(length(mark.at_mm - *mark.found_mm))));
   else
-    quiet_text(t, "Put by hand; none was found. X: takes it out.");
+    quiet_text(t, msg("Put by hand; none was found. X: takes it out."));
 }
 
 }  // namespace cavum::station

@@ -1,7 +1,5 @@
 #include "ui/station/author_landmarks.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 
@@ -77,10 +75,10 @@ AuthorTooth read_author_tooth(const std::string& file) {
   return t;
 }
 
-std::string AuthorLandmark::title() const {
+Term AuthorLandmark::title() const {
   std::string words = name;
   std::replace(words.begin(), words.end(), '_', ' ');
-  return words;
+  return {words};
 }
 
 std::vector<AuthorLandmark> author_landmarks(const Landmarks& found, const std::vector<NamedPoint>& placed) {
@@ -106,7 +104,7 @@ std::vector<NamedPoint> with_landmark(std::vector<NamedPoint> placed, const std:
     return placed;
   }
   if (placed.size() >= k_most_placed)
-    throw Error(name, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_most_placed),
+    throw Error(Name{name}, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_most_placed),
                 msg("take one back that was found just as well"));
   placed.push_back(point);
   return placed;
@@ -118,7 +116,7 @@ std::vector<NamedPoint> without_landmark(std::vector<NamedPoint> placed, const s
   place_landmarks(placed, all);
   for (const NamedPoint& p : placed)
     if (std::find(all.moved.begin(), all.moved.end(), p.name) == all.moved.end())
-      throw Error(name, msg("stands before {} in its list", p.name), msg("take {} back first", p.name));
+      throw Error(Name{name}, msg("stands before {} in its list", p.name), msg("take {} back first", p.name));
   return placed;
 }
 

@@ -22,11 +22,11 @@ struct AuthorTooth {
 [[nodiscard]] AuthorTooth read_author_tooth(const std::string& file);
 
 struct AuthorLandmark {
-  std::string name;                         ///< of named_points: "mesial_pit"
-  Vec3 at_mm;                               ///< tooth frame
-  std::optional<Vec3> found_mm;             ///< where it was found; none: a person alone says that it is there
-  bool by_person = false;                   ///< a person put it where it is
-  [[nodiscard]] std::string title() const;  ///< "mesial pit"
+  std::string name;                  ///< of named_points: "mesial_pit"
+  Vec3 at_mm;                        ///< tooth frame
+  std::optional<Vec3> found_mm;      ///< where it was found; none: a person alone says that it is there
+  bool by_person = false;            ///< a person put it where it is
+  [[nodiscard]] Term title() const;  ///< "mesial pit"
 };
 /// All there are, in the order of named_points. `placed`: those that a person put.
 [[nodiscard]] std::vector<AuthorLandmark> author_landmarks(const Landmarks& found, const std::vector<NamedPoint>& placed);

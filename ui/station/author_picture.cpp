@@ -1,11 +1,11 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "engine/language/say.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/author_sight.h"
 
@@ -64,7 +64,7 @@ void draw_depth(ImDrawList& draw, const AuthorContext& c, const AuthorSight& sig
   const float s = r - 2.0F * px;
   draw.AddQuadFilled({b.x - s, b.y}, {b.x, b.y - s}, {b.x + s, b.y}, {b.x, b.y + s}, colour_of(zone.layer, 255));
   if (std::hypot(a.x - b.x, a.y - b.y) < 3 * r) return;  // from above the word would cover the points
-  const std::string word = fmt::format("depth {} mm", scenarios::written_number(*zone.depth_mm));
+  const std::string word = tr("depth {}", as_mm(*zone.depth_mm, k_as_needed));
   author_words(draw, {b.x + r + 3, b.y}, IM_COL32_WHITE, word.c_str());
 }
 

@@ -8,10 +8,9 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <string_view>
 
 #include "engine/base/error.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/station/window.h"
 
@@ -24,9 +23,9 @@ void attempt(const AuthorContext& c, bool pull, const Edit& edit) {
   if (!pull) c.document.rest();
   try {
     edit();
-    c.state.message.clear();
+    c.state.message = {};
   } catch (const Error& e) {
-    c.state.message = e.what();
+    c.state.message = e.message();
   }
   if (!pull) c.document.rest();
 }
@@ -36,25 +35,24 @@ void change(const AuthorContext& c, const std::string& name, bool pull, const Ed
   attempt(c, pull, [&] { c.document.make(edit(), name); });
 }
 
-constexpr std::array k_top_buttons{"Undo (Ctrl Z)", "Redo (Ctrl Y)", "Save (Ctrl S)"};
-
 void top_bar(const AuthorContext& c, ImVec2 size, AuthorWish& wish) {
   const Theme& t = c.screen.theme;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(20), t.px(10)});
   begin_area(t, "author top", {0, 0}, size, true);
   ImGui::PopStyleVar();
-  float buttons = 0;  // side_button's labels in the reader's language
-  for (const char* label : k_top_buttons)
-    buttons += ImGui::CalcTextSize(shown(label).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
+  const std::array<std::pair<Message, AuthorWish>, 3> choices{
+      {{msg("Undo (Ctrl Z)"), AuthorWish::undo}, {msg("Redo (Ctrl Y)"), AuthorWish::redo}, {msg("Save (Ctrl S)"), AuthorWish::save}}};
+  float buttons = 0;
+  for (const auto& [label, chosen] : choices)
+    buttons += ImGui::CalcTextSize(tr(label).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x + ImGui::GetStyle().ItemSpacing.x;
   ImGui::BeginChild("file", {size.x - buttons - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  quiet_text(t, fmt::format("Authoring    {}    {}", c.document.path(), c.document.unsaved() ? "NOT SAVED" : "saved"));
-  wrapped_text(ui::text_of(c.screen.scenario, c.screen.scenario.title));
+  quiet_text(t, c.document.unsaved() ? msg("Authoring    {}    NOT SAVED", c.document.path()) : msg("Authoring    {}    saved", c.document.path()));
+  wrapped_text(Name{ui::text_of(c.screen.scenario, c.screen.scenario.title)});
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("buttons", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
-  constexpr std::array k_wishes{AuthorWish::undo, AuthorWish::redo, AuthorWish::save};
-  for (std::size_t i = 0; i < k_top_buttons.size(); ++i) {
-    if (side_button(t, k_top_buttons[i])) wish = k_wishes[i];
+  for (const auto& [label, chosen] : choices) {
+    if (side_button(t, label)) wish = chosen;
     ImGui::SameLine();
   }
   ImGui::EndChild();
@@ -74,8 +72,8 @@ void zone_list(const AuthorContext& c) {
     ImGui::Dummy({side, side});
     ImGui::SameLine();
     ImGui::PushID(static_cast<int>(i));
-    const std::string label = zone.title + (zone.line > 0 ? fmt::format("   line {}", zone.line) : "");
-    if (ImGui::Selectable(shown_label(label.c_str()).c_str(), s.zone == i)) {
+    const Message label = zone.line > 0 ? msg("{}   line {}", zone.title, zone.line) : zone.title;
+    if (ImGui::Selectable(shown_label(label).c_str(), s.zone == i)) {
       s.zone = i;
       s.point = s.number = 0;
     }
@@ -87,17 +85,17 @@ void numbers(const AuthorContext& c) {
   const Theme& t = c.screen.theme;
   AuthorState& s = c.state;
   const AuthorZone& zone = c.zones[s.zone];
-  if (zone.numbers.empty()) quiet_text(t, "Its shape comes from a file; nothing of it is changed here.");
+  if (zone.numbers.empty()) quiet_text(t, msg("Its shape comes from a file; nothing of it is changed here."));
   for (std::size_t i = 0; i < zone.numbers.size(); ++i) {
     const AuthorNumber& n = zone.numbers[i];
     const bool chosen = s.number == i;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
-    text_line((chosen ? "> " : "   ") + shown(n.label));
+    text_line(chosen ? msg("> {}", n.label) : msg("   {}", n.label));
     if (chosen) ImGui::PopStyleColor();
     ImGui::PushID(n.place.c_str());
     ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
     auto value = static_cast<float>(n.value);
-    const std::string format = fmt::format("%.3f {}", std::string_view(n.unit) == "deg" ? "°" : n.unit);
+    const std::string format = fmt::format("%.3f {}", unit_sign(n.unit));
     if (ImGui::DragFloat("##number", &value, 0.01F, static_cast<float>(n.low), static_cast<float>(n.high), format.c_str()))
       author_set_number(c, n, static_cast<double>(value), true);
     if (ImGui::IsItemActivated()) s.number = i;
@@ -106,8 +104,7 @@ void numbers(const AuthorContext& c) {
   }
   if (s.point < zone.points_mm.size()) {
     const Vec3 p = zone.points_mm[s.point];
-    wrapped_text(fmt::format("Point {} of {}:  {}, {} mm", s.point + 1, zone.points_mm.size(), scenarios::written_number(p.x),
-                             scenarios::written_number(p.y)));
+    wrapped_text(msg("Point {} of {}:  x {}, y {}", s.point + 1, zone.points_mm.size(), as_mm(p.x, k_as_needed), as_mm(p.y, k_as_needed)));
   }
 }
 
@@ -119,7 +116,7 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   for (const bool landmarks : {false, true}) {
     if (s.by_landmarks == landmarks) ImGui::PushStyleColor(ImGuiCol_Button, ImGui::GetStyleColorVec4(ImGuiCol_Header));
     const bool chosen = s.by_landmarks == landmarks;
-    if (side_button(t, landmarks ? "Landmarks (L)" : "Zones (L)", half)) s.by_landmarks = landmarks;
+    if (side_button(t, landmarks ? msg("Landmarks (L)") : msg("Zones (L)"), half)) s.by_landmarks = landmarks;
     if (chosen) ImGui::PopStyleColor();
     if (!landmarks) ImGui::SameLine();
   }
@@ -134,28 +131,34 @@ void side_panel(const AuthorContext& c, ImVec2 at, ImVec2 size) {
   ImGui::Separator();
   push_font(Font::small);  // two beside each other in any language
   for (std::size_t i = 0; i < k_author_layers; ++i) {
-    const std::string label = fmt::format("{} (F{})", layer_name(static_cast<AuthorLayer>(i)), i + 1);
-    s.shown_differs = ImGui::Checkbox(shown_label(label.c_str()).c_str(), &s.shown[i]) || s.shown_differs;
+    const Message label = msg("{} (F{})", word_of(static_cast<AuthorLayer>(i)), i + 1);
+    ImGui::PushID(static_cast<int>(i));
+    s.shown_differs = ImGui::Checkbox(shown_label(label).c_str(), &s.shown[i]) || s.shown_differs;
+    ImGui::PopID();
     if (i % 2 == 0) ImGui::SameLine(size.x / 2);
   }
-  if (ImGui::Checkbox(shown_label("landmarks (F6)").c_str(), &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
+  if (ImGui::Checkbox(shown_label(msg("landmarks (F6)")).c_str(), &s.landmarks_shown) && !s.landmarks_shown) s.by_landmarks = false;
   pop_font();
-  quiet_text(t, s.by_landmarks ? "Tab: landmark.  Arrows or mouse: move it on the surface, 0.1 mm, with Shift 0.01.  X: back where it was found."
-                               : "Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: "
-                                 "size, PgUp and PgDn: larger, smaller.");
-  quiet_text(t, "C: clear or opaque tooth.  View: 1 to 5, W A S D, + and -, right mouse button.  F5: read the files again.  Esc: close.");
+  quiet_text(t, s.by_landmarks ? msg("Tab: landmark.  Arrows or mouse: move it on the surface, 0.1 mm, with Shift 0.01.  X: back where it was found.")
+                               : msg("Tab: zone.  , and .: point.  Arrows: move it 0.1 mm, with Shift 0.01.  I: new point, X: take it out.  [ and ]: "
+                                     "size, PgUp and PgDn: larger, smaller."));
+  quiet_text(t, msg("C: clear or opaque tooth.  View: 1 to 5, W A S D, + and -, right mouse button.  F5: read the files again.  Esc: close."));
   end_area();
 }
 
-std::string verdict(const AuthorContext& c) {
+List verdict(const AuthorContext& c) {
   const auto warnings = std::count_if(c.problems.begin(), c.problems.end(), [](const scenarios::Problem& p) { return p.warning; });
   const auto mistakes = static_cast<std::ptrdiff_t>(c.problems.size()) - warnings;
-  const auto counted = [](std::ptrdiff_t n, const char* word) { return fmt::format("{} {}{}", n, word, n == 1 ? "" : "s"); };
-  if (c.busy) return mistakes > 0 ? counted(mistakes, "mistake") + "; checking ..." : "checking ...";
-  std::string text = mistakes > 0 ? counted(mistakes, "mistake") : "sound";
-  if (warnings > 0) text += ", " + counted(warnings, "warning");
-  if (c.findings != nullptr && c.findings->expert_s) text += "; the built-in expert needs about " + number_text("%.0f s", *c.findings->expert_s);
-  return text;
+  List facts{{}, true};
+  if (mistakes > 0) facts.items.push_back(msgn("{} mistake", "{} mistakes", mistakes, mistakes));
+  if (c.busy) {
+    facts.items.push_back(msg("checking ..."));
+    return facts;
+  }
+  if (mistakes == 0) facts.items.push_back(msg("sound"));
+  if (warnings > 0) facts.items.push_back(msgn("{} warning", "{} warnings", warnings, warnings));
+  if (c.findings != nullptr && c.findings->expert_s) facts.items.push_back(msg("the built-in expert needs about {}", as_s(*c.findings->expert_s, 0)));
+  return facts;
 }
 
 void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
@@ -166,22 +169,22 @@ void findings(const AuthorContext& c, ImVec2 at, ImVec2 size) {
     wrapped_text(c.state.message);
     ImGui::PopStyleColor();
   }
-  wrapped_text("Check: " + verdict(c));
+  wrapped_text(msg("Check: {}", verdict(c)));
   const std::string file = std::filesystem::path(c.document.path()).filename().string();
   for (const scenarios::Problem& p : c.problems) {
     const Message where = FilePlace{p.where.line > 0 ? file : p.where.file, p.where.line, p.where.column};
     ImGui::PushStyleColor(ImGuiCol_Text, p.warning ? t.warn : t.bad);
-    wrapped_text(
-        english_text(p.warning ? msg("{}  warning: {}; {}", where, p.what, p.what_to_do) : msg("{}  MISTAKE: {}; {}", where, p.what, p.what_to_do)));
+    wrapped_text(p.warning ? msg("{}  warning: {}; {}", where, p.what, p.what_to_do) : msg("{}  MISTAKE: {}; {}", where, p.what, p.what_to_do));
     ImGui::PopStyleColor();
   }
   end_area();
 }
 
-const char* picture_heading(const AuthorContext& c) {
-  if (c.screen.scene == nullptr) return "The tooth is being read ...";
-  if (c.busy) return "ZONES BEFORE THE LAST CHANGE";
-  return c.findings->body[0].indices.empty() ? "ZONES BEFORE THE MISTAKE" : c.state.by_landmarks ? "LANDMARKS" : "ZONES";
+Message picture_heading(const AuthorContext& c) {
+  if (c.screen.scene == nullptr) return msg("The tooth is being read ...");
+  if (c.busy) return msg("ZONES BEFORE THE LAST CHANGE");
+  if (c.findings->body[0].indices.empty()) return msg("ZONES BEFORE THE MISTAKE");
+  return c.state.by_landmarks ? msg("LANDMARKS") : msg("ZONES");
 }
 
 void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
@@ -203,7 +206,7 @@ void points_by_key(const AuthorContext& c, const AuthorZone& zone) {
       change(c, "", false, [&] { return scenarios::remove_point(c.document.text(), c.document.path(), zone.points_place, s.point); });
       s.point = s.point > 0 ? s.point - 1 : 0;
     } else {
-      s.message = fmt::format("An outline of this kind needs at least {} points.", zone.least_points);
+      s.message = msg("An outline of this kind needs at least {} points.", zone.least_points);
     }
   }
 }
@@ -229,7 +232,7 @@ void landmarks_by_key(const AuthorContext& c) {
   if (mark.by_person)
     author_move_landmark(c, mark, std::nullopt, false);
   else
-    s.message = fmt::format("The {} is where it was found.", mark.title());
+    s.message = msg("The {} is where it was found.", mark.title());
 }
 
 void keys(const AuthorContext& c, AuthorWish& wish) {
@@ -270,15 +273,15 @@ void ask_about_closing(const AuthorContext& c, AuthorWish& wish) {
   AuthorState& s = c.state;
   const Theme& t = c.screen.theme;
   bool fresh = false;
-  if (!begin_question(t, "Save?", "Save your changes?", s.ask_close, fresh)) return;
-  text_line("Something was changed and is not in the file yet.");
+  if (!begin_question(t, "Save?", msg("Save your changes?"), s.ask_close, fresh)) return;
+  text_line(msg("Something was changed and is not in the file yet."));
   ImGui::Dummy({0, t.px(6)});
-  if (main_button(t, "Save and close  (Enter)", true, !fresh)) wish = AuthorWish::save_and_close;
+  if (main_button(t, msg("Save and close  (Enter)"), true, !fresh)) wish = AuthorWish::save_and_close;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Close without saving  (N)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N)))
+  if (ImGui::Button(shown_label(msg("Close without saving  (N)")).c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_N)))
     wish = AuthorWish::discard;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
+  if (ImGui::Button(shown_label(msg("Back  (Esc)")).c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_close = false;
   if (wish != AuthorWish::none) s.ask_close = false;
   end_question(s.ask_close);
 }
@@ -287,20 +290,20 @@ void ask_about_tooth(const AuthorContext& c, AuthorWish& wish) {
   AuthorState& s = c.state;
   const Theme& t = c.screen.theme;
   bool fresh = false;
-  if (!begin_question(t, "Tooth?", "The landmarks need a tooth of their own", s.ask_tooth, fresh)) return;
-  text_line("The scenario's tooth ships, or lies in another folder, and stays as it is.");
-  text_line("A copy with your landmarks is written beside the scenario, which then names it. Its name:");
+  if (!begin_question(t, "Tooth?", msg("The landmarks need a tooth of their own"), s.ask_tooth, fresh)) return;
+  text_line(msg("The scenario's tooth ships, or lies in another folder, and stays as it is."));
+  text_line(msg("A copy with your landmarks is written beside the scenario, which then names it. Its name:"));
   if (fresh) ImGui::SetKeyboardFocusHere();
   ImGui::SetNextItemWidth(-1);
   const bool entered = ImGui::InputText("##tooth", s.tooth_name.data(), s.tooth_name.size(), ImGuiInputTextFlags_EnterReturnsTrue);
   bad_text(t, s.message);
   ImGui::Dummy({0, t.px(6)});
-  if (main_button(t, "Save  (Enter)", true, false) || (entered && !fresh)) {
+  if (main_button(t, msg("Save  (Enter)"), true, false) || (entered && !fresh)) {
     s.tooth_named = true;
     wish = s.close_then ? AuthorWish::save_and_close : AuthorWish::save;
   }
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_tooth = false;
+  if (ImGui::Button(shown_label(msg("Back  (Esc)")).c_str(), {0, t.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.ask_tooth = false;
   if (wish != AuthorWish::none) s.ask_tooth = false;
   end_question(s.ask_tooth);
 }

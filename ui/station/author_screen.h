@@ -27,7 +27,7 @@ struct AuthorState {
   bool tooth_named = false;  ///< it was answered
   bool close_then = false;   ///< when that is saved
   std::array<char, 200> tooth_name{};
-  std::string message;  ///< what went wrong, what was done
+  Message message;  ///< what went wrong, what was done
 };
 
 enum class AuthorWish { none, save, save_and_close, undo, redo, read_again, close, discard };

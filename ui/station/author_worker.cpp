@@ -154,7 +154,7 @@ void AuthorWorker::find(const AuthorTask& task) {
     f.problems = std::move(checked.problems);
     f.expert_s = checked.expert.time_s;
   } catch (const std::exception& e) {
-    f.problems = {{{task.path}, e.what(), msg("mend it in a text editor")}};
+    f.problems = {{{task.path}, Name{e.what()}, msg("mend it in a text editor")}};
   }
   f.checked = true;
   publish(std::move(f));

@@ -10,36 +10,75 @@ namespace {
 
 using Kind = scenarios::ShapeSpec::Kind;
 
-constexpr std::array<const char*, 12> k_shape_names{
-    "box", "cylinder", "cone", "ball", "prism", "column", "tissue", "STL file", "canal cone", "proximal box", "cavity in a side", "crown"};
+Message shape_word(Kind kind) {
+  switch (kind) {
+    case Kind::box:
+      return msg("box");
+    case Kind::cylinder:
+      return msg("cylinder");
+    case Kind::cone:
+      return msg("cone");
+    case Kind::ball:
+      return msg("ball");
+    case Kind::prism:
+      return msg("prism");
+    case Kind::column:
+      return msg("column");
+    case Kind::tissue:
+      return msg("tissue");
+    case Kind::stl:
+      return msg("STL file");
+    case Kind::canal_cone:
+      return msg("canal cone");
+    case Kind::proximal_box:
+      return msg("proximal box");
+    case Kind::side_cavity:
+      return msg("cavity in a side");
+    case Kind::crown:
+      break;
+  }
+  return msg("crown");
+}
+
+/// "target 2, box": the how-manieth of its list, and whether it is laid over or under what stands before it.
+Message title_of(AuthorLayer layer, std::size_t number, const scenarios::ShapeSpec& s) {
+  switch (s.combine) {
+    case scenarios::ShapeSpec::Combine::subtract:
+      return msg("{} {}, {}, taken away", word_of(layer), number, shape_word(s.kind));
+    case scenarios::ShapeSpec::Combine::intersect:
+      return msg("{} {}, {}, in common", word_of(layer), number, shape_word(s.kind));
+    default:
+      return msg("{} {}, {}", word_of(layer), number, shape_word(s.kind));
+  }
+}
 
 void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
   switch (b.kind) {
     case scenarios::BottomSpec::Kind::below_border:
-      zone.numbers.push_back({"deeper than the enamel", at + "/depth_mm", b.depth_mm, -5, 5});
+      zone.numbers.push_back({msg("deeper than the enamel"), at + "/depth_mm", b.depth_mm, -5, 5});
       break;
     case scenarios::BottomSpec::Kind::level:
-      zone.numbers.push_back({"level of the floor, z", at + "/z_mm", b.z_mm, -100, 100});
+      zone.numbers.push_back({msg("level of the floor, z"), at + "/z_mm", b.z_mm, -100, 100});
       break;
     case scenarios::BottomSpec::Kind::below_surface:
     case scenarios::BottomSpec::Kind::below_lowest:
     case scenarios::BottomSpec::Kind::below_mean:
-      zone.numbers.push_back({"depth", at + "/depth_mm", b.depth_mm, 0.05, 30});
+      zone.numbers.push_back({msg("depth"), at + "/depth_mm", b.depth_mm, 0.05, 30});
       zone.depth_mm = b.depth_mm;
       zone.depth_place = at + "/depth_mm";
       break;
     default:
-      zone.numbers.push_back({fmt::format("floor deeper than the {}'s", b.tissue), at + "/deeper_mm", b.deeper_mm, -5, 5});
+      zone.numbers.push_back({msg("floor deeper than the {}'s", Term{b.tissue}), at + "/deeper_mm", b.deeper_mm, -5, 5});
   }
 }
 
 void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::string& at) {
   switch (o.kind) {
     case scenarios::OutlineSpec::Kind::circle:
-      zone.numbers.push_back({"radius", at + "/radius_mm", o.radius_mm, 0.05, 20});
+      zone.numbers.push_back({msg("radius"), at + "/radius_mm", o.radius_mm, 0.05, 20});
       break;
     case scenarios::OutlineSpec::Kind::stroke:
-      zone.numbers.push_back({"width", at + "/width_mm", o.width_mm, 0.1, 20});
+      zone.numbers.push_back({msg("width"), at + "/width_mm", o.width_mm, 0.1, 20});
       zone.half_width_mm = 0.5 * o.width_mm + o.offset_mm;
       break;
     case scenarios::OutlineSpec::Kind::polygon:
@@ -47,14 +86,14 @@ void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::s
       zone.least_points = 3;
       break;
     case scenarios::OutlineSpec::Kind::fissure:
-      zone.numbers.push_back({"width", at + "/width_mm", o.width_mm, 0.1, 5});
-      zone.numbers.push_back({"ridges left", at + "/ridge_mm", o.ridge_mm, 0, 5});
+      zone.numbers.push_back({msg("width"), at + "/width_mm", o.width_mm, 0.1, 5});
+      zone.numbers.push_back({msg("ridges left"), at + "/ridge_mm", o.ridge_mm, 0, 5});
       break;
     case scenarios::OutlineSpec::Kind::projection:
-      zone.numbers.push_back({"rounding", at + "/rounding_mm", o.rounding_mm, 0, 5});
+      zone.numbers.push_back({msg("rounding"), at + "/rounding_mm", o.rounding_mm, 0, 5});
       break;
   }
-  zone.numbers.push_back({"outline wider by", at + "/offset_mm", o.offset_mm, -5, 5});
+  zone.numbers.push_back({msg("outline wider by"), at + "/offset_mm", o.offset_mm, -5, 5});
   if (o.points_mm.empty()) return;
   zone.points_place = at + "/points_mm";
   zone.points_mm = o.points_mm;
@@ -64,20 +103,20 @@ AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double 
   AuthorZone zone;
   zone.line = s.line;
   zone.frame = scenarios::shape_frame(s);
-  const auto number = [&](const char* label, const char* key, double value, double low, double high, const char* unit = "mm") {
+  const auto number = [&](const Message& label, const char* key, double value, double low, double high, Unit unit = Unit::mm) {
     zone.numbers.push_back({label, fmt::format("{}/{}", at, key), value, low, high, unit});
   };
   switch (s.kind) {
     case Kind::column: {
       add_bottom(zone, s.bottom, at + "/bottom");
       add_outline(zone, s.outline, at + "/outline");
-      number("taper of the walls", "taper_deg", s.taper_deg, -30, 45, "deg");
+      number(msg("taper of the walls"), "taper_deg", s.taper_deg, -30, 45, Unit::deg);
       const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
       zone.frame = {{from.x + s.outline.centre_mm.x, from.y + s.outline.centre_mm.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
       break;
     }
     case Kind::prism: {
-      number("height", "height_mm", s.height_mm, 0.05, 100);
+      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
       add_outline(zone, s.outline, at + "/outline");
       const scenarios::ShapeFrame f = zone.frame;
       const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
@@ -85,50 +124,50 @@ AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double 
       break;
     }
     case Kind::proximal_box:
-      number("width", "width_mm", s.width_mm, 0.5, 10);
-      number("axial depth", "depth_mm", s.depth_mm, 0.2, 5);
-      number("floor above the neck", "above_neck_mm", s.above_neck_mm, 0, 6);
+      number(msg("width"), "width_mm", s.width_mm, 0.5, 10);
+      number(msg("axial depth"), "depth_mm", s.depth_mm, 0.2, 5);
+      number(msg("floor above the neck"), "above_neck_mm", s.above_neck_mm, 0, 6);
       break;
     case Kind::side_cavity:
-      number("depth below the surface", "depth_mm", s.depth_mm, 0.1, 5);
+      number(msg("depth below the surface"), "depth_mm", s.depth_mm, 0.1, 5);
       break;
     case Kind::crown:
-      number("finish line above the neck", "above_neck_mm", s.above_neck_mm, 0, 4);
-      number("depth of the chamfer", "depth_mm", s.depth_mm, 0.3, 3);
-      number("taper of each wall", "taper_deg", s.taper_deg, 0, 20, "deg");
-      number("occlusal reduction", "occlusal_mm", s.occlusal_mm, 0.3, 4);
+      number(msg("finish line above the neck"), "above_neck_mm", s.above_neck_mm, 0, 4);
+      number(msg("depth of the chamfer"), "depth_mm", s.depth_mm, 0.3, 3);
+      number(msg("taper of each wall"), "taper_deg", s.taper_deg, 0, 20, Unit::deg);
+      number(msg("occlusal reduction"), "occlusal_mm", s.occlusal_mm, 0.3, 4);
       break;
     case Kind::box:
-      zone.numbers.push_back({"size along x", at + "/size_mm/0", s.size_mm.x, 0.05, 100});
-      zone.numbers.push_back({"size along y", at + "/size_mm/1", s.size_mm.y, 0.05, 100});
-      zone.numbers.push_back({"size along z", at + "/size_mm/2", s.size_mm.z, 0.05, 100});
+      zone.numbers.push_back({msg("size along x"), at + "/size_mm/0", s.size_mm.x, 0.05, 100});
+      zone.numbers.push_back({msg("size along y"), at + "/size_mm/1", s.size_mm.y, 0.05, 100});
+      zone.numbers.push_back({msg("size along z"), at + "/size_mm/2", s.size_mm.z, 0.05, 100});
       break;
     case Kind::cylinder:
-      number("height", "height_mm", s.height_mm, 0.05, 100);
-      number("radius", "radius_mm", s.radius_mm, 0.05, 100);
+      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
+      number(msg("radius"), "radius_mm", s.radius_mm, 0.05, 100);
       break;
     case Kind::cone:
-      number("height", "height_mm", s.height_mm, 0.05, 100);
-      number("radius below", "radius_mm", s.radius_mm, 0, 100);
-      number("radius above", "top_radius_mm", s.top_radius_mm, 0, 100);
+      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
+      number(msg("radius below"), "radius_mm", s.radius_mm, 0, 100);
+      number(msg("radius above"), "top_radius_mm", s.top_radius_mm, 0, 100);
       break;
     case Kind::ball:
-      number("radius", "radius_mm", s.radius_mm, 0.05, 100);
+      number(msg("radius"), "radius_mm", s.radius_mm, 0.05, 100);
       break;
     case Kind::tissue:
-      number("grown by", "offset_mm", s.offset_mm, -5, 5);
+      number(msg("grown by"), "offset_mm", s.offset_mm, -5, 5);
       break;
     case Kind::canal_cone:
-      number("begins below the mouth by", "deeper_mm", s.deeper_mm, -5, 5);
-      number("taper", "taper_deg", s.taper_deg, 0, 45, "deg");
+      number(msg("begins below the mouth by"), "deeper_mm", s.deeper_mm, -5, 5);
+      number(msg("taper"), "taper_deg", s.taper_deg, 0, 45, Unit::deg);
       break;
     case Kind::stl:
       break;
   }
   if (s.kind == Kind::box || s.kind == Kind::cylinder || s.kind == Kind::cone || s.kind == Kind::ball || s.kind == Kind::prism) {
-    zone.numbers.push_back({"place, mesial (x)", at + "/at_mm/0", s.at_mm.x, -100, 100});
-    zone.numbers.push_back({"place, buccal (y)", at + "/at_mm/1", s.at_mm.y, -100, 100});
-    zone.numbers.push_back({"place, occlusal (z)", at + "/at_mm/2", s.at_mm.z, -100, 100});
+    zone.numbers.push_back({msg("place, mesial (x)"), at + "/at_mm/0", s.at_mm.x, -100, 100});
+    zone.numbers.push_back({msg("place, buccal (y)"), at + "/at_mm/1", s.at_mm.y, -100, 100});
+    zone.numbers.push_back({msg("place, occlusal (z)"), at + "/at_mm/2", s.at_mm.z, -100, 100});
   }
   return zone;
 }
@@ -136,16 +175,25 @@ AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double 
 AuthorZone margin_of(AuthorLayer layer, const scenarios::MarginSpec& m, const std::string& at) {
   AuthorZone zone;
   zone.layer = layer;
-  zone.title = layer_name(layer);
-  zone.numbers = {{"width below", at + "/bottom_mm", m.bottom_mm, 0, 5}, {"width beside", at + "/sides_mm", m.sides_mm, 0, 5}};
+  zone.title = word_of(layer);
+  zone.numbers = {{msg("width below"), at + "/bottom_mm", m.bottom_mm, 0, 5}, {msg("width beside"), at + "/sides_mm", m.sides_mm, 0, 5}};
   return zone;
 }
 
 }  // namespace
 
-const char* layer_name(AuthorLayer layer) noexcept {
-  constexpr std::array<const char*, k_author_layers> k_names{"target", "leeway", "container", "protected"};
-  return k_names[static_cast<std::size_t>(layer)];
+Message word_of(AuthorLayer layer) {
+  switch (layer) {
+    case AuthorLayer::target:
+      return msg("target");
+    case AuthorLayer::leeway:
+      return msg("leeway");
+    case AuthorLayer::container:
+      return msg("container");
+    case AuthorLayer::guarded:
+      break;
+  }
+  return msg("protected");
 }
 
 std::array<std::uint8_t, 3> layer_colour(AuthorLayer layer) noexcept {
@@ -160,9 +208,7 @@ std::vector<AuthorZone> author_zones(const scenarios::Scenario& scenario, double
       zones.push_back(zone_of(list[i], fmt::format("zones/{}/{}", key, i), opening_z_mm, chamber_mm));
       AuthorZone& zone = zones.back();
       zone.layer = layer;
-      zone.title = fmt::format("{} {}, {}", layer_name(layer), i + 1, k_shape_names[static_cast<std::size_t>(list[i].kind)]);
-      if (list[i].combine == scenarios::ShapeSpec::Combine::subtract) zone.title += ", taken away";
-      if (list[i].combine == scenarios::ShapeSpec::Combine::intersect) zone.title += ", in common";
+      zone.title = title_of(layer, i + 1, list[i]);
     }
   };
   bodies(AuthorLayer::target, "target", scenario.zones.target);

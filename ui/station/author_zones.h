@@ -7,25 +7,27 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/message.h"
 #include "scenarios/zones/shape.h"
 
 namespace cavum::station {
 
 enum class AuthorLayer { target, leeway, container, guarded };
 inline constexpr std::size_t k_author_layers = 4;
-[[nodiscard]] const char* layer_name(AuthorLayer layer) noexcept;
+[[nodiscard]] Message word_of(AuthorLayer layer);
 /// Red, green, blue, 0..255, of Okabe and Ito's palette: told apart by lightness, too.
 [[nodiscard]] std::array<std::uint8_t, 3> layer_colour(AuthorLayer layer) noexcept;
 
 struct AuthorNumber {
-  std::string label, place;  ///< place: of edit_text.h
+  Message label;
+  std::string place;  ///< of edit_text.h
   double value = 0.0, low = 0.0, high = 0.0;
-  const char* unit = "mm";
+  Unit unit = Unit::mm;
 };
 
 struct AuthorZone {
   AuthorLayer layer = AuthorLayer::target;
-  std::string title;
+  Message title;
   int line = 0;
   std::vector<AuthorNumber> numbers;  ///< the first is its depth, where it has one
   std::string points_place;           ///< of the list; empty without points

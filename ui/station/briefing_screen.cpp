@@ -1,19 +1,17 @@
-#include <fmt/core.h>
 #include <imgui.h>
 
-#include "engine/base/figures.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
 namespace {
 
-std::string pauses_text(const scenarios::PauseSpec& pauses) {
-  if (pauses.count == 0) return "none";
-  return fmt::format("{}, each of at most {}, while the handpiece stands still (P)", pauses.count, clock_text(pauses.longest_s));
+Message pauses_text(const scenarios::PauseSpec& pauses) {
+  if (pauses.count == 0) return msg("none");
+  return msg("{}, each of at most {}, while the handpiece stands still (P)", pauses.count, ClockTime{pauses.longest_s});
 }
 
-void fact(const Theme& t, const char* name, const std::string& value) {
+void fact(const Theme& t, const Message& name, const Message& value) {
   ImGui::PushStyleColor(ImGuiCol_Text, t.quiet);
   text_line(name);
   ImGui::PopStyleColor();
@@ -32,22 +30,22 @@ void briefing_screen(const ScreenContext& c) {
   begin_area(t, "briefing words", {s.left_handed ? screen.x - words : 0, 0}, {words, screen.y}, true);
   ImGui::BeginChild("task", {0, ImGui::GetContentRegionAvail().y - t.px(s.message.empty() ? 96 : 140)},
                     false);  // the button below is always in sight
-  heading_text(scenario.title);
-  wrapped_text(scenario.description);
+  heading_text(msg("{}", Authored{scenario.title}));
+  wrapped_text(msg("{}", Authored{scenario.description}));
   ImGui::Dummy({0, t.px(8)});
   const auto limit = static_cast<double>(scenarios::exam_limit_ticks(scenario)) * k_tick_s;
-  fact(t, "Candidate", c.sitting->candidate());
+  fact(t, msg("Candidate"), Name{c.sitting->candidate()});
   const std::optional<Begun>& begun = c.sitting->begun();
-  fact(t, "Time",
-       begun && limit > 0 ? fmt::format("{} of {} minutes left", clock_text(begun->left_s), clock_text(limit)) : clock_text(limit) + " minutes");
-  if (begun) fact(t, "Mounted", c.sitting->setup().points.at(static_cast<std::size_t>(begun->point)).title);
-  const std::string granted = scenarios::accommodations_text(scenario.accommodations);
-  if (!granted.empty()) fact(t, "Granted", granted);
-  fact(t, "Pauses", pauses_text(scenario.pauses));
-  if (scenario.force_limit_n > 0) fact(t, "Force", number_text("at most %.1f N", scenario.force_limit_n));
-  std::string points;
-  for (const auto& p : c.sitting->setup().points) points += (points.empty() ? "" : "; ") + p.title;
-  fact(t, "Diamond points", points);
+  fact(t, msg("Time"),
+       begun && limit > 0 ? msg("{} of {} minutes left", ClockTime{begun->left_s}, ClockTime{limit}) : msg("{} minutes", ClockTime{limit}));
+  if (begun) fact(t, msg("Mounted"), msg("{}", Authored{c.sitting->setup().points.at(static_cast<std::size_t>(begun->point)).title}));
+  const Message granted = scenarios::accommodations_text(scenario.accommodations);
+  if (!granted.empty()) fact(t, msg("Granted"), granted);
+  fact(t, msg("Pauses"), pauses_text(scenario.pauses));
+  if (scenario.force_limit_n > 0) fact(t, msg("Force"), msg("at most {}", as_n(scenario.force_limit_n, 1)));
+  List points{{}, true};
+  for (const auto& p : c.sitting->setup().points) points.items.push_back(msg("{}", Authored{p.title}));
+  fact(t, msg("Diamond points"), msg("{}", points));
   ImGui::Dummy({0, t.px(8)});
   ImGui::Separator();
   ImGui::Dummy({0, t.px(4)});
@@ -57,18 +55,20 @@ void briefing_screen(const ScreenContext& c) {
     pop_font();
     ImGui::SameLine(t.px(50));
     ImGui::BeginGroup();
-    wrapped_text(scenario.steps[i].instruction);
-    if (scenario.steps[i].time_limit_s) quiet_text(t, fmt::format("within {} minutes", clock_text(*scenario.steps[i].time_limit_s)));
+    wrapped_text(msg("{}", Authored{scenario.steps[i].instruction}));
+    if (scenario.steps[i].time_limit_s) quiet_text(t, msg("within {} minutes", ClockTime{*scenario.steps[i].time_limit_s}));
     ImGui::EndGroup();
   }
   if (c.practice) {
     ImGui::Dummy({0, t.px(12)});
-    wrapped_text("This is practice: the target is shown, a coach speaks, and the recording says so.");
+    wrapped_text(msg("This is practice: the target is shown, a coach speaks, and the recording says so."));
   }
   ImGui::EndChild();
-  const char* button = begun ? "Go on with the exam  (Enter)" : c.practice ? "Begin to practise  (Enter)" : "Begin the exam  (Enter)";
+  const Message button = begun        ? msg("Go on with the exam  (Enter)")
+                         : c.practice ? msg("Begin to practise  (Enter)")
+                                      : msg("Begin the exam  (Enter)");
   if (main_button(t, button, true)) s.wish = Wish::begin;
-  quiet_text(t, "The clock runs from then on.");
+  quiet_text(t, msg("The clock runs from then on."));
   bad_text(t, s.message);
   end_area();
 

@@ -1,7 +1,6 @@
 // What the colours of the practice picture mean, written beside the tooth.
 #pragma once
 
-#include <string>
 #include <vector>
 
 #include "engine/tooth/tissue_grid.h"
@@ -11,7 +10,7 @@ namespace cavum::station {
 
 struct ColourKeyEntry {
   ImVec4 colour;
-  std::string word;
+  Message word;
 };
 /// What is to be removed first, then the tooth's tissues that the picture tells apart. In their tissue_colour.
 [[nodiscard]] std::vector<ColourKeyEntry> colour_key(const std::vector<Tissue>& tissues, bool high_contrast);

@@ -1,49 +1,46 @@
 #include "ui/station/device_check.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
-#include <cstdio>
 #include <exception>
 #include <vector>
+
+#include "engine/base/error.h"
 
 namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string number(const char* format, double value) {
-  std::array<char, 80> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return text.data();
-}
-
 CheckItem stylus_item(const DeviceSight& s) {
   using State = CheckItem::State;
-  if (!s.error.empty()) return {State::bad, "Stylus", s.error};
-  if (!s.read_once) return {State::waiting, "Stylus", "waiting for its first word"};
+  const Message title = msg("Stylus");
+  if (!s.error.empty()) return {State::bad, title, s.error};
+  if (!s.read_once) return {State::waiting, title, msg("waiting for its first word")};
   if (s.rate_hz < DeviceCheck::k_least_share * s.usual_rate_hz)
-    return {State::waiting, "Stylus", fmt::format("speaks too seldom: {} times a second", number("%.0f", s.rate_hz))};
-  return {State::good, "Stylus", number("speaks %.0f times a second", s.rate_hz)};
+    return {State::waiting, title, msg("speaks too seldom: {} times a second", as_number(s.rate_hz, 0))};
+  return {State::good, title, msg("speaks {} times a second", as_number(s.rate_hz, 0))};
 }
 
 CheckItem pedal_item(const DeviceSight& s) {
   using State = CheckItem::State;
-  if (!s.pedal_known) return {State::waiting, "Pedal", "not heard of yet: move it once"};
-  if (s.pedal_came_back) return {State::good, "Pedal", "reaches both ends"};
-  if (!s.pedal_released) return {State::waiting, "Pedal", number("take the foot off it (%.0f %%)", 100.0 * s.pedal)};
-  if (!s.pedal_pressed) return {State::waiting, "Pedal", number("press it down all the way (%.0f %%)", 100.0 * s.pedal)};
-  return {State::waiting, "Pedal", number("and release it (%.0f %%)", 100.0 * s.pedal)};
+  const Message title = msg("Pedal");
+  const Number pressed = as_percent(100.0 * s.pedal);
+  if (!s.pedal_known) return {State::waiting, title, msg("not heard of yet: move it once")};
+  if (s.pedal_came_back) return {State::good, title, msg("reaches both ends")};
+  if (!s.pedal_released) return {State::waiting, title, msg("take the foot off it ({})", pressed)};
+  if (!s.pedal_pressed) return {State::waiting, title, msg("press it down all the way ({})", pressed)};
+  return {State::waiting, title, msg("and release it ({})", pressed)};
 }
 
 CheckItem rest_item(const DeviceSight& s) {
   using State = CheckItem::State;
-  if (!s.read_once || s.wander_mm > 100) return {State::waiting, "Finger rest", "lay the fingers on the rest and hold the stylus still"};
+  const Message title = msg("Finger rest");
+  if (!s.read_once || s.wander_mm > 100) return {State::waiting, title, msg("lay the fingers on the rest and hold the stylus still")};
   if (s.wander_mm > DeviceCheck::k_most_wander_mm)
-    return {State::waiting, "Finger rest", number("the tip wanders by %.1f mm: lay the fingers on the rest", s.wander_mm)};
-  return {State::good, "Finger rest", number("in place, the tip is still within %.2f mm", s.wander_mm)};
+    return {State::waiting, title, msg("the tip wanders by {}: lay the fingers on the rest", as_mm(s.wander_mm, 1))};
+  return {State::good, title, msg("in place, the tip is still within {}", as_mm(s.wander_mm))};
 }
 
 /// What happened in the last second, in a ring.
@@ -130,8 +127,11 @@ void DeviceCheck::run() noexcept {
         seen.pedal_came_back = seen.pedal_came_back || (seen.pedal_pressed && r.pedal < 0.05);
       }
       seen.button = (r.flags & (k_button_1 | k_button_2)) != 0;
+    } catch (const Error& e) {
+      seen.error = e.message();
+      stop_.store(true, std::memory_order_release);
     } catch (const std::exception& e) {
-      seen.error = e.what();
+      seen.error = Name{e.what()};
       stop_.store(true, std::memory_order_release);
     }
     before = now;

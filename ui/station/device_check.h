@@ -6,9 +6,9 @@
 #include <atomic>
 #include <cstdint>
 #include <mutex>
-#include <string>
 #include <thread>
 
+#include "engine/base/message.h"
 #include "engine/servo/servo_device.h"
 
 namespace cavum::station {
@@ -27,14 +27,14 @@ struct DeviceSight {
   bool pedal_pressed = false;    ///< ... and after it above 0.9 ...
   bool pedal_came_back = false;  ///< ... and below 0.05 again
   bool button = false;
-  std::string error;  ///< of the device, which is no longer read
+  Message error;  ///< of the device, which is no longer read
 };
 
 /// One line of the check.
 struct CheckItem {
   enum class State { waiting, good, bad };
   State state = State::waiting;
-  std::string title, detail;
+  Message title, detail;
 };
 /// Stylus, pedal, finger rest.
 [[nodiscard]] std::array<CheckItem, 3> check_items(const DeviceSight& sight);

@@ -32,19 +32,20 @@ void sign(const Theme& t, CheckItem::State state) {
   ImGui::Dummy({size, size});
 }
 
-constexpr char k_title[] = "Stylus, pedal, finger rest", k_continue[] = "Continue  (Enter)";
+Message title() { return msg("Stylus, pedal, finger rest"); }
+Message continue_label() { return msg("Continue  (Enter)"); }
 constexpr float k_width = 660;
 
 }  // namespace
 
 void preparing_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
-  begin_card(t, k_title, k_width);
-  wrapped_text("The tooth is being prepared ...");
+  begin_card(t, title(), k_width);
+  wrapped_text(msg("The tooth is being prepared ..."));
   const double phase = std::fmod(ImGui::GetTime(), 1.0);
   ImGui::ProgressBar(static_cast<float>(phase), {-1, t.px(6)}, "");
   ImGui::Dummy({0, t.px(10)});
-  main_button(t, k_continue, false);
+  main_button(t, continue_label(), false);
   if (!c.state.message.empty()) quiet_text(t, c.state.message);
   end_area();
 }
@@ -52,14 +53,14 @@ void preparing_screen(const ScreenContext& c) {
 void device_check_screen(const ScreenContext& c) {
   const Theme& t = c.theme;
   StationState& s = c.state;
-  begin_card(t, k_title, k_width);
+  begin_card(t, title(), k_width);
   if (PointerStylus* pointer = c.sitting->device().pointer()) {
     PointerIntent still;
     still.tip_mm = s.wanted_mm;
     still.rotation = s.wanted_rotation;
     still.pedal = key_held(GLFW_KEY_SPACE) || (ImGui::IsMouseDown(ImGuiMouseButton_Left) && !ImGui::IsAnyItemHovered()) ? 1.0 : 0.0;
     pointer->want(still);
-    quiet_text(t, "Mouse and keyboard: the pedal is the space bar or the left button.");
+    quiet_text(t, msg("Mouse and keyboard: the pedal is the space bar or the left button."));
   }
   const DeviceSight sight = c.sitting->sight();
   const auto items = check_items(sight);
@@ -73,11 +74,11 @@ void device_check_screen(const ScreenContext& c) {
     ImGui::EndGroup();
   }
   ImGui::Dummy({0, t.px(6)});
-  text_line("Pedal");
+  text_line(msg("Pedal"));
   ImGui::SameLine(t.px(110));
   ImGui::ProgressBar(sight.pedal_known ? static_cast<float>(sight.pedal) : 0.0F, {-1, t.px(16)}, "");
   ImGui::Dummy({0, t.px(10)});
-  if (main_button(t, k_continue, all_good(items))) s.wish = Wish::to_briefing;
+  if (main_button(t, continue_label(), all_good(items))) s.wish = Wish::to_briefing;
   if (!s.message.empty()) quiet_text(t, s.message);
   end_area();
 }

@@ -7,7 +7,6 @@
 #include <cmath>
 
 #include "engine/language/say.h"
-#include "engine/language/shown.h"
 #include "ui/station/coach.h"
 #include "ui/station/colour_key.h"
 #include "ui/station/gauges.h"
@@ -48,12 +47,10 @@ void top_bar(const ScreenContext& c, const scenarios::LiveView& view, const Layo
   const float clock = t.px(200);
   ImGui::BeginChild("step", {l.top.x - clock - t.px(50), 0}, false, ImGuiWindowFlags_NoScrollbar);
   const std::size_t steps = scenario.steps.size(), step = static_cast<std::size_t>(view.step);
-  quiet_text(t, fmt::format("{}    {}{}", step < steps ? fmt::format("Step {} of {}", step + 1, steps) : fmt::format("All {} steps done", steps),
-                            c.sitting->candidate(),
-                            c.sitting->device().simulated() ? "    demonstration"
-                            : c.practice                    ? "    practice"
-                                                            : "    examination"));
-  wrapped_text(view.instruction);
+  const Message where = step < steps ? msg("Step {} of {}", step + 1, steps) : msgn("{} step done", "All {} steps done", view.step, steps);
+  const Message kind = c.sitting->device().simulated() ? msg("demonstration") : c.practice ? msg("practice") : msg("examination");
+  quiet_text(t, msg("{}    {}    {}", where, c.sitting->candidate(), kind));
+  wrapped_text(msg("{}", Authored{view.instruction}));
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
@@ -74,7 +71,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   const scenarios::GaugeSpec all{true, true, true};
   show_gauges(t, c.sitting->setup(), view.output, view.depth_mm, c.practice ? all : scenario.gauges);
   contact_lamp(t, view.output.contact);
-  text_line("Speed dial  ( [ and ] )");
+  text_line(msg("Speed dial  ( [ and ] )"));
   auto dial = static_cast<float>(100.0 * s.handpiece_speed);
   ImGui::SetNextItemWidth(ImGui::GetContentRegionAvail().x);
   ImGui::SliderFloat("##dial", &dial, 10.0F, 100.0F, "%.0f %%");
@@ -82,21 +79,21 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) dial += 10.0F;
   s.handpiece_speed = std::clamp(static_cast<double>(dial) / 100.0, 0.1, 1.0);
   ImGui::Dummy({0, t.px(4)});
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray");
+  quiet_text(t, msg("View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray"));
   ImGui::EndChild();
   const float width = ImGui::GetContentRegionAvail().x;
   if (scenario.pauses.count > 0) {
     const int left = scenario.pauses.count - view.pauses;
-    const std::string label = view.paused ? "Go on  (P)" : fmt::format("Pause  (P), {} left", left);
+    const Message label = view.paused ? msg("Go on  (P)") : msg("Pause  (P), {} left", left);
     const bool may = view.paused || left > 0;
     ImGui::BeginDisabled(!may);
-    if (side_button(t, label.c_str(), width) || (may && key_pressed(GLFW_KEY_P))) s.pause_key_s = 0.1;
+    if (side_button(t, label, width) || (may && key_pressed(GLFW_KEY_P))) s.pause_key_s = 0.1;
     ImGui::EndDisabled();
   }
-  if (c.practice && (side_button(t, s.tutorial ? "Tutorial off  (U)" : "Tutorial  (U)", width) || key_pressed(GLFW_KEY_U)))
+  if (c.practice && (side_button(t, s.tutorial ? msg("Tutorial off  (U)") : msg("Tutorial  (U)"), width) || key_pressed(GLFW_KEY_U)))
     s.tutorial ? s.tutorial.reset() : void(s.tutorial.emplace(c.sitting->device().pointer() != nullptr));
-  if (side_button(t, s.muted ? "Sound on  (V)" : "Sound off  (V)", width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
-  if (side_button(t, "I have finished  (Esc)", width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
+  if (side_button(t, s.muted ? msg("Sound on  (V)") : msg("Sound off  (V)"), width) || key_pressed(GLFW_KEY_V)) s.muted = !s.muted;
+  if (side_button(t, msg("I have finished  (Esc)"), width) || key_pressed(GLFW_KEY_ESCAPE)) s.confirm_end = true;
   end_area();
 }
 
@@ -131,7 +128,7 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(62)}, steel, coated);
     push_font(Font::small);
     // shape, its end and size on a line each; a long line a little smaller, so that all can be read
-    const std::string title = shown(c.shelf[i].title);
+    const std::string title = tr("{}", Authored{c.shelf[i].title});
     const float room = size.x - t.px(6);
     float below = t.px(54);
     for (std::size_t from = 0; from < title.size();) {
@@ -152,11 +149,11 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
 
 /// How mouse and keyboard are the stylus: into the picture, on the left, below what stands in its corner.
 void pointer_keys(const Theme& t, bool mouse_free, ImVec2 at, ImVec2 size) {
-  const std::string english = mouse_free ? "Mouse: points at buttons. Tab or middle button: it is the stylus again"
-                                         : "Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: "
-                                           "upright. Shift: finer. B: back above the tooth. Tab or middle button: mouse for buttons";
+  const std::string text = mouse_free ? tr("Mouse: points at buttons. Tab or middle button: it is the stylus again")
+                                      : tr("Stylus: mouse or arrows; wheel or PgUp PgDn for depth; space bar or left button = pedal. Ctrl: tilts, 0: "
+                                           "upright. Shift: finer. B: back above the tooth. Tab or middle button: mouse for buttons");
   push_font(Font::small);
-  const std::string text = shown(english), lines = in_lines(text, std::min(t.px(210), 0.25F * size.x));
+  const std::string lines = in_lines(text, std::min(t.px(210), 0.25F * size.x));
   ImGui::GetWindowDrawList()->AddText({at.x + t.px(16), at.y + t.px(44)}, ink(t.quiet), lines.c_str());
   ImGui::LogText("%s\n", text.c_str());
   pop_font();
@@ -225,15 +222,15 @@ TutorialSight tutorial_sight(const ScreenContext& c, const scenarios::LiveView& 
 void ask_whether_finished(const ScreenContext& c) {
   StationState& s = c.state;
   bool fresh = false;
-  if (!begin_question(c.theme, "Finished?", "Have you finished?", s.confirm_end, fresh)) return;
-  text_line("Your work will be graded as it is now. The clock runs on until then.");
+  if (!begin_question(c.theme, "Finished?", msg("Have you finished?"), s.confirm_end, fresh)) return;
+  text_line(msg("Your work will be graded as it is now. The clock runs on until then."));
   ImGui::Dummy({0, c.theme.px(6)});
-  if (main_button(c.theme, "Yes, hand it in  (Enter)", true, !fresh)) {
+  if (main_button(c.theme, msg("Yes, hand it in  (Enter)"), true, !fresh)) {
     s.wish = Wish::end;
     s.confirm_end = false;
   }
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Back to work  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
+  if (ImGui::Button(shown_label(msg("Back to work  (Esc)")).c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
     s.confirm_end = false;
   end_question(s.confirm_end);
 }
@@ -266,34 +263,43 @@ void exam_screen(const ScreenContext& c) {
   const bool lost = s.view.point >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
   const bool by_pointer = c.sitting->device().pointer() != nullptr;
   if (!view.recording_error.empty()) {
-    const std::string waiting = fmt::format("{} s are kept in memory, nothing is lost. Go on working, and", view.unwritten_ticks / 1000);
-    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", fmt::format("{} call the supervisor: {}", waiting, view.recording_error), t.bad);
+    const Message why = view.recording_error;
+    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"),
+                     msg("{} are kept in memory, nothing is lost. Go on working, and call the supervisor: {}",
+                         as_s(static_cast<double>(view.unwritten_ticks / 1000), 0), why),
+                     t.bad);
   } else if (!c.sitting->moved().empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, "RECORDING", "Go on working, nothing is lost. For the supervisor: " + c.sitting->moved(), t.warn);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"), msg("Go on working, nothing is lost. For the supervisor: {}", c.sitting->moved()),
+                     t.warn);
   } else if (const std::optional<Error> problem = c.sitting->device().problem()) {
-    words_in_picture(t, l.tooth_at, l.tooth, "DEVICE", "Call the supervisor: " + english_text(problem->message()), t.bad);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("DEVICE"), msg("Call the supervisor: {}", problem->message()), t.bad);
   } else if (view.held) {
-    std::string words = tr("{}. The clock stands still and the handpiece stays off.", as_is(s.office ? s.office->hold_reason : ""));
-    if (may_go_on_without(s)) words += " " + tr("The office does not answer. Supervisor: press Home to go on.");
-    words_in_picture(t, l.tooth_at, l.tooth, "PAUSED BY THE EXAM OFFICE", words, t.warn);
+    const Name reason{s.office ? s.office->hold_reason : ""};
+    words_in_picture(t, l.tooth_at, l.tooth, msg("PAUSED BY THE EXAM OFFICE"),
+                     may_go_on_without(s)
+                         ? msg("{}. The clock stands still and the handpiece stays off. The office does not answer. Supervisor: press "
+                               "Home to go on.",
+                               reason)
+                         : msg("{}. The clock stands still and the handpiece stays off.", reason),
+                     t.warn);
   } else if (s.office && !s.office->told.empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, "FROM THE EXAM OFFICE", announcement_text(s.office->told.front()) + "  (Home)", t.accent);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("FROM THE EXAM OFFICE"), msg("{}  (Home)", announcement_text(s.office->told.front())), t.accent);
   } else if (s.attempt_shown_s > 0) {
     s.attempt_shown_s -= c.frame_s;
-    words_in_picture(t, l.tooth_at, l.tooth, "RECORDED",
-                     fmt::format("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDED"),
+                     msg("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn);
   } else if (view.paused) {
-    words_in_picture(t, l.tooth_at, l.tooth, "PAUSE", "The clock stands still and the handpiece stays off. Press P to go on.", t.warn);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("PAUSE"), msg("The clock stands still and the handpiece stays off. Press P to go on."), t.warn);
   } else if (lost) {
-    words_in_picture(t, l.tooth_at, l.tooth, "POINT",
-                     by_pointer ? "The point is out of the picture, where the arrow shows. B brings it back above the tooth."
-                                : "The point is out of the picture, where the arrow shows.",
+    words_in_picture(t, l.tooth_at, l.tooth, msg("POINT"),
+                     by_pointer ? msg("The point is out of the picture, where the arrow shows. B brings it back above the tooth.")
+                                : msg("The point is out of the picture, where the arrow shows."),
                      t.warn);
   } else if (s.tutorial) {
-    const std::string where = s.tutorial->done() ? "TUTORIAL" : fmt::format("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);
-    words_in_picture(t, l.tooth_at, l.tooth, where.c_str(), s.tutorial->text(), s.tutorial->done() ? t.good : t.accent);
+    const Message where = s.tutorial->done() ? msg("TUTORIAL") : msg("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);
+    words_in_picture(t, l.tooth_at, l.tooth, where, s.tutorial->text(), s.tutorial->done() ? t.good : t.accent);
   } else if (c.practice) {
-    words_in_picture(t, l.tooth_at, l.tooth, "PRACTICE", coaching_hint(c.sitting->setup(), view), t.accent);
+    words_in_picture(t, l.tooth_at, l.tooth, msg("PRACTICE"), coaching_hint(c.sitting->setup(), view), t.accent);
   }
   if (by_pointer) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
   if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);

@@ -3,18 +3,28 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/figures.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
 
-void bar_gauge(const Theme& t, const char* name, const std::string& english, double share, double mark) {
-  const std::string value = shown(english);
-  const float width = ImGui::GetContentRegionAvail().x, height = t.px(18);
+namespace {
+
+/// A name, and at the other end of the line its value. Returns where the value begins.
+ImVec2 named_value(const Message& name, const Message& value) {
+  const float width = ImGui::GetContentRegionAvail().x;
   text_line(name);
-  ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
+  ImGui::SameLine(width - ImGui::CalcTextSize(tr(value).c_str()).x + ImGui::GetCursorStartPos().x);
+  const ImVec2 at = ImGui::GetCursorScreenPos();
   text_line(value);
+  return at;
+}
+
+}  // namespace
+
+void bar_gauge(const Theme& t, const Message& name, const Message& value, double share, double mark) {
+  const float width = ImGui::GetContentRegionAvail().x, height = t.px(18);
+  named_value(name, value);
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float full = width * static_cast<float>(std::clamp(share, 0.0, 1.0));
@@ -31,17 +41,14 @@ void bar_gauge(const Theme& t, const char* name, const std::string& english, dou
   ImGui::Dummy({width, height + t.px(6)});
 }
 
-std::string depth_text(double below_mm) {
+Message depth_text(double below_mm) {
   constexpr double k_shown_as_0_mm = 0.05;
-  return below_mm <= -k_shown_as_0_mm ? number_text("%.1f mm above", -below_mm) : number_text("%.1f mm", std::max(0.0, below_mm));
+  return below_mm <= -k_shown_as_0_mm ? msg("{} above", as_mm(-below_mm, 1)) : msg("{}", as_mm(std::max(0.0, below_mm), 1));
 }
 
 void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_mm, float height) {
   const float width = ImGui::GetContentRegionAvail().x;
-  const std::string value = depth_text(tip_mm);
-  text_line("Depth");
-  ImGui::SameLine(width - ImGui::CalcTextSize(value.c_str()).x + ImGui::GetCursorStartPos().x);
-  text_line(value);
+  named_value(msg("Depth"), depth_text(tip_mm));
   const ImVec2 at = ImGui::GetCursorScreenPos();
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const float left = at.x + t.px(42), right = left + t.px(26);
@@ -57,7 +64,7 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
     const std::string text = std::to_string(mm);
     draw.AddText({left - t.px(12) - ImGui::CalcTextSize(text.c_str()).x, y - t.px(8)}, ink(t.quiet), text.c_str());
   }
-  const std::string deepest = number_text("deepest %.1f", deepest_mm);
+  const std::string deepest = tr("deepest {}", as_number(deepest_mm, 1));
   draw.AddLine({right, y_of(deepest_mm)}, {right + t.px(10), y_of(deepest_mm)}, ink(t.text), t.px(2));
   draw.AddText({right + t.px(14), std::min(y_of(deepest_mm) - t.px(8), at.y + height - t.px(14))}, ink(t.quiet), deepest.c_str());
   ImGui::LogText("%s\n", deepest.c_str());
@@ -68,11 +75,11 @@ void depth_gauge(const Theme& t, double tip_mm, double deepest_mm, double most_m
 void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOutput& now, double deepest_mm, const scenarios::GaugeSpec& shown) {
   if (shown.speed) {
     const double thousands = std::round(now.rpm / 1000.0);
-    bar_gauge(t, "Speed", thousands > 0 ? number_text("%.0f 000 /min", thousands) : "0 /min", now.rpm / setup.scenario.max_rpm);
+    bar_gauge(t, msg("Speed"), thousands > 0 ? msg("{} 000 /min", as_number(thousands, 0)) : msg("0 /min"), now.rpm / setup.scenario.max_rpm);
   }
   if (shown.force) {
     const double most_n = 4.0, force_n = length(now.rendered_force_n);
-    bar_gauge(t, "Force", number_text("%.1f N", force_n), force_n / most_n, setup.scenario.force_limit_n / most_n);
+    bar_gauge(t, msg("Force"), msg("{}", as_n(force_n, 1)), force_n / most_n, setup.scenario.force_limit_n / most_n);
   }
   if (shown.depth) {
     const double floor_mm = setup.zones.opening_z_mm() - setup.zones.floor_level_mm();
@@ -81,12 +88,8 @@ void show_gauges(const Theme& t, const scenarios::ExamSetup& setup, const TickOu
 }
 
 void contact_lamp(const Theme& t, bool touches) {
-  const std::string word = shown(touches ? "touches" : "free");
-  const float width = ImGui::GetContentRegionAvail().x, r = t.px(7);
-  text_line("Contact");
-  ImGui::SameLine(width - ImGui::CalcTextSize(word.c_str()).x + ImGui::GetCursorStartPos().x);
-  const ImVec2 at = ImGui::GetCursorScreenPos();
-  text_line(word);
+  const float r = t.px(7);
+  const ImVec2 at = named_value(msg("Contact"), touches ? msg("touches") : msg("free"));
   ImDrawList& draw = *ImGui::GetWindowDrawList();
   const ImVec2 lamp{at.x - 2.0F * r, at.y + 0.5F * ImGui::GetTextLineHeight()};
   if (touches) draw.AddCircleFilled(lamp, r, ink(t.warn));
@@ -98,18 +101,16 @@ void exam_clock(const Theme& t, double passed_s, double limit_s, bool standing) 
   const double shown_s = limit_s > 0 ? limit_s - passed_s : passed_s;
   constexpr double k_soon_s = 60.0;
   const bool soon = limit_s > 0 && shown_s < k_soon_s;
-  const std::string text = clock_text(limit_s > 0 ? std::ceil(shown_s) : shown_s);  // 0:00 means that time is up
-  std::string label = shown(limit_s > 0 ? "time left" : "time");
-  if (soon) label = shown("LAST MINUTE");
-  if (standing) label = shown("CLOCK STANDS");
+  const Message clock = msg("{}", ClockTime{limit_s > 0 ? std::ceil(shown_s) : shown_s});  // 0:00 means that time is up
+  const Message label = standing ? msg("CLOCK STANDS") : soon ? msg("LAST MINUTE") : limit_s > 0 ? msg("time left") : msg("time");
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, soon || standing ? t.warn : t.text);
   const float width = ImGui::GetContentRegionAvail().x, x = ImGui::GetCursorPosX();
-  ImGui::SetCursorPosX(x + width - ImGui::CalcTextSize(text.c_str()).x);
-  text_line(text);
+  ImGui::SetCursorPosX(x + width - ImGui::CalcTextSize(tr(clock).c_str()).x);
+  text_line(clock);
   pop_font();
   push_font(Font::small);
-  ImGui::SetCursorPos({x + width - ImGui::CalcTextSize(label.c_str()).x, ImGui::GetCursorPosY() - t.px(10)});
+  ImGui::SetCursorPos({x + width - ImGui::CalcTextSize(tr(label).c_str()).x, ImGui::GetCursorPosY() - t.px(10)});
   text_line(label);
   pop_font();
   ImGui::PopStyleColor();

@@ -11,7 +11,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/session/station_key.h"
 #include "ui/station/window.h"
 
@@ -67,7 +66,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   constexpr double k_day_s = 86'400;
   r.here_s = static_cast<std::int64_t>(std::min(k_day_s, sitting->here_s()));
   if (sitting->stage() != Stage::preparing) r.candidate = short_line(sitting->candidate());
-  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(sitting->trouble());
+  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(english_text(sitting->trouble()));
   if (sitting->stage() != Stage::running) return r;
   const scenarios::LiveView view = sitting->live().view();
   const auto& steps = sitting->setup().scenario.steps;
@@ -76,12 +75,12 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   if (view.limit_ticks > 0) r.left_s = std::max<std::int64_t>(0, (view.limit_ticks - view.ticks + view.paused_ticks) / k_ticks_per_second);
   r.held = view.held;
   if (view.paused || view.held) r.state = office::AtStation::paused;
-  if (!view.recording_error.empty())
-    r.alarm = short_line(view.recording_error);
+  if (const Message why = view.recording_error; !why.empty())
+    r.alarm = short_line(english_text(why));
   else if (const std::optional<Error> problem = sitting->device().problem())
     r.alarm = short_line(english_text(problem->without_advice()));
   else if (state.attempt_shown_s > 0)
-    r.alarm = short_line(state.attempt);
+    r.alarm = short_line(english_text(state.attempt));
   return r;
 }
 
@@ -138,27 +137,26 @@ void OfficeLine::require_free(const StationState& state) {
     throw Error(msg("the exam office"), msg("has paused the exams here ({})", state.office->hold_reason), msg("wait until they go on"));
 }
 
-std::string OfficeLine::outcome_text(const std::string& recording) {
+Message OfficeLine::outcome_text(const std::string& recording) {
   const auto outcome = office::StationLink::outcome(recording);
-  if (!outcome) return tr("It is handed in to the exam office by itself as soon as that answers.");
-  if (outcome->filed) return tr("Handed in to the exam office: entry {}.", outcome->entry);
-  return tr("The exam office did not take it. Tell the invigilator: {}", outcome->findings.empty() ? "" : outcome->findings.front());
+  if (!outcome) return msg("It is handed in to the exam office by itself as soon as that answers.");
+  if (outcome->filed) return msg("Handed in to the exam office: entry {}.", outcome->entry);
+  return msg("The exam office did not take it. Tell the invigilator: {}", Authored{outcome->findings.empty() ? "" : outcome->findings.front()});
 }
 
-std::string announcement_text(const office::Told& told) {
+Message announcement_text(const office::Told& told) {
   const auto seconds = static_cast<std::time_t>(told.utc_ns / 1'000'000'000);
   std::tm local{};
   ::localtime_r(&seconds, &local);
-  return fmt::format("{:02}:{:02}  {}", local.tm_hour, local.tm_min, told.text);
+  return msg("{}  {}", fmt::format("{:02}:{:02}", local.tm_hour, local.tm_min), told.text);
 }
 
-std::string office_status(const StationState& state) {
+Message office_status(const StationState& state) {
   if (!state.office) return {};
   const office::LinkView& office = *state.office;
-  std::string text = office.reached ? tr("The exam office answers.")
-                                    : tr("The exam office does not answer: exams go on without it, and are handed in later. {}", office.trouble);
-  if (office.waiting > 0) text += " " + tr("Waiting to be handed in: {}.", office.waiting);
-  return text;
+  const Message now = office.reached ? msg("The exam office answers.")
+                                     : msg("The exam office does not answer: exams go on without it, and are handed in later. {}", office.trouble);
+  return office.waiting > 0 ? msg("{} {}", now, msg("Waiting to be handed in: {}.", office.waiting)) : now;
 }
 
 bool may_go_on_without(const StationState& state) noexcept { return state.office && state.office->hold != 0 && state.office->silent_s > k_gone_s; }
@@ -181,13 +179,13 @@ void office_notice(const ScreenContext& c) {
                ImGuiWindowFlags_NoTitleBar | ImGuiWindowFlags_NoResize | ImGuiWindowFlags_NoMove | ImGuiWindowFlags_NoSavedSettings |
                    ImGuiWindowFlags_AlwaysAutoResize | ImGuiWindowFlags_NoFocusOnAppearing | ImGuiWindowFlags_NoNav);
   if (s.office->hold != 0) {
-    text_line("PAUSED BY THE EXAM OFFICE");
-    wrapped_text(s.office->hold_reason);
-    quiet_text(t, "No exam begins or goes on here until the office says so.");
+    text_line(msg("PAUSED BY THE EXAM OFFICE"));
+    wrapped_text(Name{s.office->hold_reason});
+    quiet_text(t, msg("No exam begins or goes on here until the office says so."));
   } else {
-    text_line("FROM THE EXAM OFFICE");
+    text_line(msg("FROM THE EXAM OFFICE"));
     wrapped_text(announcement_text(s.office->told.front()));
-    if (side_button(t, "I have read it  (Home)")) s.wish = Wish::read;
+    if (side_button(t, msg("I have read it  (Home)"))) s.wish = Wish::read;
   }
   s.notice_px = ImGui::GetWindowPos().y + ImGui::GetWindowSize().y + t.px(12);
   ImGui::End();
@@ -200,23 +198,24 @@ void ask_whether_to_go_on(const ScreenContext& c, bool locked) {
   if (s.screen == Screen::exam && may_go_on_without(s) && key_pressed(GLFW_KEY_HOME)) s.confirm_go_on = true;
   if (s.confirm_go_on && !may_go_on_without(s)) s.confirm_go_on = false;
   bool fresh = false;
-  if (!begin_question(c.theme, "Go on?", "Go on without the exam office?", s.confirm_go_on, fresh)) return;
-  text_line("The office has paused this exam and does not answer. That it goes on is recorded.");
+  if (!begin_question(c.theme, "Go on?", msg("Go on without the exam office?"), s.confirm_go_on, fresh)) return;
+  text_line(msg("The office has paused this exam and does not answer. That it goes on is recorded."));
   if (locked) {
-    text_line("Supervisor, type your code:");
+    text_line(msg("Supervisor, type your code:"));
     ImGui::SetNextItemWidth(-1);
     if (fresh) ImGui::SetKeyboardFocusHere();
     ImGui::InputText("##go on", s.supervisor_code.data(), s.supervisor_code.size(), ImGuiInputTextFlags_Password);
     bad_text(c.theme, s.leave_message);
   }
   ImGui::Dummy({0, c.theme.px(6)});
-  if (main_button(c.theme, "Go on  (Enter)", true, !fresh)) s.wish = Wish::go_on;
+  if (main_button(c.theme, msg("Go on  (Enter)"), true, !fresh)) s.wish = Wish::go_on;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Back  (Esc)").c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE))) s.confirm_go_on = false;
+  if (ImGui::Button(shown_label(msg("Back  (Esc)")).c_str(), {0, c.theme.px(44)}) || (!fresh && key_pressed(GLFW_KEY_ESCAPE)))
+    s.confirm_go_on = false;
   end_question(s.confirm_go_on);
   if (s.confirm_go_on) return;
   s.supervisor_code = {};
-  s.leave_message.clear();
+  s.leave_message = {};
 }
 
 }  // namespace cavum::station

@@ -28,7 +28,7 @@ class OfficeLine {
   [[nodiscard]] std::string begin(const std::string& ticket_nonce) { return link_.begin(ticket_nonce); }
 
  private:
-  [[nodiscard]] static std::string outcome_text(const std::string& recording);
+  [[nodiscard]] static Message outcome_text(const std::string& recording);
   void note_what_was_said(const StationState& state, Sitting& sitting);
 
   office::StationLink link_;
@@ -41,9 +41,9 @@ class OfficeLine {
 /// What a station with this on its screen reports.
 [[nodiscard]] office::StationReport office_report(const StationState& state, Sitting* sitting);
 /// Of the sign-in screen: is the office there, and does something wait to be handed in? Empty without an office.
-[[nodiscard]] std::string office_status(const StationState& state);
+[[nodiscard]] Message office_status(const StationState& state);
 /// "15:19  Ten minutes left.": with the clock time here at which it was made.
-[[nodiscard]] std::string announcement_text(const office::Told& told);
+[[nodiscard]] Message announcement_text(const office::Told& told);
 /// What the office says, over any screen but the exam's, which shows it in its picture.
 void office_notice(const ScreenContext& c);
 /// Whether the exam goes on although the office, which does not answer, has paused it. `locked`: asks for the supervisor's code.

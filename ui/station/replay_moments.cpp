@@ -9,28 +9,28 @@ namespace cavum::station {
 namespace {
 
 struct EventMark {
-  const char* word;  ///< null: not worth one
+  Message word;  ///< none: not worth one
   bool bad = false;
 };
 
-EventMark mark(const char* word) { return {word}; }
-EventMark bad_mark(const char* word) { return {word, true}; }
+EventMark mark(Message word) { return {std::move(word)}; }
+EventMark bad_mark(Message word) { return {std::move(word), true}; }
 
 EventMark event_mark(const Event& event) {
   return std::visit(
       EachKind{
-          [](const Perforated&) { return bad_mark("perforation"); },
-          [](const AimReached&) { return mark("aim reached"); },
-          [](const StepCompleted&) { return mark("step completed"); },
-          [](const AnyOf<StepFailed, StepTimeUp> auto&) { return bad_mark("step failed"); },
-          [](const PauseStarted&) { return mark("pause"); },
-          [](const HoldStarted&) { return mark("paused by the office"); },
-          [](const RecordingGap&) { return bad_mark("recording interrupted"); },
-          [](const TimeUp&) { return mark("time is up"); },
-          [](const Finished&) { return mark("finished"); },
+          [](const Perforated&) { return bad_mark(msg("perforation")); },
+          [](const AimReached&) { return mark(msg("aim reached")); },
+          [](const StepCompleted&) { return mark(msg("step completed")); },
+          [](const AnyOf<StepFailed, StepTimeUp> auto&) { return bad_mark(msg("step failed")); },
+          [](const PauseStarted&) { return mark(msg("pause")); },
+          [](const HoldStarted&) { return mark(msg("paused by the office")); },
+          [](const RecordingGap&) { return bad_mark(msg("recording interrupted")); },
+          [](const TimeUp&) { return mark(msg("time is up")); },
+          [](const Finished&) { return mark(msg("finished")); },
           [](const AnyOf<StepStarted, PointNotAllowed, OverSpeed, PauseEnded, PauseRefused, HoldEnded, RecordingMoved, ServoGap, Overruns,
                          StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt,
-                         OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return mark(nullptr); },
+                         OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return mark({}); },
       },
       event);
 }
@@ -41,7 +41,7 @@ std::vector<ReplayMoment> replay_moments(const std::vector<TimedEvent>& events, 
                                          bool with_points) {
   std::vector<ReplayMoment> moments;
   for (const TimedEvent& e : events)
-    if (const auto [word, bad] = event_mark(e.event); word != nullptr) moments.push_back({e.tick, word, bad});
+    if (const auto [word, bad] = event_mark(e.event); !word.empty()) moments.push_back({e.tick, word, bad});
   if (with_points && !result_json.empty()) {
     try {
       const auto result = nlohmann::json::parse(result_json);
@@ -52,10 +52,10 @@ std::vector<ReplayMoment> replay_moments(const std::vector<TimedEvent>& events, 
         if (lost <= k_least) continue;
         const auto& first = c.at("first_tick");
         moments.push_back({first.is_number() ? std::clamp<std::int64_t>(first.get<std::int64_t>(), 0, ticks) : ticks,
-                           c.at("title").get<std::string>(), true, lost});
+                           msg("{}", Authored{c.at("title").get<std::string>()}), true, lost});
       }
     } catch (const nlohmann::json::exception& e) {
-      throw Error(msg("result of the session"), e.what(), msg("grade it anew: cavum grade"));
+      throw Error(msg("result of the session"), Name{e.what()}, msg("grade it anew: cavum grade"));
     }
   }
   std::stable_sort(moments.begin(), moments.end(), [](const ReplayMoment& a, const ReplayMoment& b) { return a.tick < b.tick; });

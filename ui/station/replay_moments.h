@@ -12,7 +12,7 @@ namespace cavum::station {
 
 struct ReplayMoment {
   std::int64_t tick = 0;
-  std::string what;                 ///< English: "perforation", a criterion's title
+  Message what;                     ///< "perforation", a criterion's title
   bool bad = false;                 ///< a fault, or points lost
   std::optional<double> lost = {};  ///< points, more than 0.005
 };

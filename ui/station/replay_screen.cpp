@@ -1,13 +1,12 @@
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/core.h>
 #include <imgui.h>
 
 #include <algorithm>
 #include <cmath>
 
 #include "engine/base/figures.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/station/gauges.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
@@ -22,9 +21,9 @@ void top_bar(const ScreenContext& c, ImVec2 size) {
   begin_area(t, "replay top", {0, 0}, size, true);
   ImGui::PopStyleVar();
   ImGui::BeginChild("replay step", {size.x - t.px(260), 0}, false, ImGuiWindowFlags_NoScrollbar);
-  quiet_text(t, fmt::format("Replay of {}    candidate {}", player.session().path(), player.session().setup().candidate));
+  quiet_text(t, msg("Replay of {}    candidate {}", player.session().path(), player.session().setup().candidate));
   const std::string& instruction = player.instruction(player.shown().runner);
-  wrapped_text(instruction.empty() ? "The exam is over." : instruction);
+  wrapped_text(instruction.empty() ? msg("The exam is over.") : msg("{}", Authored{instruction}));
   ImGui::EndChild();
   ImGui::SameLine();
   ImGui::BeginChild("replay clock", {0, 0}, false, ImGuiWindowFlags_NoScrollbar);
@@ -57,7 +56,7 @@ void time_line(const ScreenContext& c) {
     draw.AddTriangleFilled({x - t.px(6), at.y + height + t.px(14)}, {x + t.px(6), at.y + height + t.px(14)}, {x, at.y + height + t.px(3)},
                            ink(m.bad ? t.bad : t.good));
     if (ImGui::IsMouseHoveringRect({x - t.px(7), at.y}, {x + t.px(7), at.y + height + t.px(15)}))
-      ImGui::SetTooltip("%s, %s", shown(m.what).c_str(), clock_text(static_cast<double>(m.tick) * k_tick_s).c_str());
+      ImGui::SetTooltip("%s", tr("{}, {}", m.what, ClockTime{static_cast<double>(m.tick) * k_tick_s}).c_str());
   }
   ImGui::Dummy({width, t.px(14)});
 }
@@ -78,14 +77,14 @@ void moment_list(const ScreenContext& c, float height) {
   const int before = s.replay_moment;
   const int step = (ImGui::IsKeyPressed(GLFW_KEY_PAGE_DOWN) ? 1 : 0) - (ImGui::IsKeyPressed(GLFW_KEY_PAGE_UP) ? 1 : 0);
   if (step != 0) go_to_moment(c, moment_beside(moments, now, s.replay_moment, step));
-  text_line("Events  (PgUp, PgDn)");
+  text_line(msg("Events  (PgUp, PgDn)"));
   ImGui::BeginChild("moments", {0, height}, false);
   push_font(Font::small);
   const float wide = ImGui::GetContentRegionAvail().x, left = t.px(42), right = t.px(46), line = ImGui::GetTextLineHeight();
   for (std::size_t i = 0; i < moments.size(); ++i) {
     const ReplayMoment& m = moments[i];
-    const std::string words = in_lines(shown(m.what), wide - left - right), time = clock_text(static_cast<double>(m.tick) * k_tick_s);
-    const std::string points = m.lost ? number_text("-%.1f", *m.lost) : "";
+    const std::string what = tr(m.what), words = in_lines(what, wide - left - right), time = clock_text(static_cast<double>(m.tick) * k_tick_s);
+    const std::string points = m.lost ? tr("{}", as_points(-*m.lost)) : "";
     const ImVec2 at = ImGui::GetCursorScreenPos(), box = ImGui::CalcTextSize(words.c_str());
     const bool chosen = static_cast<int>(i) == s.replay_moment && m.tick == static_cast<std::int64_t>(s.replay_at);
     ImGui::PushID(static_cast<int>(i));
@@ -96,7 +95,7 @@ void moment_list(const ScreenContext& c, float height) {
     draw.AddText(at, ink(t.quiet), time.c_str());
     draw.AddText({at.x + left, at.y}, ink(t.text), words.c_str());
     draw.AddText({at.x + wide - ImGui::CalcTextSize(points.c_str()).x, at.y}, ink(m.bad ? t.bad : t.text), points.c_str());
-    ImGui::LogText("%s\n", (time + " " + shown(m.what) + " " + points).c_str());
+    ImGui::LogText("%s %s %s\n", time.c_str(), what.c_str(), points.c_str());
   }
   pop_font();
   ImGui::EndChild();
@@ -109,31 +108,34 @@ void controls(const ScreenContext& c, ImVec2 at, ImVec2 size) {
   begin_area(t, "replay controls", at, size, true);
   time_line(c);
   const double back_s = ImGui::GetIO().KeyShift ? 10.0 : 1.0;
-  const auto wide = [](const char* english) { return ImGui::CalcTextSize(shown(english).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x; };
-  const float room = std::max(wide("Stop  (Space)"), wide("Play  (Space)"));  // it stays where it is, whichever it says
-  if (side_button(t, s.playing ? "Stop  (Space)" : "Play  (Space)", room) || key_pressed(GLFW_KEY_SPACE)) {
+  const Message stop = msg("Stop  (Space)"), play = msg("Play  (Space)");
+  const auto wide = [](const Message& label) { return ImGui::CalcTextSize(tr(label).c_str()).x + 2 * ImGui::GetStyle().FramePadding.x; };
+  const float room = std::max(wide(stop), wide(play));  // it stays where it is, whichever it says
+  if (side_button(t, s.playing ? stop : play, room) || key_pressed(GLFW_KEY_SPACE)) {
     s.playing = !s.playing;
     if (s.playing && s.replay_at >= all) s.replay_at = 0.0;
   }
   ImGui::SameLine();
-  if (side_button(t, "-1 s  (,)") || ImGui::IsKeyPressed(GLFW_KEY_COMMA)) s.replay_at -= 1000.0 * back_s;
+  if (side_button(t, msg("-1 s  (,)")) || ImGui::IsKeyPressed(GLFW_KEY_COMMA)) s.replay_at -= 1000.0 * back_s;
   ImGui::SameLine();
-  if (side_button(t, "+1 s  (.)") || ImGui::IsKeyPressed(GLFW_KEY_PERIOD)) s.replay_at += 1000.0 * back_s;
+  if (side_button(t, msg("+1 s  (.)")) || ImGui::IsKeyPressed(GLFW_KEY_PERIOD)) s.replay_at += 1000.0 * back_s;
   ImGui::SameLine();
-  if (side_button(t, "Begin  (Home)") || key_pressed(GLFW_KEY_HOME)) s.replay_at = 0.0;
+  if (side_button(t, msg("Begin  (Home)")) || key_pressed(GLFW_KEY_HOME)) s.replay_at = 0.0;
   ImGui::SameLine();
-  if (side_button(t, "End  (End)") || key_pressed(GLFW_KEY_END)) s.replay_at = all;
+  if (side_button(t, msg("End  (End)")) || key_pressed(GLFW_KEY_END)) s.replay_at = all;
   ImGui::SameLine();
   for (const double speed : {0.25, 1.0, 4.0, 16.0}) {
     const bool chosen = s.replay_speed == speed;
     if (chosen) ImGui::PushStyleColor(ImGuiCol_Text, t.accent);
-    if (side_button(t, (number_text("%g", speed) + " x").c_str())) s.replay_speed = speed;
+    ImGui::PushID(static_cast<int>(100 * speed));
+    if (side_button(t, msg("{} x", as_number(speed)))) s.replay_speed = speed;
+    ImGui::PopID();
     if (chosen) ImGui::PopStyleColor();
     ImGui::SameLine();
   }
   if (key_pressed(GLFW_KEY_LEFT_BRACKET)) s.replay_speed = std::max(0.25, s.replay_speed / 4.0);
   if (key_pressed(GLFW_KEY_RIGHT_BRACKET)) s.replay_speed = std::min(16.0, s.replay_speed * 4.0);
-  if (side_button(t, s.view.clear ? "Opaque  (C)" : "Clear  (C)") || key_pressed(GLFW_KEY_C)) s.view.clear = !s.view.clear;
+  if (side_button(t, s.view.clear ? msg("Opaque  (C)") : msg("Clear  (C)")) || key_pressed(GLFW_KEY_C)) s.view.clear = !s.view.clear;
   if (key_pressed(GLFW_KEY_ESCAPE)) s.wish = Wish::quit;
   s.replay_at = std::clamp(s.replay_at, 0.0, all);
   end_area();
@@ -175,11 +177,11 @@ void replay_screen(const ScreenContext& c) {
   const ReplayPlayer::Shown& now = player.shown();
   show_gauges(t, setup, now.output, now.runner.depth_mm, {true, true, true});
   contact_lamp(t, now.output.contact);
-  quiet_text(t, "Target removed: about " +
-                    number_text("%.1f %%", 100.0 * static_cast<double>(now.runner.target_shares) / static_cast<double>(setup.zones.target_shares())));
+  const double removed = static_cast<double>(now.runner.target_shares) / static_cast<double>(setup.zones.target_shares());
+  quiet_text(t, msg("Target removed: about {}", as_percent(100.0 * removed, 1)));
   const float help = t.px(84);
   moment_list(c, std::max(t.px(120), ImGui::GetContentRegionAvail().y - help - t.px(30)));
-  quiet_text(t, "View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray");
+  quiet_text(t, msg("View: 1 to 5, W A S D, + and -, M mirror, R turn, T both eyes, H handpiece, G ring below the head, N spray"));
   end_area();
   controls(c, {0, screen.y - bottom}, {screen.x, bottom});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
@@ -187,7 +189,7 @@ void replay_screen(const ScreenContext& c) {
   begin_area(t, "replay tooth", at, size, false);
   ImGui::PopStyleVar();
   tooth_area(c, size);
-  words_in_picture(t, at, size, there ? "REPLAY" : "REPLAY, on the way ...", {}, t.accent);
+  words_in_picture(t, at, size, there ? msg("REPLAY") : msg("REPLAY, on the way ..."), {}, t.accent);
   end_area();
 }
 

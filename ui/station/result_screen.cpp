@@ -1,4 +1,3 @@
-#include <fmt/core.h>
 #include <imgui.h>
 
 #define GLFW_INCLUDE_NONE
@@ -8,9 +7,6 @@
 #include <cmath>
 #include <filesystem>
 
-#include "engine/base/figures.h"
-#include "engine/language/say.h"
-#include "engine/language/shown.h"
 #include "grading/result/mark.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
@@ -20,8 +16,8 @@ namespace {
 
 void criteria(const Theme& t, const grading::Result& r) {
   if (!ImGui::BeginTable("criteria", 3, ImGuiTableFlags_RowBg | ImGuiTableFlags_BordersInnerH | ImGuiTableFlags_PadOuterX)) return;
-  ImGui::TableSetupColumn(shown_label("Criterion").c_str(), ImGuiTableColumnFlags_WidthStretch);
-  ImGui::TableSetupColumn(shown_label("Points").c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(130));
+  ImGui::TableSetupColumn(shown_label(msg("Criterion")).c_str(), ImGuiTableColumnFlags_WidthStretch);
+  ImGui::TableSetupColumn(shown_label(msg("Points")).c_str(), ImGuiTableColumnFlags_WidthFixed, t.px(130));
   ImGui::TableSetupColumn("##share", ImGuiTableColumnFlags_WidthFixed, t.px(190));
   ImGui::TableHeadersRow();
   for (const grading::CriterionResult& c : r.criteria) {
@@ -29,7 +25,7 @@ void criteria(const Theme& t, const grading::Result& r) {
     ImGui::TableNextColumn();
     wrapped_text(c.title);
     ImGui::TableNextColumn();
-    text_line(number_text("%.1f", c.points) + number_text(" of %.0f", c.max));
+    text_line(msg("{} of {}", as_points(c.points), as_points(c.max, 0)));
     ImGui::TableNextColumn();
     const ImVec2 at = ImGui::GetCursorScreenPos();
     const float width = t.px(180), share = c.max > 0 ? static_cast<float>(std::clamp(c.points / c.max, 0.0, 1.0)) : 0.0F, top = at.y + t.px(6);
@@ -45,11 +41,11 @@ void criteria(const Theme& t, const grading::Result& r) {
 void what_to_work_on(const Theme& t, const std::vector<grading::Lesson>& lessons) {
   constexpr std::size_t k_most = 3;
   if (lessons.empty()) return;
-  heading_text("What to work on");
+  heading_text(msg("What to work on"));
   for (std::size_t i = 0; i < lessons.size() && i < k_most; ++i) {
     const grading::Lesson& l = lessons[i];
     ImGui::PushStyleColor(ImGuiCol_Text, l.fails_exam ? t.bad : t.accent);
-    text_line(number_text("%.1f points", l.points) + shown(l.fails_exam ? "; this alone fails the exam" : ""));
+    text_line(l.fails_exam ? msg("{} points; this alone fails the exam", as_points(l.points)) : msg("{} points", as_points(l.points)));
     ImGui::PopStyleColor();
     wrapped_text(l.what);
     quiet_text(t, l.instead);
@@ -58,35 +54,35 @@ void what_to_work_on(const Theme& t, const std::vector<grading::Lesson>& lessons
 
 /// The school tells the result, not the station.
 void held_result_screen(const ScreenContext& c) {
-  begin_card(c.theme, "Your exam is recorded and sealed", 640, c.state.notice_px);
-  wrapped_text("The result is held until the school releases it.");
-  quiet_text(c.theme, tr("{},  candidate {}", as_is(shown(c.sitting->setup().scenario.title)), as_is(c.sitting->candidate())));
+  begin_card(c.theme, msg("Your exam is recorded and sealed"), 640, c.state.notice_px);
+  wrapped_text(msg("The result is held until the school releases it."));
+  quiet_text(c.theme, msg("{},  candidate {}", Authored{c.sitting->setup().scenario.title}, c.sitting->candidate()));
   if (c.state.office) quiet_text(c.theme, c.state.office_outcome);
   ImGui::Dummy({0, c.theme.px(8)});
-  if (main_button(c.theme, "Done  (Enter)", true)) c.state.wish = Wish::next_candidate;
+  if (main_button(c.theme, msg("Done  (Enter)"), true)) c.state.wish = Wish::next_candidate;
   end_area();
 }
 
 }  // namespace
 
 void grading_screen(const ScreenContext& c) {
-  begin_card(c.theme, "The exam is over", 560);
-  wrapped_text("Your work is being graded and sealed. You may put the handpiece down.");
+  begin_card(c.theme, msg("The exam is over"), 560);
+  wrapped_text(msg("Your work is being graded and sealed. You may put the handpiece down."));
   const double phase = std::fmod(ImGui::GetTime(), 1.0);
   ImGui::ProgressBar(static_cast<float>(phase), {-1, c.theme.px(6)}, "");
   end_area();
 }
 
 void trouble_screen(const ScreenContext& c) {
-  begin_card(c.theme, "The exam was interrupted", 640);
+  begin_card(c.theme, msg("The exam was interrupted"), 640);
   wrapped_text(c.state.message);
   ImGui::Dummy({0, c.theme.px(8)});
   if (c.sitting != nullptr && !c.sitting->path().empty()) {
-    wrapped_text("Everything up to this moment is recorded. Call the supervisor; the exam can be taken up again:");
-    quiet_text(c.theme, "cavum station --resume " + c.sitting->path());
+    wrapped_text(msg("Everything up to this moment is recorded. Call the supervisor; the exam can be taken up again:"));
+    quiet_text(c.theme, Name{"cavum station --resume " + c.sitting->path()});
   }
   ImGui::Dummy({0, c.theme.px(8)});
-  if (main_button(c.theme, "Close  (Enter)", true)) c.state.wish = Wish::quit;
+  if (main_button(c.theme, msg("Close  (Enter)"), true)) c.state.wish = Wish::quit;
   end_area();
 }
 
@@ -103,27 +99,29 @@ void result_screen(const ScreenContext& c) {
   const ImVec4 colour = r.verdict == grading::Verdict::pass ? t.good : r.verdict == grading::Verdict::fail ? t.bad : t.warn;
   push_font(Font::clock);
   ImGui::PushStyleColor(ImGuiCol_Text, colour);
-  text_line(r.verdict == grading::Verdict::pass ? "Passed" : r.verdict == grading::Verdict::fail ? "Not passed" : "To be reviewed");
+  text_line(r.verdict == grading::Verdict::pass ? msg("Passed") : r.verdict == grading::Verdict::fail ? msg("Not passed") : msg("To be reviewed"));
   ImGui::PopStyleColor();
   pop_font();
-  heading_text(number_text("%.1f", r.points) + number_text(" of %.0f points", r.max_points));
-  quiet_text(t, tr("{},  candidate {},  {} minutes{}", as_is(shown(r.scenario_title)), as_is(c.sitting->candidate()), clock_text(r.motion.time_s),
-                   c.practice ? ",  practice" : ""));
+  heading_text(msg("{} of {} points", as_points(r.points), as_points(r.max_points, 0)));
+  const Authored title{r.scenario_title};
+  const ClockTime time{r.motion.time_s};
+  quiet_text(t, c.practice ? msg("{},  candidate {},  {} minutes,  practice", title, c.sitting->candidate(), time)
+                           : msg("{},  candidate {},  {} minutes", title, c.sitting->candidate(), time));
   for (const auto& reason : r.verdict_reasons)
-    if (reason.kind != grading::FindingKind::critical_limit) wrapped_text(english_text(reason.message()));  // that one is among the mistakes
+    if (reason.kind != grading::FindingKind::critical_limit) wrapped_text(reason.message());  // that one is among the mistakes
   ImGui::Dummy({0, t.px(4)});
   what_to_work_on(t, c.sitting->lessons());
   ImGui::Dummy({0, t.px(4)});
   criteria(t, r);
   if (c.sitting->report().first_disagreement >= 0)
-    wrapped_text("The servo and its recording disagree: this result is doubtful. Tell the supervisor.");
+    wrapped_text(msg("The servo and its recording disagree: this result is doubtful. Tell the supervisor."));
   ImGui::EndChild();
-  quiet_text(t, "Recorded and sealed: " + c.sitting->path());
+  quiet_text(t, msg("Recorded and sealed: {}", c.sitting->path()));
   if (s.office) quiet_text(t, s.office_outcome);
   if (!s.message.empty()) quiet_text(t, s.message);
-  if (main_button(t, "Done  (Enter)", true)) s.wish = Wish::next_candidate;
+  if (main_button(t, msg("Done  (Enter)"), true)) s.wish = Wish::next_candidate;
   ImGui::SameLine();
-  if (ImGui::Button(shown_label("Write the report  (F2)").c_str(), {0, t.px(44)}) || key_pressed(GLFW_KEY_F2)) s.wish = Wish::report;
+  if (ImGui::Button(shown_label(msg("Write the report  (F2)")).c_str(), {0, t.px(44)}) || key_pressed(GLFW_KEY_F2)) s.wish = Wish::report;
   end_area();
 
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});

@@ -47,7 +47,7 @@ void ask_whether_to_leave(const ScreenContext& c, bool locked);
 /// mouse is over it.
 bool tooth_area(const ScreenContext& c, ImVec2 size);
 /// Its lower left corner on the screen and its size, of the last tooth_area: for words written into it.
-void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& lower, const ImVec4& colour);
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const Message& upper, const Message& lower, const ImVec4& colour);
 
 /// Whether a place of the tooth frame lies outside the picture of the tooth; then an arrow at the picture's edge shows where to.
 bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVec2 size);

@@ -18,6 +18,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file_name.h"
+#include "ui/parts/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -25,13 +26,6 @@ namespace {
 
 constexpr std::array<const char*, 19> k_words{"mouse", "wait", "go",      "until", "type", "key",  "hold",   "release", "sleep", "stall",
                                               "hide",  "show", "picture", "words", "pace", "tell", "memory", "fail",    "close"};
-
-template <class Words>
-std::string listed(const Words& words) {
-  std::string list;
-  for (const auto word : words) list += (list.empty() ? "" : ", ") + std::string(word);
-  return list;
-}
 
 int key_of(const std::string& name) {
   if (name == "enter") return GLFW_KEY_ENTER;
@@ -61,11 +55,7 @@ int key_of(const std::string& name) {
   return 0;
 }
 
-std::string seconds(double s) {
-  std::ostringstream text;
-  text << std::fixed << std::setprecision(s < 10 && s > 0 ? 1 : 0) << s << " s";
-  return text.str();
-}
+Number seconds(double s) { return as_s(s, s < 10 && s > 0 ? 1 : 0); }
 
 double memory_mb() {
   std::ifstream statm("/proc/self/statm");
@@ -87,9 +77,9 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     Command c;
     c.line = number;
     if (!(words >> c.word) || c.word[0] == '#') continue;
-    const std::string where = fmt::format("{}:{}", path, number);
+    const FilePlace where{path, number};
     if (std::find(k_words.begin(), k_words.end(), c.word) == k_words.end())
-      throw Error(where, msg("'{}' is no command of a script", c.word), msg("use one of: {}", listed(k_words)));
+      throw Error(where, msg("'{}' is no command of a script", c.word), msg("use one of: {}", list_of(k_words)));
     words >> c.text;
     if (c.word == "until" || c.word == "sleep" || c.word == "stall") {
       std::istringstream value(c.text);
@@ -97,7 +87,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
     }
     if (const auto screens = screen_names();
         (c.word == "wait" || c.word == "go") && std::find(screens.begin(), screens.end(), c.text) == screens.end())
-      throw Error(where, msg("'{}' is no screen", c.text), msg("use one of: {}", listed(screens)));
+      throw Error(where, msg("'{}' is no screen", c.text), msg("use one of: {}", list_of(screens)));
     if (c.word == "pace") {
       std::istringstream value(c.text);
       if (!(value >> c.number) || c.number < 1) throw Error(where, msg("'pace' needs pictures a second"), msg("write a number of 1 or more"));
@@ -121,7 +111,7 @@ Script::Script(const std::string& text, const std::string& path, std::string pic
 }
 
 bool Script::run(const Command& c, Window& window, Screen screen, double exam_s, double now_s) {
-  const std::string where = fmt::format("{}:{}", path_, c.line);
+  const FilePlace where{path_, c.line};
   const double waited_s = now_s - since_s_;
   if (c.word == "wait" || c.word == "go") {
     constexpr double k_again_s = 0.5;
@@ -187,12 +177,16 @@ void Script::shown(Screen screen, double exam_s, Vec3 tip_mm) {
 }
 
 void Script::tell(const Command& c, Screen screen, double exam_s) const {
-  std::string what;
-  if (c.word == "wait" || c.word == "go") what = fmt::format("the screen '{}'", c.text);
-  if (c.word == "until") what = fmt::format("the exam's clock to show {} (now {})", seconds(c.number), seconds(exam_s));
-  if (c.word == "type") what = fmt::format("a field to type '{}' into", c.text);
-  if (c.word == "sleep" || c.word == "key") what = seconds(c.number) + " to pass";
-  std::fprintf(stderr, "cavum: notice: %s:%d: waits for %s; '%s' shows\n", path_.c_str(), c.line, what.c_str(), screen_name(screen));
+  const FilePlace where{path_, c.line};
+  const Name shows{screen_name(screen)};
+  if (c.word == "wait" || c.word == "go")
+    ui::say_error(msg("notice: {}: waits for the screen '{}'; '{}' shows", where, c.text, shows));
+  else if (c.word == "until")
+    ui::say_error(msg("notice: {}: waits for the exam's clock to show {} (now {}); '{}' shows", where, seconds(c.number), seconds(exam_s), shows));
+  else if (c.word == "type")
+    ui::say_error(msg("notice: {}: waits for a field to type '{}' into; '{}' shows", where, c.text, shows));
+  else
+    ui::say_error(msg("notice: {}: waits for {} to pass; '{}' shows", where, seconds(c.number), shows));
 }
 
 void Script::step(Window& window, Screen screen, double exam_s, double now_s) {

@@ -6,7 +6,7 @@
 #include <optional>
 #include <tuple>
 
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/station/window.h"
 
@@ -104,7 +104,7 @@ CrownSides crown_sides(const Tooth& tooth, const scenarios::ZoneMap& zones) {
 }
 
 std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, int eye, ImVec2 picture, float apart,
-                                 const std::function<ImVec2(const char*)>& size_of) {
+                                 const std::function<ImVec2(const Message&)>& size_of) {
   const Pixels pixels{camera.projection(picture.x / picture.y) * camera.view(eye), picture};
   const Outline crown = outline_of(sides.low, sides.high, true, pixels), cavity = outline_of(sides.cavity_low, sides.cavity_high, false, pixels);
   const Vec3 middle_mm = (sides.low + sides.high) * 0.5;
@@ -112,9 +112,11 @@ std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, 
   std::vector<SideWord> words;
   if (crown.empty() || cavity.empty() || !middle) return words;
   const float px_per_mm = 0.5F * picture.y * camera.projection(1.0F)[1][1] / camera.distance_mm;
-  const std::array<std::pair<const char*, Vec3>, 4> all{
-      {{"mesial", {1, 0, 0}}, {"distal", {-1, 0, 0}}, {sides.anterior ? "labial" : "buccal", {0, 1, 0}}, {"lingual", {0, -1, 0}}}};
-  for (const auto& [english, towards] : all) {
+  const std::array<std::pair<Message, Vec3>, 4> all{{{msg("mesial"), {1, 0, 0}},
+                                                     {msg("distal"), {-1, 0, 0}},
+                                                     {sides.anterior ? msg("labial") : msg("buccal"), {0, 1, 0}},
+                                                     {msg("lingual"), {0, -1, 0}}}};
+  for (const auto& [word, towards] : all) {
     const auto further = pixels.of(middle_mm + towards);
     if (!further) continue;
     ImVec2 d = way(*middle, *further);
@@ -122,7 +124,7 @@ std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, 
     constexpr float k_least = 0.2F;  // of its length: it is seen from its end
     if (length < k_least * px_per_mm) continue;
     d = {d.x / length, d.y / length};
-    const ImVec2 size = size_of(english), half{0.5F * size.x, 0.5F * size.y}, room{half.x + apart, half.y + apart};
+    const ImVec2 size = size_of(word), half{0.5F * size.x, 0.5F * size.y}, room{half.x + apart, half.y + apart};
     ImVec2 at = *middle;
     const auto inside = [&](ImVec2 p) { return p.x >= room.x && p.y >= room.y && p.x <= picture.x - room.x && p.y <= picture.y - room.y; };
     if (!inside(at)) continue;
@@ -131,7 +133,7 @@ std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, 
       at = next;
       if (!meets(crown, at, room)) break;
     }
-    if (!meets(cavity, at, half)) words.push_back({english, at, size});
+    if (!meets(cavity, at, half)) words.push_back({word, at, size});
   }
   return words;
 }
@@ -142,15 +144,15 @@ void draw_side_words(const Theme& theme, const CrownSides& sides, const Camera& 
   ImVec4 ground = theme.panel;
   ground.w = 0.8F;
   const float pad = theme.px(4);
-  const auto size_of = [pad](const char* english) {
-    const ImVec2 text = ImGui::CalcTextSize(shown(english).c_str());
+  const auto size_of = [pad](const Message& word) {
+    const ImVec2 text = ImGui::CalcTextSize(tr(word).c_str());
     return ImVec2{text.x + 2 * pad, text.y + pad};
   };
   const ImVec2 picture{stereo ? 0.5F * size.x : size.x, size.y};
   for (int eye = stereo ? -1 : 0; eye <= (stereo ? 1 : 0); eye += 2)
     for (const SideWord& w : side_words(sides, camera, eye, picture, theme.px(6), size_of)) {
       const float left = at.x + (eye > 0 ? picture.x : 0.0F) + w.middle.x - 0.5F * w.size.x, top = at.y + w.middle.y - 0.5F * w.size.y;
-      const std::string word = shown(w.english);
+      const std::string word = tr(w.word);
       draw.AddRectFilled({left, top}, {left + w.size.x, top + w.size.y}, ink(ground), theme.px(3));
       draw.AddText({left + pad, top + 0.5F * pad}, ink(theme.text), word.c_str());
       if (eye <= 0) ImGui::LogText("%s\n", word.c_str());

@@ -25,14 +25,14 @@ struct CrownSides {
 
 /// A word in the picture.
 struct SideWord {
-  const char* english;  ///< "mesial"
+  Message word;         ///< "mesial"
   ImVec2 middle, size;  ///< pixels from the picture's upper left corner
 };
 /// Those that have a place beside the crown in a picture of this size, pixels, as one or the other eye sees it (Camera::view). A side that looks at
-/// the eye or away from it has none, nor has one whose only place would be over the cavity. `size_of`: of an English word, as it is shown; `apart`:
+/// the eye or away from it has none, nor has one whose only place would be over the cavity. `size_of`: of a word, as it is shown; `apart`:
 /// between a word and the crown, and the picture's edge.
 [[nodiscard]] std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, int eye, ImVec2 picture, float apart,
-                                               const std::function<ImVec2(const char*)>& size_of);
+                                               const std::function<ImVec2(const Message&)>& size_of);
 
 /// Into a picture at a place of the screen.
 void draw_side_words(const Theme& theme, const CrownSides& sides, const Camera& camera, bool stereo, ImVec2 at, ImVec2 size);

@@ -64,12 +64,13 @@ bool has_room(const std::string& path) {
 std::string require_resumable(const std::string& path, const std::string& candidate, const StationDevice& device) {
   const SessionReader session(path);
   session.require_readable();
-  if (session.closed()) throw Error(path, msg("is closed: there is nothing to go on with"), msg("look at it with `cavum station --replay {}`", path));
+  if (session.closed())
+    throw Error(Name{path}, msg("is closed: there is nothing to go on with"), msg("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
   if (setup.candidate != candidate && setup.candidate != ledger::pseudonym_typed(candidate))
     throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
-    throw Error(device.name(), msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
+    throw Error(Name{device.name()}, msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
   return setup.candidate;
 }
 
@@ -160,7 +161,7 @@ void Sitting::advance() {
       closed_ = grading_.get();
       stage_ = Stage::done;
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.what();
+      trouble_ = refusal.message();
       stage_ = Stage::unsaved;
     }
   } else if (stage_ == Stage::unsaved && std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
@@ -169,7 +170,7 @@ void Sitting::advance() {
     try {
       save("");
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.what();
+      trouble_ = refusal.message();
     }
   }
 }
@@ -221,11 +222,11 @@ void Sitting::look_where_it_is_recorded() {
   const auto now = std::chrono::steady_clock::now();
   const std::string at = live_->session();
   if (at != path_) {
-    moved_ = fmt::format("{} cannot be written: its disk is full or refuses. The whole exam is recorded at {}.", path_, at);
+    moved_ = msg("{} cannot be written: its disk is full or refuses. The whole exam is recorded at {}.", path_, at);
     moved_at_ = now;
     path_ = at;
   }
-  if (!moved_.empty() && now - moved_at_ > k_told_for) moved_.clear();
+  if (!moved_.empty() && now - moved_at_ > k_told_for) moved_ = {};
 }
 
 void Sitting::stop() {
@@ -240,11 +241,12 @@ void Sitting::rescue() {
       advance();
     }
     if (stage_ != Stage::unsaved) return;
-    if (tries == 2) throw Error(path_, msg("cannot be written, nor can any other place"), msg("what was on disk before can be resumed from there"));
+    if (tries == 2)
+      throw Error(Name{path_}, msg("cannot be written, nor can any other place"), msg("what was on disk before can be resumed from there"));
     try {
       save(tries == 0 ? "" : scenarios::rescue_place(path_));
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.what();
+      trouble_ = refusal.message();
     }
   }
 }
@@ -261,11 +263,16 @@ void Sitting::end_running() {
   report_ = live_->finish();
   path_ = live_->exam().recorder().path();
   if (live_->exam().over()) return close_exam();
-  trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
+  trouble_ = why_stopped();
   stage_ = Stage::interrupted;
   if (unwritten_s() <= 0.0) return;
   trouble_ = report_.writer.error;
   stage_ = Stage::unsaved;
+}
+
+Message Sitting::why_stopped() const {
+  const Message why = report_.servo.error;
+  return why.empty() ? msg("the servo was stopped") : why;
 }
 
 void Sitting::close_exam() {
@@ -289,13 +296,13 @@ void Sitting::save(const std::string& place) {
     const std::filesystem::path wanted(place);
     const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
     if (file.extension() != ".cavum")
-      throw Error(place, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
-    exam.recorder().move_to(file.string(), trouble_);
+      throw Error(Name{place}, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
+    exam.recorder().move_to(file.string(), english_text(trouble_));
   }
   exam.recorder().flush();
   path_ = exam.recorder().path();
   if (exam.over()) return close_exam();
-  trouble_ = report_.servo.error.empty() ? "the servo was stopped" : report_.servo.error;
+  trouble_ = why_stopped();
   stage_ = Stage::interrupted;
 }
 

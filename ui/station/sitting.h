@@ -101,16 +101,17 @@ class Sitting {
   /// is refused, too; the stage stays. By itself it tries again once there is room.
   void save(const std::string& place);
   /// For a while after it began to be recorded at the second place, and why; else empty.
-  [[nodiscard]] const std::string& moved() const noexcept { return moved_; }
+  [[nodiscard]] const Message& moved() const noexcept { return moved_; }
   /// How much of the exam is in memory only, s.
   [[nodiscard]] double unwritten_s() const;
 
   /// When `interrupted` or `unsaved`: why.
-  [[nodiscard]] const std::string& trouble() const noexcept { return trouble_; }
+  [[nodiscard]] const Message& trouble() const noexcept { return trouble_; }
 
  private:
   [[nodiscard]] MotionSource source() const;
   void end_running();
+  [[nodiscard]] Message why_stopped() const;
   void close_exam();
   [[nodiscard]] std::string new_path(const std::string& out) const;
   void look_where_it_is_recorded();
@@ -132,7 +133,8 @@ class Sitting {
   std::future<grading::ClosedExam> grading_;
   std::optional<grading::ClosedExam> closed_;
   scenarios::LiveReport report_;
-  std::string path_, trouble_, moved_;
+  std::string path_;
+  Message trouble_, moved_;
   const std::chrono::steady_clock::time_point signed_in_at_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point moved_at_;
   std::chrono::steady_clock::time_point last_try_;  ///< to save by itself

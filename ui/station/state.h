@@ -46,7 +46,8 @@ struct StationState {
   std::array<char, 48> code{};    ///< typed at sign-in
   std::array<char, 512> place{};  ///< typed where a session is to be saved
   bool focus_place = true;
-  std::string message;  ///< shown with the screen: what went wrong, what was written
+  Message message;            ///< shown with the screen: what went wrong, what was written
+  bool code_missing = false;  ///< somebody went on from the sign-in without one
   SceneView view;
   std::optional<CrownSides> sides;  ///< of the tooth in the picture; none: no words stand beside it
   bool left_handed = false;
@@ -58,12 +59,12 @@ struct StationState {
   bool confirm_leave = false;              ///< the window was asked to close where it must not without a word
   std::array<char, 48> supervisor_code{};  ///< typed then
   bool focus_supervisor = false;           ///< its field waits for letters again
-  std::string leave_message;               ///< shown with that question
+  Message leave_message;                   ///< shown with that question
   std::optional<office::LinkView> office;  ///< what the exam office says; none: the station knows no office
-  std::string office_outcome;              ///< what became of the recording at the office, in words
+  Message office_outcome;                  ///< what became of the recording at the office
   float notice_px = 0.0F;                  ///< how much of the screen's top the office's notice takes: the result begins below it
   bool confirm_go_on = false;              ///< somebody wants to go on although the office has paused the exam
-  std::string attempt;                     ///< the last try to leave the exam, in words
+  Message attempt;                         ///< the last try to leave the exam
   double attempt_shown_s = 0.0;            ///< so long it is still shown
   int attempts = 0;                        ///< in this exam
   bool rescue_failed = false;              ///< no other place took it either

@@ -2,13 +2,11 @@
 
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
-#include <fmt/core.h>
 #include <imgui.h>
 #include <malloc.h>
 
 #include <algorithm>
 #include <chrono>
-#include <cstdio>
 #include <filesystem>
 #include <thread>
 
@@ -17,6 +15,7 @@
 #include "engine/session/session_reader.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/parts/interrupt.h"
+#include "ui/parts/say.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
@@ -98,13 +97,12 @@ class Station {
     if (!abandoned_) rescue();
     const std::string open = open_session();
     if (open.empty()) return 0;
-    if (abandoned_) std::fprintf(stderr, "cavum: station: the last %.1f s of the exam were given up\n", sitting_->unwritten_s());
+    if (abandoned_) ui::say_error(msg("station: the last {} of the exam were given up", as_s(sitting_->unwritten_s(), 1)));
     sitting_.reset();
-    std::fprintf(stderr,
-                 "cavum: station: was closed during the exam; what was done is recorded; go on with: cavum station --resume %s (or close it as it "
-                 "stands: cavum exam --resume --end --out "
-                 "%s)\n",
-                 open.c_str(), open.c_str());
+    ui::say_error(
+        msg("station: was closed during the exam; what was done is recorded; go on with: cavum station --resume {} (or close it as it stands: cavum "
+            "exam --resume --end --out {})",
+            open, open));
     return 1;
   }
 
@@ -144,7 +142,7 @@ class Station {
   }
   void tell_moved(const std::string& first) const {
     if (!first.empty() && sitting_->path() != first)
-      std::fprintf(stderr, "cavum: station: %s could not be written; the whole exam is saved at %s\n", first.c_str(), sitting_->path().c_str());
+      ui::say_error(msg("station: {} could not be written; the whole exam is saved at {}", first, sitting_->path()));
   }
 
   void frame() {
@@ -285,7 +283,7 @@ class Station {
           sign_in();
           break;
         case Wish::check:
-          state_.message.clear();
+          state_.message = {};
           state_.focus_supervisor = true;  // once there is its field
           check_.begin();
           break;
@@ -346,7 +344,7 @@ class Station {
           break;
       }
     } catch (const Error& e) {
-      state_.message = e.what();
+      state_.message = e.message();
       state_.focus_code = state_.screen == Screen::sign_in;
     }
   }
@@ -359,7 +357,7 @@ class Station {
       state_.supervisor_code = {};
       state_.focus_supervisor = true;
       if (!right) {
-        state_.message = "That is not the supervisor's code.";
+        state_.message = msg("This is not the supervisor's code.");
         return;
       }
     }
@@ -371,7 +369,7 @@ class Station {
     if (lock_.locked()) {
       const bool right = is_supervisor_code(options_.supervisor_hash, state_.supervisor_code.data());
       state_.supervisor_code = {};
-      state_.leave_message = right ? "" : "This is not the supervisor's code.";
+      state_.leave_message = right ? Message() : msg("This is not the supervisor's code.");
       if (!right) return;
     }
     state_.confirm_go_on = false;
@@ -411,7 +409,7 @@ class Station {
     const std::string path = std::filesystem::path(sitting_->path()).replace_extension(".html").string();
     report::require_report_place(path);
     report::write_closing_report(path, sitting_->path(), closed.result, *closed.graded, report::ReportReader::student);
-    state_.message = "Report: " + path;
+    state_.message = msg("Report: {}", path);
   }
 
   void next_candidate() {
@@ -436,7 +434,7 @@ class Station {
       if (was_preparing) sitting_.reset();
       go_to(was_preparing ? Screen::sign_in : Screen::trouble);
       state_.focus_code = was_preparing;
-      state_.message = e.what();
+      state_.message = e.message();
       return;
     }
     const Stage now = sitting_->stage();
@@ -489,7 +487,7 @@ class Station {
 
   void go_to(Screen screen) {
     state_.screen = screen;
-    state_.message.clear();
+    state_.message = {};
     state_.confirm_end = state_.confirm_close = state_.rescue_failed = false;  // a question whether to leave goes on
   }
 

@@ -23,7 +23,7 @@ void StationCheck::begin() {
   forget();
   {
     const std::lock_guard lock(mutex_);
-    progress_ = {"The stylus is looked for.", 0.0};
+    progress_ = {msg("The stylus is looked for."), 0.0};
   }
   ui::SelfCheckOptions o;
   o.tell = [this](const ArmProgress& p) {
@@ -39,7 +39,7 @@ void StationCheck::advance() {
   try {
     found_ = check_.get();
   } catch (const Error& e) {
-    error_ = e.what();
+    error_ = e.message();
   }
 }
 

@@ -28,7 +28,7 @@ class StationCheck {
   /// What an earlier candidate's check found is no longer shown.
   void forget() noexcept {
     found_.reset();
-    error_.clear();
+    error_ = {};
   }
   /// Takes up what is done. Often; never waits.
   void advance();
@@ -37,7 +37,7 @@ class StationCheck {
   [[nodiscard]] ArmProgress progress() const;
   /// After it ran.
   [[nodiscard]] const std::optional<ui::SelfChecked>& found() const noexcept { return found_; }
-  [[nodiscard]] const std::string& error() const noexcept { return error_; }  ///< why it could not run
+  [[nodiscard]] const Message& error() const noexcept { return error_; }  ///< why it could not run
   [[nodiscard]] bool good() const noexcept;
   /// With what was found; `by_code`: the supervisor gave the code. Throws Error when it cannot be kept.
   void go_on(bool by_code) const;
@@ -47,7 +47,7 @@ class StationCheck {
   const double hours_;
   std::future<ui::SelfChecked> check_;
   std::optional<ui::SelfChecked> found_;
-  std::string error_;
+  Message error_;
   std::atomic<bool> stop_{false};
   mutable std::mutex mutex_;
   ArmProgress progress_;

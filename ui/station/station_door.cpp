@@ -38,7 +38,9 @@ DoorAddress door_address() {
 
 int door_socket() { return ::socket(AF_UNIX, SOCK_DGRAM | SOCK_CLOEXEC | SOCK_NONBLOCK, 0); }
 
-Error door_is_shut() { return {"station", "a locked exam runs at this station", "wait until it is over, or let the supervisor end it there"}; }
+Error door_is_shut() {
+  return {msg("station"), msg("a locked exam runs at this station"), msg("wait until it is over, or let the supervisor end it there")};
+}
 
 }  // namespace
 
@@ -48,7 +50,7 @@ StationDoor::StationDoor() : socket_(door_socket()) {
   const bool taken = errno == EADDRINUSE;
   if (socket_ >= 0) ::close(socket_);
   if (taken) throw door_is_shut();
-  throw Error("--kiosk", msg("this computer gives no socket ({})", std::strerror(errno)), msg("start it anew"));
+  throw Error(Name{"--kiosk"}, msg("this computer gives no socket ({})", std::strerror(errno)), msg("start it anew"));
 }
 
 StationDoor::~StationDoor() { ::close(socket_); }

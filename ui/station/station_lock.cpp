@@ -46,7 +46,7 @@ void StationLock::leave(Window& window, StationState& state, Sitting* sitting) {
   if (locked() && !lock_.opens(code)) {
     keep({LockTry::close_refused}, state, sitting);
     state.focus_supervisor = true;
-    state.leave_message = "This is not the supervisor's code.";
+    state.leave_message = msg("This is not the supervisor's code.");
     return;
   }
   keep({LockTry::close_granted, locked()}, state, sitting);

@@ -16,7 +16,7 @@ namespace {
 constexpr char k_code_head[] = "cavum supervisor code 1 (Argon2id): ";
 
 void require_sodium() {
-  if (sodium_init() < 0) throw Error(msg("libsodium"), msg("cannot be used on this computer"), msg("install it again"));
+  if (sodium_init() < 0) throw Error(Name{"libsodium"}, msg("cannot be used on this computer"), msg("install it again"));
 }
 
 }  // namespace
@@ -37,12 +37,13 @@ void set_supervisor_code(const std::string& code, const std::string& path) {
 
 std::string read_supervisor_code(const std::string& path) {
   if (!std::filesystem::exists(path))
-    throw Error(path, msg("holds no supervisor's code: nobody could leave a locked station"), msg("set one: cavum station --set-supervisor-code"));
+    throw Error(Name{path}, msg("holds no supervisor's code: nobody could leave a locked station"),
+                msg("set one: cavum station --set-supervisor-code"));
   std::string text = read_text_file(path);
   while (!text.empty() && (text.back() == '\n' || text.back() == '\r')) text.pop_back();
   const std::string hash = text.starts_with(k_code_head) ? text.substr(sizeof k_code_head - 1) : "";
   if (!hash.starts_with("$argon2") || hash.size() >= crypto_pwhash_STRBYTES)
-    throw Error(path, msg("is no supervisor's code"), msg("set one anew: cavum station --set-supervisor-code"));
+    throw Error(Name{path}, msg("is no supervisor's code"), msg("set one anew: cavum station --set-supervisor-code"));
   return hash;
 }
 

@@ -5,14 +5,12 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <array>
 #include <cctype>
 #include <cmath>
-#include <cstdio>
 #include <set>
 #include <string_view>
 
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
@@ -132,7 +130,7 @@ void end_area() {
   ImGui::PopStyleColor();
 }
 
-void begin_card(const Theme& theme, const char* heading, float width, float top) {
+void begin_card(const Theme& theme, const Message& heading, float width, float top) {
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
   width = std::fmin(theme.px(width), screen.x - 20.0F);
   ImGui::SetNextWindowPos({screen.x / 2, (top + screen.y) / 2}, ImGuiCond_Always, {0.5F, 0.5F});
@@ -140,7 +138,7 @@ void begin_card(const Theme& theme, const char* heading, float width, float top)
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {theme.px(36), theme.px(30)});
   ImGui::PushStyleVar(ImGuiStyleVar_WindowRounding, theme.px(10));
   ImGui::PushStyleColor(ImGuiCol_WindowBg, theme.panel);
-  ImGui::Begin(heading, nullptr, k_plain | ImGuiWindowFlags_AlwaysAutoResize);
+  ImGui::Begin(heading.english(), nullptr, k_plain | ImGuiWindowFlags_AlwaysAutoResize);
   keep_words();
   ImGui::PopStyleVar(2);
   ImGui::Dummy({width - theme.px(72), 0});
@@ -148,14 +146,14 @@ void begin_card(const Theme& theme, const char* heading, float width, float top)
   ImGui::Dummy({0, theme.px(4)});
 }
 
-void bad_text(const Theme& theme, const std::string& text) {
+void bad_text(const Theme& theme, const Message& text) {
   if (text.empty()) return;
   ImGui::PushStyleColor(ImGuiCol_Text, theme.bad);
   wrapped_text(text);
   ImGui::PopStyleColor();
 }
 
-void quiet_text(const Theme& theme, const std::string& text) {
+void quiet_text(const Theme& theme, const Message& text) {
   ImGui::PushStyleColor(ImGuiCol_Text, theme.quiet);
   push_font(Font::small);
   wrapped_text(text);
@@ -163,13 +161,13 @@ void quiet_text(const Theme& theme, const std::string& text) {
   ImGui::PopStyleColor();
 }
 
-void heading_text(const std::string& text) {
+void heading_text(const Message& text) {
   push_font(Font::heading);
   wrapped_text(text);
   pop_font();
 }
 
-bool begin_question(const Theme& theme, const char* name, const char* heading, bool asked, bool& fresh) {
+bool begin_question(const Theme& theme, const char* name, const Message& heading, bool asked, bool& fresh) {
   fresh = asked && !ImGui::IsPopupOpen(name);
   if (fresh) ImGui::OpenPopup(name);
   const ImVec2 screen = ImGui::GetIO().DisplaySize;
@@ -186,15 +184,15 @@ void end_question(bool asked) {
   ImGui::EndPopup();
 }
 
-void text_line(const std::string& english) {
-  const std::string text = shown(english);
-  ImGui::TextUnformatted(text.c_str(), text.c_str() + text.size());
+void text_line(const Message& text) {
+  const std::string line = tr(text);
+  ImGui::TextUnformatted(line.c_str(), line.c_str() + line.size());
 }
 
-void wrapped_text(const std::string& english) {
-  const std::string text = shown(english), lines = in_lines(text, ImGui::GetContentRegionAvail().x);
+void wrapped_text(const Message& text) {
+  const std::string words = tr(text), lines = in_lines(words, ImGui::GetContentRegionAvail().x);
   ImGui::GetWindowDrawList()->AddText(ImGui::GetCursorScreenPos(), ImGui::GetColorU32(ImGuiCol_Text), lines.c_str(), lines.c_str() + lines.size());
-  ImGui::LogText("%s\n", text.c_str());
+  ImGui::LogText("%s\n", words.c_str());
   ImGui::Dummy(ImGui::CalcTextSize(lines.c_str(), lines.c_str() + lines.size()));
 }
 
@@ -235,9 +233,9 @@ std::string in_lines(const std::string& text, float width) {
   return lines;
 }
 
-std::string shown_label(const char* english) { return fmt::format("{}###{}", shown(english), english); }
+std::string shown_label(const Message& label) { return fmt::format("{}###{}", tr(label), label.english()); }
 
-bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter) {
+bool main_button(const Theme& theme, const Message& label, bool enabled, bool by_enter) {
   ImGui::PushStyleColor(ImGuiCol_Button, enabled ? theme.accent : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_ButtonHovered, enabled ? mixed(theme.accent, theme.text, 0.25F) : theme.raised);
   ImGui::PushStyleColor(ImGuiCol_Text, enabled ? theme.on_accent : theme.quiet);
@@ -248,7 +246,7 @@ bool main_button(const Theme& theme, const char* label, bool enabled, bool by_en
   return enabled && (clicked || (by_enter && (key_pressed(GLFW_KEY_ENTER) || key_pressed(GLFW_KEY_KP_ENTER))));
 }
 
-bool side_button(const Theme& theme, const char* label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
+bool side_button(const Theme& theme, const Message& label, float width) { return ImGui::Button(shown_label(label).c_str(), {width, theme.px(36)}); }
 
 namespace {
 /// A question stands before the window that asks.
@@ -260,11 +258,5 @@ bool key_pressed(int key) {
   return !is_covered() && ImGui::IsKeyPressed(key, false) && !io.KeyCtrl && !io.KeyAlt;
 }
 bool key_held(int key) { return !is_covered() && ImGui::IsKeyDown(key); }
-
-std::string number_text(const char* format, double value) {
-  std::array<char, 120> text{};
-  std::snprintf(text.data(), text.size(), format, value);
-  return shown(text.data());
-}
 
 }  // namespace cavum::station

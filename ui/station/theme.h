@@ -6,6 +6,8 @@
 
 #include <string>
 
+#include "engine/base/message.h"
+
 namespace cavum::station {
 
 struct Theme {
@@ -25,32 +27,29 @@ void apply_theme(const Theme& theme);
 void begin_area(const Theme& theme, const char* id, ImVec2 at, ImVec2 size, bool panel);
 void end_area();
 /// The same in the middle of the screen below `top`, with a heading, as high as what it holds.
-void begin_card(const Theme& theme, const char* heading, float width, float top = 0.0F);
-void quiet_text(const Theme& theme, const std::string& text);
-/// What went wrong, in the colour for that; nothing for an empty text.
-void bad_text(const Theme& theme, const std::string& text);
+void begin_card(const Theme& theme, const Message& heading, float width, float top = 0.0F);
+void quiet_text(const Theme& theme, const Message& text);
+/// What went wrong, in the colour for that; nothing for an empty message.
+void bad_text(const Theme& theme, const Message& text);
 /// A text of the reader's language in lines of at most `width` pixels of the present font, parted by line ends. Only spaces part lines, and none
 /// between a number and its unit. A longer word stays whole.
 [[nodiscard]] std::string in_lines(const std::string& text, float width);
-// These texts, labels and headings are English, and are shown in the reader's language.
-void heading_text(const std::string& text);
-void wrapped_text(const std::string& text);
-void text_line(const std::string& text);
-/// A label of Dear ImGui's own widgets in the reader's language. What the widget is known by stays English.
-[[nodiscard]] std::string shown_label(const char* english);
+void heading_text(const Message& text);
+void wrapped_text(const Message& text);
+void text_line(const Message& text);
+/// A label of Dear ImGui's own widgets in the reader's language. The widget is known by the English sentence, without its values.
+[[nodiscard]] std::string shown_label(const Message& label);
 /// A question over everything else, with a heading, that shows while `asked`. When true, pair with end_question; `fresh` is true in its first frame,
 /// in which the key that raised it is still held and answers nothing.
-bool begin_question(const Theme& theme, const char* name, const char* heading, bool asked, bool& fresh);
+bool begin_question(const Theme& theme, const char* name, const Message& heading, bool asked, bool& fresh);
 /// Closes it when it is not `asked` any more.
 void end_question(bool asked);
 /// What goes on; also by Enter, unless `by_enter` is false.
-bool main_button(const Theme& theme, const char* label, bool enabled, bool by_enter = true);
+bool main_button(const Theme& theme, const Message& label, bool enabled, bool by_enter = true);
 /// One that stays quiet.
-bool side_button(const Theme& theme, const char* label, float width = 0.0F);
+bool side_button(const Theme& theme, const Message& label, float width = 0.0F);
 /// Pressed in this frame, with nothing held beside it; a key of GLFW. Not for what lies under a question: its keys answer it alone.
 [[nodiscard]] bool key_pressed(int key);
 [[nodiscard]] bool key_held(int key);
-/// printf for one number, in the reader's language.
-[[nodiscard]] std::string number_text(const char* format, double value);
 
 }  // namespace cavum::station

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 
@@ -59,7 +59,7 @@ bool tooth_area(const ScreenContext& c, ImVec2 size) {
   if (s.sides) draw_side_words(c.theme, *s.sides, s.view.camera, s.view.stereo, at, size);
   if (c.sitting != nullptr && c.sitting->device().simulated()) demonstration_in_picture(c.theme, at, size);
   if (s.view.camera.mirror) {
-    const std::string word = shown("MIRROR");
+    const std::string word = tr("MIRROR");
     ImGui::GetWindowDrawList()->AddText({at.x + size.x - c.theme.px(110), at.y + c.theme.px(14)}, ink(c.theme.warn), word.c_str());
   }
   return over;
@@ -85,14 +85,14 @@ bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVe
   return true;
 }
 
-void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const char* upper, const std::string& english, const ImVec4& colour) {
+void words_in_picture(const Theme& theme, ImVec2 at, ImVec2 size, const Message& upper, const Message& lower, const ImVec4& colour) {
   ImDrawList& draw = *ImGui::GetWindowDrawList();
-  const std::string lower = shown(english);
-  draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), shown(upper).c_str());
-  ImGui::LogText("%s\n%s\n", shown(upper).c_str(), lower.c_str());
-  if (lower.empty()) return;
+  const std::string heading = tr(upper), words = tr(lower);
+  draw.AddText({at.x + theme.px(16), at.y + theme.px(14)}, ink(colour), heading.c_str());
+  ImGui::LogText("%s\n%s\n", heading.c_str(), words.c_str());
+  if (words.empty()) return;
   const float width = std::min(size.x - theme.px(40), theme.px(680)), pad = theme.px(12);
-  const std::string lines = in_lines(lower, width - 2 * pad);
+  const std::string lines = in_lines(words, width - 2 * pad);
   const ImVec2 text = ImGui::CalcTextSize(lines.c_str());
   const ImVec2 corner{at.x + (size.x - text.x) / 2 - pad, at.y + size.y - text.y - 2 * pad - theme.px(16)};
   ImVec4 ground = theme.panel;

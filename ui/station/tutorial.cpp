@@ -1,31 +1,12 @@
 #include "ui/station/tutorial.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-
-#include "ui/station/theme.h"
 
 namespace cavum::station {
 namespace {
 
 enum Step : int { move, turn, above, tilt, touch, drill, lift };
-
-struct Words {
-  const char* pointer;
-  const char* stylus;
-};
-constexpr std::array<Words, Tutorial::k_steps> k_words{{
-    {"Move the mouse, or press the arrow keys: the tip follows.", "Move the stylus: the tip follows."},
-    {"Turn the tooth: press A, D, W or S, or hold the right mouse button and move.", "Turn the tooth: press A, D, W or S."},
-    {"Press 1: you look from above.", "Press 1: you look from above."},
-    {"Tilt the handpiece: hold Ctrl, and move the mouse or press arrows. Then press 0: it is upright again. Without a keyboard go on down.",
-     "Tilt the handpiece, and hold it upright again."},
-    {"Bring the tip over the blue target. Turn the wheel towards you, or hold PgDn, until it touches the tooth.",
-     "Bring the tip over the blue target, and down until it touches the tooth."},
-    {"Now drill: hold the space bar or the left button (the pedal), and go on down.", "Now drill: press the pedal, and go on down gently."},
-    {"Lift the tip off: turn the wheel away from you, or hold PgUp. Then let go of the pedal.", "Lift the tip off, then let go of the pedal."},
-}};
 
 double degrees_between(Vec3 a, Vec3 b) { return std::acos(std::clamp(dot(a, b), -1.0, 1.0)) * 180.0 / 3.14159265358979323846; }
 
@@ -65,12 +46,34 @@ void Tutorial::see(const TutorialSight& sight) {
   begun_ = false;
 }
 
-std::string Tutorial::text() const {
-  if (done()) return number_text("Your first hole, %.1f mm deep. Go on as you like; Esc and Enter hand it in.", hole_mm_);
-  const Words& words = k_words[static_cast<std::size_t>(step_)];
-  std::string text = pointer_ ? words.pointer : words.stylus;
-  if (step_ == Step::drill) text += number_text(" %.1f", hole_mm_) + number_text(" of %.1f mm", k_hole_mm);
-  return text;
+Message Tutorial::text() const {
+  switch (step_) {
+    case Step::move:
+      return pointer_ ? msg("Move the mouse, or press the arrow keys: the tip follows.") : msg("Move the stylus: the tip follows.");
+    case Step::turn:
+      return pointer_ ? msg("Turn the tooth: press A, D, W or S, or hold the right mouse button and move.")
+                      : msg("Turn the tooth: press A, D, W or S.");
+    case Step::above:
+      return msg("Press 1: you look from above.");
+    case Step::tilt:
+      return pointer_
+                 ? msg("Tilt the handpiece: hold Ctrl, and move the mouse or press arrows. Then press 0: it is upright again. Without a keyboard go "
+                       "on down.")
+                 : msg("Tilt the handpiece, and hold it upright again.");
+    case Step::touch:
+      return pointer_ ? msg("Bring the tip over the blue target. Turn the wheel towards you, or hold PgDn, until it touches the tooth.")
+                      : msg("Bring the tip over the blue target, and down until it touches the tooth.");
+    case Step::drill: {
+      const Number is = as_number(hole_mm_, 1), wanted = as_mm(k_hole_mm, 1);
+      return pointer_ ? msg("Now drill: hold the space bar or the left button (the pedal), and go on down. {} of {}", is, wanted)
+                      : msg("Now drill: press the pedal, and go on down gently. {} of {}", is, wanted);
+    }
+    case Step::lift:
+      return pointer_ ? msg("Lift the tip off: turn the wheel away from you, or hold PgUp. Then let go of the pedal.")
+                      : msg("Lift the tip off, then let go of the pedal.");
+    default:
+      return msg("Your first hole, {} deep. Go on as you like; Esc and Enter hand it in.", as_mm(hole_mm_, 1));
+  }
 }
 
 }  // namespace cavum::station

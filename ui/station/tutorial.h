@@ -1,8 +1,7 @@
 // The first two minutes at a station: one thing to do at a time, which counts when the person has done it, up to a first hole. Knows no window.
 #pragma once
 
-#include <string>
-
+#include "engine/base/message.h"
 #include "engine/base/vec.h"
 
 namespace cavum::station {
@@ -30,7 +29,7 @@ class Tutorial {
   [[nodiscard]] bool done() const noexcept { return step_ >= k_steps; }
   [[nodiscard]] int step() const noexcept { return step_; }  ///< from 0
   /// What to press now, and how far it has come; when done what was drilled.
-  [[nodiscard]] std::string text() const;
+  [[nodiscard]] Message text() const;
   [[nodiscard]] double hole_mm() const noexcept { return hole_mm_; }
 
  private:

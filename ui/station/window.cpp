@@ -1,7 +1,6 @@
 #include "ui/station/window.h"
 
 #include <epoxy/gl.h>
-#include <fmt/core.h>
 // the functions of OpenGL come from epoxy: before GLFW
 #define GLFW_INCLUDE_NONE
 #include <GLFW/glfw3.h>
@@ -24,10 +23,10 @@
 namespace cavum::station {
 namespace {
 
-std::string glfw_reason() {
+Message glfw_reason() {
   const char* text = nullptr;
   glfwGetError(&text);
-  return text != nullptr ? text : "no reason given";
+  return text != nullptr ? Message(Name{text}) : msg("no reason given");
 }
 
 constexpr std::array<float, 4> k_font_px{18.0F, 26.0F, 46.0F, 14.5F};
@@ -72,13 +71,13 @@ GLFWmonitor* find_monitor(const std::string& wanted) {
 
 GLFWmonitor* monitor_of(const std::string& wanted) {
   if (GLFWmonitor* found = find_monitor(wanted)) return found;
-  std::string known;
+  List known{{}, true};
   int number = 0;
   for (GLFWmonitor* m : monitors()) {
     const GLFWvidmode* mode = glfwGetVideoMode(m);
-    known += fmt::format("{}{} ({}, {} x {})", known.empty() ? "" : "; ", ++number, glfwGetMonitorName(m), mode->width, mode->height);
+    known.items.push_back(msg("{} ({}, {} × {})", ++number, glfwGetMonitorName(m), mode->width, mode->height));
   }
-  throw Error("--monitor " + wanted, msg("is not there"), known.empty() ? msg("plug one in") : msg("name one of {}", known));
+  throw Error(Name{"--monitor " + wanted}, msg("is not there"), known.items.empty() ? msg("plug one in") : msg("name one of {}", known));
 }
 
 }  // namespace
@@ -123,7 +122,7 @@ void Window::open(const WindowOptions& options) {
   int width = options.width, height = options.height;
   if (full_screen_) {
     if (monitor == nullptr) monitor = glfwGetPrimaryMonitor();
-    if (monitor == nullptr) throw Error("--kiosk", msg("there is no monitor to fill"), msg("plug one in"));
+    if (monitor == nullptr) throw Error(Name{"--kiosk"}, msg("there is no monitor to fill"), msg("plug one in"));
     const GLFWvidmode* mode = glfwGetVideoMode(monitor);
     width = mode->width;
     height = mode->height;

@@ -14,7 +14,8 @@ namespace cavum::explain {
 
 /// A curve whose columns are in the products.
 struct CurveHypothesis {
-  std::string variable, form;
+  std::string variable;
+  Message form;
   Eigen::Index first = 0, count = 0;
   Eigen::MatrixXd mean_products;  ///< of the columns as they are, [count, count]
 };

@@ -197,12 +197,12 @@ TEST(PointerHand, PressesNoDeeperThanItReachesAndStaysFreeToLift) {
 }
 
 TEST(DepthGauge, Shows0AtTheSurfaceAlone) {
-  EXPECT_EQ(depth_text(0.0), "0.0 mm");
-  EXPECT_EQ(depth_text(1.24), "1.2 mm");
-  EXPECT_EQ(depth_text(-0.7), "0.7 mm above");
-  EXPECT_EQ(depth_text(-4.0), "4.0 mm above");
+  EXPECT_EQ(english_text(depth_text(0.0)), "0.0 mm");
+  EXPECT_EQ(english_text(depth_text(1.24)), "1.2 mm");
+  EXPECT_EQ(english_text(depth_text(-0.7)), "0.7 mm above");
+  EXPECT_EQ(english_text(depth_text(-4.0)), "4.0 mm above");
   for (double mm = -9.0; mm < 9.0; mm += 0.037) {
-    const bool zero = depth_text(mm).starts_with("0.0 mm");
+    const bool zero = english_text(depth_text(mm)).starts_with("0.0 mm");
     EXPECT_EQ(zero, mm > -0.05 && mm < 0.05) << mm;
   }
 }
@@ -211,7 +211,7 @@ TEST(ColourKey, NamesTheTargetAndEachTissueOnce) {
   const std::vector<Tissue> tissues{{k_enamel, "enamel", true}, {k_dentin, "dentin", true}, {k_pulp, "pulp", false}, {9, "lesion", true}};
   for (const bool high_contrast : {false, true}) {
     std::vector<std::string> words;
-    for (const auto& e : colour_key(tissues, high_contrast)) words.push_back(e.word);
+    for (const auto& e : colour_key(tissues, high_contrast)) words.push_back(english_text(e.word));
     EXPECT_EQ(words, (std::vector<std::string>{"to be removed", "enamel", "dentin", "pulp", "caries"}));
   }
 }
@@ -222,7 +222,7 @@ TEST(Tutorial, GoesOnByWhatThePersonDidAndEndsInAHole) {
   s.tip_mm = {0, 0, 4};
   const auto see = [&t, &s](int step) {
     for (int i = 0; i < 5; ++i) t.see(s);
-    EXPECT_EQ(t.step(), step) << t.text();
+    EXPECT_EQ(t.step(), step) << english_text(t.text());
   };
   see(0);  // watching alone does nothing
   s.tip_mm.x = 2.5;
@@ -249,7 +249,7 @@ TEST(Tutorial, GoesOnByWhatThePersonDidAndEndsInAHole) {
   s.rpm = 200000;
   s.tip_mm.z = 0.6;
   see(5);
-  EXPECT_NE(t.text().find("0.4 of 0.5 mm"), std::string::npos) << t.text();
+  EXPECT_NE(english_text(t.text()).find("0.4 of 0.5 mm"), std::string::npos) << english_text(t.text());
   s.tip_mm.z = 0.45;
   see(6);
   s.contact = s.cutting = false;

@@ -124,9 +124,9 @@ TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
           {"title":"Time","points":0,"max":2,"first_tick":null}]})";
   const auto moments = replay_moments(events, result, 400, true);
   ASSERT_EQ(moments.size(), 4u);
-  EXPECT_EQ(moments[0].what, "Depth");
+  EXPECT_EQ(english_text(moments[0].what), "Depth");
   EXPECT_NEAR(moments[0].lost.value(), 6.5, 1e-12);
-  EXPECT_EQ(moments[1].what, "step completed");
+  EXPECT_EQ(english_text(moments[1].what), "step completed");
   EXPECT_FALSE(moments[1].bad);
   EXPECT_TRUE(moments[2].bad);
   EXPECT_EQ(moments[3].tick, 400) << "one without a moment stands at the end";
@@ -161,15 +161,16 @@ class Coach : public ::testing::Test {
     v.output.rendered_force_n = {0, 0, 1.0};
     return v;
   }
+  static std::string hint(const scenarios::LiveView& view) { return english_text(coaching_hint(*setup_, view)); }
   static inline std::unique_ptr<scenarios::ExamSetup> setup_;
 };
 
-TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_EQ(coaching_hint(*setup_, cutting({0.3, 0, -0.6})), ""); }
+TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_EQ(hint(cutting({0.3, 0, -0.6})), ""); }
 
 TEST_F(Coach, WarnsOfForceBeforeAnythingElse) {
   scenarios::LiveView v = cutting({3, 0, -0.6});
   v.output.rendered_force_n = {0, 0, 2.6};
-  EXPECT_NE(coaching_hint(*setup_, v).find("2.6 N"), std::string::npos) << coaching_hint(*setup_, v);
+  EXPECT_NE(hint(v).find("2.6 N"), std::string::npos) << hint(v);
 }
 
 TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
@@ -178,25 +179,25 @@ TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
   v.output.rendered_force_n = {0, 0, -3.3};
   v.output.normal = normalized(Vec3{0.5, 0, -1});
   v.input.tip_nm = {0, 0, 400'000};
-  EXPECT_NE(coaching_hint(*setup_, v).find("caught"), std::string::npos) << coaching_hint(*setup_, v);
+  EXPECT_NE(hint(v).find("caught"), std::string::npos) << hint(v);
   v.output.normal = {0, 0, 1};  // it stands on the floor
-  EXPECT_EQ(coaching_hint(*setup_, v).find("caught"), std::string::npos);
+  EXPECT_EQ(hint(v).find("caught"), std::string::npos);
 }
 
 TEST_F(Coach, MeasuresHowFarBesideTheTargetTheTipIs) {
-  const std::string hint = coaching_hint(*setup_, cutting({1.1 + 0.7, 0, -0.6}));
-  EXPECT_NE(hint.find("0.7 mm beyond"), std::string::npos) << hint;
+  const std::string said = hint(cutting({1.1 + 0.7, 0, -0.6}));
+  EXPECT_NE(said.find("0.7 mm beyond"), std::string::npos) << said;
 }
 
 TEST_F(Coach, TellsThatTheFloorIsNear) {
-  const std::string hint = coaching_hint(*setup_, cutting({0, 0, -1.4}));
-  EXPECT_NE(hint.find("0.2 mm to the floor"), std::string::npos) << hint;
+  const std::string said = hint(cutting({0, 0, -1.4}));
+  EXPECT_NE(said.find("0.2 mm to the floor"), std::string::npos) << said;
 }
 
 TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
   scenarios::LiveView v = cutting({0, 0, 4});
   v.output.contact = v.output.cutting = false;
-  EXPECT_NE(coaching_hint(*setup_, v).find("in the air"), std::string::npos);
+  EXPECT_NE(hint(v).find("in the air"), std::string::npos);
 }
 
 /// A novice's exam in a file; with its setup.

@@ -4,7 +4,6 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <cstring>
 #include <map>
 
 #include "engine/base/random.h"
@@ -19,10 +18,10 @@ const ImVec2 k_side_picture{1030, 562};
 constexpr float k_side_apart = 6.0F;
 const CrownSides k_some_crown{{-6, -5, -6}, {6, 5, 1}, {-3, -1.5, -2}, {3, 1.5, 0.5}, false};
 
-ImVec2 size_of_word(const char* english) { return {7.0F * static_cast<float>(std::strlen(english)), 16.0F}; }
+ImVec2 size_of_word(const Message& word) { return {7.0F * static_cast<float>(english_text(word).size()), 16.0F}; }
 std::map<std::string, ImVec2> words_seen(const CrownSides& sides, const Camera& camera, ImVec2 picture = k_side_picture) {
   std::map<std::string, ImVec2> at;
-  for (const SideWord& w : side_words(sides, camera, 0, picture, k_side_apart, size_of_word)) at[w.english] = w.middle;
+  for (const SideWord& w : side_words(sides, camera, 0, picture, k_side_apart, size_of_word)) at[english_text(w.word)] = w.middle;
   return at;
 }
 ImVec2 pixel_in(const Camera& camera, Vec3 mm) {
