@@ -41,45 +41,38 @@ double friction_n(const CubeResult& r) {
   return r.options.machine.omni.coulomb_n + r.options.machine.omni.viscous_n_s_per_mm * r.options.machine.speed_mm_s;
 }
 
-/// More than the scatter of a run, and a √k term that is not nothing.
-bool is_bent(const CubeSet& set) {
-  const Fit& f = set.with.with_root;
-  return f.solved && std::fabs(f.value[2]) > k_95 * f.error[2] && set.with.bend_n > scatter_n(set);
-}
-
 /// What c does in this set: the √k term found beside the one that c·V predicts, and the bend of the row of means.
-std::string damping_sentence(const CubeResult& r, const CubeSet& set) {
+void add_damping(const CubeResult& r, const CubeSet& set, std::vector<Message>& out) {
   const double predicted = set.damping_ratio * r.options.machine.speed_mm_s;
   const Fit& f = set.with.with_root;
-  if (!f.solved) return printed("%s: too few values of k for a √k term. ", set.name.c_str());
-  const double found = f.value[2], error = k_95 * f.error[2];
-  std::string s = printed("%s, c = %.3g √k: c V should add %.3f √k N (%.3f N at k = 0.8), the fit finds %.3f ± %.3f (95 %%). ", set.name.c_str(),
-                          set.damping_ratio, predicted, predicted * std::sqrt(0.8), found, error);
-  if (is_bent(set))
-    s += printed("It is not a straight line: the means leave it by up to %.3f N, the scatter of a run is %.3f N, and the line has slope %.3f mm. ",
-                 set.with.bend_n, scatter_n(set), set.with.line.value[0]);
-  else
-    s += printed("No bend is to be seen: the means leave the line by at most %.3f N, the scatter of a run is %.3f N; slope %.3f mm. ",
-                 set.with.bend_n, scatter_n(set), set.with.line.value[0]);
-  return s;
+  if (!f.solved) {
+    out.push_back(msg("{}: too few values of k for a √k term.", set.name));
+    return;
+  }
+  out.push_back(msg("{}, c = {} √k: c V should add {} √k N ({} at k = 0.8), the fit finds {} (95 %).", set.name, as_number(set.damping_ratio),
+                    as_number(predicted, 3), as_n(predicted * std::sqrt(0.8), 3), Number{f.value[2], Unit::none, 3, k_95 * f.error[2]}));
+  const Number bend = as_n(set.with.bend_n, 3), scatter = as_n(scatter_n(set), 3), slope = as_mm(set.with.line.value[0], 3);
+  out.push_back(
+      is_bent(set)
+          ? msg("It is not a straight line: the means leave it by up to {}, the scatter of a run is {}, and the line has slope {}.", bend, scatter,
+                slope)
+          : msg("No bend is to be seen: the means leave the line by at most {}, the scatter of a run is {}; slope {}.", bend, scatter, slope));
 }
 
-std::string friction_sentence(const CubeResult& r) {
-  const double friction = friction_n(r);
+void add_friction(const CubeResult& r, std::vector<Message>& out) {
   const CubeSet* like = nullptr;  // the set nearest to eq. 6 in slope
   for (const auto& set : r.sets)
     if (like == nullptr || std::fabs(set.with.line.value[0] - k_paper_slope_mm) < std::fabs(like->with.line.value[0] - k_paper_slope_mm)) like = &set;
   const double intercept = like->with.line.value[1], without = like->without.line.value[1], missing = k_paper_intercept_n - intercept;
-  std::string s = printed("Joint friction of %.2f N lifts every row by %.3f N and bends nothing: intercept of '%s' %.3f N without, %.3f N with it; ",
-                          friction, intercept - without, like->name.c_str(), without, intercept);
-  if (missing > 0.05)
-    s += printed("eq. 6 has %.3f N, so %.3f N of it are more than this friction explains. ", k_paper_intercept_n, missing);
-  else
-    s += printed("eq. 6 has %.3f N. ", k_paper_intercept_n);
-  return s +
-         "Nor do these data show that it is friction: the crosshead moves one way at one speed, and a bias of the load cell or a constant edge force "
-         "of "
-         "the same size gives the very same rows. Reversals and strokes in air would tell them apart.";
+  out.push_back(msg("Joint friction of {} lifts every row by {} and bends nothing: intercept of '{}' {} without it, {} with it.",
+                    as_n(friction_n(r), 2), as_n(intercept - without, 3), like->name, as_n(without, 3), as_n(intercept, 3)));
+  out.push_back(missing > 0.05
+                    ? msg("eq. 6 has {}, so {} of it are more than this friction explains.", as_n(k_paper_intercept_n, 3), as_n(missing, 3))
+                    : msg("eq. 6 has {}.", as_n(k_paper_intercept_n, 3)));
+  out.push_back(
+      msg("Nor do these data show that it is friction: the crosshead moves one way at one speed, and a bias of the load cell or a constant "
+          "edge force of the same size gives the very same rows."));
+  out.push_back(msg("Reversals and strokes in air would tell them apart."));
 }
 
 json to_json(const Fit& f, bool root) {
@@ -94,89 +87,119 @@ json to_json(const Fit& f, bool root) {
 
 json to_json(const CubeFit& f) { return {{"line", to_json(f.line, false)}, {"with_root", to_json(f.with_root, true)}, {"bend_n", f.bend_n}}; }
 
-std::string fit_lines(const CubeFit& f, const char* what) {
-  if (!f.line.solved) return printed("  %s: too few values of k for a line\n", what);
-  std::string s = printed("  %-17s F = %.3f k %+.3f N, rms %.3f N", what, f.line.value[0], f.line.value[1], f.line.rms);
-  if (f.with_root.solved)
-    s += printed(";  with √k: F = %.3f k %+.3f √k %+.3f N, rms %.3f N", f.with_root.value[0], f.with_root.value[2], f.with_root.value[1],
-                 f.with_root.rms);
-  return s + "\n";
+void add_fit(const CubeFit& f, const Message& what, Lines& out) {
+  const auto term = [](double v, Unit unit = Unit::none) { return Number{v, unit, 3, 0.0, true}; };
+  if (!f.line.solved) {
+    out.row({what, msg("too few values of k for a line"), {}, {}, {}}, 2);
+    return;
+  }
+  const Fit& root = f.with_root;
+  out.row({what, msg("F = {} k {}", as_number(f.line.value[0], 3), term(f.line.value[1], Unit::newton)), msg("rms {}", as_n(f.line.rms, 3)),
+           root.solved ? msg("with √k: F = {} k {} √k {}", as_number(root.value[0], 3), term(root.value[2]), term(root.value[1], Unit::newton))
+                       : Message(),
+           root.solved ? msg("rms {}", as_n(root.rms, 3)) : Message()},
+          2);
 }
 
 /// The first few by name; all are in the JSON.
-std::string left_out_lines(const CubeSet& set) {
+void add_left_out(const CubeSet& set, Lines& out) {
   constexpr int k_named = 3;
-  std::string out;
   int n = 0;
   for (const auto& row : set.rows)
     for (std::size_t i = 0; i < row.runs.size(); ++i) {
       const CubeRun& run = row.runs[i];
       if (run.steady || ++n > k_named) continue;
-      out += printed("  left out: k %.2f run %zu, tip at x %.4f, y %.4f mm: X %.3f mm, %.3f N\n", row.k_n_per_mm, i + 1, run.start_mm.x,
-                     run.start_mm.y, run.penetration_mm, run.mean_n);
+      out.add(msg("left out: k = {}, run {}, tip at x = {}, y = {}: X is {}, the force {}", as_unit(row.k_n_per_mm, Unit::n_per_mm, 2), i + 1,
+                  as_mm(run.start_mm.x, 4), as_mm(run.start_mm.y, 4), as_mm(run.penetration_mm, 3), as_n(run.mean_n, 3)),
+              2);
     }
-  if (n > k_named) out += printed("  and %d more (--json names all)\n", n - k_named);
-  return out;
+  if (n > k_named) out.add(msgn("and {} more run (--json names all)", "and {} more runs (--json names all)", n - k_named, n - k_named), 2);
 }
 
 }  // namespace
 
-std::string cube_reading(const CubeResult& r) {
+bool is_bent(const CubeSet& set) {
+  const Fit& f = set.with.with_root;
+  return f.solved && std::fabs(f.value[2]) > k_95 * f.error[2] && set.with.bend_n > scatter_n(set);
+}
+
+std::vector<Message> cube_reading(const CubeResult& r) {
   for (const auto& set : r.sets)
-    if (!set.with.line.solved) return "Too few values of k for a line: nothing can be said about slope, intercept or curvature.";
+    if (!set.with.line.solved) return {msg("Too few values of k for a line: nothing can be said about slope, intercept or curvature.")};
   const double off = penetration_error(r);
-  std::string s;
+  std::vector<Message> out;
   if (const int n = left_out(r); n > 0)
-    s = printed("%d %s left out: the head was held in its hole and X did not settle, which is a fault of the simulation and not of the material. ", n,
-                n == 1 ? "run is" : "runs are");
-  if (off < 0.02)
-    s += printed("The penetration settled within %.1f %% of V τ = %.3f mm at every k, so k X alone has the slope of eq. 6. ", 100 * off,
-                 r.options.machine.speed_mm_s * r.sets.front().tau_s);
-  else
-    s += printed("The penetration did NOT settle at V τ: it is off by up to %.1f %%, so the slopes below are not those of a steady cut. ", 100 * off);
+    out.push_back(
+        msgn("{} run is left out: the head was held in its hole and X did not settle, which is a fault of the simulation and not of the material.",
+             "{} runs are left out: the head was held in its hole and X did not settle, which is a fault of the simulation and not of the material.",
+             n, n));
+  out.push_back(off < 0.02 ? msg("The penetration settled within {} of V τ = {} at every k, so k X alone has the slope of eq. 6.",
+                                 as_percent(100 * off, 1), as_mm(r.options.machine.speed_mm_s * r.sets.front().tau_s, 3))
+                           : msg("The penetration did NOT settle at V τ: it is off by up to {}, so the slopes are not those of a steady cut.",
+                                 as_percent(100 * off, 1)));
   const CubeSet* bent = nullptr;
   for (const auto& set : r.sets) {
-    s += damping_sentence(r, set);
+    add_damping(r, set, out);
     if (is_bent(set) && (bent == nullptr || set.with.bend_n > bent->with.bend_n)) bent = &set;
   }
   if (std::fabs(r.options.machine.speed_mm_s * r.sets.front().tau_s / k_paper_slope_mm - 1.0) < 0.01)
-    s += printed("Tau = %.2f s was itself taken from the slope of eq. 6, so a slope of %.3f mm proves nothing; the shape does tell. ",
-                 r.sets.front().tau_s, k_paper_slope_mm);
+    out.push_back(msg("τ = {} was itself taken from the slope of eq. 6, so a slope of {} proves nothing; the shape does tell.",
+                      as_s(r.sets.front().tau_s, 2), as_mm(k_paper_slope_mm, 3)));
   if (bent != nullptr)
-    s += printed(
-        "Whatever tau is, the c V of '%s' bends the row by %.2f N, and the paper reports a straight line: the figures speak against a force of c V "
-        "with "
-        "that c in the measured cubes. ",
-        bent->name.c_str(), bent->with.bend_n);
-  return s + friction_sentence(r);
+    out.push_back(
+        msg("Whatever τ is, the c V of '{}' bends the row by {}, and the paper reports a straight line: the figures speak against a force of "
+            "c V with that c in the measured cubes.",
+            bent->name, as_n(bent->with.bend_n, 2)));
+  add_friction(r, out);
+  return out;
 }
 
-std::string to_text(const CubeResult& r) {
+Lines to_text(const CubeResult& r) {
   const CubeOptions& o = r.options;
-  std::string out = printed("Virtual cubes of 10 mm, crosshead %.2f mm/s, %d runs each, seed %llu; F in N, k in N/mm, c in N s/mm\n",
-                            o.machine.speed_mm_s, o.runs, static_cast<unsigned long long>(o.seed));
+  Lines out;
+  out.add(msgn("Virtual cubes of 10 mm, crosshead {}, {} run each, seed {}; F in N, k in N/mm, c in N s/mm",
+               "Virtual cubes of 10 mm, crosshead {}, {} runs each, seed {}; F in N, k in N/mm, c in N s/mm", o.runs,
+               as_unit(o.machine.speed_mm_s, Unit::mm_per_s, 2), o.runs, std::to_string(o.seed)));
   double deepest = 0.0;
   for (const auto& set : r.sets)
     for (const auto& row : set.rows) deepest = std::max(deepest, row.depth_mm);
-  out += printed("Cut only until steady, 6 times the slower of tau and c/Kvc: at most %.1f of the 10 mm; mean over the last 2 s.\n", deepest);
-  out += printed("Load cell: joint friction %.2f N; noise %.3f N and a zero error of %.3f N for each run (both assumed); encoder %.3f mm.\n",
-                 o.machine.omni.coulomb_n, o.machine.noise_n, o.machine.zero_n, o.machine.omni.quantum_mm);
+  out.add(msg("Cut only until steady, 6 times the slower of τ and c/Kvc: at most {} of the 10 mm; mean over the last 2 s.", as_mm(deepest, 1)));
+  out.add(load_cell_words(o.machine));
   for (const auto& set : r.sets) {
-    out += printed("\n%s  (c = %.4g √k)\n", set.name.c_str(), set.damping_ratio);
-    out += "      k       c    X mm | with friction   sd | without    sd | k V tau + c V | eq. 6 | left out\n";
-    for (const auto& row : set.rows) {
-      out += printed("  %5.2f %7.4f  %6.3f | %13.3f %5.3f| %7.3f %5.3f | %13.3f | %5.3f | %3d%s\n", row.k_n_per_mm, row.c_n_s_per_mm,
-                     row.penetration.mean, row.with.mean, row.with.sd, row.without.mean, row.without.sd, row.expected_n,
-                     paper_force_n(row.k_n_per_mm), row.left_out, row.notices != 0 ? "  (safety stepped in)" : "");
-    }
-    out += left_out_lines(set);
-    out += fit_lines(set.with, "with friction") + fit_lines(set.without, "without friction");
+    out.gap();
+    out.add(msg("{}, c = {} √k", set.name, as_number(set.damping_ratio)));
+    out.row({msg("k"),
+             msg("c"),
+             msg("X, mm"),
+             msg("with friction"),
+             msg("sd"),
+             msg("without"),
+             msg("sd"),
+             msg("k V τ + c V"),
+             msg("eq. 6"),
+             msg("left out"),
+             {}},
+            2);
+    for (const auto& row : set.rows)
+      out.row(
+          {msg("{}", as_number(row.k_n_per_mm, 2)), msg("{}", as_number(row.c_n_s_per_mm, 4)), msg("{}", as_number(row.penetration.mean, 3)),
+           msg("{}", as_number(row.with.mean, 3)), msg("{}", as_number(row.with.sd, 3)), msg("{}", as_number(row.without.mean, 3)),
+           msg("{}", as_number(row.without.sd, 3)), msg("{}", as_number(row.expected_n, 3)), msg("{}", as_number(paper_force_n(row.k_n_per_mm), 3)),
+           msg("{}", row.left_out), row.notices != 0 ? msg("safety stepped in") : Message()},
+          2);
+    add_left_out(set, out);
+    add_fit(set.with, msg("with friction"), out);
+    add_fit(set.without, msg("without friction"), out);
   }
-  out += printed("  %-17s F = %.3f k %+.3f N\n\n", "paper, eq. 6", k_paper_slope_mm, k_paper_intercept_n);
-  return out + wrapped(cube_reading(r));
+  out.add(msg("The paper, eq. 6: F = {} k {}", as_number(k_paper_slope_mm, 3), Number{k_paper_intercept_n, Unit::newton, 3, 0.0, true}), 2);
+  out.gap();
+  for (const Message& sentence : cube_reading(r)) out.add(sentence);
+  return out;
 }
 
 json to_json(const CubeResult& r) {
+  std::string reading;
+  for (const Message& sentence : cube_reading(r)) reading += (reading.empty() ? "" : " ") + english_text(sentence);
   json sets = json::array();
   for (const auto& set : r.sets) {
     json rows = json::array();
@@ -221,7 +244,7 @@ json to_json(const CubeResult& r) {
           {"position_quantum_mm", m.omni.quantum_mm},
           {"eq_6", {{"slope_mm", k_paper_slope_mm}, {"intercept_n", k_paper_intercept_n}}},
           {"sets", sets},
-          {"reading", cube_reading(r)}};
+          {"reading", reading}};
 }
 
 std::string recordings_csv(const CubeResult& r) {

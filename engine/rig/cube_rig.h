@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/rig/testing_machine.h"
 #include "engine/statistics/statistics.h"
 
@@ -80,9 +81,11 @@ struct CubeResult {
 /// Throws Error when a model has no material "dentin" with k, c and τ.
 [[nodiscard]] CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint& point, const CubeOptions& options);
 
-/// What the figures say, in words that they support: slope, intercept, curvature; about friction and about c.
-[[nodiscard]] std::string cube_reading(const CubeResult& result);
-[[nodiscard]] std::string to_text(const CubeResult& result);
+/// Whether a set's forces leave a straight line by more than the scatter of a run, with a √k term that is not nothing.
+[[nodiscard]] bool is_bent(const CubeSet& set);
+/// What the figures say, sentence by sentence: slope, intercept, curvature; about friction and about c.
+[[nodiscard]] std::vector<Message> cube_reading(const CubeResult& result);
+[[nodiscard]] Lines to_text(const CubeResult& result);
 [[nodiscard]] nlohmann::json to_json(const CubeResult& result);
 /// The kept recordings: session,t_s,x_mm,f_n and more columns. Empty text when none were kept.
 [[nodiscard]] std::string recordings_csv(const CubeResult& result);

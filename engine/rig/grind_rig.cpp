@@ -1,12 +1,9 @@
 #include "engine/rig/grind_rig.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/print.h"
 #include "engine/servo/servo.h"
 #include "engine/tooth/make/make_block.h"
 
@@ -113,13 +110,17 @@ GrindResult run_grind_rig(const ForceModel& force, const DiamondPoint& point, co
   return result;
 }
 
-std::string to_text(const GrindResult& r) {
-  std::string out = fmt::format("{}, {}, on its {}, {:.0f} rpm free\n tissue        load N      rpm  torque N mm   depth mm/s   mm3/min\n", r.model,
-                                r.point, r.options.side ? "side" : "end", r.options.rpm);
+Lines to_text(const GrindResult& r) {
+  Lines out;
+  const Number rpm = as_unit(r.options.rpm, Unit::rpm, 0);
+  out.add(r.options.side ? msg("{}, {} on its side, {} free", r.model, Term{r.point}, rpm)
+                         : msg("{}, {} on its end, {} free", r.model, Term{r.point}, rpm));
+  out.row({msg("tissue"), msg("load, N"), msg("rpm"), msg("torque, N mm"), msg("depth, mm/s"), msg("mm³/min")}, 2);
   for (const GrindRow& row : r.rows)
-    out += row.sunk ? printed(" %-12s %7.2f %8.0f %12.3f %12.4f %9.2f\n", row.tissue.c_str(), row.load_n, row.rpm, row.torque_n_mm, row.depth_mm_s,
-                              row.mm3_per_min)
-                    : printed(" %-12s %7.2f %8.0f %12.3f   does not sink in\n", row.tissue.c_str(), row.load_n, row.rpm, row.torque_n_mm);
+    out.row({msg("{}", Term{row.tissue}), msg("{}", as_number(row.load_n, 2)), msg("{}", as_number(row.rpm, 0)),
+             msg("{}", as_number(row.torque_n_mm, 3)), row.sunk ? msg("{}", as_number(row.depth_mm_s, 4)) : msg("does not sink in"),
+             row.sunk ? msg("{}", as_number(row.mm3_per_min, 2)) : Message()},
+            2);
   return out;
 }
 

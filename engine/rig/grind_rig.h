@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/force/force_model.h"
 #include "engine/instrument/diamond_point.h"
 
@@ -40,7 +41,7 @@ struct GrindResult {
                              const GrindOptions& options);
 inline constexpr double k_grind_window_mm = 0.2;
 
-[[nodiscard]] std::string to_text(const GrindResult& result);
+[[nodiscard]] Lines to_text(const GrindResult& result);
 [[nodiscard]] nlohmann::json to_json(const GrindResult& result);
 
 }  // namespace cavum

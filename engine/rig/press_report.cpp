@@ -1,10 +1,7 @@
 // The closed-loop press in words, tables and JSON.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/print.h"
 #include "engine/rig/press_rig.h"
 
 namespace cavum {
@@ -16,10 +13,17 @@ bool same_wall(const PressCell& a, const PressCell& b) {
   return a.k_n_per_mm == b.k_n_per_mm && a.damping == b.damping && a.delay_ticks == b.delay_ticks;
 }
 
-std::string name(const PressCell& c) {
-  return printed("k %.2f, c %s, delay %d, hand %.0f N/m, press %.1f N", c.k_n_per_mm, damping_name(c.damping), c.delay_ticks, 1000 * c.hand_n_per_mm,
-                 c.press_n);
+Message figure(double v, int digits) { return msg("{}", as_number(v, digits)); }
+
+/// Cells of every table that say what was pressed on: k, c and delay.
+std::vector<Message> wall_cells(const PressCell& c) { return {figure(c.k_n_per_mm, 2), Name{damping_name(c.damping)}, msg("{}", c.delay_ticks)}; }
+std::vector<Message> wall_heads() { return {msg("k, N/mm"), msg("c"), msg("delay, ticks")}; }
+std::vector<Message> joined(std::vector<Message> first, const std::vector<Message>& more) {
+  first.insert(first.end(), more.begin(), more.end());
+  return first;
 }
+
+double given_out_mj(const PressOutcome& o) { return std::max(o.generated_mj, o.late_mj); }
 
 /// The worst of all hands and loads at one k, c and delay.
 struct Worst {
@@ -34,14 +38,9 @@ struct Worst {
   }
 };
 
-std::string wall_lines(const PressResult& r) {
+void add_walls(const PressResult& r, Lines& out) {
   const auto& o = r.options;
-  std::string head;
-  for (const double v : o.contact_mm_s) head += printed(" %5.0f", v);
-  std::string out =
-      "                          |      ours: worst of all hands and loads  |    explicit k X + c V                   | bounces at mm/s, ours";
-  out += fmt::format("\n    k  c           delay  |   sd N   given out mJ  peak N  out of  |   sd N   given out mJ  peak N  out of  |{} / explicit\n",
-                     head);
+  std::vector<std::vector<Message>> forces, bounces;
   for (auto row = r.presses.begin(); row != r.presses.end();) {
     const PressCell wall = row->cell;
     Worst ours, other;
@@ -49,7 +48,10 @@ std::string wall_lines(const PressResult& r) {
       ours.add(row->ours);
       other.add(row->explicit_voigt);
     }
-    std::string mine, theirs;
+    std::vector<Message>& force = forces.emplace_back(wall_cells(wall));
+    for (const Worst* w : {&ours, &other})
+      force = joined(force, {figure(w->sd_n, 4), figure(w->generated_mj, 4), figure(w->peak_n, 2), msg("{}/{}", w->out, w->of)});
+    std::vector<Message>& bounced = bounces.emplace_back(wall_cells(wall));
     for (const double v : o.contact_mm_s) {
       int a = 0, b = 0;
       for (const auto& c : r.contacts)
@@ -57,32 +59,70 @@ std::string wall_lines(const PressResult& r) {
           a = std::max(a, c.ours.bounces);
           b = std::max(b, c.explicit_voigt.bounces);
         }
-      mine += printed(" %5d", a);
-      theirs += printed(" %3d", b);
+      bounced.push_back(msg("{}/{}", a, b));
     }
-    out += printed("  %4.2f %-11s %4d    | %7.4f %9.4f %9.2f  %2d/%-2d    | %7.4f %9.4f %9.2f  %2d/%-2d    |%s /%s\n", wall.k_n_per_mm,
-                   damping_name(wall.damping), wall.delay_ticks, ours.sd_n, ours.generated_mj, ours.peak_n, ours.out, ours.of, other.sd_n,
-                   other.generated_mj, other.peak_n, other.out, other.of, mine.c_str(), theirs.c_str());
   }
-  return out;
+  out.add(msg("The worst of all hands and loads, ours and explicit (k X + c V):"));
+  out.row(joined(wall_heads(), {msg("ours: sd, N"), msg("given out, mJ"), msg("peak, N"), msg("miss a limit"), msg("explicit: sd, N"),
+                                msg("given out, mJ"), msg("peak, N"), msg("miss a limit")}),
+          2);
+  for (auto& cells : forces) out.row(std::move(cells), 2);
+  if (o.contact_mm_s.empty()) return;
+  out.gap();
+  out.add(msg("Bounces by the speed of contact, ours/explicit:"));
+  std::vector<Message> heads = wall_heads();
+  for (const double v : o.contact_mm_s) heads.push_back(msg("{}", as_unit(v, Unit::mm_per_s, 0)));
+  out.row(std::move(heads), 2);
+  for (auto& cells : bounces) out.row(std::move(cells), 2);
 }
 
-std::string cell_lines(const PressResult& r) {
-  std::string out = "\n    k  c          delay hand N/m press N | ours: mean     sd  given out | explicit: mean     sd  given out\n";
+void add_cells(const PressResult& r, Lines& out) {
+  out.gap();
+  out.row(joined(wall_heads(), {msg("hand, N/m"),
+                                msg("press, N"),
+                                msg("ours: mean, N"),
+                                msg("sd, N"),
+                                msg("given out, mJ"),
+                                msg("explicit: mean, N"),
+                                msg("sd, N"),
+                                msg("given out, mJ"),
+                                {}}),
+          2);
   for (const auto& row : r.presses)
-    out += printed("  %4.2f %-11s %3d %8.0f %7.1f | %10.3f %6.4f %10.4f | %14.3f %6.4f %10.4f%s\n", row.cell.k_n_per_mm,
-                   damping_name(row.cell.damping), row.cell.delay_ticks, 1000 * row.cell.hand_n_per_mm, row.cell.press_n, row.ours.mean_n,
-                   row.ours.sd_n, std::max(row.ours.generated_mj, row.ours.late_mj), row.explicit_voigt.mean_n, row.explicit_voigt.sd_n,
-                   std::max(row.explicit_voigt.generated_mj, row.explicit_voigt.late_mj), row.ours.steady && row.ours.passive ? "" : "  OUT");
-  out += "\n    k  c          delay hand N/m  mm/s | bounces: ours, explicit | peak N: ours, explicit\n";
+    out.row(joined(wall_cells(row.cell),
+                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1), figure(row.ours.mean_n, 3), figure(row.ours.sd_n, 4),
+                    figure(given_out_mj(row.ours), 4), figure(row.explicit_voigt.mean_n, 3), figure(row.explicit_voigt.sd_n, 4),
+                    figure(given_out_mj(row.explicit_voigt), 4), row.ours.steady && row.ours.passive ? Message() : msg("misses a limit")}),
+            2);
+  out.gap();
+  out.row(joined(wall_heads(), {msg("hand, N/m"), msg("mm/s"), msg("bounces: ours"), msg("explicit"), msg("peak, N: ours"), msg("explicit")}), 2);
   for (const auto& row : r.contacts)
-    out += printed("  %4.2f %-11s %3d %8.0f %5.0f  | %13d %9d | %12.2f %9.2f\n", row.cell.k_n_per_mm, damping_name(row.cell.damping),
-                   row.cell.delay_ticks, 1000 * row.cell.hand_n_per_mm, row.speed_mm_s, row.ours.bounces, row.explicit_voigt.bounces, row.ours.peak_n,
-                   row.explicit_voigt.peak_n);
-  return out;
+    out.row(joined(wall_cells(row.cell), {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.speed_mm_s, 0), msg("{}", row.ours.bounces),
+                                          msg("{}", row.explicit_voigt.bounces), figure(row.ours.peak_n, 2), figure(row.explicit_voigt.peak_n, 2)}),
+            2);
 }
 
-std::string summary(const PressResult& r) {
+/// Presses of ours that miss a limit, and what they do with an exact encoder.
+void add_failing(const PressResult& r, Lines& out) {
+  bool any = false;
+  for (const auto& row : r.presses) {
+    if (row.ours.steady && row.ours.passive) continue;
+    if (!any) {
+      out.gap();
+      out.add(msg("Ours out of the limits:"));
+      out.row(joined(wall_heads(), {msg("hand, N/m"), msg("press, N"), msg("sd, N"), msg("given out, mJ"), msg("encoder steps"),
+                                    msg("sd with an exact encoder, N")}),
+              2);
+      any = true;
+    }
+    out.row(joined(wall_cells(row.cell),
+                   {figure(1000 * row.cell.hand_n_per_mm, 0), figure(row.cell.press_n, 1), figure(row.ours.sd_n, 4),
+                    figure(given_out_mj(row.ours), 4), msg("{}", row.ours.encoder_steps), row.exact ? figure(row.exact->sd_n, 4) : Message()}),
+            2);
+  }
+}
+
+void add_summary(const PressResult& r, Lines& lines) {
   int out = 0, not_passive = 0, by_encoder = 0, explicit_out = 0, bounced = 0, explicit_bounced = 0;
   double worst = 0, explicit_worst = 0;
   for (const auto& row : r.presses) {
@@ -97,18 +137,18 @@ std::string summary(const PressResult& r) {
     if (row.ours.bounces > 0) ++bounced;
     if (row.explicit_voigt.bounces > 0) ++explicit_bounced;
   }
-  const int presses = static_cast<int>(r.presses.size()), contacts = static_cast<int>(r.contacts.size());
-  std::string s = printed("Ours: %d of %d presses miss a limit, largest sd %.4f N (limit %.2f), %d with energy given out, %d of %d contacts bounce. ",
-                          out, presses, worst, r.options.limit_sd_n, not_passive, bounced, contacts);
-  s += printed("Explicit: %d of %d presses miss a limit, largest sd %.4f N, %d of %d contacts bounce. ", explicit_out, presses, explicit_worst,
-               explicit_bounced, contacts);
+  const std::size_t presses = r.presses.size(), contacts = r.contacts.size();
+  lines.add(
+      msg("Ours: presses that miss a limit: {} of {}; largest sd {} (limit {}); presses with energy given out: {}; contacts that bounce: {} of "
+          "{}.",
+          out, presses, as_n(worst, 4), as_n(r.options.limit_sd_n, 2), not_passive, bounced, contacts));
+  lines.add(msg("Explicit: presses that miss a limit: {} of {}; largest sd {}; contacts that bounce: {} of {}.", explicit_out, presses,
+                as_n(explicit_worst, 4), explicit_bounced, contacts));
   if (out > 0)
-    s += printed(
-        "Of our %d, %d are within the limits with an exact encoder: there the tip still creeps, as c lets go of its force, and each step of the "
-        "encoder "
-        "(%.3f mm) is a step of the force. ",
-        out, by_encoder, r.options.omni.quantum_mm);
-  return wrapped(s);
+    lines.add(
+        msg("Of ours that miss a limit, {} of {} are within the limits with an exact encoder: there the tip still creeps, as c lets go of its "
+            "force, and each step of the encoder ({}) is a step of the force.",
+            by_encoder, out, as_mm(r.options.omni.quantum_mm, 3)));
 }
 
 json to_json(const PressCell& c) {
@@ -135,27 +175,22 @@ json to_json(const ContactOutcome& o) { return {{"bounces", o.bounces}, {"peak_n
 
 }  // namespace
 
-std::string to_text(const PressResult& r, bool every_cell) {
+Lines to_text(const PressResult& r, bool every_cell) {
   const auto& o = r.options;
-  std::string out = printed(
-      "A hand presses the simulated Omni (%.0f g, friction %.2f N, %.1f N s/m, encoder %.3f mm, peak %.1f N) on a block, handpiece still, 1 kHz.\n",
-      1000 * o.omni.mass_kg, o.omni.coulomb_n, 1000 * o.omni.viscous_n_s_per_mm, o.omni.quantum_mm, o.omni.saturation_n);
-  out += printed(
-      "Hand %.0f g with damping ratio %.2f (assumed); down within 1 s, held for %.1f s. Limits: sd of the last half second %.2f N, energy given out "
-      "none "
-      "(under %g mJ).\n\n",
-      1000 * o.hand_mass_kg, o.hand_damping_ratio, o.hold_s, o.limit_sd_n, o.limit_energy_mj);
-  out += wall_lines(r);
-  if (every_cell) out += cell_lines(r);
-  std::string failing;
-  for (const auto& row : r.presses) {
-    if (row.ours.steady && row.ours.passive) continue;
-    failing += fmt::format("  {}{}", name(row.cell), printed(": sd %.4f N", row.ours.sd_n));
-    if (!row.ours.passive) failing += printed(", gives out %.4f mJ", std::max(row.ours.generated_mj, row.ours.late_mj));
-    failing += printed("; %d encoder steps; with an exact encoder sd %.4f N\n", row.ours.encoder_steps, row.exact ? row.exact->sd_n : 0.0);
-  }
-  if (!failing.empty()) out += "\nOurs out of the limits:\n" + failing;
-  return fmt::format("{}\n{}", out, summary(r));
+  Lines out;
+  out.add(msg("A hand presses the simulated Omni ({} g, friction {}, {} N s/m, encoder {}, peak {}) on a block, handpiece still, 1 kHz.",
+              as_number(1000 * o.omni.mass_kg, 0), as_n(o.omni.coulomb_n, 2), as_number(1000 * o.omni.viscous_n_s_per_mm, 1),
+              as_mm(o.omni.quantum_mm, 3), as_n(o.omni.saturation_n, 1)));
+  out.add(msg("The hand has {} g and a damping ratio of {} (assumed); it is down within 1 s and held for {}.", as_number(1000 * o.hand_mass_kg, 0),
+              as_number(o.hand_damping_ratio, 2), as_s(o.hold_s, 1)));
+  out.add(msg("Limits: sd of the last half second {}, energy given out none (under {} mJ).", as_n(o.limit_sd_n, 2), as_number(o.limit_energy_mj)));
+  out.gap();
+  add_walls(r, out);
+  if (every_cell) add_cells(r, out);
+  add_failing(r, out);
+  out.gap();
+  add_summary(r, out);
+  return out;
 }
 
 json to_json(const PressResult& r) {

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/device/simulated_omni.h"
 #include "engine/servo/servo.h"
 
@@ -97,7 +98,7 @@ struct PressBench {
 [[nodiscard]] PressResult run_press_rig(const PressOptions& options, const DiamondPoint& point);
 
 /// `every_cell`: one line for each press, not only for each k, c and delay.
-[[nodiscard]] std::string to_text(const PressResult& result, bool every_cell);
+[[nodiscard]] Lines to_text(const PressResult& result, bool every_cell);
 [[nodiscard]] nlohmann::json to_json(const PressResult& result);
 
 }  // namespace cavum

@@ -1,10 +1,7 @@
 #include "engine/rig/servo_rig.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/det_math.h"
@@ -13,17 +10,6 @@
 #include "engine/tooth/make/make_block.h"
 
 namespace cavum {
-namespace {
-
-template <class... Args>
-void line(std::string& out, const char* format, Args... args) {
-  char text[200];
-  std::snprintf(text, sizeof text, format, args...);
-  out += text;
-}
-
-}  // namespace
-
 HandIntent drilling_hand(double t_s) {
   constexpr double k_radius_mm = 1.0, k_turn_s = 8.0, k_start_mm = 0.3, k_press_mm = 1.2, k_feed_mm_s = 0.06;
   const SinCos turn = det_sincos(2 * k_pi * t_s / k_turn_s);
@@ -99,34 +85,41 @@ nlohmann::json to_json(const ServoRigResult& r) {
   return j;
 }
 
-std::string to_text(const ServoRigResult& r) {
+Lines to_text(const ServoRigResult& r) {
   const RealTimeReport& s = r.servo;
-  std::string out;
-  line(out, "%lld ticks of %g ms in %.2f s: %s\n", static_cast<long long>(s.ticks), r.tick_s * 1e3, r.seconds,
-       r.on_time() ? "on time" : "NOT always on time");
-  line(out, "  SCHED_FIFO: %s\n", s.fifo ? "yes" : fmt::format("refused ({})", s.fifo_refused).c_str());
-  line(out, "  memory locked: %s\n", s.memory_locked ? "yes" : fmt::format("refused ({})", s.memory_refused).c_str());
-  line(out, "  overruns (more than a period late) %lld, made up for %lld, skipped %lld late and %lld without room, cut by the guard %lld\n",
-       static_cast<long long>(s.overruns), static_cast<long long>(s.made_up), static_cast<long long>(s.skipped_late),
-       static_cast<long long>(s.skipped_full), static_cast<long long>(s.guard_cuts));
-  line(out, "  late: mean %.1f, p99 %.0f, worst %.0f us; work: mean %.1f, p99 %.0f, worst %.0f us\n", s.lateness.mean_us(),
-       s.lateness.quantile_us(0.99), s.lateness.worst_us(), s.work.mean_us(), s.work.quantile_us(0.99), s.work.worst_us());
-  line(out, "  force in contact: mean %.2f, peak %.2f N; %lld leaves removed\n", r.mean_force_n, r.peak_force_n,
-       static_cast<long long>(r.removed_leaves));
-  line(out, "  recorded %lld ticks, at most %lld waiting, slowest write %.1f ms\n\n", static_cast<long long>(r.writer.ticks),
-       static_cast<long long>(r.writer.most_waiting), r.slowest_write_s * 1e3);
-  if (!s.error.empty()) out += fmt::format("  device: {}\n", s.error);
-  if (!r.writer.error.empty()) out += fmt::format("  recording: {}\n", r.writer.error);
-  out += "  late by up to      ticks\n";
+  const Number tick = as_unit(r.tick_s * 1e3, Unit::ms), seconds = as_s(r.seconds, 2);
+  Lines out;
+  out.add(r.on_time() ? msgn("{} tick of {} in {}: on time", "{} ticks of {} in {}: on time", s.ticks, s.ticks, tick, seconds)
+                      : msgn("{} tick of {} in {}: NOT always on time", "{} ticks of {} in {}: NOT always on time", s.ticks, s.ticks, tick, seconds));
+  out.add(s.fifo ? msg("SCHED_FIFO: granted") : msg("SCHED_FIFO: refused ({})", s.fifo_refused), 2);
+  out.add(s.memory_locked ? msg("memory: locked") : msg("memory: not locked ({})", s.memory_refused), 2);
+  out.row({msg("overruns (more than a period late)"), msg("{}", s.overruns)}, 2);
+  out.row({msg("ticks made up for"), msg("{}", s.made_up)}, 2);
+  out.row({msg("periods skipped late"), msg("{}", s.skipped_late)}, 2);
+  out.row({msg("periods skipped without room"), msg("{}", s.skipped_full)}, 2);
+  out.row({msg("times the guard cut the force"), msg("{}", s.guard_cuts)}, 2);
+  out.row({msg("µs"), msg("mean"), msg("99 % below"), msg("worst")}, 2);
+  const auto times = [&](const Message& what, const Lateness& l) {
+    out.row({what, msg("{}", as_number(l.mean_us(), 1)), msg("{}", as_number(l.quantile_us(0.99), 0)), msg("{}", as_number(l.worst_us(), 0))}, 2);
+  };
+  times(msg("lateness of a tick"), s.lateness);
+  times(msg("work of a tick"), s.work);
+  out.add(msgn("force in contact: mean {}, peak {}; {} leaf removed", "force in contact: mean {}, peak {}; {} leaves removed", r.removed_leaves,
+               as_n(r.mean_force_n, 2), as_n(r.peak_force_n, 2), r.removed_leaves),
+          2);
+  out.add(msgn("recorded {} tick, at most {} waiting, slowest write {}", "recorded {} ticks, at most {} waiting, slowest write {}", r.writer.ticks,
+               r.writer.ticks, r.writer.most_waiting, as_unit(r.slowest_write_s * 1e3, Unit::ms, 1)),
+          2);
+  if (!s.error.empty()) out.add(msg("device: {}", s.error), 2);
+  if (!r.writer.error.empty()) out.add(msg("recording: {}", r.writer.error), 2);
+  out.gap();
+  out.row({msg("late by up to, µs"), msg("ticks"), {}}, 2);
   for (std::size_t i = 0; i < s.lateness.counts.size(); ++i) {
     const auto n = s.lateness.counts[i];
     if (n == 0) continue;
     const double share = static_cast<double>(n) / static_cast<double>(std::max<std::int64_t>(1, s.ticks));
     const std::string bar(static_cast<std::size_t>(std::ceil(40 * share)), '#');
-    if (i < Lateness::k_edges_us.size())
-      line(out, "  %8lld us %12lld %s\n", static_cast<long long>(Lateness::k_edges_us[i]), static_cast<long long>(n), bar.c_str());
-    else
-      line(out, "      more    %12lld %s\n", static_cast<long long>(n), bar.c_str());
+    out.row({i < Lateness::k_edges_us.size() ? msg("{}", Lateness::k_edges_us[i]) : msg("later"), msg("{}", n), Name{bar}}, 2);
   }
   return out;
 }

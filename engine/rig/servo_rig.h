@@ -5,6 +5,7 @@
 #include <nlohmann/json_fwd.hpp>
 #include <string>
 
+#include "engine/base/lines.h"
 #include "engine/device/simulated_stylus.h"
 #include "engine/servo/real_time.h"
 #include "engine/session/session.h"
@@ -39,6 +40,6 @@ struct ServoRigResult {
 
 [[nodiscard]] nlohmann::json to_json(const ServoRigResult& result);
 /// For a terminal: what was granted, the counts, the histogram.
-[[nodiscard]] std::string to_text(const ServoRigResult& result);
+[[nodiscard]] Lines to_text(const ServoRigResult& result);
 
 }  // namespace cavum

@@ -43,6 +43,11 @@ const MachineReading& TestingMachine::tick() noexcept {
   return reading_;
 }
 
+Message load_cell_words(const MachineSettings& s) {
+  return msg("Load cell: joint friction {}; noise {} and a zero error of {} for each run (both assumed); encoder {}.", as_n(s.omni.coulomb_n, 2),
+             as_n(s.noise_n, 3), as_n(s.zero_n, 3), as_mm(s.omni.quantum_mm, 3));
+}
+
 ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm) {
   const auto found = model.materials.find(tissue);
   if (found == model.materials.end())

@@ -3,6 +3,7 @@
 // friction of the stylus's joints, which always acts against the way. As in Figures 6 and 9 of the HAP-DENT paper.
 #pragma once
 
+#include "engine/base/message.h"
 #include "engine/base/random.h"
 #include "engine/device/simulated_omni.h"
 #include "engine/rig/published.h"
@@ -45,6 +46,9 @@ class TestingMachine {
   TickInput input_;
   MachineReading reading_;
 };
+
+/// Friction, errors and encoder of the load cell, as a line.
+[[nodiscard]] Message load_cell_words(const MachineSettings& settings);
 
 /// `model` with another stiffness of one tissue. The damping keeps its ratio, c = c0 √(k/k0): from `paper` this gives eq. 5 for
 /// every k, from `consistent` the critical damping of the stylus. Throws Error when the tissue has no material or k0 = 0.

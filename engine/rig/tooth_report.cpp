@@ -1,7 +1,6 @@
 // The cut through a tooth in words, tables and JSON.
 #include <nlohmann/json.hpp>
 
-#include "engine/base/print.h"
 #include "engine/rig/tooth_rig.h"
 
 namespace cavum {
@@ -17,56 +16,54 @@ json to_json(const std::vector<BandPoint>& band) {
   return out;
 }
 
-std::string constants_from_the_paper() {
-  return printed("From the paper's formulae: c = 2 h √k at k = %.1f N/mm, h = %.0f is %.3f N s/mm (the paper rounds to 1.79).\n", k_paper_k_n_per_mm,
-                 k_paper_damping_h, paper_damping_n_s_per_mm(k_paper_k_n_per_mm)) +
-         printed(
-             "A real tooth took %.3f N on average; eq. 6 turned round gives k = (%.3f - %.3f)/%.3f = %.3f N/mm (the paper prints 0.789, and uses "
-             "%.1f).\n",
-             k_paper_tooth_n, k_paper_tooth_n, k_paper_intercept_n, k_paper_slope_mm, paper_stiffness_n_per_mm(k_paper_tooth_n), k_paper_k_n_per_mm);
-}
-
 /// The first few by name; all are in the JSON.
-std::string left_out_lines(const ToothRigResult& r) {
+void add_left_out(const ToothRigResult& r, Lines& out) {
   constexpr int k_named = 3;
-  std::string out;
   int n = 0;
   for (std::size_t i = 0; i < r.runs.size(); ++i) {
     const ToothRun& run = r.runs[i];
     if ((run.reached_pulp && !run.held) || ++n > k_named) continue;
-    out += printed("Left out: run %zu, x %.4f, y %.4f mm: %s.\n", i + 1, run.x_mm, run.y_mm,
-                   run.held ? "the head is held in its hole, X passed twice V tau, a fault of the simulation" : "the pulp was not reached");
+    const Number x = as_mm(run.x_mm, 4), y = as_mm(run.y_mm, 4);
+    out.add(run.held
+                ? msg("Left out: run {}, x = {}, y = {}: the head is held in its hole, X passed twice V τ, a fault of the simulation.", i + 1, x, y)
+                : msg("Left out: run {}, x = {}, y = {}: the pulp was not reached.", i + 1, x, y));
   }
-  if (n > k_named) out += printed("and %d more (--json names all).\n", n - k_named);
-  return out;
+  if (n > k_named) out.add(msgn("and {} more run (--json names all)", "and {} more runs (--json names all)", n - k_named, n - k_named));
 }
 
 }  // namespace
 
-std::string to_text(const ToothRigResult& r) {
+Lines to_text(const ToothRigResult& r) {
   const auto& o = r.options;
-  std::string out = printed("%s, force model '%s', %s, crosshead %.2f mm/s, %d runs within %.2f mm of x %.2f, y %.2f mm, seed %llu\n",
-                            r.tooth.c_str(), r.model.c_str(), r.point.c_str(), o.machine.speed_mm_s, o.runs, o.spread_mm, o.at_mm->first,
-                            o.at_mm->second, static_cast<unsigned long long>(o.seed));
-  out += printed("Load cell: joint friction %.2f N; noise %.3f N and a zero error of %.3f N for each run (both assumed); encoder %.3f mm.\n\n",
-                 o.machine.omni.coulomb_n, o.machine.noise_n, o.machine.zero_n, o.machine.omni.quantum_mm);
-  out += "  tissue before the tip   from s         to s         mean force N\n";
+  Lines out;
+  out.add(msg("{}, force model '{}', {}, crosshead {}", r.tooth, r.model, Term{r.point}, as_unit(o.machine.speed_mm_s, Unit::mm_per_s, 2)));
+  out.add(msgn("{} run within {} of x = {}, y = {}; seed {}", "{} runs within {} of x = {}, y = {}; seed {}", o.runs, o.runs, as_mm(o.spread_mm, 2),
+               as_mm(o.at_mm->first, 2), as_mm(o.at_mm->second, 2), std::to_string(o.seed)));
+  out.add(load_cell_words(o.machine));
+  out.gap();
+  out.row({msg("tissue before the tip"), msg("begins"), msg("ends"), msg("mean force")}, 2);
   for (const auto& l : r.layers)
-    out += printed("  %-18s %8.2f ± %-5.2f %6.2f ± %-5.2f %8.3f ± %.3f\n", l.tissue.c_str(), l.from_s.mean, l.from_s.sd, l.to_s.mean, l.to_s.sd,
-                   l.force_n.mean, l.force_n.sd);
-  out += "  (times from the first contact, of the runs counted; the first mean contains the rise of the force, the pulp's its fall)\n\n";
-  out += left_out_lines(r);
+    out.row({msg("{}", Term{l.tissue}), msg("{}", as_s(l.from_s.mean, 2, l.from_s.sd)), msg("{}", as_s(l.to_s.mean, 2, l.to_s.sd)),
+             msg("{}", as_n(l.force_n.mean, 3, l.force_n.sd))},
+            2);
+  out.add(msg("(times from the first contact, of the runs counted; the first mean contains the rise of the force, the pulp's its fall)"), 2);
+  out.gap();
+  add_left_out(r, out);
   if (r.counted > 0) {
-    out +=
-        printed("Pulp reached in %d of %d runs, %.2f ± %.2f s after contact: force %.3f ± %.3f N before, %.3f ± %.3f N after, a fall of %.0f %%,\n",
-                r.counted, o.runs, r.pulp_s.mean, r.pulp_s.sd, r.before_n.mean, r.before_n.sd, r.after_n.mean, r.after_n.sd,
-                100.0 * (1.0 - r.after_n.mean / r.before_n.mean));
-    out += printed("from 90 to 10 %% within %.2f ± %.2f s. Joint friction is %.2f N of all these.\n", r.fall_s.mean, r.fall_s.sd,
-                   o.machine.omni.coulomb_n);
+    out.add(msg("Pulp reached in {} of {} runs, {} after contact.", r.counted, o.runs, as_s(r.pulp_s.mean, 2, r.pulp_s.sd)));
+    out.add(msg("Force {} before, {} after: a fall of {}, from 90 to 10 % of it within {}. Joint friction is {} of all these.",
+                as_n(r.before_n.mean, 3, r.before_n.sd), as_n(r.after_n.mean, 3, r.after_n.sd),
+                as_percent(100.0 * (1.0 - r.after_n.mean / r.before_n.mean)), as_s(r.fall_s.mean, 2, r.fall_s.sd),
+                as_n(o.machine.omni.coulomb_n, 2)));
   } else {
-    out += "The pulp was reached in no run.\n";
+    out.add(msg("The pulp was reached in no run."));
   }
-  return out + constants_from_the_paper();
+  out.add(msg("From the paper's formulae: c = 2 h √k at k = {}, h = {} is {} N s/mm (the paper rounds to 1.79).",
+              as_unit(k_paper_k_n_per_mm, Unit::n_per_mm, 1), as_number(k_paper_damping_h, 0),
+              as_number(paper_damping_n_s_per_mm(k_paper_k_n_per_mm), 3)));
+  out.add(msg("A real tooth took {} on average; eq. 6 turned round gives k = {} (the paper prints 0.789, and uses {}).", as_n(k_paper_tooth_n, 3),
+              as_unit(paper_stiffness_n_per_mm(k_paper_tooth_n), Unit::n_per_mm, 3), as_number(k_paper_k_n_per_mm, 1)));
+  return out;
 }
 
 json to_json(const ToothRigResult& r) {

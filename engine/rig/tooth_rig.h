@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/lines.h"
 #include "engine/rig/testing_machine.h"
 #include "engine/statistics/statistics.h"
 
@@ -65,7 +66,7 @@ struct ToothRigResult {
 /// Throws Error when the tooth has no pulp under solid tissue there.
 [[nodiscard]] ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const DiamondPoint& point, const ToothRigOptions& options);
 
-[[nodiscard]] std::string to_text(const ToothRigResult& result);
+[[nodiscard]] Lines to_text(const ToothRigResult& result);
 [[nodiscard]] nlohmann::json to_json(const ToothRigResult& result);
 
 }  // namespace cavum

@@ -1,7 +1,5 @@
 #include "grading/ledger/appeal.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/json_fields.h"
 #include "grading/ledger/reason.h"
 
@@ -12,7 +10,7 @@ using nlohmann::json;
 
 const FiledSession& appealed(const Registry& registry, std::uint64_t session) {
   const FiledSession* found = registry.session(session);
-  if (found == nullptr) throw Error(fmt::format("--session {}", session), msg("is no session's entry"), msg("see `cavum ledger show`"));
+  if (found == nullptr) throw Error(msg("entry {}", session), msg("is no session's entry"), msg("see `cavum ledger show`"));
   return *found;
 }
 
@@ -36,7 +34,7 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
   return ledger.append(
       [&](const LedgerContent&) {
         const FiledSession& s = appealed(ledger.registry(), session);
-        const std::string where = fmt::format("--session {}", session);
+        const Message where = msg("entry {}", session);
         if (!s.result->is_object()) throw Error(where, msg("has no result"), msg("there is nothing to appeal against"));
         if (const Appeal* open = s.open_appeal()) throw Error(where, msg("an appeal is open (entry {})", open->seq), msg("answer that one first"));
         return AppealEntry{session};
@@ -49,7 +47,7 @@ const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome 
   return ledger.append(
       [&](const LedgerContent&) {
         const FiledSession& s = appealed(ledger.registry(), session);
-        const std::string where = fmt::format("--session {}", session);
+        const Message where = msg("entry {}", session);
         const Appeal* open = s.open_appeal();
         if (open == nullptr) throw Error(where, msg("no appeal is open"), msg("see `cavum ledger appeal` without --session"));
         const bool changed = changed_since(s, *open);

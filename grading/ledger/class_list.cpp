@@ -109,12 +109,12 @@ Person person_of(const CsvRow& row, const std::vector<const Column*>& columns, c
 
 }  // namespace
 
-ListMistakes::ListMistakes(const std::string& where, std::vector<std::string> texts)
-    : Error(where, msg("has {} mistakes", texts.size()), msg("the first: {}", texts.at(0))), texts_(std::move(texts)) {}
+ListMistakes::ListMistakes(const std::string& where, std::vector<Message> mistakes)
+    : Error(where, msg("has {} mistakes", mistakes.size()), msg("the first: {}", mistakes.at(0))), mistakes_(std::move(mistakes)) {}
 
 void Mistakes::tell() {
-  if (number_ > texts_.size()) texts_.push_back(fmt::format("{}: has {} mistakes more; put these right first", where_, number_ - texts_.size()));
-  if (number_ > 0) throw ListMistakes(where_, std::move(texts_));
+  if (number_ > mistakes_.size()) mistakes_.push_back(msg("{}: has {} mistakes more; put these right first", where_, number_ - mistakes_.size()));
+  if (number_ > 0) throw ListMistakes(where_, std::move(mistakes_));
 }
 
 std::vector<std::string> people_columns() {

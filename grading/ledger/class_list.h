@@ -14,11 +14,11 @@ namespace cavum::ledger {
 /// Mistakes in rows of a list, each as an Error says it; the command line prints each on a line of its own.
 class ListMistakes : public Error {
  public:
-  ListMistakes(const std::string& where, std::vector<std::string> texts);
-  [[nodiscard]] const std::vector<std::string>& texts() const noexcept { return texts_; }
+  ListMistakes(const std::string& where, std::vector<Message> mistakes);
+  [[nodiscard]] const std::vector<Message>& mistakes() const noexcept { return mistakes_; }
 
  private:
-  std::vector<std::string> texts_;
+  std::vector<Message> mistakes_;
 };
 
 /// What is wrong with a list, row by row: it is told at once, so that it is put right at once.
@@ -32,7 +32,7 @@ class Mistakes {
       check();
     } catch (const Error& wrong) {
       ++number_;
-      if (texts_.size() < k_most) texts_.emplace_back(wrong.what());
+      if (mistakes_.size() < k_most) mistakes_.push_back(wrong.message());
     }
   }
   /// Throws ListMistakes where there was one.
@@ -42,7 +42,7 @@ class Mistakes {
   static constexpr std::size_t k_most = 20;
   std::string where_;
   std::size_t number_ = 0;
-  std::vector<std::string> texts_;
+  std::vector<Message> mistakes_;
 };
 
 struct Person {

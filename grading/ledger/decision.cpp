@@ -1,7 +1,5 @@
 #include "grading/ledger/decision.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "grading/ledger/reason.h"
@@ -19,7 +17,7 @@ void require_person(const std::string& text) {
 
 /// The result of a session that a person has to decide. Throws Error.
 const FiledSession& undecided_session(const Registry& registry, std::uint64_t session) {
-  const std::string where = fmt::format("--session {}", session);
+  const Message where = msg("entry {}", session);
   const FiledSession* found = registry.session(session);
   if (found == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger decide` without --session"));
   if (found->made_up_by)
@@ -43,7 +41,7 @@ std::vector<ToDecide> review_queue(const Registry& registry) {
     if (!s.undecided() || s.made_up_by || registry.chosen_instead_of(s) != nullptr) continue;
     const json& score = s.result->at("score");
     ToDecide d{s.seq, s.candidate, s.scenario_id, score.at("points").get<double>(), score.at("max").get<double>(), {}};
-    for (const json& reason : member_of(*s.result, "verdict_reasons")) d.reasons.push_back(text_in(reason, "text"));
+    for (const json& reason : member_of(*s.result, "verdict_reasons")) d.reasons.push_back(msg("{}", Authored{text_in(reason, "text")}));
     queue.push_back(std::move(d));
   }
   return queue;

@@ -1,7 +1,5 @@
 #include "grading/ledger/erasure.h"
 
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "engine/base/write_file.h"
@@ -35,7 +33,7 @@ std::vector<ErasedPart> select_erasures(const LedgerContent& c, const ErasureWis
   std::set<std::uint64_t> sessions(wish.sessions.begin(), wish.sessions.end());
   for (const auto seq : sessions)
     if (seq >= c.entries.size() || c.entries[seq].as<SessionEntry>() == nullptr)
-      throw Error(fmt::format("--session {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
+      throw Error(msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   if (wish.received_before)
     for (const auto& e : c.entries)
       if (e.as<SessionEntry>() != nullptr && e.utc_ns < *wish.received_before) sessions.insert(e.seq);

@@ -51,7 +51,7 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
   return ledger.append(
       [&](const LedgerContent&) {
         const IssuedTicket* t = ledger.registry().ticket(seq);
-        const std::string where = fmt::format("--ticket {}", seq);
+        const Message where = msg("entry {}", seq);
         if (t == nullptr) throw Error(where, msg("is no ticket's entry"), msg("see `cavum ledger tickets`"));
         if (t->used_by)
           throw Error(where, msg("was used: its exam is filed as entry {}", *t->used_by),

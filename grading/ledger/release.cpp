@@ -1,7 +1,5 @@
 #include "grading/ledger/release.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "grading/ledger/reason.h"
@@ -25,7 +23,7 @@ std::string entries_of(const FiledSession& s) {
 
 /// An entry that was named by its number is released, or it is said why not.
 void require_releasable(const Registry& registry, const ReleaseWish& wish, const FiledSession& s) {
-  const std::string where = fmt::format("--session {}", s.seq);
+  const Message where = msg("entry {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
       throw Error(where, msg("and entry {} are endings of the same exam, and one counts", other), msg("choose one of them"));
@@ -47,7 +45,7 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
 
 Release select_results(const Registry& registry, const ReleaseWish& wish) {
   for (const auto seq : wish.sessions)
-    if (registry.session(seq) == nullptr) throw Error(fmt::format("--session {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
+    if (registry.session(seq) == nullptr) throw Error(msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, msg("has no session in this ledger"), msg("see `cavum ledger show`"));
@@ -93,7 +91,7 @@ const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64
         RetractEntry entry;
         for (const auto seq : sessions) {
           const FiledSession* s = ledger.registry().session(seq);
-          const std::string where = fmt::format("--session {}", seq);
+          const Message where = msg("entry {}", seq);
           if (s == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger show`"));
           if (s->shown_seq == 0) throw Error(where, msg("has no released result"), msg("there is nothing to take back"));
           entry.results.push_back(s->shown_seq);

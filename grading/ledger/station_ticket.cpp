@@ -8,6 +8,7 @@
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
+#include <optional>
 #include <sstream>
 
 #include "engine/base/file.h"
@@ -67,6 +68,11 @@ std::string used_tickets_path() { return station_path("used_tickets"); }
 
 namespace {
 
+struct TicketUse {
+  std::string when, session;
+  bool closed = false;  ///< its exam was closed
+};
+
 /// The file of used tickets, locked while this lives: two programs of a station cannot both begin with one ticket.
 class UsedTickets {
  public:
@@ -79,24 +85,21 @@ class UsedTickets {
   UsedTickets(const UsedTickets&) = delete;
   UsedTickets& operator=(const UsedTickets&) = delete;
 
-  /// "on 2026-… by exam.cavum" when the last line about the ticket says that it was used; else nothing. A line that a power cut left short is none.
-  [[nodiscard]] std::string use_of(const std::string& nonce) {
-    closed_ = false;
+  /// Of a ticket when the last line about it says that it was used. A line that a power cut left short is none.
+  [[nodiscard]] std::optional<TicketUse> use_of(const std::string& nonce) {
     std::istringstream lines(read_text_file(path_));
-    std::string said;
+    std::optional<TicketUse> use;
     for (std::string line; std::getline(lines, line);) {
       std::istringstream words(line);
       std::string what, of, when, session;
       words >> what >> of >> when;
       if (of != nonce) continue;
       std::getline(words >> std::ws, session);
-      said = what == "used" || what == "closed" ? fmt::format("on {} for {}", when, one_line(session)) : "";
-      closed_ = what == "closed";
+      use.reset();
+      if (what == "used" || what == "closed") use = {when, session, what == "closed"};
     }
-    return said;
+    return use;
   }
-  /// Of the ticket that was asked about last: its exam was closed.
-  [[nodiscard]] bool closed() const noexcept { return closed_; }
   void add(const std::string& line) {
     const std::string whole = line + "\n";
     if (::write(file_, whole.data(), whole.size()) != static_cast<ssize_t>(whole.size()) || ::fsync(file_) != 0) fail();
@@ -111,7 +114,6 @@ class UsedTickets {
 
   std::string path_ = used_tickets_path();
   int file_ = -1;
-  bool closed_ = false;
 };
 
 /// Of the ticket in a session's notes; empty without one.
@@ -121,9 +123,10 @@ std::string nonce_in(const std::vector<std::pair<std::string, std::string>>& not
   return "";
 }
 
-void refuse_used(const HeldTicket& held, const std::string& use) {
-  if (!use.empty())
-    throw Error(held.path, msg("was used at this station {}", use), msg("go on with that exam (--resume), or ask the school for a new ticket"));
+void refuse_used(const HeldTicket& held, const std::optional<TicketUse>& use) {
+  if (use)
+    throw Error(held.path, msg("was used at this station on {} for {}", use->when, use->session),
+                msg("go on with that exam (--resume), or ask the school for a new ticket"));
 }
 
 }  // namespace
@@ -149,15 +152,12 @@ void remember_closed(const std::vector<std::pair<std::string, std::string>>& not
 bool require_not_closed(const std::vector<std::pair<std::string, std::string>>& notes, const std::string& session) {
   const std::string nonce = nonce_in(notes, session);
   if (nonce.empty()) return true;
-  std::string use;
-  if (std::filesystem::exists(used_tickets_path())) {
-    UsedTickets used;
-    use = used.use_of(nonce);
-    if (used.closed())
-      throw Error(session, msg("the exam of its ticket was closed at this station {}", use),
-                  msg("hand that one in: an exam that was closed is not taken up again"));
-  }
-  return !use.empty();
+  std::optional<TicketUse> use;
+  if (std::filesystem::exists(used_tickets_path())) use = UsedTickets().use_of(nonce);
+  if (use && use->closed)
+    throw Error(session, msg("the exam of its ticket was closed at this station on {} for {}", use->when, use->session),
+                msg("hand that one in: an exam that was closed is not taken up again"));
+  return use.has_value();
 }
 
 void forget_use(const HeldTicket& held) noexcept {

@@ -7,7 +7,6 @@
 #include <string_view>
 
 #include "engine/base/error.h"
-#include "engine/base/kept.h"
 #include "engine/base/text.h"
 
 namespace cavum::scenarios {

@@ -1,9 +1,6 @@
 #include "scenarios/review/ridge_margins.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
-#include <array>
 #include <optional>
 
 #include "engine/base/error.h"
@@ -27,7 +24,6 @@ double away_mm(Vec3 p, const std::vector<Vec3>& line) {
 struct End {
   const std::optional<Vec3>& pit;
   const MarginalRidge& ridge;
-  const char* word;
   bool asked;  // the cavity ends there
 };
 
@@ -41,8 +37,7 @@ struct Laid {
 }  // namespace
 
 RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
-  const std::array<End, 2> ends{
-      {{l.mesial_pit_mm, l.mesial_ridge, "mesial", through <= 0}, {l.distal_pit_mm, l.distal_ridge, "distal", through >= 0}}};
+  const std::array<End, 2> ends{{{l.mesial_pit_mm, l.mesial_ridge, through <= 0}, {l.distal_pit_mm, l.distal_ridge, through >= 0}}};
   std::vector<Laid> all;
   std::array<bool, 2> can{false, false};
   for (const double margin : k_margins_mm) {
@@ -85,8 +80,7 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
     return margins;
   }
   margins.why_none = {};
-  for (std::size_t e = 0; e < ends.size(); ++e)
-    if (!can[e]) margins.pits_left += fmt::format("; the {} pit lies beside the cavity and stays", ends[e].word);
+  for (std::size_t e = 0; e < ends.size(); ++e) margins.pits_left[e] = !can[e];
   return margins;
 }
 

@@ -1,7 +1,7 @@
 // How much of the marginal ridges a cavity along the fissure leaves, measured on the outline as it will be laid.
 #pragma once
 
-#include <string>
+#include <array>
 #include <vector>
 
 #include "engine/tooth/anatomy/landmarks.h"
@@ -13,9 +13,9 @@ struct RidgeMargin {
   double left_mm = 0;   ///< from the outline to the nearest place of a crest, or `ridge_mm` where that is less
 };
 struct RidgeMargins {
-  std::vector<RidgeMargin> may;  ///< best first
-  std::string pits_left;         ///< of all of them, for the candidate: which pit lies outside; empty: none
-  Message why_none;              ///< where there is none
+  std::vector<RidgeMargin> may;     ///< best first
+  std::array<bool, 2> pits_left{};  ///< by all of them: the mesial, the distal pit lies outside
+  Message why_none;                 ///< where there is none
 };
 
 /// Of an outline `width_mm` wide that goes `through` the mesial (+1), the distal (-1) or neither ridge (0). Only what takes in the pits that can be

@@ -1,14 +1,16 @@
 #include "scenarios/review/tooth_task.h"
 
 #include <fmt/core.h>
+#include <toml++/toml.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <sstream>
 
 #include "engine/base/error.h"
-#include "engine/base/kept.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
 #include "scenarios/file/template.h"
@@ -39,7 +41,9 @@ constexpr std::size_t k_most_tried = 4;
 constexpr double k_least_reach = 0.895;
 
 struct ToothTask {
-  const char *word, *title, *points;
+  const char* word;
+  Message title;
+  const char* points;
   bool access;
   const char *aims, *faults;
   std::function<Message(const Tooth&, const Landmarks&)> why_not;
@@ -89,20 +93,35 @@ double isthmus_mm(const Landmarks& l) { return 0.1 * std::round(10.0 * std::clam
 
 /// Floors of an occlusal cavity, deepest first: from the surface where that ends in dentin, else from the border of enamel and dentin.
 struct Floor {
-  std::string toml, words;
+  std::string toml;
+  Message words;
 };
 std::vector<Floor> floors(const Tooth& tooth, const Landmarks& l) {
   std::vector<Floor> list;
   const double enamel_mm = enamel_under_fissure_mm(tooth, l);
+  const auto below_lowest = [](double depth) { return fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)); };
   for (const double depth : {1.8, 1.5})
-    if (depth >= enamel_mm + k_in_dentin_mm)
-      list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm below the fissure"});
+    if (depth >= enamel_mm + k_in_dentin_mm) list.push_back({below_lowest(depth), msg("{} below the fissure", as_mm(depth, 1))});
   for (const double depth : {0.5, 0.3, 0.2})
-    list.push_back({fmt::format("{{ kind = \"below_border\", depth_mm = {} }}", fixed(depth, 1)), fixed(depth, 1) + " mm into dentin"});
+    list.push_back({fmt::format("{{ kind = \"below_border\", depth_mm = {} }}", fixed(depth, 1)), msg("{} into dentin", as_mm(depth, 1))});
   for (const double depth : {1.2, 1.0})  // a worn crown, its pulp near: in enamel then
-    list.push_back({fmt::format("{{ kind = \"below_lowest\", depth_mm = {} }}", fixed(depth, 1)),
-                    fixed(depth, 1) + (depth < enamel_mm + k_in_dentin_mm ? " mm below the fissure, in part in enamel" : " mm below the fissure")});
+    list.push_back({below_lowest(depth), depth < enamel_mm + k_in_dentin_mm ? msg("{} below the fissure, in part in enamel", as_mm(depth, 1))
+                                                                            : msg("{} below the fissure", as_mm(depth, 1))});
   return list;
+}
+
+/// `what`, and which pit stays.
+Message with_pits(Message what, const std::array<bool, 2>& left) {
+  if (left[0] && left[1]) return msg("{} Both pits lie beside the cavity and stay.", what);
+  if (left[0]) return msg("{} The mesial pit lies beside the cavity and stays.", what);
+  if (left[1]) return msg("{} The distal pit lies beside the cavity and stays.", what);
+  return what;
+}
+/// The same for people, after other lengths.
+Message chosen_with_pits(List lengths, const std::array<bool, 2>& left) {
+  if (left[0]) lengths.items.push_back(msg("the mesial pit stays"));
+  if (left[1]) lengths.items.push_back(msg("the distal pit stays"));
+  return msg("{}", std::move(lengths));
 }
 
 Message no_fissure(const Landmarks& l, int through) {
@@ -113,29 +132,29 @@ Message no_fissure(const Landmarks& l, int through) {
 
 std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
   std::vector<TaskChoice> list;
-  const std::string width = fixed(isthmus_mm(l), 1);
-  const RidgeMargins ridges = ridge_margins(l, isthmus_mm(l), 0);
+  const double width = isthmus_mm(l);
+  const RidgeMargins ridges = ridge_margins(l, width, 0);
   for (const Floor& floor : floors(tooth, l))
-    for (const RidgeMargin& margin : ridges.may) {
-      const std::string ridge = fixed(margin.ridge_mm, 1);
+    for (const RidgeMargin& margin : ridges.may)
       list.push_back(
           {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
                        "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
-                       width, ridge, floor.toml),
+                       fixed(width, 1), fixed(margin.ridge_mm, 1), floor.toml),
            pulp_guard_text(0.5),
-           fmt::format("Cut along the central fissure: {} mm wide, flat floor {}, upright walls; take in its pits, leave both marginal ridges{}.",
-                       width, floor.words, ridges.pits_left),
-           fmt::format("isthmus {} mm, floor {}, {} mm of each marginal ridge{}", width, floor.words,
-                       fixed(0.1 * std::floor(10.0 * margin.left_mm + 1e-6), 1), ridges.pits_left),
-           floor.words});
-    }
+           with_pits(msg("Cut along the central fissure: {} wide, flat floor {}, upright walls; take in its pits, leave both marginal ridges.",
+                         as_mm(width, 1), floor.words),
+                     ridges.pits_left),
+           chosen_with_pits({{msg("isthmus {}", as_mm(width, 1)), msg("floor {}", floor.words),
+                              msg("{} of each marginal ridge", as_mm(0.1 * std::floor(10.0 * margin.left_mm + 1e-6), 1))}},
+                            ridges.pits_left),
+           floor.toml});
   return list;
 }
 
 Message no_contact(const Landmarks& l, int side) {
   return furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0}) == nullptr || furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0}) == nullptr
-             ? "its contact area or its neck is not found"
-             : "";
+             ? msg("its contact area or its neck is not found")
+             : Message();
 }
 
 std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
@@ -146,38 +165,54 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
   const ContactBox beside =
       box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
                  k_least_above_neck_mm, k_box_widest_mm);
-  const std::string width = fixed(beside.width_mm, 1), isthmus = fixed(isthmus_mm(l), 1);
+  const double isthmus = isthmus_mm(l);
   const double above = beside.above_neck_mm;
   const RidgeMargins ridges = with_step ? ridge_margins(l, isthmus_mm(l), side) : RidgeMargins{};  // the other ridge stands
   constexpr double k_usual_ridge_mm = 1.2;
   const auto usual = std::find_if(ridges.may.begin(), ridges.may.end(), [](const RidgeMargin& m) { return m.ridge_mm <= k_usual_ridge_mm; });
   const std::string ridge = with_step ? fixed((usual != ridges.may.end() ? *usual : ridges.may[0]).ridge_mm, 1) : "";
-  const std::string pit = with_step ? ridges.pits_left : "";
   const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
     for (const Floor& floor : all)
-      for (const char* axial : {"1.5", "1.2"}) {
-        const std::string level = fixed(above + more, 1);
+      for (const double axial : {1.5, 1.2}) {
+        const double level = above + more;
         std::string zones;
         if (with_step)
           zones = fmt::format(
               "# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
               "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {}, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact "
               "area.\n",
-              word, isthmus, ridge, word, floor.toml);
+              word, fixed(isthmus, 1), ridge, word, floor.toml);
         else
           zones = "# A box at the contact area, open to the neighbouring tooth.\n";
         zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
-                             width, axial, level) +
+                             fixed(beside.width_mm, 1), fixed(axial, 1), fixed(level, 1)) +
                  beside.shell;
-        const std::string box_words =
-            fmt::format("a box {} mm wide through the {} ridge, its axial wall {} mm from the surface, its floor {} mm above the neck", width, word,
-                        axial, level);
-        list.push_back({zones, pulp_guard_text(0.5),
-                        with_step
-                            ? fmt::format("An occlusal step along the fissure, {} mm wide, floor {}, and {}{}.", isthmus, floor.words, box_words, pit)
-                            : fmt::format("Cut {}.", box_words),
-                        with_step ? fmt::format("isthmus {} mm, floor {}, {}{}", isthmus, floor.words, box_words, pit) : box_words});
+        const Number width = as_mm(beside.width_mm, 1), step = as_mm(isthmus, 1), wall = as_mm(axial, 1), bottom = as_mm(level, 1);
+        Message what;
+        List lengths;
+        if (with_step) {
+          lengths.items = {msg("isthmus {}", step), msg("floor {}", floor.words)};
+          what =
+              side > 0
+                  ? msg("An occlusal step along the fissure, {} wide, floor {}, and a box {} wide through the mesial ridge, its axial wall {} from "
+                        "the surface, its floor {} above the neck.",
+                        step, floor.words, width, wall, bottom)
+                  : msg("An occlusal step along the fissure, {} wide, floor {}, and a box {} wide through the distal ridge, its axial wall {} from "
+                        "the surface, its floor {} above the neck.",
+                        step, floor.words, width, wall, bottom);
+        } else {
+          what = side > 0 ? msg("Cut a box {} wide through the mesial ridge, its axial wall {} from the surface, its floor {} above the neck.", width,
+                                wall, bottom)
+                          : msg("Cut a box {} wide through the distal ridge, its axial wall {} from the surface, its floor {} above the neck.", width,
+                                wall, bottom);
+        }
+        lengths.items.push_back(
+            side > 0
+                ? msg("a box {} wide through the mesial ridge, its axial wall {} from the surface, its floor {} above the neck", width, wall, bottom)
+                : msg("a box {} wide through the distal ridge, its axial wall {} from the surface, its floor {} above the neck", width, wall,
+                      bottom));
+        list.push_back({zones, pulp_guard_text(0.5), with_pits(what, ridges.pits_left), chosen_with_pits(std::move(lengths), ridges.pits_left)});
       }
   return list;
 }
@@ -185,16 +220,15 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
 std::vector<TaskChoice> access(const Tooth& tooth, const Landmarks& l) {
   if (!l.incisal_edge_mm.empty()) return front_access(tooth, l);
   std::vector<TaskChoice> list;
-  for (const auto& [wider, rounding] :
-       {std::pair("0.1", "0.55"), {"0.1", "0.5"}, {"0.2", "0.55"}, {"0.3", "0.55"}})  // a narrow chamber: as points need it
+  for (const auto& [wider, rounding] : {std::pair(0.1, 0.55), {0.1, 0.5}, {0.2, 0.55}, {0.3, 0.55}})  // a narrow chamber: as points need it
     list.push_back(
         {fmt::format(
              "# The chamber's shadow seen from above, {} mm wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
              "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = {}, rounding_mm = {} }}\n"
              "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
-             wider, wider, rounding),
-         "", "Remove the whole roof of the pulp chamber with its horns; leave walls and floor.",
-         fmt::format("the chamber's shadow, {} mm wider, corners of {} mm", wider, rounding)});
+             plain_number(wider), plain_number(wider), plain_number(rounding)),
+         "", msg("Remove the whole roof of the pulp chamber with its horns; leave walls and floor."),
+         msg("the chamber's shadow, {} wider, corners of {}", as_mm(wider, 1), as_mm(rounding, k_as_needed))});
   return list;
 }
 
@@ -204,7 +238,8 @@ std::vector<TaskChoice> lesion(const Tooth&, const Landmarks&) {
        "roof.\n"
        "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
        "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
-       pulp_guard_text(0.3), "Open the enamel above the softened dentin, remove all of it, spare the sound dentin.", "the lesion and its shadow"}};
+       pulp_guard_text(0.3), msg("Open the enamel above the softened dentin, remove all of it, spare the sound dentin."),
+       msg("the lesion and its shadow")}};
 }
 
 /// Of a tooth's lesion, how much must go: as much of it as in the lesion task that ships.
@@ -241,15 +276,13 @@ const std::vector<ToothTask>& tasks() {
   };
   const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
   static const std::vector<ToothTask> k_tasks{
-      {"class_1", said("Class I cavity along the central fissure"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
+      {"class_1", msg("Class I cavity along the central fissure"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
        [](const Tooth&, const Landmarks& l) { return no_fissure(l, 0); }, class_1},
-      {"class_2_mesial", said("Class II cavity, mesial"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
-      {"class_2_distal", said("Class II cavity, distal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true),
-       -1},
-      {"slot_mesial", said("Slot at the mesial surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
-      {"slot_distal", said("Slot at the distal surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false),
-       -1},
-      {"access", said("Access to the pulp chamber"), R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
+      {"class_2_mesial", msg("Class II cavity, mesial"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
+      {"class_2_distal", msg("Class II cavity, distal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
+      {"slot_mesial", msg("Slot at the mesial surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
+      {"slot_distal", msg("Slot at the distal surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
+      {"access", msg("Access to the pulp chamber"), R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
        R"(["periodontium"])",
        [](const Tooth& tooth, const Landmarks& l) -> Message {
          if (!has_tissue(tooth, "pulp")) return msg("it has no pulp");
@@ -257,21 +290,20 @@ const std::vector<ToothTask>& tasks() {
          return l.chamber_roof_mm ? Message() : msg("no pulp chamber is found in it");
        },
        access},
-      {"lesion", said("Removal of a hidden lesion"), R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]",
-       R"(["pulp", "periodontium"])",
+      {"lesion", msg("Removal of a hidden lesion"), R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
        [](const Tooth& tooth, const Landmarks&) -> Message {
          return has_tissue(tooth, "lesion") ? Message() : msg("it has no lesion: `cavum tooth lesion` grows one");
        },
        lesion},
-      {"class_5", said("Class V cavity, buccal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0,
+      {"class_5", msg("Class V cavity, buccal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0,
        side_steps_text()},
-      {"crown", said("Preparation for a full crown"), R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
+      {"crown", msg("Preparation for a full crown"), R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
        why_no_crown, crown_preparation, 0, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
-      {"dexterity_groove", said("Dexterity: a straight groove"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_groove", msg("Dexterity: a straight groove"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::groove), 0, side_steps_text()},
-      {"dexterity_circle", said("Dexterity: a round pocket"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_circle", msg("Dexterity: a round pocket"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::circle), 0, side_steps_text()},
-      {"dexterity_cross", said("Dexterity: a cross"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
+      {"dexterity_cross", msg("Dexterity: a cross"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
        shapes(DexterityShape::cross), 0, side_steps_text()}};
   return k_tasks;
 }
@@ -318,6 +350,25 @@ std::vector<std::string> tooth_task_words() {
   return words;
 }
 
+std::string language_table(const Scenario& s, const Message& title, const Message& description, const TaskLanguage& language) {
+  if (language.name.empty()) return "";
+  std::string lines;
+  const auto add = [&](const std::string& key, const Message& english) {
+    std::ostringstream text;
+    text << toml::toml_formatter(toml::value<std::string>(language.say(english)), toml::format_flags::allow_unicode_strings);
+    lines += fmt::format("{} = {}\n", key, text.str());
+  };
+  const auto add_known = [&](const std::string& key, const std::string& english) {
+    const Message words = msg("{}", Term{english});
+    if (language.say(words) != english) add(key, words);
+  };
+  add("title", title);
+  add("description", description);
+  for (const auto& step : s.steps) add_known("steps." + step.id, step.instruction);
+  for (const auto& criterion : s.rubric.criteria) add_known("criteria." + criterion.id, criterion.title);
+  return fmt::format("\n[languages.{}]\n{}", language.name, lines);
+}
+
 std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& landmarks) {
   std::vector<OfferedTask> list;
   for (const auto& t : tasks()) list.push_back({t.word, t.title, t.why_not(tooth, landmarks)});
@@ -325,25 +376,26 @@ std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& land
 }
 
 WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, const std::string& tooth_file, const std::string& path,
-                             const std::string& task, const TaskTrial& trial) {
+                             const std::string& task, const TaskTrial& trial, const TaskLanguage& language) {
   const ToothTask* asked = nullptr;
-  std::string words;
+  List words;
   for (const auto& t : tasks()) {
     if (t.word == task)
       asked = &t;
     else
-      words += (words.empty() ? "" : ", ") + std::string(t.word);
+      words.items.emplace_back(Name{t.word});
   }
-  if (asked == nullptr) throw Error("--task " + task, msg("there is no such task"), msg("choose one of {}", words));
+  const Name option{"--task " + task};
+  if (asked == nullptr) throw Error(option, msg("there is no such task"), msg("choose one of {}", words));
   if (const Message why = asked->why_not(tooth, landmarks); !why.empty())
-    throw Error("--task " + task, msg("'{}' is not fit for it: {}", tooth.name, why),
-                msg("see `cavum tooth landmarks`, or choose another of {}", words));
+    throw Error(option, msg("'{}' is not fit for it: {}", tooth.name, why), msg("see `cavum tooth landmarks`, or choose another of {}", words));
 
   const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
                                beside_criteria(tooth, asked->opens) + (spares_the_pulp(*asked, tooth) ? over_pulp_criterion() : std::string());
-  std::string refused, against, too_deep;  // the last: a floor that was left out for the pulp
+  Message refused, against;
+  std::string too_deep;  // a floor that was left out for the pulp
   const auto holds = [&](const std::string& text) {
-    against = trial ? trial(text) : "";
+    against = trial ? trial(text) : Message();
     return against.empty();
   };
   std::vector<WrittenTask> unwise;  // sound, with warnings: only when there is none without
@@ -352,8 +404,8 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
     if (!too_deep.empty() && choice.floor == too_deep) continue;
     TaskText text{.id = id_of(tooth_file, task),
-                  .title = asked->title,
-                  .what = choice.what,
+                  .title = english_text(asked->title),
+                  .what = english_text(choice.what),
                   .tooth_file = tooth_file,
                   .about = about(tooth),
                   .points = asked->points,
@@ -377,7 +429,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
     } else if (checked.sound()) {
       text.time_limit_s = time_limit_s(checked.expert.time_s);
       text.walls_limit_mm3 = wall_limit_mm3(checked.laid->zones, asked->walls_share);
-      const std::string written = scenario_text(text);
+      const std::string written = scenario_text(text) + language_table(checked.laid->scenario, asked->title, choice.what, language);
       checked = check_whole_in(*checked.laid, written, path);
       if (checked.sound()) {
         WrittenTask found{written, checked.problems, choice.chosen};
@@ -388,26 +440,26 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
         if (++tried == k_most_tried) break;
       }
     }
-    if (refused.empty() && !checked.problems.empty()) refused = english_text(checked.problems[0].what);
+    if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;
   }
   std::stable_sort(unwise.begin(), unwise.end(), [](const auto& a, const auto& b) { return a.problems.size() < b.problems.size(); });
   for (WrittenTask& found : unwise)
     if (holds(found.text)) return found;
 
   if (!against.empty())
-    throw Error("--task " + task, msg("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
+    throw Error(option, msg("tried on '{}', and not fit to be an exam: {}", tooth.name, against),
                 msg("choose another task or tooth; --untried writes it all the same, as a draft"));
   if (spares_mm > 0)
     throw Error(
-        "--task " + task,
+        option,
         msg("in '{}' its floor would lie {} from the pulp; {} are asked for", tooth.name, as_mm(spares_mm, 1), as_mm(k_planned_over_pulp_mm, 1)),
         msg("choose another task or tooth"));
   if (reaches > 0)
-    throw Error("--task " + task,
+    throw Error(option,
                 msg("in '{}' no point of its tray reaches more than {} of the cavity, which is too narrow for them", tooth.name,
                     as_percent(100 * reaches, 0)),
                 msg("choose another task or tooth"));
-  throw Error("--task " + task, msg("'{}' has no room for it: {}", tooth.name, refused), msg("choose another task or tooth"));
+  throw Error(option, msg("'{}' has no room for it: {}", tooth.name, refused), msg("choose another task or tooth"));
 }
 
 }  // namespace cavum::scenarios

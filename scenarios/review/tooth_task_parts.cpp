@@ -65,16 +65,16 @@ Message why_no_front_access(const Tooth&, const Landmarks& l) {
 
 std::vector<TaskChoice> front_access(const Tooth&, const Landmarks&) {
   std::vector<TaskChoice> list;
-  for (const char* rounding : {"0.55", "0.5"})
+  for (const double rounding : {0.55, 0.5})
     list.push_back(
         {fmt::format("# The chamber's shadow, a tenth of a millimetre wider, seen along the way in: from the canal's mouth at the neck through the "
                      "middle\n# of the lingual surface. From the lingual surface down to the labial wall of the pulp and the beginning of the "
                      "canal.\n[[zones.target]]\nshape = \"column\"\nlean = \"lingual\"\n"
                      "outline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = 0.1, rounding_mm = {} }}\n"
                      "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
-                     rounding),
-         "", "Enter the middle of the lingual surface. Remove roof, horns and lingual shoulder of the chamber; leave the labial wall.",
-         "the chamber's shadow along the way through the lingual surface, corners of " + std::string(rounding) + " mm"});
+                     plain_number(rounding)),
+         "", msg("Enter the middle of the lingual surface. Remove roof, horns and lingual shoulder of the chamber; leave the labial wall."),
+         msg("the chamber's shadow along the way through the lingual surface, corners of {}", as_mm(rounding, k_as_needed))});
   return list;
 }
 
@@ -84,19 +84,20 @@ std::vector<TaskChoice> class_5(const Tooth&, const Landmarks& l) {
   std::vector<TaskChoice> list;
   const double width = std::clamp(k_class_5_share * length_in_x(l.neck_mm), k_class_5_narrowest_mm, k_class_5_widest_mm);
   for (const double above : {0.7, 1.0})
-    for (const char* depth : {"1.25", "1.0"}) {
+    for (const double depth : {1.25, 1.0}) {
       const double half = 0.5 * width - k_corner_mm, low = above + k_corner_mm, high = above + k_class_5_height_mm - k_corner_mm;
       list.push_back(
           {fmt::format(
                "# A box with rounded corners in the buccal surface. Heights count from the neck below each place: it bends with it. The axial "
                "wall follows\n# the surface.\n[[zones.target]]\nshape = \"side_cavity\"\nside = \"buccal\"\ndepth_mm = {}\n"
                "outline = {{ kind = \"polygon\", points_mm = [{}, {}, {}, {}], offset_mm = {} }}\n",
-               depth, pair_text(-half, low), pair_text(half, low), pair_text(half, high), pair_text(-half, high), fixed(k_corner_mm, 2)),
+               plain_number(depth), pair_text(-half, low), pair_text(half, low), pair_text(half, high), pair_text(-half, high),
+               fixed(k_corner_mm, 2)),
            pulp_guard_text(0.5),
-           fmt::format("Cut into the buccal surface, {} mm above the neck: {} mm wide, {} mm high, {} mm deep; the axial wall follows the surface.",
-                       fixed(above, 1), fixed(width, 1), fixed(k_class_5_height_mm, 1), depth),
-           fmt::format("{} x {} mm, {} mm above the neck, axial wall {} mm below the surface", fixed(width, 1), fixed(k_class_5_height_mm, 1),
-                       fixed(above, 1), depth)});
+           msg("Cut into the buccal surface, {} above the neck: {} wide, {} high, {} deep; the axial wall follows the surface.", as_mm(above, 1),
+               as_mm(width, 1), as_mm(k_class_5_height_mm, 1), as_mm(depth, k_as_needed)),
+           msg("{} wide, {} high, {} above the neck, axial wall {} below the surface", as_mm(width, 1), as_mm(k_class_5_height_mm, 1),
+               as_mm(above, 1), as_mm(depth, k_as_needed))});
     }
   return list;
 }
@@ -113,20 +114,24 @@ Message why_no_crown(const Tooth&, const Landmarks& l) {
 std::vector<TaskChoice> crown_preparation(const Tooth&, const Landmarks& l) {
   std::vector<TaskChoice> list;
   const bool front = !l.incisal_edge_mm.empty();
-  for (const char* depth : {"1.0", "0.8"})
-    for (const char* above : {"0.5", "0.8"}) {
-      const char* occlusal = front ? "2.0" : "1.5";
+  const double occlusal = front ? 2.0 : 1.5;
+  for (const double depth : {1.0, 0.8})
+    for (const double above : {0.5, 0.8}) {
+      const Number depth_mm = as_mm(depth, 1), above_mm = as_mm(above, 1), occlusal_mm = as_mm(occlusal, 1), all_deg = as_deg(12);
       list.push_back(
           {fmt::format("# All outside a stump: finish line above the neck, a chamfer, walls that converge by twice the taper.\n[[zones.target]]\n"
                        "shape = \"crown\"\nabove_neck_mm = {}\ndepth_mm = {}\ntaper_deg = 6\nocclusal_mm = {}\n",
-                       above, depth, occlusal),
+                       fixed(above, 1), fixed(depth, 1), fixed(occlusal, 1)),
            pulp_guard_text(0.5),
-           fmt::format(
-               "Prepare the tooth for a full crown: chamfer {} mm deep, {} mm above the neck; walls that converge by 12 degrees in all; {} mm "
-               "off the {}.",
-               depth, above, occlusal, front ? "incisal edge" : "occlusal surface"),
-           fmt::format("chamfer {} mm, {} mm above the neck, 12 degrees of convergence, {} mm off the {}", depth, above, occlusal,
-                       front ? "incisal edge" : "occlusal surface")});
+           front
+               ? msg("Prepare the tooth for a full crown: chamfer {} deep, {} above the neck; walls that converge by {} in all; {} off the incisal "
+                     "edge.",
+                     depth_mm, above_mm, all_deg, occlusal_mm)
+               : msg("Prepare the tooth for a full crown: chamfer {} deep, {} above the neck; walls that converge by {} in all; {} off the occlusal "
+                     "surface.",
+                     depth_mm, above_mm, all_deg, occlusal_mm),
+           front ? msg("chamfer {}, {} above the neck, convergence {}, {} off the incisal edge", depth_mm, above_mm, all_deg, occlusal_mm)
+                 : msg("chamfer {}, {} above the neck, convergence {}, {} off the occlusal surface", depth_mm, above_mm, all_deg, occlusal_mm)});
     }
   return list;
 }
@@ -139,33 +144,37 @@ Message why_no_dexterity(const Tooth&, const Landmarks& l) {
 
 std::vector<TaskChoice> dexterity(const Landmarks& l, DexterityShape shape) {
   const double up = k_dexterity_up * buccal_crown_mm(l);
-  const auto cavity = [](const std::string& outline, const char* depth) {
-    return fmt::format("[[zones.target]]\nshape = \"side_cavity\"\nside = \"buccal\"\nheights = \"level\"\ndepth_mm = {}\noutline = {}\n", depth,
-                       outline);
+  const auto cavity = [](const std::string& outline, double depth) {
+    return fmt::format("[[zones.target]]\nshape = \"side_cavity\"\nside = \"buccal\"\nheights = \"level\"\ndepth_mm = {}\noutline = {}\n",
+                       fixed(depth, 1), outline);
   };
   const auto stroke = [up](double x, double y) {
     return fmt::format("{{ kind = \"stroke\", points_mm = [{}, {}], width_mm = 1.4, centre_mm = {} }}", pair_text(-x, -y), pair_text(x, y),
                        pair_text(0, up));
   };
   std::vector<TaskChoice> list;
-  for (const char* depth : {"1.0", "0.8"}) {
-    std::string zones = "# In the buccal surface, heights from the neck's middle; one depth below the surface.\n", words;
+  for (const double depth : {1.0, 0.8}) {
+    const Number deep = as_mm(depth, 1), long_mm = as_mm(3.4, 1), wide = as_mm(1.4, 1), across = as_mm(2.8, 1), above = as_mm(up, 1);
+    std::string zones = "# In the buccal surface, heights from the neck's middle; one depth below the surface.\n";
+    Message what, chosen;
     switch (shape) {
       case DexterityShape::groove:
         zones += cavity(stroke(1.0, 0), depth);
-        words = "a straight groove, 3.4 mm long and 1.4 mm wide";
+        what = msg("Cut a straight groove, {} long and {} wide, into the buccal surface, {} deep all over.", long_mm, wide, deep);
+        chosen = msg("a straight groove, {} long and {} wide, {} deep, {} above the neck's middle", long_mm, wide, deep, above);
         break;
       case DexterityShape::circle:
         zones += cavity(fmt::format("{{ kind = \"circle\", radius_mm = 1.4, centre_mm = {} }}", pair_text(0, up)), depth);
-        words = "a round pocket, 2.8 mm wide";
+        what = msg("Cut a round pocket, {} wide, into the buccal surface, {} deep all over.", across, deep);
+        chosen = msg("a round pocket, {} wide, {} deep, {} above the neck's middle", across, deep, above);
         break;
       case DexterityShape::cross:
         zones += cavity(stroke(1.0, 0), depth) + "\n" + cavity(stroke(0, 1.0), depth);
-        words = "a cross of two grooves, each 3.4 mm long and 1.4 mm wide";
+        what = msg("Cut a cross of two grooves, each {} long and {} wide, into the buccal surface, {} deep all over.", long_mm, wide, deep);
+        chosen = msg("a cross of two grooves, each {} long and {} wide, {} deep, {} above the neck's middle", long_mm, wide, deep, above);
         break;
     }
-    list.push_back({zones, pulp_guard_text(0.5), fmt::format("Cut {} into the buccal surface, {} mm deep all over.", words, depth),
-                    fmt::format("{}, {} mm deep, {} mm above the neck's middle", words, depth, fixed(up, 1))});
+    list.push_back({zones, pulp_guard_text(0.5), what, chosen});
   }
   return list;
 }

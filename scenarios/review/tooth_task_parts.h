@@ -10,8 +10,9 @@ namespace cavum::scenarios {
 
 /// One way to lay a task out on a tooth; the first that fits is taken.
 struct TaskChoice {
-  std::string zones, guard, what, chosen;  ///< TOML; what the candidate reads; the lengths, for people
-  std::string floor{};                     ///< later choices of the same floor lie no further from the pulp; empty: nothing is said
+  std::string zones, guard;  ///< TOML
+  Message what, chosen;      ///< what the candidate reads; the lengths, for people
+  std::string floor{};       ///< TOML; later choices of the same floor lie no further from the pulp; empty: nothing is said
 };
 
 /// [[zones.protected]]: pulp with so much around it.

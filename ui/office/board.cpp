@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <chrono>
 
-#include "engine/language/shown.h"
-
 namespace cavum::office {
 
 void Board::report(const std::string& public_key, const StationReport& report, std::int64_t utc_ns) {
@@ -44,7 +42,6 @@ std::map<std::string, StationSaid> Board::stations() const {
   for (const auto& [key, seen] : seen_) {
     if (seen.seen_utc_ns == 0) continue;  // it only asked to begin
     out[key] = seen;
-    out[key].alarm = shown(seen.alarm);
   }
   return out;
 }

@@ -1,7 +1,5 @@
 #include "ui/office/desk.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -9,7 +7,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/language/language.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/decision.h"
 #include "grading/ledger/entry_text.h"
@@ -48,10 +46,9 @@ void require_apart(const IssueWish& wish, std::int64_t apart_ns, std::int64_t lo
   constexpr std::int64_t k_second_ns = 1'000'000'000, k_minute_s = 60;
   const std::int64_t late_s = (wish.until_utc_ns - wish.from_utc_ns - apart_ns) / k_second_ns + longest_s;
   if (late_s > 0)
-    throw Error("the sittings",
-                fmt::format(said("overlap: who begins one at its last moment sits until {} min after the next may begin"),
-                            (late_s + k_minute_s - 1) / k_minute_s),
-                "set them farther apart, let each begin in a shorter time, or say that they may overlap");
+    throw Error(msg("the sittings"),
+                msg("overlap: who begins one at its last moment sits until {} min after the next may begin", (late_s + k_minute_s - 1) / k_minute_s),
+                msg("set them farther apart, let each begin in a shorter time, or say that they may overlap"));
 }
 
 }  // namespace
@@ -83,7 +80,7 @@ Preview Desk::preview(const ClassList& asked) {
     static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
   } catch (const Error& wrong) {
     roster.people.clear();
-    roster.problem = lines_of_mistakes(wrong);
+    roster.problems = mistakes_of(wrong);
   }
   Preview out = shown_roster(roster);
   const Grants grants = grants_of(roster);
@@ -95,8 +92,9 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
   constexpr std::int64_t k_minute_ns = 60'000'000'000;
   const Roster roster = roster_of(asked);
   if (!roster.ready())
-    throw Error("the list", roster.problem.empty() ? "has columns that nobody answered for" : roster.problem,
-                "answer, and look at the preview again");
+    throw Error(msg("the list"),
+                roster.problems.empty() ? msg("has columns that nobody answered for") : msg("{}", cavum::List{roster.problems, true}),
+                msg("answer, and look at the preview again"));
   const IssueWish wish = issue_wish(asked.exam, asked.from, asked.until, exams_);
   if (asked.at_once && !asked.minutes_apart) throw Error(msg("'minutes_apart'"), msg("is missing"), msg("say how far apart the sittings are"));
   const std::size_t at_once = asked.at_once ? static_cast<std::size_t>(*asked.at_once) : std::max<std::size_t>(1, roster.people.size());
@@ -121,7 +119,7 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
   const auto another = asked.another ? ledger::Another::allow : ledger::Another::refuse;
   for (const auto& one : ledger::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
     if (one.refused)
-      out.refused.push_back({one.person.id, one.person.name, shown(english_text(one.refused->without_advice()))});
+      out.refused.push_back({one.person.id, one.person.name, tr(one.refused->without_advice())});
     else
       out.issued.push_back({one.candidate, one.person.id, one.person.name, one.person.station, utc_text(one.ticket.not_before_utc_ns),
                             utc_text(one.ticket.not_after_utc_ns)});
@@ -140,10 +138,10 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});
-  std::string why_not;
+  Message why_not;
   if (const auto* t = turn.book.registry().ticket(first);  // before what is granted: of one that has a makeup nothing may be kept
       t != nullptr && ledger::makeup_reasons(turn.book.registry(), *t, read_clocks().utc_ns, why_not).empty())
-    throw Error(fmt::format("the ticket of entry {}", first), why_not, "look at the list of tickets again");
+    throw Error(msg("the ticket of entry {}", first), why_not, msg("look at the list of tickets again"));
   if (!grant) grant = first_grant(turn.book, first);
   ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = asked.begin_at_office;
@@ -154,7 +152,7 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {turn.book.content().entries.size() - 1, issued.candidate,
-          shown(scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket")))};
+          tr(scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket")))};
 }
 
 bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
@@ -180,7 +178,7 @@ std::vector<std::pair<std::string, std::string>> Desk::grant_on(const std::strin
 }
 
 std::string Desk::granted_on(const std::string& nonce) const {
-  return shown(scenarios::accommodations_text(scenarios::granted({}, grant_on(nonce), "the ticket")));
+  return tr(scenarios::accommodations_text(scenarios::granted({}, grant_on(nonce), "the ticket")));
 }
 
 Tickets Desk::tickets(bool grants, const std::set<std::string>& seen) {
@@ -200,7 +198,7 @@ Tickets Desk::tickets(bool grants, const std::set<std::string>& seen) {
     row.at_station = std::filesystem::exists(places_.ticket(t.ticket.nonce));
     row.grant_kept = keeps_grant(turn.book.registry(), t);
     row.begun = state.group == "begun" || seen.contains(t.ticket.candidate);
-    std::string why_not;
+    Message why_not;
     if (const auto* makeup = t.made_up_by ? turn.book.registry().ticket(*t.made_up_by) : nullptr)
       row.became = ledger::word_of(makeup->makes_up->became);
     for (const auto became : ledger::makeup_reasons(turn.book.registry(), t, now, why_not)) row.makeup.emplace_back(ledger::word_of(became));
@@ -235,7 +233,7 @@ BoardShown Desk::board(const Board& board, const Inbox& inbox) {
   const std::int64_t now = read_clocks().utc_ns;
   const auto said = board.stations();
   const auto begun = begun_at(turn.book.content(), registry);
-  BoardShown out{now, {}, {}, shown_holds(registry.day), shown_announcements(registry.day, now), {inbox.waiting(), shown(inbox.trouble()), {}}};
+  BoardShown out{now, {}, {}, shown_holds(registry.day), shown_announcements(registry.day, now), {inbox.waiting(), tr(inbox.trouble()), {}}};
   for (const auto& s : registry.stations.stations) {
     if (!s.replaced_by.empty()) continue;
     const ledger::Hold* hold = registry.day.hold_of(s.public_key);
@@ -268,7 +266,7 @@ Entered Desk::revoke(const RevokeStation& asked, const Account& by) {
   return {ledger::revoke_station(turn.book, parse_public_key(asked.public_key, "the station's key"), asked.reason).seq};
 }
 
-std::string Desk::station_problem(const std::string& public_key) {
+Message Desk::station_problem(const std::string& public_key) {
   Turn turn(*this);
   const std::int64_t now = read_clocks().utc_ns;
   return turn.book.registry().stations.problem(public_key, now, now);

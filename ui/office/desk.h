@@ -120,7 +120,7 @@ class Desk {
   [[nodiscard]] Recording own_recording(const std::string& number, const std::string& file_sha256);
 
   /// Why requests of this key are not taken, in words; empty: it is an enrolled station's.
-  [[nodiscard]] std::string station_problem(const std::string& public_key);
+  [[nodiscard]] Message station_problem(const std::string& public_key);
   [[nodiscard]] Enrolled enrol(const std::string& request);
   [[nodiscard]] StationTickets station_tickets();
   [[nodiscard]] WordToBegin begin(const AskBegin& asked, const std::string& station);

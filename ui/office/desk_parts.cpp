@@ -24,9 +24,10 @@ std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) 
   return out;
 }
 
-std::vector<std::string> shown_each(std::vector<std::string> english) {
-  for (std::string& text : english) text = shown(text);
-  return english;
+std::vector<std::string> shown_each(const std::vector<Message>& messages) {
+  std::vector<std::string> texts;
+  for (const Message& m : messages) texts.push_back(one_line(tr(m)));
+  return texts;
 }
 
 Roster roster_of(const ClassList& asked) {
@@ -41,10 +42,11 @@ Roster roster_of(const ClassList& asked) {
 }
 
 Preview shown_roster(const Roster& roster) {
-  Preview out{roster.headed, roster.encoding, std::string(1, roster.separator), roster.rows, roster.columns, {}, shown(roster.problem), {}};
+  Preview out{roster.headed, roster.encoding, std::string(1, roster.separator), roster.rows, roster.columns, {}, {}, {}};
+  for (const std::string& line : shown_each(roster.problems)) out.problem += (out.problem.empty() ? "" : "\n") + line;
   for (const auto& p : roster.people)
     out.people.push_back(
-        {p.id, p.name, p.station, shown(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list")))});
+        {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list")))});
   for (const auto& name : ledger::people_columns()) out.uses.emplace_back(name);
   return out;
 }
@@ -116,11 +118,11 @@ TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
   TicketState state = own_state(t, now);
   if (t.makes_up)
     state.word = t.makes_up->became == ledger::FirstSitting::missed
-                     ? tr("{0}; makeup of entry {1}, which was missed", state.word, t.makes_up->ticket)
-                     : tr("{0}; makeup of entry {1}, which was interrupted", state.word, t.makes_up->ticket);
+                     ? tr("{}; makeup of entry {}, which was missed", as_is(state.word), t.makes_up->ticket)
+                     : tr("{}; makeup of entry {}, which was interrupted", as_is(state.word), t.makes_up->ticket);
   if (t.made_up_by) {
     const bool open = state.group == "live" || state.group == "run out";  // it is neither any more
-    state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{0}; made up by entry {1}", state.word, *t.made_up_by), "made up", false};
+    state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{}; made up by entry {}", as_is(state.word), *t.made_up_by), "made up", false};
   }
   return state;
 }

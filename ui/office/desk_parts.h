@@ -32,7 +32,7 @@ void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
 }
 
 /// The same in the office's language.
-[[nodiscard]] std::vector<std::string> shown_each(std::vector<std::string> english);
+[[nodiscard]] std::vector<std::string> shown_each(const std::vector<Message>& messages);
 
 /// The list of a request. Throws Error when it is none.
 [[nodiscard]] Roster roster_of(const ClassList& asked);

@@ -15,6 +15,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
@@ -37,61 +38,45 @@ Handed facts_of(const std::string& path) {
     const SessionReader session(image, path);
     const bool closed = session.closed();
     facts.findings.clear();
-    if (!closed) facts.findings.push_back(session.findings().empty() ? "was never closed" : "is damaged: " + session.findings().front());
+    if (!closed) facts.findings.push_back(session.findings().empty() ? msg("was never closed") : msg("is damaged: {}", session.findings().front()));
     if (closed) facts.station = to_hex(session.seal()->public_key);
     const std::string candidate = session.setup().candidate;
     if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);
   } catch (const std::bad_alloc&) {
     throw;
+  } catch (const Error& e) {
+    if (facts.findings.empty()) facts.findings.push_back(e.message());
   } catch (const std::exception& e) {
-    if (facts.findings.empty()) facts.findings.emplace_back(e.what());
+    if (facts.findings.empty()) facts.findings.emplace_back(Name{e.what()});
   }
   return facts;
 }
 
 }  // namespace
 
-std::string with_place_as(std::string text, const std::string& place, const std::string& name) {
-  if (place.find('/') == std::string::npos) {
-    if (text.starts_with(place + "/") || text.starts_with(place + ":")) text.replace(0, place.size(), name);
-    return text;
+Message with_place_as(const Message& message, const std::string& place, const Message& name) {
+  if (message.empty()) return message;
+  const auto in_name = [&](const std::string& text) -> Value {
+    if (text == place) return name;
+    if (text.starts_with(place + "/")) return msg("{}: {}", name, text.substr(place.size() + 1));
+    return Name{text};
+  };
+  std::vector<Value> values;
+  for (const Value& value : message.values()) {
+    if (const auto* text = std::get_if<Name>(&value))
+      values.push_back(in_name(text->text));
+    else if (const auto* file = std::get_if<FilePlace>(&value); file != nullptr && (file->file == place || file->file.starts_with(place + "/")))
+      values.push_back(in_name(file->file));
+    else if (const auto* inner = std::get_if<Message>(&value))
+      values.emplace_back(with_place_as(*inner, place, name));
+    else if (const auto* list = std::get_if<cavum::List>(&value)) {
+      cavum::List items{{}, list->sentences};
+      for (const Message& item : list->items) items.items.push_back(with_place_as(item, place, name));
+      values.emplace_back(std::move(items));
+    } else
+      values.push_back(value);
   }
-  for (std::size_t at = 0; (at = text.find(place, at)) != std::string::npos; at += name.size()) text.replace(at, place.size(), name);
-  return text;
-}
-
-Arriving::Arriving(const std::string& folder, std::string sha256)
-    : folder_(folder), sha256_(std::move(sha256)), path_(temporary_name_beside(folder + "/" + sha256_ + ".cavum")) {
-  file_ = ::open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC | O_NOFOLLOW, 0600);
-  if (file_ < 0) throw Error(folder_, msg("takes no file"), msg("make room on the disk"));
-  crypto_hash_sha256_init(&hash_);
-}
-
-Arriving::~Arriving() {
-  if (file_ >= 0) ::close(file_);
-  if (!path_.empty()) ::unlink(path_.c_str());
-}
-
-void Arriving::take(std::string_view part) {
-  crypto_hash_sha256_update(&hash_, reinterpret_cast<const unsigned char*>(part.data()), part.size());
-  while (!part.empty() && !refused_) {
-    const ssize_t written = ::write(file_, part.data(), part.size());
-    if (written > 0)
-      part.remove_prefix(static_cast<std::size_t>(written));
-    else if (written == 0 || errno != EINTR)
-      refused_ = true;
-  }
-}
-
-void Arriving::keep() {
-  Sha256 hash{};
-  crypto_hash_sha256_final(&hash_, hash.data());
-  if (to_hex(hash) != sha256_) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
-  if (refused_ || ::fsync(file_) != 0) throw DatabaseError(folder_, "cannot be written", "make room on the disk, and send it again", 0);
-  ::close(file_);
-  file_ = -1;
-  // the same exam sent twice at once: either file is it
-  static_cast<void>(put_in_place(path_, folder_ + "/" + sha256_ + ".cavum"));
+  return {message.english(), message.plural(), message.count(), std::move(values)};
 }
 
 Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, ledger::FilingOptions options, std::function<void()> filed)
@@ -111,8 +96,11 @@ Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, l
     Handed& h = handed_[hash];
     if (h.state == Handed::State::waiting) continue;
     h.state = Handed::State::refused;
-    for (const auto& f : kept.is_array() ? kept : member_of(kept, "findings"))  // older: the findings alone
-      if (f.is_string()) h.findings.push_back(without_places(f, hash));
+    try {
+      h.findings = decode_messages(member_of(kept, "findings"));
+    } catch (const std::invalid_argument&) {
+      h.findings = {msg("why it was refused cannot be read any more")};
+    }
     const auto word = [&](const char* name) { return member_of(kept, name).is_string() ? member_of(kept, name).get<std::string>() : ""; };
     h.station = word("station");
     h.candidate = word("candidate");
@@ -165,7 +153,7 @@ std::vector<std::pair<std::string, Handed>> Inbox::refused() const {
   return out;
 }
 
-std::string Inbox::trouble() const {
+Message Inbox::trouble() const {
   const std::lock_guard guard(lock_);
   return trouble_;
 }
@@ -190,7 +178,7 @@ void Inbox::work() {
 }
 
 bool Inbox::file(const std::string& hash) {
-  std::string trouble;
+  Message trouble;
   try {
     keep_memory_reserve();
     Handed facts = facts_of(path_of(hash));
@@ -217,10 +205,13 @@ bool Inbox::file(const std::string& hash) {
     std::filesystem::remove(path_of(hash));
     const std::lock_guard guard(lock_);
     handed_[hash] = {Handed::State::filed, *entry, {}};
-    trouble_.clear();
+    trouble_ = {};
     return true;
-  } catch (const std::exception& e) {  // the disk, the ledger, memory: nothing that the exam is to blame for, and it stays where it lies
-    trouble = without_places(e.what(), hash);
+  } catch (const Error& e) {  // the disk, the ledger: nothing that the exam is to blame for, and it stays where it lies
+    trouble = without_places(e.message(), hash);
+    ledger_.reset();
+  } catch (const std::exception& e) {  // memory
+    trouble = Name{e.what()};
     ledger_.reset();
   }
   const std::lock_guard guard(lock_);
@@ -230,23 +221,21 @@ bool Inbox::file(const std::string& hash) {
 
 void Inbox::refuse(const std::string& hash, Handed why) {
   why.state = Handed::State::refused;
-  for (std::string& f : why.findings) f = without_places(f, hash);
+  for (Message& f : why.findings) f = without_places(f, hash);
   if (const std::string sender = of(hash).station; !sender.empty()) why.station = sender;
-  const json kept{{"findings", why.findings}, {"station", why.station}, {"candidate", why.candidate}};
+  const json kept{{"findings", encode(why.findings)}, {"station", why.station}, {"candidate", why.candidate}};
   write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::filesystem::rename(path_of(hash), fmt::format("{}/refused/{}.cavum", folder_, hash));
   const std::lock_guard guard(lock_);
   handed_[hash] = std::move(why);
   refused_.push_back(hash);
-  trouble_.clear();
+  trouble_ = {};
 }
 
-std::string Inbox::without_places(std::string text, const std::string& hash) const {
-  const std::string file = path_of(hash);
-  if (text.starts_with(file + ": ")) text.erase(0, file.size() + 2);
-  for (const auto& [place, name] : {std::pair(file, "the recording"), std::pair(folder_, "the inbox"), std::pair(ledger_folder_, "the ledger")})
-    text = with_place_as(std::move(text), place, name);
-  return text;
+Message Inbox::without_places(const Message& message, const std::string& hash) const {
+  Message out = with_place_as(message, path_of(hash), msg("the recording"));
+  out = with_place_as(out, folder_, msg("the inbox"));
+  return with_place_as(out, ledger_folder_, msg("the ledger"));
 }
 
 }  // namespace cavum::office

@@ -21,9 +21,8 @@
 
 namespace cavum::office {
 
-/// A sentence in which a place on this computer is called otherwise. A folder that has a name alone may be called like any word: then only where a
-/// place stands, at the beginning.
-[[nodiscard]] std::string with_place_as(std::string text, const std::string& place, const std::string& name);
+/// The same message, in which a place on this computer, and what lies below it, is called otherwise.
+[[nodiscard]] Message with_place_as(const Message& message, const std::string& place, const Message& name);
 
 /// An exam that is on its way to disk.
 class Arriving {
@@ -48,10 +47,10 @@ class Arriving {
 struct Handed {
   using State = HandedState;
   State state = State::unknown;
-  std::uint64_t entry = 0;                 ///< of the ledger, when it is filed
-  std::vector<std::string> findings = {};  ///< why it was refused
-  std::string station = {};                ///< key of who handed it in, or of who sealed it; empty: neither is known
-  std::string candidate = {};              ///< of one that was refused and can be read; else empty
+  std::uint64_t entry = 0;             ///< of the ledger, when it is filed
+  std::vector<Message> findings = {};  ///< why it was refused
+  std::string station = {};            ///< key of who handed it in, or of who sealed it; empty: neither is known
+  std::string candidate = {};          ///< of one that was refused and can be read; else empty
 };
 
 class Inbox {
@@ -73,7 +72,7 @@ class Inbox {
   /// What was refused, by hash, the newest last.
   [[nodiscard]] std::vector<std::pair<std::string, Handed>> refused() const;
   /// Why nothing can be filed at the moment, in words; empty: nothing is wrong.
-  [[nodiscard]] std::string trouble() const;
+  [[nodiscard]] Message trouble() const;
 
  private:
   void work();
@@ -81,7 +80,7 @@ class Inbox {
   [[nodiscard]] bool file(const std::string& sha256);
   void refuse(const std::string& sha256, Handed why);
   /// For people elsewhere: without this computer's folders.
-  [[nodiscard]] std::string without_places(std::string text, const std::string& sha256) const;
+  [[nodiscard]] Message without_places(const Message& message, const std::string& sha256) const;
   [[nodiscard]] std::string path_of(const std::string& sha256) const { return folder_ + "/" + sha256 + ".cavum"; }
 
   std::string folder_, ledger_folder_;
@@ -93,7 +92,7 @@ class Inbox {
   std::deque<std::string> queue_;
   std::map<std::string, Handed> handed_;
   std::vector<std::string> refused_;
-  std::string trouble_;
+  Message trouble_;
   bool stopping_ = false;
   grading::ExamGrounds grounds_;            // of a class; the worker's alone, as the next
   std::unique_ptr<ledger::Ledger> ledger_;  // null: to be opened

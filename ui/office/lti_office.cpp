@@ -11,7 +11,6 @@
 #include "engine/base/text.h"
 #include "engine/language/language.h"
 #include "engine/language/say.h"
-#include "engine/language/shown.h"
 #include "engine/session/session.h"
 
 namespace cavum::office {
@@ -55,7 +54,7 @@ Reply go_to(int status, const std::string& address) {
 }
 
 std::string verdict_in_words(const std::string& verdict) {
-  return verdict == "pass" ? tr("passed") : verdict == "fail" ? tr("failed") : verdict == "review" ? tr("a person decides") : shown(verdict);
+  return verdict == "pass" ? tr("passed") : verdict == "fail" ? tr("failed") : tr("a person decides");
 }
 
 }  // namespace
@@ -75,7 +74,7 @@ Reply LtiOffice::as_page(const Say& say) const {
   try {
     return say();
   } catch (const Error& wrong) {
-    return framed(400, lti_page(tr("Cavum cannot be opened"), paragraph(shown(one_line(wrong.what())))));
+    return framed(400, lti_page(tr("Cavum cannot be opened"), paragraph(one_line(tr(wrong.message())))));
   }
 }
 
@@ -207,7 +206,7 @@ std::optional<Account> LtiOffice::reader(const std::string& name) {
 
 Reply LtiOffice::own_results(const Call& call) {
   const auto visit = visit_of(call.cookie);
-  if (!visit) return error_reply(401, "nobody has come");
+  if (!visit) return error_reply(401, msg("nobody has come"));
   std::string body = visit->name.empty() ? "" : paragraph(visit->name);
   if (visit->id.empty()) {
     body += paragraph(tr("The platform does not tell this office who you are. Ask your school."));
@@ -216,8 +215,8 @@ Reply LtiOffice::own_results(const Call& call) {
   } else {
     body += "<ul>";
     for (const OwnResult& r : results) {
-      const std::string text = tr("{0}: {1}, {2} of {3} points, released {4}", as_is(r.exam), verdict_in_words(r.verdict), fixed(r.points, 1),
-                                  plain_number(r.max), as_is(r.released));
+      const std::string text = tr("{}: {}, {} of {} points, released {}", as_is(r.exam), as_is(verdict_in_words(r.verdict)), as_points(r.points),
+                                  as_number(r.max), as_is(r.released));
       body += "<li>" + xml_text(text);
       if (r.simulated) body += ". " + xml_text(tr("A rehearsal: no student sat this."));
       if (!r.counts) body += ". " + xml_text(tr("A later attempt counts."));

@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/session/session.h"
 #include "grading/ledger/passback.h"
 
@@ -144,9 +144,10 @@ void LtiSender::round(bool asked, bool again) {
       const std::lock_guard guard(lock_);
       troubles_.erase(key);
     } catch (const std::exception& wrong) {
+      const auto* error = dynamic_cast<const Error*>(&wrong);
       const std::lock_guard guard(lock_);
       Trouble& trouble = troubles_[key];
-      trouble.words = wrong.what();
+      trouble.what = error != nullptr ? error->message() : Message(Name{wrong.what()});
       trouble.pause = std::clamp(trouble.pause * 2, std::chrono::seconds(k_first_pause), std::chrono::seconds(k_longest_pause));
       trouble.next = Steady::now() + trouble.pause;
     }
@@ -177,8 +178,7 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
     if (score["userId"] == "") continue;
     const PlatformAnswer answer = ask(platform, course, "POST", below(item, "/scores"), {{"Content-Type", k_score_type}}, score.dump());
     if (is_passing(answer.status))
-      throw PlatformUnreachable(origin_of(item), fmt::format(said("answers {} {}"), answer.status, words_of(answer)),
-                                said("it is tried again later"));
+      throw PlatformUnreachable(origin_of(item), msg("answers {} {}", answer.status, words_of(answer)), msg("it is tried again later"));
     desk_.enter_passback(d, platform.issuer, item, answer.status, words_of(answer));
   }
 }
@@ -194,7 +194,7 @@ PlatformAnswer LtiSender::ask(const LtiPlatform& platform, const LtiCourse& cour
     tokens_.clear();  // it has ended before its time
   }
   if (answer.status == 401)
-    throw PlatformUnreachable(origin_of(address), said("takes none of its own tokens (401)"), said("look at the tool's settings there"));
+    throw PlatformUnreachable(origin_of(address), msg("takes none of its own tokens (401)"), msg("look at the tool's settings there"));
   return answer;
 }
 
@@ -216,8 +216,8 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
   const std::string text = text_in(answer.body, "access_token");
   if (!is_good(answer.status) || text.empty() ||
       text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=") != std::string::npos)
-    throw PlatformUnreachable(origin_of(platform.token_endpoint), fmt::format(said("gives no token: {} {}"), answer.status, words_of(answer)),
-                              said("look at client id and key set there; it is tried again later"));
+    throw PlatformUnreachable(origin_of(platform.token_endpoint), msg("gives no token: {} {}", answer.status, words_of(answer)),
+                              msg("look at client id and key set there; it is tried again later"));
   const std::int64_t lasts_s = std::clamp<std::int64_t>(whole_in(answer.body, "expires_in"), 0, 3600);
   token = {text, Steady::now() + std::chrono::seconds(lasts_s) - k_before_end};
   return token.text;
@@ -230,8 +230,8 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   for (int i = 0; i < k_most_pages && !page.empty(); ++i) {
     const PlatformAnswer answer = ask(platform, course, "GET", page, {{"Accept", k_items_type}});
     if (answer.status != 200 || !answer.body.is_array())
-      throw PlatformUnreachable(origin_of(page), fmt::format(said("does not show its columns: {} {}"), answer.status, words_of(answer)),
-                                said("it is tried again later"));
+      throw PlatformUnreachable(origin_of(page), msg("does not show its columns: {} {}", answer.status, words_of(answer)),
+                                msg("it is tried again later"));
     for (const json& one : answer.body)  // a platform may pass over what was asked for
       if (text_in(one, "resourceId") == course.exam && text_in(one, "tag") == k_tag && platform.may_ask(text_in(one, "id")))
         return text_in(one, "id");
@@ -243,8 +243,8 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
       ask(platform, course, "POST", course.lineitems, {{"Content-Type", k_item_type}, {"Accept", k_item_type}}, wanted.dump());
   const std::string id = text_in(made.body, "id");
   if (!is_good(made.status) || !platform.may_ask(id))
-    throw PlatformUnreachable(origin_of(course.lineitems), fmt::format(said("makes no column: {} {}"), made.status, words_of(made)),
-                              said("it is tried again later"));
+    throw PlatformUnreachable(origin_of(course.lineitems), msg("makes no column: {} {}", made.status, words_of(made)),
+                              msg("it is tried again later"));
   return id;
 }
 
@@ -261,7 +261,7 @@ std::vector<ScoresOfCourse> LtiSender::progress() {
     std::string trouble;
     {
       const std::lock_guard guard(lock_);
-      if (const auto found = troubles_.find(key_of(*p, c)); found != troubles_.end()) trouble = shown(one_line(found->second.words));
+      if (const auto found = troubles_.find(key_of(*p, c)); found != troubles_.end()) trouble = one_line(tr(found->second.what));
     }
     out.push_back({p->name, c.title, c.exam, c.item, sent, refused, waiting, unknown, trouble});
   }

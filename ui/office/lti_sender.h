@@ -45,7 +45,7 @@ class LtiSender {
     std::chrono::steady_clock::time_point until;
   };
   struct Trouble {
-    std::string words;
+    Message what;
     std::chrono::steady_clock::time_point next;
     std::chrono::seconds pause{0};
   };

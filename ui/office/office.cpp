@@ -11,8 +11,9 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "engine/language/catalogue.h"
 #include "engine/language/language.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/session/session.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
@@ -26,6 +27,13 @@
 
 namespace cavum::office {
 namespace {
+
+/// As a station is told: it knows what to say in its own language of nothing but the state.
+std::vector<std::string> english_each(const std::vector<Message>& messages) {
+  std::vector<std::string> texts;
+  for (const Message& m : messages) texts.push_back(english_text(m));
+  return texts;
+}
 
 using nlohmann::json;
 
@@ -160,7 +168,7 @@ struct Office::Parts {
   Words answer(route::words, const Call&) {
     Words out{language(), std::string(1, decimal_sign()), {}, proxied};
     if (language() != "en")
-      for (const auto& m : page_messages()) out.words[m] = shown(m);
+      for (const auto& m : page_messages()) out.words[m] = catalogue().find(m).value_or(m);
     return out;
   }
 
@@ -181,21 +189,21 @@ struct Office::Parts {
     const std::string key = call.head.address + " " + asked.name;
     const std::int64_t now = steady_s();
     if (!tries.allow(call.head.address, k_tries_of_an_address, now) || !tries.allow(key, k_tries_of_a_name, now))
-      throw Refused{429, said("too many tries: wait a minute")};
+      throw Refused{429, msg("too many tries: wait a minute")};
     const auto account = accounts.sign_in(asked.name, asked.password);
-    if (!account) throw Refused{401, said("name and password do not belong together")};
+    if (!account) throw Refused{401, msg("name and password do not belong together")};
     tries.forget(key);
     return signed_in(*account, now, "");
   }
 
   /// Who the proxy says it is, where that is an account here: its role is the account's.
   Told<Me> answer(route::sign_in_by_proxy, const Call& call) {
-    if (!proxied) throw Refused{404, said("there is nothing here")};
-    if (call.proxied_as.empty()) throw Refused{401, said("the school's sign-on says nobody: come by its address")};
+    if (!proxied) throw Refused{404, msg("there is nothing here")};
+    if (call.proxied_as.empty()) throw Refused{401, msg("the school's sign-on says nobody: come by its address")};
     const std::int64_t now = steady_s();
-    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) throw Refused{429, said("too many tries: wait a minute")};
+    if (!tries.allow("proxy " + call.proxied_as, k_tries_of_an_address, now)) throw Refused{429, msg("too many tries: wait a minute")};
     const auto account = accounts.called(call.proxied_as);
-    if (!account) throw Refused{403, said("the school's sign-on knows you, and this office has no account for you: ask who runs it")};
+    if (!account) throw Refused{403, msg("the school's sign-on knows you, and this office has no account for you: ask who runs it")};
     return signed_in(*account, now, call.proxied_as);
   }
 
@@ -291,7 +299,7 @@ struct Office::Parts {
 
   Hello answer(route::hello, const Call&) { return {desk.ledger_id(), desk.public_key(), utc_now_ns()}; }
   Enrolled answer(route::enrol, const Call& c) {
-    if (!tries.allow("enrol " + c.head.address, k_tries_of_enrolment, steady_s())) throw Refused{429, said("too many tries: wait a minute")};
+    if (!tries.allow("enrol " + c.head.address, k_tries_of_enrolment, steady_s())) throw Refused{429, msg("too many tries: wait a minute")};
     Enrolled done = desk.enrol(c.body);
     tries.forget("enrol " + c.head.address);
     board.touch();
@@ -315,14 +323,14 @@ struct Office::Parts {
   Told<HandInState> answer(route::pieces_had, const Call& c) { return said_of(pieces.have(c.station, c.tail)); }
   Told<HandInState> answer(route::add_piece, const Call& c) {
     const auto place = place_in(c.head.query);
-    if (!place) throw Refused{400, said("say where the piece stands: ?at=0&of=1000")};
+    if (!place) throw Refused{400, msg("say where the piece stands: ?at=0&of=1000")};
     return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
   }
   std::unique_ptr<Taker> answer(route::hand_in, const Call& c) { return std::make_unique<TakesSession>(inbox, c.tail, c.station); }
   HandInState answer(route::handed_in, const Call& c) {
     if (const auto entry = desk.filed(c.tail)) return {.state = HandedState::filed, .entry = *entry, .receipt = desk.receipt(*entry)};
     const Handed h = inbox.of(c.tail);
-    if (h.state == HandedState::refused) return {.state = h.state, .findings = h.findings};
+    if (h.state == HandedState::refused) return {.state = h.state, .findings = english_each(h.findings)};
     return {.state = h.state == HandedState::unknown ? h.state : HandedState::waiting};
   }
 

@@ -33,7 +33,8 @@ Local local_of(std::int64_t utc_ns) {
 /// "2026-11-21 09:00 to 12:00 CET (UTC+01:00)"
 std::string span_text(std::int64_t from_utc_ns, std::int64_t until_utc_ns) {
   const Local from = local_of(from_utc_ns), until = local_of(until_utc_ns);
-  return tr("{0} {1} to {2} {3}", from.day, from.time, from.day == until.day ? until.time : until.day + " " + until.time, until.zone);
+  return tr("{} {} to {} {}", as_is(from.day), as_is(from.time), as_is(from.day == until.day ? until.time : until.day + " " + until.time),
+            as_is(until.zone));
 }
 
 std::string exam_name(const Invited& i) { return i.title.empty() ? i.exam : fmt::format("{} ({})", i.title, i.exam); }
@@ -45,7 +46,7 @@ report::Document paper(const std::string& title, const std::string& school, cons
   d.language = language();
   const std::int64_t now = read_clocks().utc_ns;
   d.created = utc_text(now);
-  d.subtitle = tr("{0}; printed {1}", as_is(school), local_text(now));
+  d.subtitle = tr("{}; printed {}", as_is(school), as_is(local_text(now)));
   d.footer = {d.subtitle};
   return d;
 }

@@ -13,7 +13,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/session/session.h"
 #include "grading/pool/makers.h"
 #include "scenarios/file/parse.h"
@@ -49,7 +49,7 @@ void Regrades::end_marking() {
   if (worker_.joinable()) worker_.join();
 }
 
-void Regrades::change(State state, const std::string& problem) {
+void Regrades::change(State state, const Message& problem) {
   state_ = state;
   problem_ = problem;
   ++version_;
@@ -95,7 +95,7 @@ void Regrades::mark() {
     plan = plan_;
   }
   const auto begun = std::chrono::steady_clock::now();
-  std::string problem;
+  Message problem;
   try {
     pool::Run run;
     run.threads = std::max(1, static_cast<int>(std::thread::hardware_concurrency()) - 1);
@@ -115,11 +115,11 @@ void Regrades::mark() {
     if (run.stop()) return;
     ledger::take_lines(plan, made.lines, ledger_folder_);
   } catch (const std::bad_alloc&) {
-    problem = "there is not enough memory";
+    problem = msg("there is not enough memory");
   } catch (const Error& wrong) {
-    problem = english_text(wrong.without_advice());
+    problem = wrong.without_advice();
   } catch (const std::exception& wrong) {
-    problem = wrong.what();
+    problem = Name{wrong.what()};
   }
   const std::lock_guard guard(lock_);
   if (stop_) return;
@@ -165,12 +165,9 @@ void Regrades::drop(const std::string& id, const Account& by) {
 
 RegradeShown Regrades::state() const {
   const std::lock_guard guard(lock_);
-  return {state_,         id_,
-          plan_.exam,     by_,
-          begun_,         shown(problem_),
-          done_,          of_,
-          plan_.left_out, left_s_ < 0 ? std::nullopt : std::optional(left_s_),
-          counted_,       first_entry_};
+  return {
+      state_,   id_,         plan_.exam, by_, begun_, tr(problem_), done_, of_, plan_.left_out, left_s_ < 0 ? std::nullopt : std::optional(left_s_),
+      counted_, first_entry_};
 }
 
 std::optional<std::vector<RegradeRow>> Regrades::rows() const {

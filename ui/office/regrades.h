@@ -44,7 +44,7 @@ class Regrades {
   using State = RegradeState;
   void mark();
   void end_marking();
-  void change(State state, const std::string& problem = {});
+  void change(State state, const Message& problem = {});
   void write_note() const;
   void read_note();
 
@@ -55,7 +55,8 @@ class Regrades {
   mutable std::condition_variable changed_;
   std::uint64_t version_ = 1;
   State state_ = State::none;
-  std::string id_, by_, begun_, problem_, rubric_sha256_;
+  std::string id_, by_, begun_, rubric_sha256_;
+  Message problem_;
   ledger::ClassRegrade plan_;
   std::uint64_t entries_ = 0;  // of the ledger when it began
   std::size_t done_ = 0, of_ = 0;

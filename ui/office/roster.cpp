@@ -132,12 +132,9 @@ void join_names(std::vector<CsvRow>& rows, std::vector<std::string>& passed_over
 
 }  // namespace
 
-std::string lines_of_mistakes(const Error& wrong) {
+std::vector<Message> mistakes_of(const Error& wrong) {
   const auto* const several = dynamic_cast<const ledger::ListMistakes*>(&wrong);
-  if (several == nullptr) return wrong.what();
-  std::string lines;
-  for (const std::string& text : several->texts()) lines += (lines.empty() ? "" : "\n") + text;
-  return lines;
+  return several == nullptr ? std::vector<Message>{wrong.message()} : several->mistakes();
 }
 
 Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers) {
@@ -158,7 +155,7 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     else
       ledger::require_whole_rows(rows, k_list);
   } catch (const Error& wrong) {
-    roster.problem = lines_of_mistakes(wrong);
+    roster.problems = mistakes_of(wrong);
   }
   return roster;
 }

@@ -23,11 +23,11 @@ struct Roster {
   std::size_t rows = 0;  ///< below the heading
   std::vector<RosterColumn> columns;
   std::vector<ledger::Person> people;  ///< when every column is answered, and nothing is wrong
-  std::string problem;                 ///< why there are none, a line for each mistake; empty: a column waits for its answer, or all is well
+  std::vector<Message> problems;       ///< why there are none, each mistake; empty: a column waits for its answer, or all is well
   [[nodiscard]] bool ready() const noexcept { return !people.empty(); }
 };
-/// What is wrong with a list, a line for each mistake.
-[[nodiscard]] std::string lines_of_mistakes(const Error& wrong);
+/// What is wrong with a list, each mistake.
+[[nodiscard]] std::vector<Message> mistakes_of(const Error& wrong);
 /// `bytes` as they were sent; `answers` by the columns' places, an empty text for none. Several columns that are used as `name` are joined in their
 /// order, with ", " between them: surname and first name. Throws nothing of what is wrong with the list: it says so.
 [[nodiscard]] Roster read_roster(const std::string& bytes, const std::vector<std::string>& answers);

@@ -3,14 +3,13 @@
 #include <sodium.h>
 
 #include <algorithm>
-#include <regex>
 
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/shown.h"
+#include "engine/language/say.h"
 #include "engine/session/sqlite.h"
 #include "grading/ledger/class_list.h"
 
@@ -46,7 +45,7 @@ std::string cookie_named(const std::string& field, std::string_view name) {
 
 nlohmann::json Call::json() const { return parse_json(body, "the request", {8U << 20, 100'000, 16}); }
 
-Reply error_reply(int status, const std::string& english) { return json_reply({{"error", shown(one_line(english))}}, status); }
+Reply error_reply(int status, const Message& message) { return json_reply({{"error", one_line(tr(message))}}, status); }
 Reply json_reply(const nlohmann::json& body, int status) {
   return {status, "application/json", body.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace)};
 }
@@ -58,7 +57,7 @@ class Site::Visit : public Exchange {
     call_.head = head;
     const Route* route = route_for(head.method, head.path);
     if (route == nullptr) {
-      refusal_ = error_reply(404, "there is nothing here");
+      refusal_ = error_reply(404, msg("there is nothing here"));
       return;
     }
     largest_ = route->largest_bytes;
@@ -88,7 +87,7 @@ class Site::Visit : public Exchange {
         Sha256 hash{};
         crypto_hash_sha256_final(&hash_, hash.data());
         if (to_hex(hash) != body_sha256_) {
-          reply = error_reply(401, "the body is not the one that was signed");
+          reply = error_reply(401, msg("the body is not the one that was signed"));
           return;
         }
       }
@@ -103,20 +102,19 @@ class Site::Visit : public Exchange {
     try {
       what();
     } catch (const Refused& e) {
-      refusal_ = error_reply(e.status, e.english);
+      refusal_ = error_reply(e.status, e.message);
     } catch (const DatabaseError& e) {
-      refusal_ = error_reply(507, e.what());
+      refusal_ = error_reply(507, e.message());
     } catch (const ledger::ListMistakes& e) {
       std::string lines;
-      for (const std::string& text : e.texts()) lines += (lines.empty() ? "" : "\n") + shown(one_line(text));
+      for (const Message& mistake : e.mistakes()) lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake));
       refusal_ = json_reply({{"error", lines}}, 400);
     } catch (const Error& e) {
-      static const std::regex k_option("^--(ticket|session) ([0-9]+)(: )");  // how the command line calls it
-      refusal_ = error_reply(400, std::regex_replace(e.what(), k_option, "entry $2$3"));
+      refusal_ = error_reply(400, e.message());
     } catch (const std::bad_alloc&) {
       refusal_ = Reply{503, "application/json", R"({"error":"there is not enough memory"})"};
     } catch (const std::exception&) {  // its words may tell of our insides
-      refusal_ = error_reply(500, "this did not work; nothing is said to have been done");
+      refusal_ = error_reply(500, msg("this did not work; nothing is said to have been done"));
     }
   }
 
@@ -135,28 +133,29 @@ std::unique_ptr<Exchange> Site::welcome(const Head& head) { return std::make_uni
 
 std::optional<Reply> Site::refuse(const Route& route, Call& call, std::string& body_sha256) {
   const ProxyWord proxied = proxy_word(call.head, knows_.proxy);
-  if (proxied.refused) return error_reply(403, "a field of this request is the proxy's alone, and the proxy did not send it");
+  if (proxied.refused) return error_reply(403, msg("a field of this request is the proxy's alone, and the proxy did not send it"));
   call.proxied_as = proxied.known_as;
   if (route.asks == Asks::form)  // of another place's page by its nature; its handler lets nobody in without a platform's signature
     return call.head.field("content-type").starts_with("application/x-www-form-urlencoded") ? std::nullopt
-                                                                                            : std::optional(error_reply(415, "send a form"));
+                                                                                            : std::optional(error_reply(415, msg("send a form")));
   // a page of another place cannot send this type without asking first, and is refused then
-  if (route.method == "POST" && call.head.field("content-type") != "application/json") return error_reply(415, "say Content-Type: application/json");
+  if (route.method == "POST" && call.head.field("content-type") != "application/json")
+    return error_reply(415, msg("say Content-Type: application/json"));
   if (const std::string origin = call.head.field("origin"); !origin.empty() && route.changes() && origin != "https://" + call.head.field("host"))
-    return error_reply(403, "another page asks this");
+    return error_reply(403, msg("another page asks this"));
   switch (route.asks) {
     case Asks::nobody:
     case Asks::form:
       return std::nullopt;
     case Asks::came:
       call.cookie = cookie_in(call.head.field("cookie"), k_visit_cookie);
-      return knows_.came && knows_.came(call.cookie) ? std::nullopt : std::optional(error_reply(401, "open the link on the platform again"));
+      return knows_.came && knows_.came(call.cookie) ? std::nullopt : std::optional(error_reply(401, msg("open the link on the platform again")));
     case Asks::person:
       return refuse_person(route, call);
     case Asks::station:
       return refuse_station(call, body_sha256);
   }
-  return error_reply(404, "there is nothing here");
+  return error_reply(404, msg("there is nothing here"));
 }
 
 std::optional<Reply> Site::refuse_person(const Route& route, Call& call) {
@@ -167,10 +166,10 @@ std::optional<Reply> Site::refuse_person(const Route& route, Call& call) {
     call.by.reset();
   }
   if (call.by && call.by->proxied_as != call.proxied_as && !call.by->proxied_as.empty()) call.by.reset();  // not by the proxy, or by another person
-  if (!call.by) return error_reply(401, "nobody is signed in");
-  if (!route.lets(call.by->account.role)) return error_reply(403, "this account may not do that");
+  if (!call.by) return error_reply(401, msg("nobody is signed in"));
+  if (!route.lets(call.by->account.role)) return error_reply(403, msg("this account may not do that"));
   if (route.changes() && !equal(call.head.field(k_token_field), call.by->token))
-    return error_reply(403, "the page's token is missing; load it again");
+    return error_reply(403, msg("the page's token is missing; load it again"));
   return std::nullopt;
 }
 
@@ -180,8 +179,8 @@ bool Site::still(const Call& call) {
 
 std::optional<Reply> Site::refuse_station(Call& call, std::string& body_sha256) {
   const std::string line = call.head.field(k_station_field);
-  if (line.empty()) return error_reply(401, "no station has signed this request");
-  const auto said = [&](const std::string& why) {
+  if (line.empty()) return error_reply(401, msg("no station has signed this request"));
+  const auto refused = [&](const Message& why) {
     Reply reply = error_reply(401, why);
     reply.fields.emplace_back("X-Cavum-Time", std::to_string(knows_.utc_ns()));
     return reply;
@@ -190,12 +189,13 @@ std::optional<Reply> Site::refuse_station(Call& call, std::string& body_sha256) 
   try {
     request = parse_request(line);
   } catch (const Error& wrong) {
-    return said(wrong.what());
+    return refused(wrong.message());
   }
   const std::string target = call.head.path + (call.head.query.empty() ? "" : "?" + call.head.query);
-  if (request.ledger != knows_.ledger || request.method != call.head.method || request.path != target) return said("another request was signed");
-  if (const std::string problem = knows_.station_problem(request.public_key); !problem.empty()) return said(problem);
-  if (const std::string problem = heard_.hear(request, knows_.utc_ns()); !problem.empty()) return said(problem);
+  if (request.ledger != knows_.ledger || request.method != call.head.method || request.path != target)
+    return refused(msg("another request was signed"));
+  if (const Message problem = knows_.station_problem(request.public_key); !problem.empty()) return refused(problem);
+  if (const Message problem = heard_.hear(request, knows_.utc_ns()); !problem.empty()) return refused(problem);
   body_sha256 = request.body_sha256.empty() ? "none" : request.body_sha256;
   call.station = request.public_key;
   return std::nullopt;

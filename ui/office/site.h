@@ -31,7 +31,7 @@ struct Call {
 /// Thrown by a handler: answered with this status.
 struct Refused {
   int status;
-  const char* english;
+  Message message;
 };
 /// An answer with another status than 200, or fields of its own.
 template <class Answer>
@@ -61,8 +61,8 @@ using MakeTaker = std::function<std::unique_ptr<Taker>(const Call&)>;
 
 /// What a site asks about those who come.
 struct Knows {
-  std::function<std::optional<Account>(const std::string& name)> account;     ///< as it is now
-  std::function<std::string(const std::string& public_key)> station_problem;  ///< empty: it is an enrolled one's
+  std::function<std::optional<Account>(const std::string& name)> account;  ///< as it is now
+  std::function<Message(const std::string& public_key)> station_problem;   ///< empty: it is an enrolled one's
   std::function<std::int64_t()> now_s, utc_ns;
   std::string ledger;                                        ///< id
   std::optional<ProxySignOn> proxy = {};                     ///< none: nobody signs in by a proxy
@@ -106,7 +106,7 @@ inline constexpr char k_token_field[] = "x-cavum-token";
 /// Of `name=value; name=value`; empty when it is not there, or twice.
 [[nodiscard]] std::string cookie_named(const std::string& field, std::string_view name);
 /// {"error": ...} in the reader's language.
-[[nodiscard]] Reply error_reply(int status, const std::string& english);
+[[nodiscard]] Reply error_reply(int status, const Message& message);
 [[nodiscard]] Reply json_reply(const nlohmann::json& body, int status = 200);
 
 }  // namespace cavum::office

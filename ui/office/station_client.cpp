@@ -73,8 +73,8 @@ struct StationClient::Line {
     if (!wrong) wrong = wait(patience, [&](auto done) { beast::get_lowest_layer(stream).async_connect(ends, done); });
     if (!wrong) wrong = wait(patience, [&](auto done) { stream.async_handshake(asio::ssl::stream_base::client, done); });
     if (wrong)
-      throw OfficeUnreachable(fmt::format("https://{}:{}", host, port), "the office cannot be reached: " + wrong.message(),
-                              "look at network and address; a certificate of its own is named with --certificate");
+      throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host, port)}, msg("the office cannot be reached: {}", wrong.message()),
+                              msg("look at network and address; a certificate of its own is named with --certificate"));
   }
 
   /// The outcome of what `begin` starts; timed out after `patience`.
@@ -114,7 +114,8 @@ StationClient::~StationClient() = default;
 
 Answer StationClient::send(const std::string& method, const std::string& path, const std::string& body, const std::string& line) {
   const bool fresh = !line_;
-  if (stopped_.load()) throw OfficeUnreachable(fmt::format("https://{}:{}", host_, port_), "is not asked any more: this station ends", "begin again");
+  if (stopped_.load())
+    throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host_, port_)}, msg("is not asked any more: this station ends"), msg("begin again"));
   if (!line_) line_ = std::make_unique<Line>(host_, port_, certificate_, patience_, stopped_);
   const auto patience = patience_ + std::chrono::seconds(body.size() / k_slowest_bytes_s);
   http::request<http::string_body> request(http::string_to_verb(method), path, k_http, body);
@@ -132,8 +133,8 @@ Answer StationClient::send(const std::string& method, const std::string& path, c
     line_.reset();
     if (!fresh && wrong != beast::error::timeout && body.size() < k_smallest_piece)
       return send(method, path, body, line);  // the office had closed a line that was idle; what is large goes on in a smaller piece
-    throw OfficeUnreachable(fmt::format("https://{}:{}", host_, port_), "the office does not answer: " + (unsent ? unsent : wrong).message(),
-                            "try again");
+    throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host_, port_)},
+                            msg("the office does not answer: {}", (unsent ? unsent : wrong).message()), msg("try again"));
   }
   Answer answer{static_cast<int>(parser.get().result_int()), parse_json_or_null(parser.get().body())};
   if (const auto time = parser.get().find("X-Cavum-Time"); time != parser.get().end() && answer.body.is_object())
@@ -183,17 +184,16 @@ json StationClient::enrol(const std::string& request) {
   return require(send("POST", route::enrol::row.path_of(), request, ""));
 }
 json StationClient::tickets() { return require(ask(route::station_tickets::row)).at("tickets"); }
-std::string clock_problem(std::int64_t behind_ns) {
+Message clock_problem(std::int64_t behind_ns) {
   constexpr std::int64_t k_most_ns = 120'000'000'000, k_second_ns = 1'000'000'000;
   if (std::abs(behind_ns) <= k_most_ns) return {};
-  return behind_ns > 0 ? fmt::format(said("is {} s behind the office's"), behind_ns / k_second_ns)
-                       : fmt::format(said("is {} s ahead of the office's"), -behind_ns / k_second_ns);
+  return behind_ns > 0 ? msg("is {} s behind the office's", behind_ns / k_second_ns) : msg("is {} s ahead of the office's", -behind_ns / k_second_ns);
 }
 
 std::string StationClient::begin(const std::string& nonce) {
   meet();
-  if (const std::string problem = clock_problem(ahead_ns_); !problem.empty())
-    throw Error("this computer's clock", problem, "set it right, and begin then: the exam's times would be refused");
+  if (const Message problem = clock_problem(ahead_ns_); !problem.empty())
+    throw Error(msg("this computer's clock"), problem, msg("set it right, and begin then: the exam's times would be refused"));
   return text_in(require(ask(route::begin_exam::row, to_json_value(AskBegin{nonce}).dump())), "begin");
 }
 json StationClient::report(const json& state) { return require(ask(route::station_report::row, state.dump())); }

@@ -31,7 +31,7 @@ class OfficeUnreachable : public Error {
 
 /// Why no exam begins at a station whose clock stands so far behind the office's (or, below 0, ahead), in words; empty: within two minutes. Filing
 /// refuses times that are off by more than five.
-[[nodiscard]] std::string clock_problem(std::int64_t behind_ns);
+[[nodiscard]] Message clock_problem(std::int64_t behind_ns);
 
 class StationClient {
  public:

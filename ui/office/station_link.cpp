@@ -234,7 +234,7 @@ std::vector<std::string> StationLink::recordings_left() {
 }
 
 bool StationLink::file(StationClient& client, const std::string& path) {
-  std::vector<std::string> findings;
+  std::vector<Message> findings;
   const Bytes image = read_session_image(path, findings);
   const std::string hash = to_hex(sha256(image));
   json state = client.handed(hash);
@@ -244,7 +244,7 @@ bool StationLink::file(StationClient& client, const std::string& path) {
     if (word == "refused") return write_private_text_file(refusal_of(path), json{{"findings", state.at("findings")}}.dump(2) + "\n"), false;
     if (word == "unknown") client.hand_in(image);  // never sent, or lost on the way
     std::unique_lock guard(lock_);
-    if (!wait(guard, speak_, k_ask_ms)) throw OfficeUnreachable(path, "is not handed in yet: this station ends", "begin again");
+    if (!wait(guard, speak_, k_ask_ms)) throw OfficeUnreachable(Name{path}, msg("is not handed in yet: this station ends"), msg("begin again"));
     guard.unlock();
     state = client.handed(hash);
   }

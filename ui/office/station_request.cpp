@@ -1,7 +1,5 @@
 #include "ui/office/station_request.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
@@ -53,14 +51,14 @@ StationRequest parse_request(const std::string& text) {
   return r;
 }
 
-std::string HeardRequests::hear(const StationRequest& r, std::int64_t now_utc_ns) {
+Message HeardRequests::hear(const StationRequest& r, std::int64_t now_utc_ns) {
   if (r.utc_ns < now_utc_ns - k_leeway_ns || r.utc_ns > now_utc_ns + k_leeway_ns || r.utc_ns < begun_utc_ns_)
-    return "its time is not the office's: take the office's time, and sign it anew";
+    return msg("its time is not the office's: take the office's time, and sign it anew");
   const std::lock_guard lock(lock_);
   if (heard_.size() >= k_most_heard) std::erase_if(heard_, [&](const auto& one) { return one.second < now_utc_ns; });
-  if (heard_.size() >= k_most_heard) return "there are too many at once: wait, and sign it anew";
-  if (!heard_.emplace(r.public_key + r.nonce, r.utc_ns + k_leeway_ns).second) return "it was heard before";
-  return "";
+  if (heard_.size() >= k_most_heard) return msg("there are too many at once: wait, and sign it anew");
+  if (!heard_.emplace(r.public_key + r.nonce, r.utc_ns + k_leeway_ns).second) return msg("it was heard before");
+  return {};
 }
 
 }  // namespace cavum::office

@@ -36,7 +36,7 @@ class HeardRequests {
  public:
   explicit HeardRequests(std::int64_t begun_utc_ns) : begun_utc_ns_(begun_utc_ns) {}
   /// Why it is refused, in words; empty: it is new, and remembered.
-  [[nodiscard]] std::string hear(const StationRequest& request, std::int64_t now_utc_ns);
+  [[nodiscard]] Message hear(const StationRequest& request, std::int64_t now_utc_ns);
 
  private:
   std::mutex lock_;

@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/language/say.h"
 #include "engine/session/station_key.h"
 #include "ui/station/window.h"
 
@@ -66,7 +67,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   constexpr double k_day_s = 86'400;
   r.here_s = static_cast<std::int64_t>(std::min(k_day_s, sitting->here_s()));
   if (sitting->stage() != Stage::preparing) r.candidate = short_line(sitting->candidate());
-  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(english_text(sitting->trouble()));
+  if (state.screen == Screen::trouble || state.screen == Screen::save) r.alarm = short_line(tr(sitting->trouble()));
   if (sitting->stage() != Stage::running) return r;
   const scenarios::LiveView view = sitting->live().view();
   const auto& steps = sitting->setup().scenario.steps;
@@ -76,11 +77,11 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   r.held = view.held;
   if (view.paused || view.held) r.state = office::AtStation::paused;
   if (const Message why = view.recording_error; !why.empty())
-    r.alarm = short_line(english_text(why));
+    r.alarm = short_line(tr(why));
   else if (const std::optional<Error> problem = sitting->device().problem())
-    r.alarm = short_line(english_text(problem->without_advice()));
+    r.alarm = short_line(tr(problem->without_advice()));
   else if (state.attempt_shown_s > 0)
-    r.alarm = short_line(english_text(state.attempt));
+    r.alarm = short_line(tr(state.attempt));
   return r;
 }
 

@@ -94,7 +94,7 @@ int main(int argc, char** argv) {
     for (const auto& p : e.problems()) cavum::ui::say_error(p.message());
     return 2;
   } catch (const cavum::ledger::ListMistakes& e) {
-    for (const auto& text : e.texts()) cavum::ui::say_error(cavum::msg("{}", text));
+    for (const auto& mistake : e.mistakes()) cavum::ui::say_error(mistake);
     return 2;
   } catch (const std::bad_alloc&) {
     cavum::ui::say_error(cavum::msg("memory: there is not enough; close other programs, and try again"));

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/scratch_folder.h"
+#include "engine/language/language.h"
 #include "engine/language/say.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "grading/battery/battery.h"
@@ -71,8 +72,7 @@ int list_tasks(const NewArguments& o) {
     return 0;
   }
   Lines rows;
-  for (const auto& t : offered)
-    rows.row({Name{t.task}, t.why_not.empty() ? msg("{}", Term{t.title}) : msg("{}; NOT offered: {}", Term{t.title}, t.why_not)});
+  for (const auto& t : offered) rows.row({Name{t.task}, t.why_not.empty() ? t.title : msg("{}; NOT offered: {}", t.title, t.why_not)});
   say(rows);
   return 0;
 }
@@ -109,6 +109,12 @@ Message against(const std::string& text, const std::string& file, Trial& trial) 
   return {};
 }
 
+/// What is written has its words in the reader's language, too.
+scenarios::TaskLanguage readers_language() {
+  if (language() == "en") return {};
+  return {language(), [](const Message& m) { return tr(m); }};
+}
+
 /// By the tooth's landmarks.
 int make_for_tooth(const NewArguments& o) {
   const std::string file = tooth_file(o);
@@ -121,8 +127,9 @@ int make_for_tooth(const NewArguments& o) {
     throw Error(Name{o.tooth}, msg("no task makes sense on this tooth"), msg("see why: cavum scenario new --list --tooth {}", o.tooth));
   Trial trial;
   scenarios::TaskTrial tried;
-  if (!o.untried) tried = [&](const std::string& text) { return english_text(against(text, file, trial)); };
-  const scenarios::WrittenTask written = scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, file), o.out, task, tried);
+  if (!o.untried) tried = [&](const std::string& text) { return against(text, file, trial); };
+  const scenarios::WrittenTask written =
+      scenarios::write_tooth_task(tooth, landmarks, named_from(o.out, file), o.out, task, tried, readers_language());
   write_text_file(o.out, written.text, {.may_replace = o.force});
   if (o.json) {
     Json warnings = Json::array();
@@ -159,7 +166,10 @@ int make_new(const NewArguments& o) {
   if (std::filesystem::exists(o.out) && !o.force)
     throw Error(Name{o.out}, msg("the file exists already"), msg("choose another name, or overwrite it with --force"));
   if (!o.on_the_block()) return make_for_tooth(o);
-  write_text_file(o.out, scenarios::block_task(o.task.empty() ? "class_1" : o.task), {.may_replace = o.force});
+  const std::string text = scenarios::block_task(o.task.empty() ? "class_1" : o.task);
+  const scenarios::Scenario scenario = scenarios::parse_scenario(text, o.out);
+  const Message title = msg("{}", Term{scenario.title}), description = msg("{}", Term{scenario.description});
+  write_text_file(o.out, text + scenarios::language_table(scenario, title, description, readers_language()), {.may_replace = o.force});
   if (o.json)
     print_json(Json{{"written", o.out}});
   else

@@ -24,7 +24,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     ServoRigOptions options;
     options.seconds = 2.5;
     const ServoRigResult r = run_servo_rig(setup, path, options);
-    std::printf("%s", to_text(r).c_str());
+    std::printf("%s", english_text(to_text(r)).c_str());
 
     const auto periods = static_cast<std::int64_t>(options.seconds / tick_s + 0.5);
     EXPECT_EQ(r.servo.ticks, periods);

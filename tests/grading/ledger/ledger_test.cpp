@@ -525,7 +525,9 @@ TEST(People, AllMistakesOfAListAreToldAtOnce) {
     try {
       static_cast<void>(parse_people(text, "class.csv"));
     } catch (const ListMistakes& wrong) {
-      return wrong.texts();
+      std::vector<std::string> texts;
+      for (const Message& m : wrong.mistakes()) texts.push_back(english_text(m));
+      return texts;
     }
     return std::vector<std::string>();
   };

@@ -3,6 +3,8 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
+
 #include "engine/base/error.h"
 #include "engine/tooth/make/make_premolar.h"
 #include "scenarios/review/check.h"
@@ -70,12 +72,12 @@ TEST(RidgeMargins, TakeInThePitsAndLeaveTheCrests) {
   margins = ridge_margins(l, 1.4, 0);
   ASSERT_EQ(margins.may.size(), 2u);
   EXPECT_NEAR(margins.may[0].ridge_mm, 0.9, 1e-9);
-  EXPECT_EQ(margins.pits_left, "");
+  EXPECT_EQ(margins.pits_left, (std::array{false, false}));
   EXPECT_EQ(ridge_margins(l, 1.4, 1).may.size(), 4u);  // through that ridge the pit goes, too
   l.mesial_pit_mm = Vec3{3.0, 0.9, 0};                 // beside the outline, however far it goes
   margins = ridge_margins(l, 1.4, 0);
   EXPECT_EQ(margins.may.size(), 4u);
-  EXPECT_NE(margins.pits_left.find("the mesial pit"), std::string::npos) << margins.pits_left;
+  EXPECT_EQ(margins.pits_left, (std::array{true, false}));
 }
 
 TEST(RidgeMargins, ACrestThatRunsIntoTheFissureIsNoRidgeThatIsLeft) {
@@ -83,7 +85,7 @@ TEST(RidgeMargins, ACrestThatRunsIntoTheFissureIsNoRidgeThatIsLeft) {
   l.mesial_ridge.crest_mm = {{5, 2, 1}, {5, 0, 0.5}, {3, 0.5, 0}, {2, 1.0, 0.5}};  // down a cusp, into the fossa
   const auto margins = ridge_margins(l, 1.4, 0);
   EXPECT_TRUE(margins.may.empty());
-  EXPECT_NE(margins.why_none.find("mesial ridge"), std::string::npos) << margins.why_none;
+  EXPECT_NE(english_text(margins.why_none).find("mesial ridge"), std::string::npos) << english_text(margins.why_none);
   EXPECT_FALSE(ridge_margins(l, 1.4, 1).may.empty());
 }
 
@@ -94,6 +96,17 @@ TEST(ToothTask, WhatIsGuessedOfTheToothStandsInTheTask) {
   const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("upper_premolar.cvt"), "here.toml", "slot_mesial").text;
   EXPECT_NE(text.find("\n# Guessed by its shape: mesial towards +x: by three signs\n"), std::string::npos) << text;
   EXPECT_NE(text.find("\n# Notice: whether it is tooth 15 could not be checked\n"), std::string::npos) << text;
+}
+
+TEST(ToothTask, WhatIsWrittenHasItsWordsInAnotherLanguageToo) {
+  const Tooth tooth = load_tooth_file(file_of("lower_molar.cvt"));
+  const TaskLanguage shout{"qps", [](const Message& m) { return "\"" + english_text(m) + "\""; }};
+  const std::string text = write_tooth_task(tooth, find_landmarks(tooth), file_of("lower_molar.cvt"), "here.toml", "class_1", {}, shout).text;
+  const Scenario s = parse_scenario(text, "here.toml");
+  ASSERT_EQ(s.languages.count("qps"), 1u);
+  const auto& words = s.languages.at("qps");
+  for (const std::string& english : {s.title, s.description, s.steps.at(0).instruction, s.rubric.criteria.at(0).title})
+    EXPECT_EQ(words.at(english), "\"" + english + "\"");
 }
 
 TEST(ToothTask, WhatMakesNoSenseIsRefused) {

@@ -195,7 +195,7 @@ points = 10
   EXPECT_DOUBLE_EQ(by_id.at("removed")["new_points"], 40);
   EXPECT_NEAR(by_id.at("removed")["old_points"].get<double>(), 19.44, 1.5);  // by hand, see the worked page
   EXPECT_EQ(by_id.at("removed")["old_points"], run_json("grade " + session)["criteria"][0]["points"]);
-  EXPECT_EQ(by_id.at("removed")["changed"], json::array({"full marks at 90 -> 60"}));
+  EXPECT_EQ(by_id.at("removed")["changed"], json::array({"full marks at: 90 → 60"}));
   EXPECT_TRUE(by_id.at("hand")["old_points"].is_null());
   EXPECT_TRUE(by_id.at("floor")["new_points"].is_null());
   EXPECT_EQ(by_id.at("floor")["changed"], json::array({"no longer a criterion"}));
@@ -272,7 +272,7 @@ TEST_F(GradeVerb, ARegradesReportSaysSoAndShowsTheSealedVerdictBesideTheNewOne) 
   std::snprintf(points, sizeof points, "%.1f of 100.0 points", run_json("grade " + session)["score"]["points"].get<double>());
   EXPECT_NE(html.find(std::string(": fail, ") + points + "; the exam was sealed as pass, " + points), std::string::npos) << points;
   EXPECT_NE(html.find("Beside the sealed result"), std::string::npos);
-  EXPECT_NE(html.find("pass mark, % 60 -&gt; 95"), std::string::npos);
+  EXPECT_NE(html.find("pass mark: 60 % → 95 %"), std::string::npos);
   for (const char* criterion : {"removed", "floor", "walls", "whole", "time"})
     EXPECT_NE(html.find("<tr><td>" + std::string(criterion) + "</td>"), std::string::npos) << criterion;
   const Ran text = run("grade " + again);

@@ -1,7 +1,5 @@
 #include "ui/office/lti/client.h"
 
-#include <fmt/core.h>
-
 #include <boost/asio/ip/tcp.hpp>
 #include <boost/asio/ssl.hpp>
 #include <boost/beast/core/flat_buffer.hpp>
@@ -72,13 +70,11 @@ PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& meth
     begin([&outcome](beast::error_code error, auto&&...) { outcome = error; });
     context.restart();
     context.run();
-    if (outcome)
-      throw PlatformUnreachable(origin_of(address), fmt::format(said("cannot be reached: {}"), outcome.message()), said("it is tried again later"));
+    if (outcome) throw PlatformUnreachable(origin_of(address), msg("cannot be reached: {}", outcome.message()), msg("it is tried again later"));
   };
   Tcp::resolver resolver(context);
   const auto ends = resolver.resolve(place.host, place.port, wrong);
-  if (wrong)
-    throw PlatformUnreachable(origin_of(address), fmt::format(said("cannot be found: {}"), wrong.message()), said("it is tried again later"));
+  if (wrong) throw PlatformUnreachable(origin_of(address), msg("cannot be found: {}", wrong.message()), msg("it is tried again later"));
   http::request<http::string_body> request(http::string_to_verb(method), place.target, k_http_1_1, body);
   request.set(http::field::host, origin_of(address).substr(std::string_view("https://").size()));
   request.set(http::field::user_agent, "Cavum");
@@ -106,8 +102,8 @@ json PlatformKeys::of(const LtiPlatform& platform, const std::string& kid) {
   }
   const PlatformAnswer answer = ask_platform(platform, "GET", platform.jwks_url, {{"Accept", "application/json"}});
   if (answer.status != 200 || !member_of(answer.body, "keys").is_array())
-    throw PlatformUnreachable(origin_of(platform.jwks_url), fmt::format(said("does not show its keys ({})"), answer.status),
-                              said("look at the address of its key set"));
+    throw PlatformUnreachable(origin_of(platform.jwks_url), msg("does not show its keys ({})", answer.status),
+                              msg("look at the address of its key set"));
   kept_[platform.jwks_url] = {answer.body, now};
   return answer.body;
 }
