@@ -4,6 +4,7 @@
 #   C++    what stands in msg, msgn, tr, trn and said, in all files of engine, scenarios, grading and ui
 #   pages  what stands in tr and said
 set -euo pipefail
+export LC_ALL=C.UTF-8  # what a letter is, and the order
 cd "$(dirname "$0")"
 root=$(cd ../.. && pwd)
 new=$(mktemp -d)
@@ -22,8 +23,8 @@ extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=said:1,"pa
 # the page stands first: what it shares with C++ must keep the comment that the page needs it
 msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/all.pot"
-# nothing to translate: no letter outside the gaps, such as "{}: {}"
-msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp='^([^[:alpha:]{]|\{[^}]*\})+$' "$new/all.pot" >"$new/cavum.pot"
+# nothing to translate: no letter outside gaps, such as "{}: {}" or "–"; but "." is the decimal sign
+msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp='^(\{[^}]*\}|[^[:alpha:]{.]|([^[:alpha:]{]|\{[^}]*\}){2,})$' "$new/all.pot" >"$new/cavum.pot"
 failed=0
 if [ "${1:-}" = --check ]; then
   cmp -s "$new/cavum.pot" cavum.pot || { echo "cavum.pot is not what the sources say; run data/languages/extract.sh" >&2; diff cavum.pot "$new/cavum.pot" | head -40 >&2; failed=1; }
