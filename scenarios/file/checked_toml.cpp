@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numeric>
 
-#include "engine/base/kept.h"
 #include "engine/base/text.h"
 
 namespace cavum::scenarios {

@@ -7,14 +7,14 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/makeup.h"
 #include "grading/ledger/reason.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 
 namespace cavum::office {
 

@@ -9,9 +9,9 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "engine/session/session.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 
 namespace cavum::office {
 namespace {

@@ -9,9 +9,9 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/session/session.h"
 #include "grading/ledger/passback.h"
+#include "ui/language/say.h"
 
 namespace cavum::office {
 namespace {

@@ -11,10 +11,10 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "engine/language/catalogue.h"
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "engine/session/session.h"
+#include "ui/language/catalogue.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/lti_office.h"

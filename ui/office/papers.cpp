@@ -8,9 +8,9 @@
 #include <tuple>
 
 #include "engine/base/error.h"
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "engine/session/session.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 #include "ui/office/desk_parts.h"
 #include "ui/report/print/pdf_writer.h"
 

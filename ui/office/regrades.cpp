@@ -13,10 +13,10 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/session/session.h"
 #include "grading/pool/makers.h"
 #include "scenarios/file/parse.h"
+#include "ui/language/say.h"
 #include "ui/office/desk_parts.h"
 
 namespace cavum::office {

@@ -9,9 +9,9 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/session/sqlite.h"
 #include "grading/ledger/class_list.h"
+#include "ui/language/say.h"
 
 namespace cavum::office {
 namespace {

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 namespace {

@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 

@@ -4,7 +4,7 @@
 #include <iostream>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 

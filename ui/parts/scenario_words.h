@@ -1,9 +1,9 @@
 // The texts of a scenario in the reader's language, where it has them: after this a message with one of them (Authored) is in it.
 #pragma once
 
-#include "engine/language/language.h"
-#include "engine/language/shown.h"
 #include "scenarios/file/scenario.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 

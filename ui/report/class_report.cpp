@@ -6,8 +6,8 @@
 #include <vector>
 
 #include "engine/base/version.h"
-#include "engine/language/say.h"
 #include "scenarios/review/picture.h"
+#include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/print/html_writer.h"

@@ -1,5 +1,5 @@
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {

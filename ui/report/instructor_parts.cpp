@@ -3,10 +3,10 @@
 
 #include "engine/base/json_reader.h"
 #include "engine/base/version.h"
-#include "engine/language/say.h"
 #include "engine/session/lock_event.h"
 #include "grading/result/loss.h"
 #include "scenarios/file/accommodations.h"
+#include "ui/language/say.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {

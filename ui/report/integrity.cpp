@@ -5,11 +5,11 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
-#include "engine/language/say.h"
 #include "engine/selfcheck/check_note.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
 #include "grading/ledger/explain_session.h"
+#include "ui/language/say.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {

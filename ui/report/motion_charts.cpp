@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 #include "ui/report/figures/motion_track.h"
 

@@ -5,11 +5,11 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/instrument/diamond_point.h"
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 #include "ui/report/figures/motion_track.h"
 #include "ui/report/figures/packed_array.h"
 #include "ui/report/figures/tooth_grid.h"

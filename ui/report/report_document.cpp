@@ -3,13 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/language.h"
-#include "engine/language/say.h"
 #include "grading/grade.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/review/picture.h"
+#include "ui/language/language.h"
+#include "ui/language/say.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/figures/from_above.h"
 #include "ui/report/figures/section_pictures.h"

@@ -1,7 +1,7 @@
 // The words, tables and pictures of a report, for a student or for an instructor: what html_writer.h and pdf_writer.h print.
 #pragma once
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/report/print/document.h"
 #include "ui/report/report_source.h"
 

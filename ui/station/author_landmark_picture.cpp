@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/author_sight.h"
 

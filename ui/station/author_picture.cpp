@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/author_screen.h"
 #include "ui/station/author_sight.h"
 

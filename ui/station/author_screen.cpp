@@ -10,7 +10,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/station/window.h"
 

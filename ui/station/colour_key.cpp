@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/tissue_colours.h"
 #include "ui/station/window.h"
 

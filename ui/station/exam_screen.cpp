@@ -6,7 +6,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/coach.h"
 #include "ui/station/colour_key.h"
 #include "ui/station/gauges.h"

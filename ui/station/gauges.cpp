@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {

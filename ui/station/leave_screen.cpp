@@ -4,7 +4,7 @@
 
 #include <utility>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 

@@ -11,8 +11,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/session/station_key.h"
+#include "ui/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/figures.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/gauges.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"

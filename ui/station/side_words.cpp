@@ -6,8 +6,8 @@
 #include <optional>
 #include <tuple>
 
-#include "engine/language/say.h"
 #include "engine/tooth/octree_edit.h"
+#include "ui/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {

@@ -1,7 +1,7 @@
 #include <imgui.h>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/office_line.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"

@@ -10,7 +10,7 @@
 #include <set>
 #include <string_view>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {

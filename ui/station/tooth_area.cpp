@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/station/screens.h"
 #include "ui/station/window.h"
 

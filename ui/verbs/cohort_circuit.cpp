@@ -6,9 +6,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/language/say.h"
 #include "grading/cohort/circuit.h"
 #include "grading/ledger/erasure.h"
+#include "ui/language/say.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"

@@ -11,9 +11,9 @@
 
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "grading/cohort/simulated_class.h"
 #include "grading/ledger/erasure.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"

@@ -9,7 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/explain/report/overview_report.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 #include "ui/parts/option_checks.h"
 

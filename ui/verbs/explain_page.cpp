@@ -230,9 +230,9 @@ std::string head(const std::string& title) {
 
 constexpr const char* k_end = "</main></body></html>\n";
 
-std::string list(const std::vector<std::string>& items) {
+std::string list(const std::vector<Message>& items) {
   std::string out = "<ul>\n";
-  for (const auto& i : items) out += fmt::format("<li>{}</li>\n", xml_text(i));
+  for (const auto& i : items) out += fmt::format("<li>{}</li>\n", xml_text(english_text(i)));
   return out + "</ul>\n";
 }
 
@@ -286,7 +286,8 @@ std::string cause_chart(const explain::Cause& c, const View& after) {
 
 /// What the cause gains on each session that the fit had not seen.
 std::string sessions_table(const explain::Explanation& e, const explain::Cause& c) {
-  const std::vector<std::string> names = fold_names(e);
+  std::vector<std::string> names;
+  for (const Message& name : fold_names(e)) names.push_back(english_text(name));
   double most = 1e-9;
   for (const double g : c.by_fold_percent) most = std::max(most, std::fabs(g));
   std::string out = "<table class=\"bars sessions\"><caption>Error that it takes away from each session not seen</caption>";
@@ -343,7 +344,7 @@ std::string causes_html(const explain::Explanation& e) {
   }
   if (e.unexplained)
     out += fmt::format("<h3>something that no mechanism here describes</h3>\n<p>The force depends on <b>{}</b> ({}{}",
-                       xml_text(axis_label(e.unexplained->variable)), xml_text(e.unexplained->form),
+                       xml_text(axis_label(e.unexplained->variable)), xml_text(english_text(e.unexplained->form)),
                        printed("), %.4f N root mean square.</p>\n", e.unexplained->effect_n));
   if (const Message left = left_over_words(e); !left.empty()) out += fmt::format("<p>{}</p>\n", xml_text(english_text(left)));
   return out.empty() ? "<p>No cause was found.</p>\n" : out;
@@ -353,7 +354,7 @@ std::string cannot_tell(const explain::Explanation& e) {
   std::string out = "<h2>What these data cannot tell</h2>\n";
   if (e.not_testable.empty()) return out + "<p>Every mechanism could have shown itself.</p>\n";
   std::map<std::string, std::vector<const explain::Mechanism*>> by_reason;
-  for (const auto& n : e.not_testable) by_reason[n.reason].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
+  for (const auto& n : e.not_testable) by_reason[english_text(n.reason)].push_back(&explain::mechanism_at(explain::find_mechanism(n.mechanism)));
   for (const auto& [reason, group] : by_reason) {
     out += fmt::format("<p><b>{}:</b></p>\n<details{}{}{}", xml_text(reason), group.size() > 8 ? "" : " open",
                        printed("><summary>%zu mechanism%s", group.size(), group.size() == 1 ? "" : "s"),
@@ -415,7 +416,7 @@ std::string laws_table(const explain::TableExplanation& e) {
 
 std::string explanation_html(const explain::Explanation& e, const std::string& title) {
   std::string out = head(title) + verdict_box(e, verdict_words(e));
-  if (e.verdict == "data_fault") return fmt::format("{}{}{}{}", out, list(e.data_faults), next_box(e.next_experiment), k_end);
+  if (e.verdict == "data_fault") return fmt::format("{}{}{}{}", out, list(e.data_faults), next_box(english_text(e.next_experiment)), k_end);
   out += "<h2>What the simulation gets wrong</h2>\n" + causes_html(e);
   out += fmt::format(
       "<h2>What fixing it gains</h2>\n<p>Root mean square error on sessions that the fit had not seen.</p>\n{}{}", gain_chart(e.gain),
@@ -423,7 +424,7 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
               "%.4g).</p>\n",
               e.gain.percent.value, e.gain.percent.low, e.gain.percent.high, e.gain.share_percent, e.base.k_n_per_mm, e.k.low, e.k.high,
               e.base.c_n_s_per_mm, e.c.low, e.c.high));
-  out += next_box(e.next_experiment);
+  out += next_box(english_text(e.next_experiment));
   if (e.before && e.after) {
     const auto& scene = *e.before->scene;
     out += "<h2>Measured against simulated</h2>\n" + force_charts(*e.before, *e.after);
@@ -449,8 +450,8 @@ std::string explanation_html(const explain::Explanation& e, const std::string& t
 std::string table_html(const explain::TableExplanation& e, const std::string& title) {
   std::string out = head(title);
   if (e.said.verdict == "data_fault")
-    return fmt::format("{}{}{}{}{}", out, verdict_box(e.said, verdict_words(e.said)), list(e.said.data_faults), next_box(e.said.next_experiment),
-                       k_end);
+    return fmt::format("{}{}{}{}{}", out, verdict_box(e.said, verdict_words(e.said)), list(e.said.data_faults),
+                       next_box(english_text(e.said.next_experiment)), k_end);
   out += verdict_box(
       e.said, e.said.verdict == "alias"
                   ? printed("A force of %.3f N is missing that does not depend on k. Friction, a bias of the load cell, an edge force: the table "
@@ -481,8 +482,8 @@ std::string table_html(const explain::TableExplanation& e, const std::string& ti
   c.y_range = {0.0, 1.05 * top};
   c.x_range = {-0.03 * most, 1.03 * most};
   out += "<h2>Measured against simulated</h2>\n" + fmt::format("<div class=\"alone\">{}</div>\n", figure(c));
-  out += laws_table(e) + fmt::format("<h2>What it says, and what it cannot say</h2>\n{}{}{}", list(e.said.notes), next_box(e.said.next_experiment),
-                                     cannot_tell(e.said));
+  out += laws_table(e) + fmt::format("<h2>What it says, and what it cannot say</h2>\n{}{}{}", list(e.said.notes),
+                                     next_box(english_text(e.said.next_experiment)), cannot_tell(e.said));
   return out + k_end;
 }
 

@@ -16,8 +16,8 @@
 #include "engine/explain/report/model_file.h"
 #include "engine/explain/report/overview_report.h"
 #include "engine/explain/report/protocol.h"
-#include "engine/language/say.h"
 #include "scenarios/exam/exam.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
@@ -93,15 +93,15 @@ void show_overview(const ExplainArgs& a, const explain::Recording& recording) {
 /// What counts in another way than a recording does is refused; who asks for JSON or a page is told there, too.
 void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
   try {
-    for (std::string& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
+    for (Message& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
   } catch (const Error& refused) {
     explain::Explanation said;
     said.verdict = "data_fault";
     said.recording = std::make_shared<const explain::Recording>(recording);
     said.notes = recording.notes;
     for (const explain::Doubt& d : explain::judge_conventions(recording).doubts)
-      if (d.clear) said.data_faults.push_back(fmt::format("{}; give {}", d.what, d.options));
-    said.next_experiment = "correct the recording: " + said.data_faults.front();
+      if (d.clear) said.data_faults.push_back(msg("{}; give {}", d.what, d.options));
+    said.next_experiment = msg("correct the recording: {}", said.data_faults.front());
     if (!a.out.empty()) write_text_file(a.out, explanation_html(said, a.data));
     if (a.json) print_json(to_json(said));
     throw;

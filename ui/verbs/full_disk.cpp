@@ -2,8 +2,8 @@
 
 #include <iostream>
 
-#include "engine/language/say.h"
 #include "scenarios/exam/other_place.h"
+#include "ui/language/say.h"
 #include "ui/parts/say.h"
 
 namespace cavum::ui {

@@ -11,12 +11,12 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/language/say.h"
 #include "grading/result/compare.h"
 #include "grading/result/result_json.h"
 #include "grading/words/measures_page.h"
 #include "grading/words/why.h"
 #include "scenarios/review/advice.h"
+#include "ui/language/say.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"
 #include "ui/verbs/marked_session.h"

@@ -3,8 +3,8 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/language/say.h"
 #include "scenarios/file/accommodations.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 

@@ -3,7 +3,7 @@
 
 #include <CLI/CLI.hpp>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
 namespace cavum::ui {
 

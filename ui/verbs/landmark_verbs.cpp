@@ -10,8 +10,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/language/say.h"
 #include "engine/tooth/anatomy/landmarks.h"
+#include "ui/language/say.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"

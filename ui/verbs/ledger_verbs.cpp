@@ -2,7 +2,7 @@
 #include <functional>
 #include <memory>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/verbs/grant_options.h"
 #include "ui/verbs/ledger_verbs_parts.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/tooth/make/lesion_site.h"
+#include "ui/language/say.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"

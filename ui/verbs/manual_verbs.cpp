@@ -8,7 +8,7 @@
 #include "engine/base/version.h"
 #include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/hardware/udev_rule.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/verbs/verbs.h"
 
 namespace cavum::ui {

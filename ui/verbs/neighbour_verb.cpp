@@ -6,8 +6,8 @@
 #include <string>
 #include <vector>
 
-#include "engine/language/say.h"
 #include "engine/tooth/make/set_beside.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"

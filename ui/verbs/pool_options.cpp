@@ -10,7 +10,7 @@
 #include <memory>
 #include <sstream>
 
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/say.h"

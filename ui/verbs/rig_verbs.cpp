@@ -7,7 +7,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/language/say.h"
 #include "engine/rig/cube_rig.h"
 #include "engine/rig/grind_rig.h"
 #include "engine/rig/press_rig.h"
@@ -15,6 +14,7 @@
 #include "engine/rig/servo_rig.h"
 #include "engine/rig/tooth_rig.h"
 #include "scenarios/exam/exam.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"

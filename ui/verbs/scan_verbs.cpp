@@ -6,7 +6,6 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/language/say.h"
 #include "engine/tooth/beside.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "grading/result/result_json.h"
@@ -14,6 +13,7 @@
 #include "scenarios/file/parse.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/zones/zone_map.h"
+#include "ui/language/say.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"

@@ -13,7 +13,7 @@
 #include "engine/base/file.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/stylus_probe.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"
 

@@ -2,10 +2,10 @@
 #include <memory>
 #include <nlohmann/json.hpp>
 
-#include "engine/language/say.h"
 #include "engine/session/station_key.h"
 #include "grading/ledger/explain_session.h"
 #include "grading/ledger/station_ticket.h"
+#include "ui/language/say.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"
 #include "ui/verbs/verbs.h"

@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <set>
 
-#include "engine/base/kept.h"
 #include "engine/device/device_error.h"
 #include "engine/device/hardware/falcon_stylus.h"
 #include "engine/device/hardware/inverse3_stylus.h"

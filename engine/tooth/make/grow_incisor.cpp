@@ -2,7 +2,6 @@
 
 #include <algorithm>
 
-#include "engine/base/text.h"
 #include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/grown_tooth.h"
 #include "engine/tooth/make/individual.h"
@@ -103,7 +102,7 @@ ToothPlan incisor_plan(std::uint64_t seed) {
 
 Tooth grow_incisor(const SeedTooth& what) {
   const GrownTooth shape(incisor_plan(what.seed));
-  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format(said("upper central incisor (seed {}, one canal)"), what.seed),
+  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("upper central incisor (seed {}, one canal)", what.seed),
                     fmt::format("make incisor, upper central incisor of Cavum, seed {}", what.seed));
 }
 

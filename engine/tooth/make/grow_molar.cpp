@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/grown_tooth.h"
 #include "engine/tooth/make/individual.h"
@@ -131,7 +130,7 @@ ToothPlan molar_plan(std::uint64_t seed) {
 
 Tooth grow_molar(const SeedTooth& what) {
   const GrownTooth shape(molar_plan(what.seed));
-  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format(said("lower first molar (seed {}, 3 canals)"), what.seed),
+  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("lower first molar (seed {}, 3 canals)", what.seed),
                     fmt::format("make molar, lower first molar of Cavum, seed {}", what.seed));
 }
 

@@ -2,7 +2,6 @@
 
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "engine/tooth/make/grow_teeth.h"
 #include "engine/tooth/make/grown_tooth.h"
 #include "engine/tooth/make/individual.h"
@@ -111,7 +110,7 @@ ToothPlan premolar_plan(std::uint64_t seed) {
 
 Tooth grow_premolar(const SeedTooth& what) {
   const GrownTooth shape(premolar_plan(what.seed));
-  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format(said("upper second premolar (seed {}, one canal)"), what.seed),
+  return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("upper second premolar (seed {}, one canal)", what.seed),
                     fmt::format("make premolar, upper second premolar of Cavum, seed {}", what.seed));
 }
 

@@ -1,7 +1,7 @@
 // What people do at the office: every action is an entry with who and why, and the ledger holds afterwards.
-#include "engine/language/language.h"
 #include "grading/ledger/regrade.h"
 #include "tests/ui/office/opened.h"
+#include "ui/language/language.h"
 
 namespace cavum::office {
 namespace {

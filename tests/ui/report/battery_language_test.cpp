@@ -6,8 +6,6 @@
 #include <regex>
 #include <set>
 
-#include "engine/language/catalogue.h"
-#include "engine/language/language.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth.h"
 #include "grading/battery/coarse_tooth.h"
@@ -17,6 +15,8 @@
 #include "scenarios/zones/zone_map.h"
 #include "tests/ui/language.h"
 #include "tests/ui/program.h"
+#include "ui/language/catalogue.h"
+#include "ui/language/language.h"
 #include "ui/report/report_document.h"
 
 namespace cavum::report {

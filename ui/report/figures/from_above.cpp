@@ -11,8 +11,8 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "engine/tooth/octree_edit.h"
+#include "ui/language/say.h"
 #include "ui/report/figures/packed_array.h"
 
 namespace cavum::report {

@@ -9,8 +9,8 @@
 #include <optional>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
 #include "scenarios/review/section.h"
+#include "ui/language/say.h"
 
 namespace cavum::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/report/print/page_assets.h"
 
 namespace cavum::report {

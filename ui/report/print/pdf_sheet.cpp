@@ -12,7 +12,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
 #ifdef __SANITIZE_ADDRESS__
 // Fontconfig keeps what it once read until the program ends: that is no leak of ours.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/text.h"
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 #include "ui/report/print/pdf_sheet.h"
 #include "ui/report/print/pdf_tags.h"
 

@@ -3,6 +3,7 @@
 
 #include <fmt/core.h>
 
+#include <map>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -10,7 +11,6 @@
 
 #include "engine/base/lines.h"
 #include "engine/base/message.h"
-#include "engine/language/shown.h"
 
 namespace cavum {
 
@@ -40,6 +40,9 @@ template <std::same_as<Message> M>
   return language_detail::rendered(message);
 }
 [[nodiscard]] std::string tr(const Lines& lines);
+/// Texts that a file brings in the reader's language (a scenario's), by the English ones: an Authored is said so. Those of several files add up; one
+/// that differs takes the place of the earlier. Call it before other threads say anything.
+void add_translations(const std::map<std::string, std::string>& texts);
 /// The message msg() makes, in the reader's language.
 template <class... A>
 [[nodiscard]] std::string tr(fmt::format_string<message_detail::Text<A>...> english, A&&... values) {

@@ -1,9 +1,9 @@
-#include "engine/language/say.h"
+#include "ui/language/say.h"
 
-#include <fmt/format.h>
+#include <map>
 
 #include "engine/base/text.h"
-#include "engine/language/catalogue.h"
+#include "ui/language/catalogue.h"
 
 namespace cavum {
 
@@ -38,6 +38,12 @@ std::string name_in_line(std::string_view text) {
   return line;
 }
 
+/// What files brought. Read by all threads.
+std::map<std::string, std::string>& of_files() {
+  static std::map<std::string, std::string> texts;
+  return texts;
+}
+
 class ReadersLocale final : public Locale {
  public:
   [[nodiscard]] std::string sentence(const char* english) const override { return catalogue().find(english).value_or(english); }
@@ -45,7 +51,10 @@ class ReadersLocale final : public Locale {
     return catalogue().find(one, many, count).value_or(count == 1 ? one : many);
   }
   [[nodiscard]] std::string term(const std::string& english) const override { return catalogue().find(english).value_or(english); }
-  [[nodiscard]] std::string authored(const std::string& english) const override { return shown(english); }
+  [[nodiscard]] std::string authored(const std::string& english) const override {
+    const auto own = of_files().find(english);
+    return own != of_files().end() ? own->second : term(english);
+  }
   [[nodiscard]] std::string name(const std::string& text) const override { return name_in_line(text); }
   [[nodiscard]] char decimal_sign() const noexcept override { return catalogue().decimal_sign(); }
 };
@@ -54,7 +63,11 @@ const ReadersLocale k_readers;
 
 }  // namespace
 
-std::string language_detail::rendered(const Message& message) { return remembered(render(message, k_readers)); }
+std::string language_detail::rendered(const Message& message) { return render(message, k_readers); }
+
+void add_translations(const std::map<std::string, std::string>& texts) {
+  for (const auto& [english, translated] : texts) of_files().insert_or_assign(english, translated);
+}
 
 std::string tr(const Lines& lines) { return render(lines, k_readers); }
 

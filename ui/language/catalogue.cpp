@@ -1,6 +1,4 @@
-#include "engine/language/catalogue.h"
-
-#include <fmt/core.h>
+#include "ui/language/catalogue.h"
 
 #include <algorithm>
 #include <boost/locale/gnu_gettext.hpp>
@@ -14,25 +12,19 @@
 #include <utility>
 
 #include "engine/base/error.h"
-#include "engine/base/kept.h"
 #include "engine/base/shipped.h"
 #include "engine/base/text.h"
-#include "engine/language/language.h"
+#include "ui/language/language.h"
 
 namespace cavum {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr const char* k_messages[] = {
-#include <cavum_messages.inc>
-    "",
-};
 constexpr const char* k_page_messages[] = {
 #include <cavum_page_messages.inc>
     "",
 };
-constexpr std::size_t k_least_letters = 3, k_least_part_letters = 2;  // of a sentence, of a part: less fits anything
 
 /// Folders of catalogues, L/LC_MESSAGES/cavum.mo in them: built ones stand beside the program that was built, installed ones in share/cavum.
 std::vector<fs::path> catalogue_folders() {
@@ -55,24 +47,6 @@ std::string language_part(const std::string& locale) {
   return name == "C" || name == "POSIX" ? "en" : name;
 }
 
-/// A line of a message as a sentence, or as a part of one. Nothing where it has no gaps and is none, or so few letters that anything would fit.
-std::optional<Said> said_of(const std::string& line, const std::string& message, std::size_t number) {
-  if (line.empty()) return std::nullopt;
-  const bool before = std::string_view(" ,;:.(").find(line.front()) != std::string_view::npos && !line.starts_with("  "),
-             after = line.back() == ' ' || line.back() == '(';
-  std::optional<Pattern> pattern;
-  try {
-    pattern.emplace(fmt::format("{}{}{}", before ? "{}" : "", line, after ? "{}" : ""));
-  } catch (const std::invalid_argument&) {  // a text with braces of its own: the beginning of a JSON object
-    return std::nullopt;
-  }
-  Said s{std::move(*pattern), message, number, before, after};
-  if (!before && !after && s.pattern.gaps() == 0 && line == message) return std::nullopt;
-  const bool anchored = before || after || (line.front() != '{' && line.front() != '%' && line.back() == '}');
-  if (s.pattern.letters() < (anchored ? k_least_part_letters : k_least_letters)) return std::nullopt;
-  return s;
-}
-
 Catalogue& current() {
   static Catalogue c;
   return c;
@@ -89,9 +63,7 @@ Catalogue::Catalogue(const std::string& language) : language_(language) {
   const std::vector<fs::path> folders = catalogue_folders();
   const auto folder = std::find_if(folders.begin(), folders.end(), [&](const fs::path& f) { return is_catalogue_of(f, language); });
   if (language.empty() || language.find('/') != std::string::npos || folder == folders.end()) {
-    std::string all;
-    for (const auto& l : languages()) all += (all.empty() ? "" : ", ") + l;
-    throw Error("--language", fmt::format("there is no catalogue of '{}'", language), fmt::format("give one of {}", all));
+    throw Error("--language", msg("there is no catalogue of '{}'", language), msg("give one of {}", list_of(languages())));
   }
   boost::locale::gnu_gettext::messages_info info;
   info.language = language;
@@ -117,45 +89,6 @@ std::optional<std::string> Catalogue::find(const std::string& one, const std::st
   const int n = static_cast<int>(std::clamp<long long>(count, 0, std::numeric_limits<int>::max()));
   const char* text = std::use_facet<boost::locale::message_format<char>>(locale_).get(0, nullptr, one.c_str(), n);
   return text != nullptr && *text != 0 ? std::optional<std::string>(text) : std::nullopt;
-}
-
-bool Catalogue::knows(const std::string& english) const {
-  static const std::set<std::string> all(messages().begin(), messages().end());
-  return all.contains(english);
-}
-
-const std::vector<std::string>& Catalogue::messages() {
-  static const std::vector<std::string> all = [] {
-    std::vector<std::string> list;
-    for (const char* m : k_messages)
-      if (*m != 0) list.emplace_back(m);
-    return list;
-  }();
-  return all;
-}
-
-const std::vector<Said>& Catalogue::said_sentences() {
-  static const std::vector<Said> all = [] {
-    std::vector<Said> list;
-    for (const std::string& m : messages()) {
-      const std::vector<std::string> lines = lines_of(m);
-      for (std::size_t i = 0; i < lines.size(); ++i)
-        if (auto s = said_of(lines[i], m, i)) list.push_back(std::move(*s));
-    }
-    std::stable_sort(list.begin(), list.end(), [](const Said& a, const Said& b) { return a.pattern.all_letters() > b.pattern.all_letters(); });
-    return list;
-  }();
-  return all;
-}
-
-std::vector<std::string> lines_of(const std::string& message) {
-  std::vector<std::string> lines;
-  for (std::size_t at = 0;;) {
-    const std::size_t end = message.find('\n', at);
-    lines.push_back(message.substr(at, end == std::string::npos ? end : end - at));
-    if (end == std::string::npos) return lines;
-    at = end + 1;
-  }
 }
 
 const Catalogue& catalogue() noexcept { return current(); }
@@ -189,10 +122,7 @@ std::string language_of_environment() {
   return "en";
 }
 
-void set_language(const std::string& language) {
-  current() = Catalogue(language);
-  kept_is_marked = current().kind() != Catalogue::Kind::english;
-}
+void set_language(const std::string& language) { current() = Catalogue(language); }
 
 const std::string& language() noexcept { return current().language(); }
 
@@ -209,7 +139,7 @@ std::string take_language_option(std::vector<std::string>& arguments) {
     constexpr std::string_view k_option = "--language";
     const std::string a = arguments[i];
     if (a == k_option) {
-      if (i + 1 == arguments.size()) throw Error("command line", "--language needs a language", "give one, for example --language de");
+      if (i + 1 == arguments.size()) throw Error(msg("command line"), msg("--language needs a language"), msg("give one, for example --language de"));
       language = arguments[i + 1];
       arguments.erase(arguments.begin() + static_cast<std::ptrdiff_t>(i), arguments.begin() + static_cast<std::ptrdiff_t>(i) + 2);
     } else if (a.starts_with(std::string(k_option) + "=")) {

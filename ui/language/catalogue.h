@@ -5,20 +5,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <vector>
-
-#include "engine/language/pattern.h"
 
 namespace cavum {
-
-/// What a sentence may have been made of: a message, with something before and after it where it is only a part (", deepest ").
-struct Said {
-  Pattern pattern;  ///< of one line, with gaps for what stands before and after
-  std::string message;
-  std::size_t line = 0;  ///< of the message
-  bool before = false, after = false;
-};
-[[nodiscard]] std::vector<std::string> lines_of(const std::string& message);
 
 class Catalogue {
  public:
@@ -35,13 +23,6 @@ class Catalogue {
   /// A message; nothing where the catalogue does not have it. In the pseudo-language every message is there.
   [[nodiscard]] std::optional<std::string> find(const std::string& english) const;
   [[nodiscard]] std::optional<std::string> find(const std::string& one, const std::string& many, long long count) const;
-  /// Whether the sources say this message.
-  [[nodiscard]] bool knows(const std::string& english) const;
-  /// All messages with gaps and letters beside them, and those with which sentences are put together (", at {}"), the ones with the most letters
-  /// first.
-  [[nodiscard]] static const std::vector<Said>& said_sentences();
-  /// All messages.
-  [[nodiscard]] static const std::vector<std::string>& messages();
 
  private:
   Kind kind_ = Kind::english;
