@@ -2,9 +2,29 @@
 
 #include <fmt/core.h>
 
+#include <array>
+
+#include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
 
 namespace cavum {
+namespace {
+
+/// Titles in data/points: the catalogue takes them from here.
+[[maybe_unused]] constexpr std::array k_titles{said("Cylinder, flat end, 1.0 mm"),
+                                               said("Cylinder, round end, 1.0 mm"),
+                                               said("Endodontic access, long, 1.0 mm ball end"),
+                                               said("Flame, 1.0 mm"),
+                                               said("Inverted cone, 1.0 mm"),
+                                               said("Needle, 0.8 mm"),
+                                               said("Pear, 1.0 mm"),
+                                               said("Round, 0.8 mm"),
+                                               said("Round, 1.0 mm"),
+                                               said("Round, 1.4 mm"),
+                                               said("Taper, flat end, 1.0 mm"),
+                                               said("Taper, round end, 1.2 mm")};
+
+}  // namespace
 
 DiamondPoint parse_diamond_point(const std::string& text, const std::string& where) {
   const toml::table document = parse_toml(text, where);

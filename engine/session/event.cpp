@@ -19,6 +19,42 @@ constexpr JsonLimits k_event_limits{.depth = 6};
 constexpr std::array k_lock_names{"close_asked", "close_refused", "close_granted",  "focus_lost",    "focus_back",
                                   "screen_lost", "screen_back",   "second_station", "keyboard_added"};
 
+/// Kinds as people read them: the catalogue takes them from here.
+[[maybe_unused]] constexpr std::array k_kind_words{said("step started"),
+                                                   said("step completed"),
+                                                   said("step failed"),
+                                                   said("step time limit"),
+                                                   said("time limit"),
+                                                   said("over speed"),
+                                                   said("aim reached"),
+                                                   said("perforation"),
+                                                   said("pause started"),
+                                                   said("pause ended"),
+                                                   said("hold started"),
+                                                   said("hold ended"),
+                                                   said("stylus back"),
+                                                   said("pedal lost"),
+                                                   said("pedal back"),
+                                                   said("servo disagrees"),
+                                                   said("office hold"),
+                                                   said("office hold released"),
+                                                   said("announcement"),
+                                                   said("announcement read"),
+                                                   said("tutorial"),
+                                                   said("point not allowed"),
+                                                   said("finished"),
+                                                   said("pause refused"),
+                                                   said("gap"),
+                                                   said("moved"),
+                                                   said("servo gap"),
+                                                   said("overruns"),
+                                                   said("stylus silent"),
+                                                   said("servo stopped"),
+                                                   said("servo lateness"),
+                                                   said("late work"),
+                                                   said("lock"),
+                                                   said("measured force")};
+
 // Each kind's members by name: what is written and what is read.
 void members(auto&, NoDetail&) {}
 void members(auto& f, OfStep& e) { f("step", e.step); }

@@ -12,6 +12,7 @@
 #include <variant>
 #include <vector>
 
+#include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "engine/servo/real_time.h"
 #include "engine/session/motion_source.h"
@@ -19,7 +20,7 @@
 namespace cavum {
 
 enum class Finish : std::uint8_t { running, completed, failed, time, ended };
-inline constexpr std::array k_finish_names{"running", "completed", "failed", "time", "ended"};
+inline constexpr std::array k_finish_names{said("running"), said("completed"), said("failed"), said("time"), said("ended")};
 [[nodiscard]] constexpr const char* finish_name(Finish finish) noexcept { return k_finish_names[static_cast<std::size_t>(finish)]; }
 
 // What several kinds have; 32-bit numbers are counts and are never negative.

@@ -6,11 +6,12 @@
 #include <array>
 #include <string_view>
 
+#include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
 
-inline constexpr std::string_view k_neighbour_prefix = "neighbour_", k_gum = "gingiva";
+inline constexpr std::string_view k_neighbour_prefix = "neighbour_", k_gum = said("gingiva");
 
 /// By its name: "neighbour_enamel", "neighbour_dentin" or whatever begins like them.
 [[nodiscard]] bool is_of_neighbour(std::string_view tissue) noexcept;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/text.h"
 #include "engine/base/vec.h"
 
 namespace cavum {
@@ -27,7 +28,10 @@ struct Tissue {
 
 /// The four tissues that every importer knows.
 [[nodiscard]] inline std::vector<Tissue> standard_tissues() {
-  return {{k_enamel, "enamel", true}, {k_dentin, "dentin", true}, {k_pulp, "pulp", false}, {k_periodontium, "periodontium", false}};
+  return {{k_enamel, said("enamel"), true},
+          {k_dentin, said("dentin"), true},
+          {k_pulp, said("pulp"), false},
+          {k_periodontium, said("periodontium"), false}};
 }
 
 /// Signed distance to the solid surface in one byte: positive outside (air and pulp), ±127 = ±2 leaves or more.

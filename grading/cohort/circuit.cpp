@@ -6,6 +6,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "grading/cohort/judge_names.h"
 
 namespace cavum::cohort {
@@ -52,7 +53,7 @@ std::vector<NamedSeverity> named(const SeverityStudy& study, const std::vector<s
 /// With what facet 2 may do something together that looks like severity.
 std::vector<std::string> not_told_from(const SeverityStudy& study) {
   std::vector<std::string> names;
-  for (const std::uint32_t facet : study.facets[1].not_told_from) names.emplace_back(facet == 1U ? "candidate" : "exam");
+  for (const std::uint32_t facet : study.facets[1].not_told_from) names.emplace_back(facet == 1U ? said("candidate") : said("exam"));
   return names;
 }
 

@@ -1,13 +1,26 @@
 #include "grading/cohort/circuit_study.h"
 
 #include <algorithm>
+#include <array>
 #include <map>
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 
 namespace cavum::cohort {
 namespace {
+
+/// Effects as people read them: the catalogue takes them from here.
+[[maybe_unused]] constexpr std::array k_effect_words{said("candidate"),
+                                                     said("exam"),
+                                                     said("judge"),
+                                                     said("judge:exam"),
+                                                     said("candidate x exam"),
+                                                     said("candidate x judge"),
+                                                     said("candidate x judge:exam"),
+                                                     said("exam x judge"),
+                                                     said("candidate x exam x judge")};
 
 constexpr int k_range_draws = 1000;
 constexpr std::uint64_t k_range_seed = 1;  // the same marks give the same ranges

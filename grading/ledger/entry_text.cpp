@@ -34,11 +34,11 @@ static_assert(k_kinds.back() != nullptr, "each kind has a name");
 template <class Enum>
 constexpr std::array<const char*, 0> k_words{};
 template <>
-constexpr std::array k_words<Part> = {"motion", "result", "sealed", "words"};
+constexpr std::array k_words<Part> = {said("motion"), said("result"), said("sealed"), said("words")};
 template <>
-constexpr std::array k_words<FirstSitting> = {"missed", "interrupted"};
+constexpr std::array k_words<FirstSitting> = {said("missed"), said("interrupted")};
 template <>
-constexpr std::array k_words<Outcome> = {"stands", "changed"};
+constexpr std::array k_words<Outcome> = {said("stands"), said("changed")};
 template <>
 constexpr std::array k_words<SourceKind> = k_source_kinds;
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "grading/result/finding.h"
 #include "scenarios/exam/runner.h"
@@ -292,6 +293,8 @@ struct Result {
 };
 
 [[nodiscard]] Message word_of(Verdict verdict);
-[[nodiscard]] inline const char* verdict_name(Verdict v) noexcept { return v == Verdict::pass ? "pass" : v == Verdict::fail ? "fail" : "review"; }
+[[nodiscard]] inline const char* verdict_name(Verdict v) noexcept {
+  return v == Verdict::pass ? said("pass") : v == Verdict::fail ? said("fail") : said("review");
+}
 
 }  // namespace cavum::grading

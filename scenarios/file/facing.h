@@ -1,6 +1,7 @@
 // From which side a cavity is looked at and cut: from occlusal, or from the side of the tooth. What is "down", "floor" and "opening" follows from it.
 #pragma once
 
+#include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "scenarios/file/wall.h"
 
@@ -22,9 +23,9 @@ struct Facing {
 /// Name of a wall for people. From a side, the two walls that are called buccal and lingual in measures and in the JSON are those towards occlusal
 /// and towards the gingiva.
 [[nodiscard]] constexpr const char* wall_name(Wall wall, Facing facing) noexcept {
-  if (facing.lateral() && wall == Wall::buccal) return facing.anterior ? "incisal" : "occlusal";
-  if (facing.lateral() && wall == Wall::lingual) return "gingival";
-  if (facing.anterior && wall == Wall::buccal) return "labial";
+  if (facing.lateral() && wall == Wall::buccal) return facing.anterior ? said("incisal") : said("occlusal");
+  if (facing.lateral() && wall == Wall::lingual) return said("gingival");
+  if (facing.anterior && wall == Wall::buccal) return said("labial");
   return wall_name(wall);
 }
 

@@ -6,6 +6,7 @@
 #include <stdexcept>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "scenarios/file/names.h"
 
 namespace cavum::scenarios {
@@ -287,8 +288,8 @@ std::vector<Measure> perforation_measures() {
        .counts = k_counts_faults,
        .counts_faults = true,
        .reads = Reads::yes_no,
-       .yes = "opened",
-       .no = "not opened"},
+       .yes = said("opened"),
+       .no = said("not opened")},
       {.name = "perforation_volume_mm3",
        .unit = "mm3",
        .words = "removed from the cavity of the tissues under perforation.faults",

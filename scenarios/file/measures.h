@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/message.h"
+#include "engine/base/text.h"
 #include "scenarios/file/extent.h"
 #include "scenarios/file/wall.h"
 
@@ -80,7 +81,7 @@ struct Measure {
   bool of_floor = false;               ///< it speaks of the cavity's floor alone
   bool of_exam = false;                ///< it speaks of how the work was done: a preparation alone, without its recording, says nothing of it
   Reads reads = Reads::figure;
-  const char *yes = "yes", *no = "no";  ///< how 1 and 0 of a yes_no read
+  const char *yes = said("yes"), *no = said("no");  ///< how 1 and 0 of a yes_no read
 
   // Members of a family
   const char* family = nullptr;           ///< its key; null: a measure by itself

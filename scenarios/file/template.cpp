@@ -30,7 +30,7 @@ tissue = "pulp"
 offset_mm = 0.5
 )";
 constexpr std::array<BlockTask, 3> k_block_tasks{{
-    {"class_1", "Cavity like a class I in a block", "4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor.", 480,
+    {"class_1", said("Cavity like a class I in a block"), said("4.4 mm long, 1.4 mm wide, 1.8 mm deep, upright walls, flat floor."), 480,
      R"(# A stroke of 1.4 mm with half circles at its ends, 4.4 mm long in all.
 [[zones.target]]
 shape = "column"
@@ -38,14 +38,14 @@ outline = { kind = "stroke", points_mm = [[-1.5, 0], [1.5, 0]], width_mm = 1.4 }
 bottom = { kind = "below_surface", depth_mm = 1.8 }
 taper_deg = 0
 )"},
-    {"slot", "Slot through a block", "1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side.", 480,
+    {"slot", said("Slot through a block"), said("1.5 mm wide and 1.8 mm deep, from the middle of the block out through its mesial side."), 480,
      R"(# A box that stands out over the block: only tissue counts. at_mm is its centre.
 [[zones.target]]
 shape = "box"
 at_mm = [3.0, 0, 0]
 size_mm = [6, 1.5, 3.6]
 )"},
-    {"cross", "Cross in a block", "Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles.", 600,
+    {"cross", said("Cross in a block"), said("Two grooves, 6 mm long, 1.4 mm wide and 1.5 mm deep, at right angles."), 600,
      R"(# One groove from mesial to distal ...
 [[zones.target]]
 shape = "column"
@@ -133,6 +133,55 @@ constexpr std::string_view k_shapes = R"(
 # bottom  = { kind = "level", z_mm } | { kind = "below_surface" or "below_lowest" or "below_mean", depth_mm }
 #         | { kind = "tissue_roof" or "tissue_floor", tissue, part, deeper_mm } | { kind = "below_border" (of enamel and dentin), depth_mm }
 )";
+
+/// Titles and instructions that tasks are written with, here and in data/scenarios: the catalogue takes them from here, for a scenario without texts
+/// of the reader's language.
+[[maybe_unused]] constexpr std::array k_written{
+    said("Beginning of the canal kept"),
+    said("Cavity complete"),
+    said("Contact opened"),
+    said("Cross complete"),
+    said("Cut the outline of the access through the enamel."),
+    said("Enter in the middle of the outline and go to full depth."),
+    said("Enter in the middle of the outline, square to the surface, and go to full depth."),
+    said("Extend to the outline at constant depth. Release the pedal and lift off when done."),
+    said("Extend to the outline; the axial wall follows the surface. Release the pedal and lift off when done."),
+    said("Finish walls and chamfer. Release the pedal and lift off when done."),
+    said("Floor at the right depth"),
+    said("Floor flat, at the right depth"),
+    said("Floor not gouged"),
+    said("Floor not too deep"),
+    said("Floor of the chamber kept"),
+    said("Floors at the right depth"),
+    said("Go deeper in the middle of the outline until you fall into the pulp chamber."),
+    said("Go round the tooth with the handpiece along its long axis: walls that converge, a finish line that follows the neck."),
+    said("Gum spared"),
+    said("Hard tissue left over the pulp"),
+    said("Neighbouring tooth not damaged"),
+    said("No perforation"),
+    said("No perforation of floor, furcation or root"),
+    said("No perforation of the root"),
+    said("No pit beside the canal"),
+    said("No roof and no shoulder left over the chamber"),
+    said("No roof left over the chamber"),
+    said("No wall gouged"),
+    said("No wall thinned"),
+    said("Nothing removed elsewhere"),
+    said("One floor, at the right depth"),
+    said("Pulp not opened"),
+    said("Remove the rest of the roof. Do not touch the floor. Release the pedal and lift off when done."),
+    said("Roof of the chamber removed"),
+    said("Slot complete"),
+    said("Soft dentin removed"),
+    said("Sound dentin spared"),
+    said("Straight way into every canal"),
+    said("Take down the occlusal surface or the incisal edge evenly, along its own shape."),
+    said("Time"),
+    said("Walls converge as planned"),
+    said("Walls flare as planned"),
+    said("Walls not overcut"),
+    said("Walls upright on the whole"),
+    said("Way opened")};
 
 constexpr std::string_view k_margins = R"(
 [zones.leeway]                       # tolerated, this far beside and below the target

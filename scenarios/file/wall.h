@@ -4,6 +4,8 @@
 #include <cstddef>
 #include <cstdint>
 
+#include "engine/base/text.h"
+
 namespace cavum::scenarios {
 
 /// Towards where the target's nearest surface faces. The opening (occlusal) is no wall.
@@ -11,7 +13,7 @@ enum class Wall : std::uint8_t { mesial, distal, buccal, lingual, floor, opening
 inline constexpr std::size_t k_walls = 5;
 inline constexpr std::size_t k_side_walls = 4;  ///< the first of them; the floor comes after
 [[nodiscard]] constexpr const char* wall_name(Wall wall) noexcept {
-  constexpr const char* k_names[] = {"mesial", "distal", "buccal", "lingual", "floor", "opening"};
+  constexpr const char* k_names[] = {said("mesial"), said("distal"), said("buccal"), said("lingual"), said("floor"), said("opening")};
   return k_names[static_cast<std::size_t>(wall)];
 }
 

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/text.h"
+
 namespace cavum::scenarios {
 namespace {
 
@@ -13,7 +15,8 @@ constexpr double k_cos_45 = 0.70710678118654752440;
 }  // namespace
 
 const char* zone_name(Zone zone) noexcept {
-  constexpr const char* k_names[k_zones] = {"outside", "target", "leeway sides", "leeway bottom", "container sides", "container bottom", "protected"};
+  constexpr const char* k_names[k_zones] = {said("outside"),         said("target"),           said("leeway sides"), said("leeway bottom"),
+                                            said("container sides"), said("container bottom"), said("protected")};
   return k_names[static_cast<std::size_t>(zone)];
 }
 

@@ -13,6 +13,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/shipped.h"
+#include "engine/base/text.h"
 #include "ui/language/language.h"
 
 namespace cavum {
@@ -72,7 +73,7 @@ Catalogue::Catalogue(const std::string& language) : language_(language) {
   locale_ = std::locale(std::locale::classic(), boost::locale::gnu_gettext::create_messages_facet<char>(info));
   kind_ = Kind::translated;
   // the catalogue says it, as the translator of this message
-  if (const auto sign = find("."); sign && sign->size() == 1) decimal_sign_ = sign->front();
+  if (const auto sign = find(said(".")); sign && sign->size() == 1) decimal_sign_ = sign->front();
 }
 
 std::optional<std::string> Catalogue::find(const std::string& english) const {

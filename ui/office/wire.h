@@ -28,7 +28,9 @@ using Texts = std::vector<std::string>;
 
 /// What a person's account may be.
 enum class Role : unsigned { officer, examiner, invigilator, reader };
-[[nodiscard]] constexpr auto names_of(Role) { return std::array<std::string_view, 4>{"officer", "examiner", "invigilator", "reader"}; }
+[[nodiscard]] constexpr auto names_of(Role) {
+  return std::array<std::string_view, 4>{said("officer"), said("examiner"), said("invigilator"), said("reader")};
+}
 enum class RegradeState { none, marking, ready, failed, counted, lost };
 [[nodiscard]] constexpr auto names_of(RegradeState) {
   return std::array<std::string_view, 6>{"none", "marking", "ready", "failed", "counted", "lost"};

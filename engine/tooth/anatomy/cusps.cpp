@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/base/text.h"
 #include "engine/tooth/anatomy/occlusal_marks.h"
 #include "engine/tooth/anatomy/polylines.h"
 
@@ -50,8 +51,8 @@ std::optional<double> middle_of(const std::vector<Vec3>& tips, const HeightMap& 
 void name_side(std::vector<CuspTip>& side, bool buccal, std::size_t before) {
   std::sort(side.begin(), side.end(), [](const CuspTip& a, const CuspTip& b) { return a.tip_mm.x > b.tip_mm.x; });
   static constexpr std::array<std::array<const char*, 3>, 3> k_buccal{
-      {{"buccal", "", ""}, {"mesiobuccal", "distobuccal", ""}, {"mesiobuccal", "distobuccal", "distal"}}};
-  static constexpr std::array<std::array<const char*, 2>, 2> k_lingual{{{"lingual", ""}, {"mesiolingual", "distolingual"}}};
+      {{said("buccal"), "", ""}, {said("mesiobuccal"), said("distobuccal"), ""}, {said("mesiobuccal"), said("distobuccal"), said("distal")}}};
+  static constexpr std::array<std::array<const char*, 2>, 2> k_lingual{{{said("lingual"), ""}, {said("mesiolingual"), said("distolingual")}}};
   const std::size_t n = side.size();
   for (std::size_t i = 0; i < n; ++i)
     side[i].name = buccal && n <= 3 ? k_buccal[n - 1][i] : !buccal && n <= 2 ? k_lingual[n - 1][i] : fmt::format("cusp {}", before + i + 1);

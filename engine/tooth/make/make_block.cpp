@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <sstream>
@@ -46,6 +47,9 @@ void check_extent(double mm, double leaf_mm, const std::string& where, const std
 void check_leaf(double leaf_mm, const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
 }
+
+/// Tissues that files of teeth name beside our own: the catalogue takes them from here.
+[[maybe_unused]] constexpr std::array k_further_tissues{said("bone"), said("caries"), said("cement"), said("cementum"), said("composite")};
 
 void check_tissue_name(const std::string& name, const std::string& where) {
   if (!is_plain_text(name))

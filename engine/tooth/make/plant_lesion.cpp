@@ -40,7 +40,7 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
         }
       }
   if (turned == 0) throw Error(where, msg("no dentin lies there"), msg("move it, in the tooth frame: see `cavum tooth info` for the bounds"));
-  tooth.tissues.push_back({id, "lesion", true});
+  tooth.tissues.push_back({id, said("lesion"), true});
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name += ", hidden lesion";
   const auto triple = [](Vec3 v) { return fmt::format("{},{},{}", plain_number(v.x), plain_number(v.y), plain_number(v.z)); };

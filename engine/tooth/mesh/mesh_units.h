@@ -3,6 +3,8 @@
 
 #include <string>
 
+#include "engine/base/text.h"
+
 namespace cavum {
 
 struct MeshUnit {
@@ -10,8 +12,11 @@ struct MeshUnit {
   const char* text;
   double mm;
 };
-inline constexpr MeshUnit k_mesh_units[] = {
-    {"mm", "millimetres", 1.0}, {"cm", "centimetres", 10.0}, {"m", "metres", 1000.0}, {"um", "micrometres", 0.001}, {"in", "inches", 25.4}};
+inline constexpr MeshUnit k_mesh_units[] = {{"mm", said("millimetres"), 1.0},
+                                            {"cm", said("centimetres"), 10.0},
+                                            {"m", said("metres"), 1000.0},
+                                            {"um", said("micrometres"), 0.001},
+                                            {"in", said("inches"), 25.4}};
 
 /// Millimetres of a unit by its name: mm, cm, m, um, in. Throws Error("--units", ...) for others.
 [[nodiscard]] double mm_per_unit(const std::string& unit);
