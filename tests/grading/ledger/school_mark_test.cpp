@@ -156,7 +156,7 @@ TEST_F(SchoolMarks, WhateverMovedItButAHand) {
     const AtStation here(school_.file("station"));
     const School other(school_);
     Ledger ledger = other.ledger();
-    ASSERT_TRUE(file_session(ledger, path, {.simulated = true}).seq) << kind;
+    ASSERT_TRUE(file_session(ledger, path, {.simulated = true}).seq) << text_of(kind);
     EXPECT_NE(read_registry(ledger.content()).sessions.at(0).simulated, "") << "it stays marked";
   }
 }
