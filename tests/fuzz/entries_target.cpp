@@ -70,7 +70,7 @@ std::vector<Bytes> entries_seeds() {
                      {"closed_utc_ns", 2},
                      {"nonce", std::string(32, '2')},
                      {"simulated", ""},
-                     {"findings", json::array({"a finding"})},
+                     {"findings", json::array({{{"say", "a finding"}}})},
                      {"source", {{"kind", "device"}, {"name", "Omni"}, {"serial", "7"}}},
                      {"opened", parse_json_or_null(small_result())},
                      {"opens", {{"result", hash}}},
@@ -90,7 +90,8 @@ std::vector<Bytes> entries_seeds() {
   ticket.erase("grant");
   const auto release = [](std::uint64_t seq) { return "release " + json{{"results", {seq}}}.dump() + "\n"; };
   const std::string invited = "invite " + json{{"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
-  const auto asked = parse_json_or_null(ledger::station_request(station_key(), school, {{"device", "Omni", "7"}}, ledger::new_station_code()));
+  const auto asked =
+      parse_json_or_null(ledger::station_request(station_key(), school, {{SourceKind::device, "Omni", "7"}}, ledger::new_station_code()));
   const std::string enrolled = "enrol " + json{{"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
   const std::string revoked = "revoke " + json{{"public_key", key}, {"reason", "lost"}}.dump() + "\n";
   return {bytes_of("ticket " + ticket.dump() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),
