@@ -335,7 +335,7 @@ void SchoolDay::write_receipt() {
 
 void SchoolDay::take_backup() {
   const ledger::Backup made = ledger::back_up({k_ledger}, k_backup, true);
-  if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + all(made.missing));
+  if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + made.missing.front());
   if (!backed_up_ || made.checkpoint.size > backed_up_->size) backed_up_ = made.checkpoint;
 }
 

@@ -114,7 +114,7 @@ class School {
 inline void expect_finding(const std::vector<Message>& findings, const std::vector<std::string>& words) {
   std::string all;
   for (const auto& f : findings) {
-    all += "  " + f + "\n";
+    all += "  " + english_text(f) + "\n";
     if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return english_text(f).find(w) != std::string::npos; })) return;
   }
   ADD_FAILURE() << "no finding with '" << words.front() << "' among\n" << all;

@@ -5,7 +5,9 @@
 #include <map>
 #include <regex>
 #include <set>
+#include <sstream>
 
+#include "engine/base/file.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth.h"
 #include "grading/battery/coarse_tooth.h"
@@ -41,12 +43,12 @@ std::vector<std::string> words_of(const std::string& text) {
 }
 
 std::set<std::string> english_words() {
-  const Catalogue german("de");
   std::map<std::string, int> english, of_german;
-  for (const auto& message : Catalogue::messages()) {
-    for (const auto& w : words_of(message)) ++english[w];
-    if (const auto text = german.find(message))
-      for (const auto& w : words_of(*text)) ++of_german[w];
+  std::istringstream lines(read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/languages/de.po"));
+  for (std::string line; std::getline(lines, line);) {
+    auto& words = line.starts_with("msgid") ? english : of_german;
+    if (!line.starts_with("msg")) continue;
+    for (const auto& w : words_of(line.substr(line.find('"')))) ++words[w];
   }
   std::set<std::string> out;
   for (const auto& [word, times] : english)

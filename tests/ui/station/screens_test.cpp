@@ -60,7 +60,7 @@ std::array<CheckItem, 3> checked(ServoDevice& device, const std::function<bool(c
 TEST(DeviceCheck, IsContentWithAHandAtRestAndAPedalThatWentDownAndUp) {
   Scripted device([](double t) { return reading({0.05 * std::sin(9 * t), 0, 5}, t > 0.3 && t < 0.8 ? 1.0 : 0.0); });
   const auto items = checked(device, [](const auto& i, const auto&) { return all_good(i); });
-  EXPECT_TRUE(all_good(items)) << items[0].detail << " / " << items[1].detail << " / " << items[2].detail;
+  EXPECT_TRUE(all_good(items)) << items[0].detail << " / " << english_text(items[1].detail) << " / " << english_text(items[2].detail);
   EXPECT_EQ(device.most_n, 0.0) << "the check must not push the hand";
 }
 
@@ -68,7 +68,7 @@ TEST(DeviceCheck, WaitsForAPedalThatIsOnlyHeldDown) {
   Scripted device([](double) { return reading({0, 0, 5}, 1.0); });
   const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
   EXPECT_EQ(items[1].state, State::waiting);
-  EXPECT_NE(items[1].detail.find("take the foot off"), std::string::npos) << items[1].detail;
+  EXPECT_NE(english_text(items[1].detail).find("take the foot off"), std::string::npos) << english_text(items[1].detail);
 }
 
 TEST(DeviceCheck, WaitsForAPedalThatIsUnknown) {
@@ -81,7 +81,7 @@ TEST(DeviceCheck, SeesAHandThatHasNoRest) {
   Scripted device([](double t) { return reading({1.5 * std::sin(6 * t), 0, 5}, 0.0); });
   const auto items = checked(device, [](const auto&, const DeviceSight& s) { return s.wander_mm < 100; });
   EXPECT_EQ(items[2].state, State::waiting);
-  EXPECT_NE(items[2].detail.find("wanders"), std::string::npos) << items[2].detail;
+  EXPECT_NE(english_text(items[2].detail).find("wanders"), std::string::npos) << english_text(items[2].detail);
 }
 
 TEST(DeviceCheck, AsksOfADeviceForItsOwnRate) {
