@@ -19,9 +19,12 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
 git -C "$root" ls-files {engine,scenarios,grading,ui}/{'*.h','*.cpp'} >"$new/sources"
 git -C "$root" ls-files ui/{report,office}/page/src/'*.ts' >"$new/page"
 extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 <"$new/sources"
+# the table of findings is a macro, which xgettext passes over
+sed -e '/^#define/d' -e 's/ \\$//' "$root/grading/result/finding.h" >"$new/findings.h"
+extract "$new/findings.pot" C++ --keyword=FINDING:3 <<<"$new/findings.h"
 extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
 # the page stands first: what it shares with C++ must keep the comment that the page needs it
-msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" |
+msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" "$new/findings.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/all.pot"
 # nothing to translate: no letter outside gaps, such as "{}: {}" or "–"; but "." is the decimal sign
 msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp='^(\{[^}]*\}|[^[:alpha:]{.]|([^[:alpha:]{]|\{[^}]*\}){2,})$' "$new/all.pot" >"$new/cavum.pot"

@@ -8,6 +8,8 @@
 #include <set>
 #include <stdexcept>
 
+#include "engine/base/text.h"
+
 namespace cavum {
 namespace {
 
@@ -30,10 +32,10 @@ Json json_of(const Value& value) {
     }
     Json operator()(const ClockTime& c) const { return {{"clock_s", c.seconds}}; }
     Json operator()(const Vec3& p) const { return {{"place_mm", {p.x, p.y, p.z}}}; }
-    Json operator()(const Name& n) const { return n.text; }
-    Json operator()(const FilePlace& p) const { return {{"file", p.file}, {"line", p.line}, {"column", p.column}}; }
+    Json operator()(const Name& n) const { return one_line(n.text); }
+    Json operator()(const FilePlace& p) const { return {{"file", one_line(p.file)}, {"line", p.line}, {"column", p.column}}; }
     Json operator()(const Term& t) const { return {{"term", t.english}}; }
-    Json operator()(const Authored& a) const { return {{"authored", a.english}}; }
+    Json operator()(const Authored& a) const { return {{"authored", one_line(a.english)}}; }
     Json operator()(const List& l) const {
       Json j = {{"list", encode(l.items)}};
       if (l.sentences) j["sentences"] = true;
