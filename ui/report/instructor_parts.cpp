@@ -182,7 +182,7 @@ void add_device(Document& d, const ReportSource& s) {
   t.rows.push_back({{{tr("device")}, {tr("{}", as_is(s.facts.device))}}});
   t.rows.push_back({{{tr("calibration")}, {s.facts.calibration.empty() ? tr("none recorded") : s.facts.calibration}}});
   for (const auto& [key, value] : s.facts.notes)
-    if (key != "ticket") t.rows.push_back({{{key}, {value}}});
+    if (key != "ticket") t.rows.push_back({{{tr("{}", as_is(key))}, {value}}});
   bool live = false;
   for (const auto& e : s.input.events)
     if (const auto* lateness = e.as<ServoLateness>()) {
