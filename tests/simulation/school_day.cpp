@@ -386,7 +386,7 @@ void SchoolDay::keep_cosignature() {
 void SchoolDay::verify() {
   ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
-  std::erase_if(check.findings, [](const std::string& f) { return f.find("its recording is erased by entry") != std::string::npos; });
+  std::erase_if(check.findings, [](const Message& f) { return english_text(f).find("its recording is erased by entry") != std::string::npos; });
   // a disk that fails meanwhile may well be in the way of looking
   if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }

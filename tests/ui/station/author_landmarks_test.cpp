@@ -350,7 +350,7 @@ TEST(AuthorLandmarks, APersonsPointStandsApartAndIsTakenBack) {
   EXPECT_FALSE(marks[0].by_person);
   EXPECT_TRUE(marks[1].by_person);
   EXPECT_FALSE(marks[1].found_mm.has_value());
-  EXPECT_EQ(marks[2].title(), "central pit");
+  EXPECT_EQ(marks[2].title().english, "central pit");
   EXPECT_EQ(*marks[2].found_mm, *found.central_pit_mm);
   EXPECT_EQ(marks[2].at_mm, (Vec3{0.1, 0, 1})) << "to a thousandth";
   EXPECT_EQ(author_landmarks(found, without_landmark(put, "central_pit", found))[2].at_mm, *found.central_pit_mm);

@@ -92,7 +92,8 @@ TEST(Reading, AnUnknownUnitIsRefusedWithThoseThatAreKnown) {
 TEST(Reading, GramsAreTakenAsWhatTheyWeighAndSaidLoudly) {
   const Recording r = parse_recording("t_s,x_mm,load [g]\n0,0,0\n1,1,100\n", "r.csv");
   EXPECT_NEAR(r.f_n[1], 0.980665, 1e-9);
-  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const std::string& n) { return holds(n, "UNIT") && holds(n, "mass"); }));
+  EXPECT_TRUE(
+      std::any_of(r.notes.begin(), r.notes.end(), [](const Message& n) { return holds(english_text(n), "UNIT") && holds(english_text(n), "mass"); }));
 }
 
 TEST(Reading, AJointNeedsItsLever) {
