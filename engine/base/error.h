@@ -39,6 +39,9 @@ class Error : public std::runtime_error {
         where_(std::move(where)),
         problem_(std::move(problem)),
         advice_(std::move(advice)) {}
+  /// A place that is a text is a name.
+  Error(const std::string& where, Message problem, Message advice) : Error(Message(Name{where}), std::move(problem), std::move(advice)) {}
+  Error(const char* where, Message problem, Message advice) : Error(Message(Name{where}), std::move(problem), std::move(advice)) {}
   Error(Message where, Message problem, Message advice) : Error(General::error, std::move(where), std::move(problem), std::move(advice)) {}
 
   [[nodiscard]] ErrorCode code() const noexcept { return code_; }

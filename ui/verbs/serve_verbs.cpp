@@ -136,7 +136,7 @@ void serve(const ServeArguments& o) {
   options.student_report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording, "student"); };
   const Interrupt interrupt;
   const office::Office office(options);
-  say(msg("the office of {} at https://{}:{}", office.school(), o.listen.substr(0, colon), office.port()));
+  say(msg("the office of {} at {}", office.school(), fmt::format("https://{}:{}", o.listen.substr(0, colon), office.port())));
   say(msg("certificate: {}", options.certificate.certificate));
   say(msg("its SHA-256: {}", office::fingerprint_of(options.certificate.certificate)));
   say(msg("it ends with Ctrl-C"));

@@ -102,8 +102,8 @@ void notice_unknown_tissues(const Tooth& tooth) {
   const auto known = known_tissues();
   for (const auto& t : tooth.tissues) {
     if (known.empty() || std::find(known.begin(), known.end(), t.name) != known.end()) continue;
-    say_error(msg("notice: no shipped material set has the tissue '{}'; {}", t.name, scenarios::suggestion(t.name, known)));
-    say_error(msg("notice: a tissue of your own needs [materials.{}] in the exam's --model", t.name));
+    say_error(msg("notice: no shipped material set has the tissue '{}'; {}; a tissue of your own needs [materials.{}] in the exam's --model", t.name,
+                  scenarios::suggestion(t.name, known), t.name));
   }
 }
 

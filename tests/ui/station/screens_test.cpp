@@ -98,7 +98,7 @@ TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
   });
   const auto items = checked(device, [](const auto& i, const auto&) { return i[0].state == State::bad; });
   EXPECT_EQ(items[0].state, State::bad);
-  EXPECT_EQ(items[0].detail, "the cable was pulled");
+  EXPECT_EQ(english_text(items[0].detail), "the cable was pulled");
 }
 
 TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
