@@ -61,7 +61,7 @@ void quick_check(Database& database, std::vector<Message>& findings) {
     while (s.step())
       if (const std::string line = s.text(0); line != "ok") findings.push_back(msg("file: {}", line));
   } catch (const DatabaseError& e) {
-    findings.push_back(msg("file: {}", english_text(e.without_advice())));
+    findings.push_back(msg("file: {}", e.without_advice()));
   }
 }
 
@@ -103,7 +103,7 @@ void SessionReader::read(Bytes image) {
     check_schema(database, findings_);
   } catch (const Error& e) {
     if (!marked) throw Error(path_, msg("is an SQLite database, but not a Cavum session"), msg("name a .cavum file that an exam wrote"));
-    findings_.push_back(msg("file: {}", english_text(e.without_advice())));
+    findings_.push_back(msg("file: {}", e.without_advice()));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
