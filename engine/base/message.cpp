@@ -7,6 +7,7 @@
 #include <array>
 
 #include "engine/base/figures.h"
+#include "engine/base/pseudo.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -25,8 +26,10 @@ Overloaded(F...) -> Overloaded<F...>;
 
 class English final : public Locale {
  public:
-  [[nodiscard]] std::string sentence(const char* english) const override { return english; }
-  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override { return count == 1 ? one : many; }
+  [[nodiscard]] std::string sentence(const char* english) const override { return source_sentence(english); }
+  [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override {
+    return source_sentence(count == 1 ? one : many);
+  }
   [[nodiscard]] std::string term(const std::string& english) const override { return english; }
   [[nodiscard]] std::string authored(const std::string& english) const override { return english; }
   [[nodiscard]] std::string name(const std::string& text) const override { return text; }

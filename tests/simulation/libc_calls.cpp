@@ -91,7 +91,7 @@ ssize_t read_at(OpenFile& f, void* to, std::size_t n, std::int64_t at) {
 
 ssize_t write_at(OpenFile& f, const void* from, std::size_t n, std::int64_t at) {
   if ((f.flags & O_ACCMODE) == O_RDONLY) return fail(EBADF);
-  if (full()) {
+  if (full() && at + static_cast<std::int64_t>(n) > f.node->promised) {
     // what fits before the disk is full is written
     const std::size_t fits = n > 1 ? world().random().below(n) : 0;
     if (fits == 0 || world().random().below(2) == 0) return fail(ENOSPC);
@@ -385,6 +385,18 @@ int ftruncate(int fd, off_t size) noexcept {
   return f(fd, size);
 }
 int ftruncate64(int fd, off64_t size) noexcept { return ftruncate(fd, size); }
+int fallocate(int fd, int mode, off_t at, off_t size) {
+  if (OpenFile* o = ours(fd)) {
+    world().pause();
+    if (mode != FALLOC_FL_KEEP_SIZE) return fail(EOPNOTSUPP);
+    if (at + size > o->node->promised && full()) return fail(ENOSPC);
+    o->node->promised = std::max<std::int64_t>(o->node->promised, at + size);
+    return 0;
+  }
+  static const auto f = real<int (*)(int, int, off_t, off_t)>("fallocate");
+  return f(fd, mode, at, size);
+}
+int fallocate64(int fd, int mode, off64_t at, off64_t size) { return fallocate(fd, mode, at, size); }
 int fsync(int fd) {
   if (OpenFile* o = ours(fd)) {
     world().pause();

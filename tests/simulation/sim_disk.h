@@ -38,6 +38,7 @@ struct Node {
   std::vector<Write> unsynced_writes;
   std::unique_ptr<std::array<char, 1 << 19>> shared;  ///< once it is mapped into memory: its bytes lie here, at one address
   std::size_t shared_size = 0;
+  std::int64_t promised = 0;  ///< bytes up to here have room, were the disk full
 
   std::map<std::string, NodePtr> names, synced_names;
   std::vector<std::map<std::string, NodePtr>> unsynced_names;  ///< the folder after each change since its last sync

@@ -12,6 +12,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/pseudo.h"
 #include "engine/base/shipped.h"
 #include "engine/base/text.h"
 #include "ui/language/language.h"

@@ -4,7 +4,6 @@
 #include <locale>
 #include <optional>
 #include <string>
-#include <string_view>
 
 namespace cavum {
 
@@ -33,7 +32,5 @@ class Catalogue {
 
 /// Of the language that is shown.
 [[nodiscard]] const Catalogue& catalogue() noexcept;
-/// "⟦Ĉáñ {} ...⟧": gaps stay as they are.
-[[nodiscard]] std::string pseudo(std::string_view english);
 
 }  // namespace cavum

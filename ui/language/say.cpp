@@ -2,6 +2,7 @@
 
 #include <map>
 
+#include "engine/base/pseudo.h"
 #include "engine/base/text.h"
 #include "ui/language/catalogue.h"
 
@@ -44,11 +45,15 @@ std::map<std::string, std::string>& of_files() {
   return texts;
 }
 
+std::string sentence_of(const std::optional<std::string>& translated, const char* english) {
+  return translated ? *translated : source_sentence(english);
+}
+
 class ReadersLocale final : public Locale {
  public:
-  [[nodiscard]] std::string sentence(const char* english) const override { return catalogue().find(english).value_or(english); }
+  [[nodiscard]] std::string sentence(const char* english) const override { return sentence_of(catalogue().find(english), english); }
   [[nodiscard]] std::string sentence(const char* one, const char* many, std::int64_t count) const override {
-    return catalogue().find(one, many, count).value_or(count == 1 ? one : many);
+    return sentence_of(catalogue().find(one, many, count), count == 1 ? one : many);
   }
   [[nodiscard]] std::string term(const std::string& english) const override { return catalogue().find(english).value_or(english); }
   [[nodiscard]] std::string authored(const std::string& english) const override {

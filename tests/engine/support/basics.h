@@ -4,6 +4,7 @@
 
 #include <stdlib.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
@@ -63,6 +64,41 @@ std::optional<ErrorCode> code_of(const Action& action) {
     action();
   } catch (const Error& e) {
     return e.code();
+  }
+  return {};
+}
+
+/// What a test may ask of a sentence besides its kind: whether a name, a place in a file, a word of data or a figure is among its values, at any
+/// depth.
+inline bool tells(const Message& message, const Value& wanted) {
+  const auto in = [&wanted](const Value& v) {
+    if (v == wanted) return true;
+    if (const auto* place = std::get_if<FilePlace>(&v)) return wanted == Value(Name{place->file});
+    if (const auto* term = std::get_if<Term>(&v)) return wanted == Value(Name{term->english});
+    if (const auto* number = std::get_if<Number>(&v)) return wanted == Value(as_number(number->value));
+    if (const auto* inner = std::get_if<Message>(&v)) return tells(*inner, wanted);
+    const auto* list = std::get_if<List>(&v);
+    return list != nullptr && std::any_of(list->items.begin(), list->items.end(), [&](const Message& m) { return tells(m, wanted); });
+  };
+  return std::any_of(message.values().begin(), message.values().end(), in);
+}
+inline bool tells(const Message& message, const char* name) { return tells(message, Value(Name{name})); }
+inline bool tells(const Message& message, const std::string& name) { return tells(message, Value(Name{name})); }
+template <class Wanted>
+bool tells(const std::vector<Message>& messages, const Wanted& wanted) {
+  return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return tells(m, wanted); });
+}
+template <class Wanted>
+bool tells(const std::optional<Error>& error, const Wanted& wanted) {
+  return error && tells(error->message(), wanted);
+}
+/// The Error that `action` throws; none.
+template <class Action>
+std::optional<Error> thrown_by(const Action& action) {
+  try {
+    action();
+  } catch (const Error& e) {
+    return e;
   }
   return {};
 }

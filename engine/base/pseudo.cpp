@@ -1,8 +1,8 @@
-#include <array>
-#include <string_view>
-#include <utility>
+#include "engine/base/pseudo.h"
 
-#include "ui/language/catalogue.h"
+#include <array>
+#include <cstdlib>
+#include <utility>
 
 namespace cavum {
 
@@ -25,6 +25,11 @@ std::string pseudo(std::string_view english) {
     if (c == '}') gap = false;
   }
   return out + "\u27e7";
+}
+
+std::string source_sentence(const char* english) {
+  static const bool k_altered = std::getenv("CAVUM_ALTER_SENTENCES") != nullptr;
+  return k_altered ? pseudo(english) : english;
 }
 
 }  // namespace cavum
