@@ -203,7 +203,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   List all{differ, true};
   if (differ.size() > k_most_named) {
     all.items.resize(k_most_named);
-    all.items.push_back(msg("and {} more", differ.size() - k_most_named));
+    all.items.push_back(msg("{} more", differ.size() - k_most_named));
   }
   const auto version = whole_in(sealed, "grading_version");
   if (version < 1)

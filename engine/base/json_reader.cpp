@@ -43,11 +43,11 @@ class Count {
 
  private:
   bool value() {
-    if (++values_ > limits_.values) refuse_(msg("of more than {} values", limits_.values));
+    if (++values_ > limits_.values) refuse_(msg("holds JSON of more than {} values", limits_.values));
     return true;
   }
   bool open() {
-    if (depth_++ >= limits_.depth) refuse_(msg("that is nested deeper than {}", limits_.depth));
+    if (depth_++ >= limits_.depth) refuse_(msg("holds JSON that is nested deeper than {}", limits_.depth));
     return value();
   }
   bool close() {
@@ -62,10 +62,8 @@ class Count {
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
-  const auto refuse = [&where](const Message& what) {
-    throw Error(where, msg("holds JSON {}", what), msg("use an intact file: nothing that Cavum writes is like that"));
-  };
-  if (text.size() > limits.bytes) refuse(msg("of {} bytes, more than {}", text.size(), limits.bytes));
+  const auto refuse = [&where](const Message& what) { throw Error(where, what, msg("use an intact file: nothing that Cavum writes is like that")); };
+  if (text.size() > limits.bytes) refuse(msg("holds JSON of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
   static_cast<void>(json::sax_parse(text, &counted));
   try {

@@ -68,14 +68,6 @@ std::string_view unit_sign(Unit unit) noexcept { return k_signs[static_cast<std:
 
 Message::Message(Name name) : english_("{}"), values_{Value(std::move(name))} {}
 
-Message::Message(std::string text) {
-  if (text.empty()) return;
-  english_ = "{}";
-  values_.emplace_back(Authored{std::move(text)});
-}
-
-Message::Message(const char* text) : Message(std::string(text)) {}
-
 Message::Message(FilePlace place) : english_("{}"), values_{Value(std::move(place))} {}
 
 Message::Message(const char* english, const char* plural, std::int64_t count, std::vector<Value> values)

@@ -83,9 +83,6 @@ class Message {
   /// A text that is no sentence of ours: a name, a path.
   Message(Name name);        // NOLINT(google-explicit-constructor)
   Message(FilePlace place);  // NOLINT(google-explicit-constructor)
-  // TODO: goes when every sentence is made by msg()
-  Message(std::string text);  // NOLINT(google-explicit-constructor)
-  Message(const char* text);  // NOLINT(google-explicit-constructor)
   Message(const char* english, const char* plural, std::int64_t count, std::vector<Value> values);
 
   [[nodiscard]] bool empty() const noexcept { return english_ == nullptr; }

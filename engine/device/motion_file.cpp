@@ -37,7 +37,7 @@ std::vector<std::size_t> read_header(const CsvReader& in) {
       for (const std::string_view axis : {"t", "x", "y", "z"})
         if (name == axis || name.starts_with(fmt::format("{}_", axis)))
           in.fail(MotionError::column_unit, msg("column '{}' has another unit or none", one_line(name)),
-                  msg("convert it to '{}{}'", axis, axis == "t" ? msg("_s") : msg("_mm")));
+                  msg("convert it to '{}'", fmt::format("{}{}", axis, axis == "t" ? "_s" : "_mm")));
       in.fail(MotionError::unknown_column, msg("column '{}' is not known", one_line(name)),
               msg("use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point"));
     }

@@ -113,7 +113,7 @@ void add_left_out(const CubeSet& set, Lines& out) {
                   as_mm(run.start_mm.x, 4), as_mm(run.start_mm.y, 4), as_mm(run.penetration_mm, 3), as_n(run.mean_n, 3)),
               2);
     }
-  if (n > k_named) out.add(msgn("and {} more run (--json names all)", "and {} more runs (--json names all)", n - k_named, n - k_named), 2);
+  if (n > k_named) out.add(msgn("{} more run: --json names all", "{} more runs: --json names all", n - k_named, n - k_named), 2);
 }
 
 }  // namespace

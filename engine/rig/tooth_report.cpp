@@ -28,7 +28,7 @@ void add_left_out(const ToothRigResult& r, Lines& out) {
                 ? msg("Left out: run {}, x = {}, y = {}: the head is held in its hole, X passed twice V τ, a fault of the simulation.", i + 1, x, y)
                 : msg("Left out: run {}, x = {}, y = {}: the pulp was not reached.", i + 1, x, y));
   }
-  if (n > k_named) out.add(msgn("and {} more run (--json names all)", "and {} more runs (--json names all)", n - k_named, n - k_named));
+  if (n > k_named) out.add(msgn("{} more run: --json names all", "{} more runs: --json names all", n - k_named, n - k_named));
 }
 
 }  // namespace

@@ -118,7 +118,7 @@ void SessionReader::read(Bytes image) {
     } catch (const DatabaseError&) {
       throw;
     } catch (const Error& e) {
-      findings_.emplace_back(e.what());
+      findings_.push_back(e.message());
     }
   });
   read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {

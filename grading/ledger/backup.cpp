@@ -167,7 +167,7 @@ Backup back_up(const LedgerPlaces& from, const std::string& folder, bool with_id
     throw Error(from.folder, msg("the ledger does not hold ({}), and a backup of it would be taken for one that does", now.findings[0]),
                 msg("see `cavum ledger verify`; to keep it as evidence, copy the folder"));
   make_private_folder(folder);
-  const FolderLock lock(folder, "cannot be kept to this backup alone", "name another folder");
+  const FolderLock lock(folder, msg("cannot be kept to this backup alone"), msg("name another folder"));
   require_place_for(read_ledger(from), folder);  // as it is by now: whoever held the folder may have put a later state there
   Backup out;
   LedgerContent copy;

@@ -42,10 +42,10 @@ Begin parse_begin(const std::string& text, const std::string& public_key, const 
 
 namespace {
 
-std::string begun_before(const Registry& registry, const LedgerEntry& begin) {
+Message begun_before(const Registry& registry, const LedgerEntry& begin) {
   const Station* at = registry.stations.of(begin.by.station);
-  if (at == nullptr) return fmt::format("was let begin before, by entry {}", begin.seq);
-  return fmt::format("was let begin before, at {}, by entry {}", one_line(at->name), begin.seq);
+  if (at == nullptr) return msg("was let begin before, by entry {}", begin.seq);
+  return msg("was let begin before, at {}, by entry {}", at->name, begin.seq);
 }
 
 }  // namespace
@@ -63,11 +63,11 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
         if (t->made_up_by) refuse(msg("was made up by entry {}", *t->made_up_by), msg("the makeup's ticket is good"));
         if (t->used_by) refuse(msg("was used: its exam is filed as entry {}", *t->used_by), msg("give the candidate another"));
         if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
-          refuse(fmt::format("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
-                 "wait, or give another");
+          refuse(msg("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
+                 msg("wait, or give another"));
         if (!t->begins.empty() && again.empty())
           refuse(begun_before(registry, now.entries.at(t->begins.back().seq)),
-                 "only the exam that bears the last word counts: say with --again why it begins anew");
+                 msg("only the exam that bears the last word counts: say with --again why it begins anew"));
         BeginEntry entry{{now.id, nonce, random_hex(16), utc_ns, now.public_key}, {}, !t->begins.empty()};
         entry.signature = to_hex(ledger.key().sign(message_of(entry.begin)));
         return entry;

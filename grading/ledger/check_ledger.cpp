@@ -47,7 +47,7 @@ void compare_with_line(const FiledSession& s, const std::string& line, const Mes
   const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<Message>();
   if (differ.empty()) return;
   List told{{differ[0]}, true};
-  if (differ.size() > 1) told.items.push_back(msg("and {} more", differ.size() - 1));
+  if (differ.size() > 1) told.items.push_back(msg("{} more", differ.size() - 1));
   if (s.grading_version == grading::k_grading_version)
     out.findings.push_back(msg("{}: the result that was filed is not what marking it gives: filed {}", name, told));
   else

@@ -124,7 +124,7 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const std::string no_key(64, '0');
   const std::string id = parse_checkpoint(request.note, no_key, where).ledger_id, path = fmt::format("{}/{}", cosigner.memory, id);
   make_private_folder(cosigner.memory);
-  const FolderLock lock(cosigner.memory, "the cosigner's memory cannot be kept there", "name a folder with --state");
+  const FolderLock lock(cosigner.memory, msg("the cosigner's memory cannot be kept there"), msg("name a folder with --state"));
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
     throw Error(where, msg("is of a ledger that this cosigner does not know"),
@@ -138,8 +138,9 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   Cosigned out{{}, id, p.size, {}};
   if (!is_signed_by_school(id, school, p)) {
     out.findings.emplace_back(
-        msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key{}",
-            memory ? msg("; where the school replaced its key, the receipt of that entry shows it (--key-receipt)") : Message()));
+        memory ? msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key; where the school replaced its "
+                     "key, the receipt of that entry shows it (--key-receipt)")
+               : msg("the school's signature does not hold: the checkpoint was changed, or is signed by another key"));
     return out;
   }
   const std::uint64_t last = memory ? memory->last.size : 0;

@@ -17,7 +17,7 @@ namespace cavum::ledger {
 class FolderLock {
  public:
   /// Waits until nobody else holds `folder`. Throws Error when it cannot be locked; `what` and `what_to_do` say what that means there.
-  FolderLock(const std::string& folder, const std::string& what, const std::string& what_to_do)
+  FolderLock(const std::string& folder, const Message& what, const Message& what_to_do)
       : fd_(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC)) {
     if (fd_ >= 0 && ::flock(fd_, LOCK_EX) == 0) return;
     const std::string why = std::strerror(errno);

@@ -105,8 +105,11 @@ void check_witness(LedgerContent& c, const std::vector<Checkpoint>& witnessed) {
     if (standing == Standing::begins_with_it || standing == Standing::loss_on_record) continue;
     if (!is_signed_by_school(c.id, c.key_of(w.size), w)) {
       c.findings.push_back(
-          msg("{}: the witness was changed at entry {}{}", witness_path(c.id), w.size,
-              w.size > roots.size() ? msg(", or an older copy of the ledger was put back, from before the school's key was replaced") : Message()));
+          w.size > roots.size()
+              ? msg("{}: the witness was changed at entry {}, or an older copy of the ledger was put back, from before the school's key "
+                    "was replaced",
+                    witness_path(c.id), w.size)
+              : msg("{}: the witness was changed at entry {}", witness_path(c.id), w.size));
       return;
     }
     if (standing == Standing::older_copy && (ahead == nullptr || w.size > ahead->size)) ahead = &w;

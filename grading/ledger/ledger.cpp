@@ -70,10 +70,8 @@ void Ledger::reload() {
   }
   if (!content_.findings.empty())
     throw Error(places_.folder,
-                msg("{}{})",
-                    use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold (")
-                                            : msg("nothing is told of a ledger that does not hold ("),
-                    content_.findings.front()),
+                use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold ({})", content_.findings.front())
+                                        : msg("nothing is told of a ledger that does not hold ({})", content_.findings.front()),
                 msg("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
   if (content_.public_key != to_hex(key_.public_key))
     throw Error(places_.folder,

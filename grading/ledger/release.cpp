@@ -26,7 +26,7 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
   const Message where = msg("entry {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
-      throw Error(where, msg("and entry {} are endings of the same exam, and one counts", other), msg("choose one of them"));
+      throw Error(where, msg("is an ending of the same exam as entry {}, and one counts", other), msg("choose one of them"));
   if (const FiledSession* other = registry.chosen_instead_of(s))
     throw Error(where, msg("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq), msg("it stays unreleased"));
   if (s.made_up_by)

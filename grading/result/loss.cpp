@@ -24,26 +24,6 @@ Message without_ticks(const Message& m) {
 
 Message place_and_time(const Trace& t) { return t.timed() ? msg("{}, at {}", t.site_mm, when(t)) : msg("{}", t.site_mm); }
 
-Message wall_text(std::size_t wall, scenarios::Facing facing) {
-  switch (static_cast<scenarios::Wall>(wall)) {
-    case scenarios::Wall::mesial:
-      return msg("the mesial wall");
-    case scenarios::Wall::distal:
-      return msg("the distal wall");
-    case scenarios::Wall::buccal:
-      if (facing.lateral()) return facing.anterior ? msg("the incisal wall") : msg("the occlusal wall");
-      return facing.anterior ? msg("the labial wall") : msg("the buccal wall");
-    case scenarios::Wall::lingual:
-      return facing.lateral() ? msg("the gingival wall") : msg("the lingual wall");
-    case scenarios::Wall::floor:
-      return facing.lateral() ? msg("the axial wall") : msg("the floor");
-    case scenarios::Wall::opening:
-      break;
-  }
-  if (facing.lateral()) return msg("the opening");
-  return facing.anterior ? msg("the incisal side") : msg("the occlusal side");
-}
-
 Unit unit_of(std::string_view name) noexcept {
   constexpr std::pair<std::string_view, Unit> k_units[] = {{"mm", Unit::mm},    {"mm2", Unit::mm2}, {"mm3", Unit::mm3},  {"N", Unit::newton},
                                                            {"s", Unit::second}, {"deg", Unit::deg}, {"%", Unit::percent}};
@@ -86,7 +66,7 @@ Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
   const Number all = as_mm3(r.volumes.missed.mm3, 2, r.volumes.missed.bound_mm3), most = as_mm3(r.volumes.missed_by_wall_mm3[w], 2);
-  const Message wall = wall_text(w, r.shape.facing);
+  const Message wall = scenarios::wall_text(w, r.shape.facing);
   if (last.tick < 0)
     return {msg("{} of the target left standing, the largest part towards {} ({}), where nothing of it was cut", all, wall, most), last};
   if (!last.timed())
@@ -109,7 +89,7 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
     }
     if (v.first.tick >= 0 && (first.tick < 0 || v.first.tick < first.tick)) first = v.first;
   }
-  const Message wall = wall_text(w, r.shape.facing);
+  const Message wall = scenarios::wall_text(w, r.shape.facing);
   const Number volume = as_mm3(most, 2);
   const Message where = worst == scenarios::Zone::none ? msg("the largest part outside all zones at {} ({})", wall, volume)
                                                        : msg("the largest part in {} at {} ({})", Term{scenarios::zone_name(worst)}, wall, volume);
@@ -172,7 +152,7 @@ Loss at_walls(const Result& r, const Asked& a) {
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   const bool thick = &t == &m.worst_under;
-  const Message wall = wall_text(worst, r.shape.facing);
+  const Message wall = scenarios::wall_text(worst, r.shape.facing);
   const Number furthest = as_mm(thick ? m.max_under_mm : m.max_over_mm, 2);
   const Message what = over && m.over_outside ? msg("cut outside the container, up to {} beyond {}", furthest, wall)
                        : over                 ? msg("{} overcut by up to {}", wall, furthest)

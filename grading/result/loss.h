@@ -53,8 +53,6 @@ namespace reason {
 [[nodiscard]] Message without_ticks(const Message& message);
 /// The place, and when it was where that is known.
 [[nodiscard]] Message place_and_time(const Trace& t);
-/// "the mesial wall"
-[[nodiscard]] Message wall_text(std::size_t wall, scenarios::Facing facing);
 /// In words: how much, how quick, from when, and how clear.
 [[nodiscard]] Message drop_text(const ForceDrop& drop);
 

@@ -37,7 +37,7 @@ Work work_done(const Result& r, const scenarios::Measure& measure) {
   // a distance at some of the walls; volumes, also of what lies below the floor, ask for all of the work
   if (measure.walls > 0 && measure.walls < scenarios::k_walls)
     return towards(measure.first_wall, measure.first_wall + measure.walls,
-                   measure.walls == 1 ? wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
+                   measure.walls == 1 ? scenarios::wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
   return towards(0, scenarios::k_walls + 1, {});
 }
 

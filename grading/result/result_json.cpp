@@ -318,7 +318,7 @@ void add_walls(Lines& out, const Result& r) {
   out.row({Message(), msg("mean"), msg("p95"), msg("over"), msg("under")}, 2);
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    const Message name = wall_text(w, r.shape.facing);
+    const Message name = scenarios::wall_text(w, r.shape.facing);
     if (m.samples == 0)
       out.row({name, msg("not cut"), {}, {}, {}}, 2);
     else

@@ -109,9 +109,8 @@ void LossFinder::missed(double points) {
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
-    const Message wall = wall_text(w, r_.shape.facing);
-    const Message left =
-        p.sum > 0 ? msg("of the target left towards {}, its middle at {}", wall, p.middle / p.sum) : msg("of the target left towards {}", wall);
+    const Message wall = scenarios::wall_text(w, r_.shape.facing);
+    const Message left = p.sum > 0 ? msg("target left towards {}, its middle at {}", wall, p.middle / p.sum) : msg("target left towards {}", wall);
     fact(last.tick >= 0 ? msg("{}; the target was last cut there at {}", left, when(last)) : msg("{}; nothing of the target was cut there", left),
          mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
@@ -127,7 +126,7 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
   const double full = std::max(0.0, spec_.full);
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
-    const Message wall = wall_text(w, r_.shape.facing);
+    const Message wall = scenarios::wall_text(w, r_.shape.facing);
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
       fact(msg("{}: nothing was cut there", wall));
       continue;

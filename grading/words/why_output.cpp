@@ -73,10 +73,10 @@ Lines to_text(const Why& w) {
             2);
   if (w.left_out == 0) return out;
   const Number amount = as_number(w.left_out_amount, 3);
-  out.add(w.left_out_points > 0 ? msgn("and {} smaller moment, {} in all, {} points", "and {} smaller moments, {} in all, {} points",
-                                       static_cast<std::int64_t>(w.left_out), w.left_out, amount, as_points(w.left_out_points, 2))
-                                : msgn("and {} smaller moment, {} in all", "and {} smaller moments, {} in all", static_cast<std::int64_t>(w.left_out),
-                                       w.left_out, amount),
+  out.add(w.left_out_points > 0
+              ? msgn("{} smaller moment, {} in all, {} points", "{} smaller moments, {} in all, {} points", static_cast<std::int64_t>(w.left_out),
+                     w.left_out, amount, as_points(w.left_out_points, 2))
+              : msgn("{} smaller moment, {} in all", "{} smaller moments, {} in all", static_cast<std::int64_t>(w.left_out), w.left_out, amount),
           2);
   return out;
 }

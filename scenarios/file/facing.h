@@ -1,6 +1,7 @@
 // From which side a cavity is looked at and cut: from occlusal, or from the side of the tooth. What is "down", "floor" and "opening" follows from it.
 #pragma once
 
+#include "engine/base/message.h"
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "scenarios/file/wall.h"
@@ -28,5 +29,7 @@ struct Facing {
   if (facing.anterior && wall == Wall::buccal) return said("labial");
   return wall_name(wall);
 }
+/// "the buccal wall", "the floor"; of what is no wall, the opening.
+[[nodiscard]] Message wall_text(std::size_t wall, Facing facing);
 
 }  // namespace cavum::scenarios

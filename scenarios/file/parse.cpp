@@ -23,7 +23,8 @@ namespace {
 
 void check_measure(CheckedTable& t, const std::string& metric, const ProblemList& problems) {
   if (metric.empty() || find_measure(metric)) return;
-  const std::string what = fmt::format("there is no measure '{}'", metric), of_tissue = metric + "_mm3";
+  const Message what = msg("there is no measure '{}'", metric);
+  const std::string of_tissue = metric + "_mm3";
   if (find_measure(of_tissue) && metric != "touched_") {  // an exam that ran with it says so when it is marked
     if (problems.strict()) t.problem("metric", what, msg("did you mean '{}'?", of_tissue));
     return;

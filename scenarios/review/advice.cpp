@@ -185,10 +185,7 @@ void Adviser::walls() {
   for (std::size_t w = 0; w < k_walls; ++w) {
     const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
     if (mm2 < k_thin_wall_mm2) continue;
-    const bool floor = static_cast<Wall>(w) == Wall::floor;
-    warn("zones/leeway",
-         msg("the leeway is wider than the {}{} of the tooth over {}: it leads out into the air",
-             floor ? "floor" : wall_name(static_cast<Wall>(w), facing), floor ? Message() : msg(" wall"), as_mm2(mm2, 1)),
+    warn("zones/leeway", msg("the leeway is wider than {} of the tooth over {}: it leads out into the air", wall_text(w, facing), as_mm2(mm2, 1)),
          msg("make the leeway narrower, or move the target inwards"));
   }
 }
@@ -351,10 +348,10 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 /// A figure of a wall that the cavity does not have.
 void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
-  const auto wall = static_cast<Wall>(measure.first_wall);
+  const Message wall = wall_text(measure.first_wall, zones_.facing());
   warn(fmt::format("rubric/criteria/{}/metric", i),
-       msg("the cavity has no {}{} in this tooth: {}", wall_name(wall, zones_.facing()), wall == Wall::floor ? Message() : msg(" wall"),
-           measure.figure == WallFigure::max_over ? msg("nobody can lose these points") : msg("nobody can win these points")),
+       measure.figure == WallFigure::max_over ? msg("{} is none of the cavity in this tooth: nobody can lose these points", wall)
+                                              : msg("{} is none of the cavity in this tooth: nobody can win these points", wall),
        msg("take the criterion out, or measure a wall that stays"));
 }
 

@@ -48,7 +48,7 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
     spec.through = through;
     std::vector<Vec3> line;
     try {
-      line = place_fissure(spec, l, "").paths_mm.front();
+      line = place_fissure(spec, l, {}).paths_mm.front();
     } catch (const Error&) {
       continue;  // a fissure too short for so much ridge
     }

@@ -79,7 +79,7 @@ double crown_width_mm(const Landmarks& l) {
 
 /// Enamel over the deepest place of the fissure, mm; 0 where there is none.
 double enamel_under_fissure_mm(const Tooth& tooth, const Landmarks& l) {
-  const TissueRelief enamel = tissue_relief(tooth, "enamel", TissuePart::all, tooth.name);
+  const TissueRelief enamel = tissue_relief(tooth, "enamel", TissuePart::all, Name{tooth.name});
   double surface = 1e9, border = 1e9;
   for (const Vec3& p : l.central_fissure_mm) {
     surface = std::min(surface, p.z);

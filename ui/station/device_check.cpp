@@ -31,7 +31,7 @@ CheckItem pedal_item(const DeviceSight& s) {
   if (s.pedal_came_back) return {State::good, title, msg("reaches both ends")};
   if (!s.pedal_released) return {State::waiting, title, msg("take the foot off it ({})", pressed)};
   if (!s.pedal_pressed) return {State::waiting, title, msg("press it down all the way ({})", pressed)};
-  return {State::waiting, title, msg("and release it ({})", pressed)};
+  return {State::waiting, title, msg("release it ({})", pressed)};
 }
 
 CheckItem rest_item(const DeviceSight& s) {

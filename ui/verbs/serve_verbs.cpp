@@ -108,7 +108,7 @@ std::string proxy_secret(const std::string& path) {
 void serve(const ServeArguments& o) {
   if (o.ledger.empty()) throw Error(msg("serve"), msg("needs to know which ledger"), msg("name its folder; `cavum ledger init` makes one"));
   if (o.certificate.empty() != o.certificate_key.empty())
-    throw Error(Name{"--certificate"}, msg("and --certificate-key belong together"), msg("give both, or neither: one is made then"));
+    throw Error(Name{"--certificate"}, msg("is given without --certificate-key, or that without it"), msg("give both, or neither: one is made then"));
   const auto colon = o.listen.rfind(':');
   const std::string port = colon == std::string::npos ? "" : o.listen.substr(colon + 1);
   if (port.empty() || port.size() > 5 || port.find_first_not_of("0123456789") != std::string::npos || std::stoi(port) > 65'535)
@@ -129,7 +129,8 @@ void serve(const ServeArguments& o) {
     office::make_certificate(options.certificate, names);
   }
   if (o.proxy_address.empty() != o.proxy_secret.empty())
-    throw Error(Name{"--proxy-address"}, msg("and --proxy-secret belong together"), msg("give both, or neither: nobody signs in by a proxy then"));
+    throw Error(Name{"--proxy-address"}, msg("is given without --proxy-secret, or that without it"),
+                msg("give both, or neither: nobody signs in by a proxy then"));
   if (!o.proxy_address.empty()) options.proxy = office::proxy_sign_on(o.proxy_address, proxy_secret(o.proxy_secret), o.proxy_header);
   options.filing.simulated = o.simulated;
   options.report = [folder = o.ledger](const std::string& recording) { return filed_report(folder, recording); };

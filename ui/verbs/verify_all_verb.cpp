@@ -124,7 +124,7 @@ pool::Made merged(const VerifyAll& o, const pool::Work& work) {
     say_error(msg("{} of {} sessions have no line: the parts of {} are missing", made.missing.size(), work.sessions.size(), shards));
   for (std::size_t i = 0; i < made.missing.size() && i < k_named; ++i)
     say_error(msg("{}: is missing in the parts, or damaged there", work.sessions[made.missing[i]]));
-  if (made.missing.size() > k_named) say_error(msg("and {} more", made.missing.size() - k_named));
+  if (made.missing.size() > k_named) say_error(msg("{} more", made.missing.size() - k_named));
   return made;
 }
 

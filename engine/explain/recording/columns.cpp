@@ -12,9 +12,9 @@ namespace cavum::explain {
 namespace {
 
 constexpr std::array k_roles{Role::time, Role::position, Role::speed, Role::force};
-constexpr std::array k_role_words{"time", "position", "speed", "force"};
+constexpr std::array k_role_words{said("time"), said("position"), said("speed"), said("force")};
 
-const char* word_of(Role role) { return k_role_words[static_cast<std::size_t>(role)]; }
+Term word_of(Role role) { return {k_role_words[static_cast<std::size_t>(role)]}; }
 
 /// Names that machines write, in plain letters, parted by blanks; those of English, German, French and Spanish machines.
 std::string_view names_of(Role role) {
@@ -56,13 +56,14 @@ std::vector<std::string> all_names(const Header& header) {
   return out;
 }
 
-std::string did_you_mean(const Header& header, std::string_view wanted) {
+/// The column whose name is nearest; empty where none is near.
+std::string nearest_column(const Header& header, std::string_view wanted) {
   std::vector<std::string> names;
   for (const HeaderName& h : header) names.insert(names.end(), {h.whole, h.name});
   const auto nearest = nearest_name(names, wanted);
   if (!nearest) return "";
   for (const HeaderName& h : header)
-    if (h.whole == *nearest || h.name == *nearest) return fmt::format(" (did you mean '{}'?)", h.whole);
+    if (h.whole == *nearest || h.name == *nearest) return h.whole;
   return "";
 }
 
@@ -83,8 +84,11 @@ std::optional<std::size_t> column_named(const Header& header, const std::string&
 
 std::size_t require_column(const Header& header, const std::string& wanted, const std::string& at, const std::string& option) {
   if (const auto found = column_named(header, wanted)) return *found;
-  throw Error(at, msg("there is no column '{}'{}", one_line(wanted), did_you_mean(header, wanted)),
-              msg("{} names a column of the header: {}", option, list_of_names(all_names(header))));
+  const std::string near = nearest_column(header, wanted);
+  throw Error(
+      at,
+      near.empty() ? msg("there is no column '{}'", one_line(wanted)) : msg("there is no column '{}' (did you mean '{}'?)", one_line(wanted), near),
+      msg("{} names a column of the header: {}", option, list_of_names(all_names(header))));
 }
 
 /// Its unit does not say that it is something else.
@@ -142,10 +146,12 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
 
 [[noreturn]] void fail_missing(const Header& header, Role role, const std::string& at) {
   const std::string contract = contract_name(role);
-  std::string near = did_you_mean(header, contract);
+  std::string near = nearest_column(header, contract);
   for (const std::string_view name : {"force", "load", "time", "position", "displacement"})
-    if (near.empty() && names_of(role).find(fmt::format(" {} ", name)) != std::string_view::npos) near = did_you_mean(header, name);
-  throw Error(at, msg("there is no column '{}', and none that is known to be the {}{}", contract, word_of(role), near),
+    if (near.empty() && names_of(role).find(fmt::format(" {} ", name)) != std::string_view::npos) near = nearest_column(header, name);
+  throw Error(at,
+              near.empty() ? msg("there is no column '{}', and none that is known to be the {}", contract, word_of(role))
+                           : msg("there is no column '{}', and none that is known to be the {} (did you mean '{}'?)", contract, word_of(role), near),
               msg("name it with --column {}=NAME; the header has {}", contract.substr(0, 1), list_of_names(all_names(header))));
 }
 

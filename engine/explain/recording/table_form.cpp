@@ -105,7 +105,7 @@ char most_frequent(std::string_view line) {
 }
 
 [[noreturn]] void refuse(const std::string& where, const Line& line, const Message& what, const Message& what_to_do) {
-  throw Error(fmt::format("{}:{}", where, line.number), what, what_to_do);
+  throw Error(FilePlace{where, static_cast<int>(line.number)}, what, what_to_do);
 }
 
 Decimal decimal_of(const std::vector<Line>& lines, std::size_t first, char separator, const std::string& where) {
@@ -114,14 +114,14 @@ Decimal decimal_of(const std::vector<Line>& lines, std::size_t first, char separ
     for (const std::string_view cell : cells_of(lines[i], separator)) {
       const NumberSign sign = number_sign(cell);
       if (sign == NumberSign::thousands)
-        refuse(where, lines[i], fmt::format("'{}' has separators of thousands", one_line(cell)), "save the table without them; they are not guessed");
+        refuse(where, lines[i], msg("'{}' has separators of thousands", one_line(cell)), msg("save the table without them; they are not guessed"));
       if (sign == NumberSign::point && !point) point = i;
       if (sign == NumberSign::comma && !comma) comma = i;
     }
   if (point && comma)
     refuse(where, lines[std::max(*point, *comma)],
-           fmt::format("numbers have a decimal point (line {}) and a decimal comma (line {})", lines[*point].number, lines[*comma].number),
-           "save the table with one of them; if one parts the thousands, without it");
+           msg("numbers have a decimal point (line {}) and a decimal comma (line {})", lines[*point].number, lines[*comma].number),
+           msg("save the table with one of them; if one parts the thousands, without it"));
   return comma ? Decimal::comma : Decimal::point;
 }
 
@@ -146,8 +146,8 @@ void refuse_commas_twice(const std::vector<Line>& lines, const std::string& wher
     const Cells heading = cells_of(lines[i], ','), below = cells_of(lines[i + 1], ',');
     if (is_heading(heading) && below.size() > heading.size() + 1 && below.size() <= 2 * heading.size() &&
         std::all_of(below.begin(), below.end(), is_number))
-      refuse(where, lines[i + 1], fmt::format("has {} cells for {} columns: commas part the cells and the decimals", below.size(), heading.size()),
-             "save the table with semicolons or tabs between the cells");
+      refuse(where, lines[i + 1], msg("has {} cells for {} columns: commas part the cells and the decimals", below.size(), heading.size()),
+             msg("save the table with semicolons or tabs between the cells"));
   }
 }
 
@@ -208,7 +208,7 @@ TableForm find_table_form(std::string_view text, const std::string& where) {
           out.decimal = decimal_of(lines, 0, separator, where);
           return out;
         }
-      refuse(where, lines.front(), "begins with numbers, without a header", "write names above them, such as session,t_s,x_mm,f_n");
+      refuse(where, lines.front(), msg("begins with numbers, without a header"), msg("write names above them, such as session,t_s,x_mm,f_n"));
     }
     refuse_commas_twice(lines, where);
   }

@@ -317,12 +317,11 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
       unknown.insert(label);
   }
   if (!unknown.empty()) {
-    std::string list;
-    int shown = 0;
+    List first;
     for (const int u : unknown)
-      if (++shown <= 20) list += (list.empty() ? "" : ", ") + std::to_string(u);
-    throw Error(where, msg("labels without a meaning: {}{}", list, unknown.size() > 20 ? msg(", ...") : Message()),
-                msg("name them in --map, as N=enamel, N=dentin, N=pulp or N=air"));
+      if (first.items.size() < 20) first.items.push_back(msg("{}", u));
+    if (unknown.size() > first.items.size()) first.items.push_back(msg("..."));
+    throw Error(where, msg("labels without a meaning: {}", first), msg("name them in --map, as N=enamel, N=dentin, N=pulp or N=air"));
   }
   count(s);
   if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, msg("no voxel is enamel or dentin"), msg("check --map"));

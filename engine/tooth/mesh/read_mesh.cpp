@@ -71,9 +71,8 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
                 msg("copy or export the whole file again"));
   const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
   throw Error(name,
-              msg("says that it holds {}{}, and its length is that of {}{}{}", said, said == 1 ? msg(" triangle") : msg(" triangles"), held,
-                  (file.size() - k_stl_head) % k_stl_facet != 0 ? msg(" and a part") : Message(),
-                  held < said ? msg(": it is cut off") : msg(": the count is wrong")),
+              held < said ? msg("is cut off: it says that it holds {} triangles, and its length is that of {}", said, held)
+                          : msg("says that it holds {} triangles, and its length is that of {}: the count is wrong", said, held),
               msg("copy or export the whole file again, as STL"));
 }
 
