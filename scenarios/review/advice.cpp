@@ -350,8 +350,8 @@ void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::a
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
   const Message wall = wall_text(measure.first_wall, zones_.facing());
   warn(fmt::format("rubric/criteria/{}/metric", i),
-       measure.figure == WallFigure::max_over ? msg("{} is none of the cavity in this tooth: nobody can lose these points", wall)
-                                              : msg("{} is none of the cavity in this tooth: nobody can win these points", wall),
+       measure.figure == WallFigure::max_over ? msg("in this tooth the cavity does not have {}: nobody can lose these points", wall)
+                                              : msg("in this tooth the cavity does not have {}: nobody can win these points", wall),
        msg("take the criterion out, or measure a wall that stays"));
 }
 
