@@ -25,10 +25,12 @@ template <class Action>
 void SessionWriter::guarded(const Action& action) noexcept {
   try {
     action();
+  } catch (const Error& e) {
+    if (report_.error.empty()) report_.error = e.message();
   } catch (const std::exception& e) {
-    if (report_.error.empty()) report_.error = e.what();
+    if (report_.error.empty()) report_.error = Name{e.what()};
   } catch (...) {
-    if (report_.error.empty()) report_.error = "something that is no std::exception";
+    if (report_.error.empty()) report_.error = msg("something that is no std::exception");
   }
 }
 

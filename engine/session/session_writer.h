@@ -18,7 +18,7 @@ namespace cavum {
 struct WriterReport {
   std::int64_t ticks = 0;         ///< taken from the stream
   std::int64_t most_waiting = 0;  ///< ticks that were waiting at the worst moment
-  std::string error;              ///< first error of recorder or watch; empty = everything is on disk
+  Message error;                  ///< first error of recorder or watch; empty = everything is on disk
 };
 
 /// Events it writes: Overruns and ServoGap each second, StylusSilent and StylusBack, PedalLost and PedalBack, ServoStopped.

@@ -198,19 +198,18 @@ const TickOutput& Exam::follow(const TickInput& input) {
   } catch (const DatabaseError& refusal) {
     keep(refusal);
   }
-  if (!problem_.empty() && recorder_->ticks() - recorder_->ticks_on_disk() < k_chunk_ticks)
-    problem_.clear();  // all but the running second is on disk
+  if (!problem_.empty() && recorder_->ticks() - recorder_->ticks_on_disk() < k_chunk_ticks) problem_ = {};  // all but the running second is on disk
   return last_;
 }
 
 /// The tick is in the recorder's memory. Without a second place it is tried again with the next second.
 void Exam::keep(const DatabaseError& refusal) {
-  problem_ = refusal.what();
+  problem_ = refusal.message();
   if (second_place_.empty() || recorder_->path() == second_place_) return;
   try {
     recorder_->move_to(second_place_, refusal.what());
   } catch (const Error& also) {
-    problem_ += fmt::format("; and elsewhere: {}", also.what());
+    problem_ = msg("{}; and elsewhere: {}", problem_, also.message());
   }
 }
 

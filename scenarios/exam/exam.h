@@ -83,7 +83,7 @@ class Exam {
   const TickOutput& follow(const TickInput& consumed);
   [[nodiscard]] bool over() const noexcept { return runner_state_->finish != Finish::running; }
   /// Why the recording cannot be written at the moment; empty while all but the running second is on disk.
-  [[nodiscard]] const std::string& recording_problem() const noexcept { return problem_; }
+  [[nodiscard]] const Message& recording_problem() const noexcept { return problem_; }
   /// Where to go on at once when the disk refuses: a session file that does not exist yet. The recorder's path says where it stands.
   void set_second_place(const std::string& path) { second_place_ = path; }
   /// The candidate stops: the exam is over.
@@ -120,7 +120,8 @@ class Exam {
   Simulation simulation_;
   TickOutput last_;
   TickInput last_input_;
-  std::string problem_, second_place_;
+  Message problem_;
+  std::string second_place_;
 };
 
 }  // namespace cavum::scenarios

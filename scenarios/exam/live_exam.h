@@ -35,7 +35,7 @@ struct LiveView {
   std::uint64_t edit_hash = 0;                    ///< of the tooth: changes when it is cut
   std::int64_t unwritten_ticks = 0;               ///< of the recording: kept in memory so far
   std::string session;                            ///< where it is recorded
-  std::string recording_error;                    ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
+  Message recording_error;                        ///< empty, or why the recording cannot be written at the moment; nothing is lost meanwhile
 };
 
 struct LiveReport {

@@ -134,7 +134,8 @@ void AuthorWorker::find(const AuthorTask& task) {
       tooth = f.tooth->tooth;
       tooth->placed_landmarks = task.landmarks;
     }
-    if (tooth && counts_from_chamber(s)) f.chamber_mm = scenarios::tissue_relief(*tooth, "pulp", scenarios::TissuePart::chamber, task.path).middle_mm;
+    if (tooth && counts_from_chamber(s))
+      f.chamber_mm = scenarios::tissue_relief(*tooth, "pulp", scenarios::TissuePart::chamber, Name{task.path}).middle_mm;
     if (whole && tooth && scenarios::missing_tissues(s, *tooth).empty()) {
       Landmarks landmarks = f.tooth->found;
       place_landmarks(task.landmarks, landmarks);

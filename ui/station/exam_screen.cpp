@@ -263,10 +263,9 @@ void exam_screen(const ScreenContext& c) {
   const bool lost = s.view.point >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
   const bool by_pointer = c.sitting->device().pointer() != nullptr;
   if (!view.recording_error.empty()) {
-    const Message why = view.recording_error;
     words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"),
                      msg("{} are kept in memory, nothing is lost. Go on working, and call the supervisor: {}",
-                         as_s(static_cast<double>(view.unwritten_ticks / 1000), 0), why),
+                         as_s(static_cast<double>(view.unwritten_ticks / 1000), 0), view.recording_error),
                      t.bad);
   } else if (!c.sitting->moved().empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"), msg("Go on working, nothing is lost. For the supervisor: {}", c.sitting->moved()),

@@ -76,8 +76,8 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   if (view.limit_ticks > 0) r.left_s = std::max<std::int64_t>(0, (view.limit_ticks - view.ticks + view.paused_ticks) / k_ticks_per_second);
   r.held = view.held;
   if (view.paused || view.held) r.state = office::AtStation::paused;
-  if (const Message why = view.recording_error; !why.empty())
-    r.alarm = short_line(tr(why));
+  if (!view.recording_error.empty())
+    r.alarm = short_line(tr(view.recording_error));
   else if (const std::optional<Error> problem = sitting->device().problem())
     r.alarm = short_line(tr(problem->without_advice()));
   else if (state.attempt_shown_s > 0)

@@ -23,7 +23,7 @@ void criteria(const Theme& t, const grading::Result& r) {
   for (const grading::CriterionResult& c : r.criteria) {
     ImGui::TableNextRow();
     ImGui::TableNextColumn();
-    wrapped_text(c.title);
+    wrapped_text(msg("{}", Authored{c.title}));
     ImGui::TableNextColumn();
     text_line(msg("{} of {}", as_points(c.points), as_points(c.max, 0)));
     ImGui::TableNextColumn();

@@ -270,10 +270,7 @@ void Sitting::end_running() {
   stage_ = Stage::unsaved;
 }
 
-Message Sitting::why_stopped() const {
-  const Message why = report_.servo.error;
-  return why.empty() ? msg("the servo was stopped") : why;
-}
+Message Sitting::why_stopped() const { return report_.servo.error.empty() ? msg("the servo was stopped") : Message(Name{report_.servo.error}); }
 
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {

@@ -29,7 +29,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     const auto periods = static_cast<std::int64_t>(options.seconds / tick_s + 0.5);
     EXPECT_EQ(r.servo.ticks, periods);
     EXPECT_EQ(r.writer.ticks, r.servo.ticks);
-    EXPECT_EQ(r.writer.error, "");
+    EXPECT_EQ(r.writer.error, Message());
     EXPECT_GT(r.seconds, 0.99 * options.seconds) << "no faster than the clock; a busy machine may take its time, and the histogram tells";
     EXPECT_EQ(std::accumulate(r.servo.lateness.counts.begin(), r.servo.lateness.counts.end(), std::int64_t{0}), r.servo.ticks);
     EXPECT_GT(r.mean_force_n, 0.1);

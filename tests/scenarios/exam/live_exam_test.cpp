@@ -83,7 +83,7 @@ TEST_F(LiveExamTest, ServoAndTwinAgreeAndTheSessionVerifies) {
   ASSERT_TRUE(comes_true([&] { return !live.running(); }));
   const LiveReport& report = live.finish();
   EXPECT_EQ(report.first_disagreement, -1);
-  EXPECT_EQ(report.writer.error, "");
+  EXPECT_EQ(report.writer.error, Message());
   ASSERT_TRUE(live.exam().over());
   live.exam().close("{}");
   const VerifyReport verified = verify_session(session());

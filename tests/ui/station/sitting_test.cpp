@@ -203,7 +203,7 @@ TEST_F(SittingTest, BeginsAtTheSecondPlaceWhenTheFirstRefuses) {
   EXPECT_NE(moved.find(sitting.path()), std::string::npos) << moved;
   EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(options_.out_if_full));
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1200; }));
-  EXPECT_EQ(sitting.live().view().recording_error, "");
+  EXPECT_EQ(sitting.live().view().recording_error, Message());
   sitting.ask_to_end();
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));
   EXPECT_TRUE(verify_session(sitting.path()).verified);
