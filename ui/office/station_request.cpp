@@ -37,8 +37,8 @@ std::string sign_request(StationRequest r, const SigningKey& key) {
 StationRequest parse_request(const std::string& text) {
   const json j = parse_json_or_null(text, {4096, 100, 4});
   const json& facts = member_of(j, "request");
-  const auto refuse = [](const char* why) { throw Error("the station's request", why, "sign it anew, by the key that was enrolled"); };
-  if (text_in(facts, "format") != k_request_format) refuse("is not signed as the office knows it");
+  const auto refuse = [](const Message& why) { throw Error(msg("the station's request"), why, msg("sign it anew, by the key that was enrolled")); };
+  if (text_in(facts, "format") != k_request_format) refuse(msg("is not signed as the office knows it"));
   StationRequest r{text_in(facts, "ledger"),
                    text_in(facts, "method"),
                    text_in(facts, "path"),
@@ -46,8 +46,8 @@ StationRequest parse_request(const std::string& text) {
                    text_in(facts, "nonce"),
                    text_in(facts, "public_key"),
                    require_whole<std::int64_t>(facts, "utc_ns", "the station's request")};
-  if (r.nonce.size() != 2 * k_nonce_bytes || r.public_key.size() != 64) refuse("has no number of its own");
-  if (!is_signed_by(r.public_key, message_of_request(facts), text_in(j, "signature"))) refuse("was changed after it was signed");
+  if (r.nonce.size() != 2 * k_nonce_bytes || r.public_key.size() != 64) refuse(msg("has no number of its own"));
+  if (!is_signed_by(r.public_key, message_of_request(facts), text_in(j, "signature"))) refuse(msg("was changed after it was signed"));
   return r;
 }
 

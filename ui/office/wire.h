@@ -49,7 +49,7 @@ using Minutes = Between<1, 10'080>;
 /// Why: one line, kept for ever.
 struct Reason : Line {
   using Line::Line;
-  [[nodiscard]] std::string problem() const { return is_seen_text(*this) ? "" : "is no line of text"; }
+  [[nodiscard]] Message problem() const { return is_seen_text(*this) ? Message() : msg("is no line of text"); }
 };
 // clang-format off
 /// Of the second factor.
@@ -106,7 +106,7 @@ enum class AtStation { free, check, briefing, exam, paused, ended };
 [[nodiscard]] constexpr auto names_of(AtStation) { return std::array<std::string_view, 6>{"free", "check", "briefing", "exam", "paused", "ended"}; }
 struct ShortLine : Text<200> {
   using Text<200>::Text;
-  [[nodiscard]] std::string problem() const { return is_plain_text(*this) ? "" : "is no line of text"; }
+  [[nodiscard]] Message problem() const { return is_plain_text(*this) ? Message() : msg("is no line of text"); }
 };
 using UpToADay = Between<-1, 86'400>;  ///< s
 /// One report of a station.
