@@ -48,11 +48,8 @@ void compare_with_line(const FiledSession& s, const std::string& line, const Mes
   if (differ.empty()) return;
   List told{{differ[0]}, true};
   if (differ.size() > 1) told.items.push_back(msg("and {} more", differ.size() - 1));
-  if (s.grading_version == grading::k_grading_version)
-    out.findings.push_back(msg("{}: the result that was filed is not what marking it gives: filed {}", name, told));
-  else
-    out.remarks.push_back(msg("{}: was marked by grading version {}; version {} gives another result: filed {}", name, s.grading_version,
-                              grading::k_grading_version, told));
+  out.findings.push_back(msg("{}: the result that was filed, by grading version {}, is not what marking it by version {} gives: filed {}", name,
+                             s.grading_version, grading::k_grading_version, told));
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.

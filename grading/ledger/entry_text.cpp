@@ -108,7 +108,6 @@ void fields(auto& io, Is<SessionEntry> auto& e) {
   io("grading_version", e.grading_version);
   io("nonce", e.nonce);
   io("physics_version", e.physics_version);
-  io("remarks", e.remarks);
   io("scenario_id", e.scenario_id);
   io("simulated", e.simulated);
   io("source", e.source);
