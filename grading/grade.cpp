@@ -188,7 +188,6 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
     for (const auto& t : r.tissues)
       if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
   r.progress = course.progress;
-  if (input.landmarks_anew) r.notes.push_back(finding<FindingKind::landmarks_found_again>());
   if (r.progress.finish != Finish::running && r.progress.steps_completed < r.progress.steps)
     r.notes.push_back(finding<FindingKind::steps_open>(r.progress.steps - r.progress.steps_completed, r.progress.steps));
   r.notes.insert(r.notes.end(), course.steps.begin(), course.steps.end());

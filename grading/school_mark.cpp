@@ -104,32 +104,6 @@ std::map<std::string, const json*> criteria_of(const json& result) {
   return by_id;
 }
 
-/// What another version of grading makes of the marks.
-List marks_then_and_now(const json& sealed, const json& marked, std::size_t parts_differ) {
-  std::size_t told = 0;
-  List all{{}, true};
-  const auto tell = [&](const Message& what, const Message& was, const Message& is) {
-    if (was == is) {
-      all.items.push_back(msg("{} {} as before", what, was));
-      return;
-    }
-    ++told;
-    all.items.push_back(msg("{} {}, now {}", what, was, is));
-  };
-  const auto points = [](const json& of) {
-    return member_of(of, "points").is_number() ? msg("{}", as_number(member_of(of, "points").get<double>(), 1)) : msg("none");
-  };
-  tell(msg("verdict"), msg("{}", Term{text_in(sealed, "verdict")}), msg("{}", Term{text_in(marked, "verdict")}));
-  tell(msg("points"), points(member_of(sealed, "score")), points(member_of(marked, "score")));
-  const auto was = criteria_of(sealed), is = criteria_of(marked);
-  for (const auto& [id, c] : is)
-    if (const auto found = was.find(id); found != was.end() && points(*found->second) != points(*c))
-      tell(msg("criterion {}", id), points(*found->second), points(*c));
-  const std::size_t left = parts_differ - std::min(told, parts_differ);
-  all.items.push_back(told > 0 ? msg("{} other parts of the result differ", left) : msg("{} parts of the result differ", left));
-  return all;
-}
-
 }  // namespace
 
 std::vector<Message> result_differences(const json& sealed_result, const json& marked_result) {
@@ -205,17 +179,10 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
     all.items.resize(k_most_named);
     all.items.push_back(msg("{} more", differ.size() - k_most_named));
   }
-  const auto version = whole_in(sealed, "grading_version");
-  if (version < 1)
-    out.findings.push_back(msg("the sealed result names no version of grading, and is not what marking gives. Sealed {}", all));
-  else if (version == k_grading_version)
-    out.findings.push_back(
-        msg("the sealed result was tampered with, or its station's program was: it is said to come from grading version {}, which gives another one. "
-            "Sealed {}",
-            version, all));
-  else
-    out.remarks.push_back(msg("the sealed result comes from grading version {}, and the school's mark by version {} counts: {}", version,
-                              k_grading_version, marks_then_and_now(sealed, out.result, differ.size())));
+  out.findings.push_back(msg(
+      "the sealed result, by grading version {}, is not what this program's version {} gives: it was tampered with, or its station's program was, "
+      "or is another one. Sealed {}",
+      whole_in(sealed, "grading_version"), k_grading_version, all));
   return out;
 }
 

@@ -16,14 +16,12 @@ struct SchoolMark {
   VerifyReport replay;              ///< the file, its chain and signature, and the motion
   nlohmann::json result;            ///< this program's mark, as to_json gives it; null when the recording cannot be marked
   std::vector<Message> findings;    ///< the replay's, and what of events, scenario and sealed result does not hold
-  std::vector<Message> remarks;     ///< a sealed result by another version of grading, and in what it differs
   nlohmann::json sealed_otherwise;  ///< the sealed result where it is not `result`; else null
   [[nodiscard]] bool holds() const { return replay.verified && findings.empty(); }
 };
 
-/// Simulates, runs and marks a closed session again. A sealed result that says to come from this version of grading and differs is tampering, and a
-/// finding; one of another version differs by a remark. What cannot be replayed (another physics version) is not marked. Throws nothing of the
-/// recording's own: its damage is in the findings.
+/// Simulates, runs and marks a closed session again. A sealed result that differs is a finding. What cannot be replayed (another physics version) is
+/// not marked. Throws nothing of the recording's own: its damage is in the findings.
 [[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds);
 
 /// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.

@@ -3,7 +3,6 @@
 #include <fmt/core.h>
 
 #include "engine/base/error.h"
-#include "engine/servo/servo.h"
 #include "engine/session/chain_check.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
@@ -37,10 +36,8 @@ std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGround
     s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
   }
   s->sealed_result_json = reader.result_json();
-  s->landmarks_anew = setup.landmarks_json.empty() && scenarios::follows_landmarks(s->scenario.zones);
   s->facts = {setup.candidate,   setup.device, utc_text(reader.created().utc_ns), path, ground->hash, setup.calibration,
               setup.points_toml, setup.notes};
-  s->our_physics = reader.number("physics_version", 0) == k_physics_version;
   return s;
 }
 

@@ -33,18 +33,15 @@ struct GradedSession : scenarios::ExamTask {
   std::vector<TimedEvent> events;
   ReportFacts facts;
   std::string sealed_result_json;           ///< what the exam ended with; empty when it is just ending
-  bool landmarks_anew = false;              ///< the zones follow landmarks, and the recording holds none
   std::int64_t sat_under_ticks = -1;        ///< time limit that the exam ran under
-  bool our_physics = false;                 ///< it was recorded under this program's
   std::shared_ptr<const ToothApart> apart;  ///< null: nothing stands beside the tooth
   WorkApart own;                            ///< where something does
   std::optional<GradeBeside> beside;
   [[nodiscard]] GradeInput input() const {
     GradeInput in{scenario, apart ? apart->own : *before,  *zones, apart ? own.after : after.octree, inputs,
                   records,  apart ? own.removed : removed, events};
-    in.landmarks_anew = landmarks_anew;
     in.sat_under_ticks = sat_under_ticks;
-    in.again = our_physics ? &session : nullptr;
+    in.again = &session;
     in.beside = beside ? &*beside : nullptr;
     in.known = ground ? &ground->known : nullptr;
     return in;

@@ -1,16 +1,19 @@
-// Structs that travel as JSON. A struct says once which of its members do; from that come reading within limits, writing, and the description of the
-// type for the pages. A refusal names the field.
+// Structs as JSON. A struct says once which of its members it has there; from that come writing, reading within limits, and the description of the
+// type for the pages. A refusal names the field. CAVUM_JSON declares the members and names them; a struct that is declared elsewhere has a template
+// json_fields in its namespace, which CAVUM_JSON_OF(Seat, (station), (ticket)) writes.
 #pragma once
 
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <concepts>
 #include <cstdint>
 #include <limits>
 #include <map>
 #include <nlohmann/json.hpp>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <type_traits>
@@ -18,6 +21,9 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/message_json.h"
+#include "engine/base/text.h"
+#include "engine/base/vec.h"
 
 // MACRO ITEM for each item, in their order.
 #define CAVUM_AGAIN ()
@@ -28,8 +34,13 @@
 #define CAVUM_EACH(MACRO, ...) CAVUM_EXPAND(CAVUM_EACH_NEXT(MACRO, __VA_ARGS__))
 #define CAVUM_EACH_NEXT(MACRO, ITEM, ...) MACRO ITEM __VA_OPT__(CAVUM_EACH_NEXT_NAME CAVUM_AGAIN(MACRO, __VA_ARGS__))
 #define CAVUM_EACH_NEXT_NAME() CAVUM_EACH_NEXT
+#define CAVUM_NAME(NAME, ...) of(#NAME, self.NAME __VA_OPT__(, JsonField::__VA_ARGS__));
+/// In a json_fields(of, self): members by their own names, each (name), (name, optional) or (name, sparse).
+#define CAVUM_NAMES(...) CAVUM_EACH(CAVUM_NAME, __VA_ARGS__)
+#define CAVUM_JSON_OF(TYPE, ...) \
+  void json_fields(auto& of, JsonOf<TYPE> auto& self) { CAVUM_NAMES(__VA_ARGS__) }
 #define CAVUM_MEMBER(TYPE, NAME, ...) TYPE NAME = {};
-#define CAVUM_TELL(TYPE, NAME, ...) what(#NAME, self.NAME, __VA_OPT__(true ||) k_is_optional<TYPE>);
+#define CAVUM_TELL(TYPE, NAME, ...) what(#NAME, self.NAME __VA_OPT__(, JsonField::__VA_ARGS__));
 #define CAVUM_LIMITED(TYPE, NAME, ...) &&is_limited<TYPE>()
 /// Members of a struct, each (type, name) or (type, name, optional). One that is optional may be missing, or null, and then keeps its value. So may a
 /// std::optional, which is left out where it is empty.
@@ -52,6 +63,9 @@
   };
 
 namespace cavum {
+
+/// A field is always there; or may be missing, and then keeps its value; or is left out where it is empty, as an empty std::optional always is.
+enum class JsonField { always, optional, sparse };
 
 /// A text or list of so many bytes or elements.
 template <class T, std::size_t most>
@@ -81,10 +95,38 @@ struct FieldName {
 template <FieldName name, class T>
 struct Only;
 
-/// `T` says its fields. Those of a `Base` that it names are its own, too.
+/// The struct `T`, constant or not, for its json_fields.
+template <class E, class T>
+concept JsonOf = std::derived_from<std::remove_const_t<E>, T>;
+/// An object that is no struct of its own: its fields are those that `fields(of)` names.
+template <class Fields>
+struct JsonInside {
+  Fields fields;
+};
+template <class Fields>
+[[nodiscard]] JsonInside<Fields> json_inside(Fields fields) {
+  return {std::move(fields)};
+}
+template <class Of, class Fields>
+void json_fields(Of& of, const JsonInside<Fields>& inside) {
+  inside.fields(of);
+}
+/// A field that always has this text, by which a file says what it is.
+struct JsonFormat {
+  const char* text;
+};
+
+struct AnyJsonField {
+  void operator()(const char*, auto&&, JsonField = JsonField::always) const {}
+};
+/// `T` says its fields by CAVUM_JSON. Those of a `Base` that it names are its own, too.
 template <class T>
-concept JsonStruct = requires {
+concept JsonDeclared = requires {
   T::k_limited;
+};
+template <class T>
+concept JsonStruct = JsonDeclared<T> || requires(const AnyJsonField any, T of) {
+  json_fields(any, of);
 };
 /// An enum whose names stand in `names_of(E)`, by value from 0 on.
 template <class T>
@@ -96,6 +138,8 @@ template <class T>
 inline constexpr bool k_is_optional = false;
 template <class T>
 inline constexpr bool k_is_optional<std::optional<T>> = true;
+/// An object of texts, in any order.
+using JsonTexts = std::vector<std::pair<std::string, std::string>>;
 template <class T>
 concept JsonMap = requires {
   typename T::mapped_type;
@@ -111,7 +155,7 @@ concept JsonList = requires(T t) {
 /// Whether all that is read into a `T` has a limit of its own; a JSON value has that of parse_json.
 template <class T>
 [[nodiscard]] consteval bool is_limited() {
-  if constexpr (JsonStruct<T>) {
+  if constexpr (JsonDeclared<T>) {
     if constexpr (requires { typename T::Base; }) return T::k_limited && is_limited<typename T::Base>();
     return T::k_limited;
   } else if constexpr (k_is_optional<T>) {
@@ -134,39 +178,63 @@ struct Only {
   static constexpr bool k_limited = is_limited<T>();
   template <class Self, class What>
   static void each_own_field(Self& self, const What& what) {
-    what(name.text, self.value, false);
+    what(name.text, self.value);
   }
 };
 
-/// what(name, member, may be missing) of each field.
+/// what(name, member, JsonField) of each field; without the last: it is always there.
 template <class T, class What>
 void each_field(T& of, const What& what) {
   using Plain = std::remove_const_t<T>;
   if constexpr (requires { typename Plain::Base; })
     each_field(static_cast<std::conditional_t<std::is_const_v<T>, const typename Plain::Base, typename Plain::Base>&>(of), what);
-  Plain::each_own_field(of, what);
+  if constexpr (JsonDeclared<Plain>)
+    Plain::each_own_field(of, what);
+  else
+    json_fields(what, of);
 }
 
+/// Whether a field that is left out where it is empty is.
+template <class T>
+[[nodiscard]] bool is_left_out(const T& value, JsonField field) {
+  if constexpr (k_is_optional<T>)
+    return !value;
+  else if constexpr (requires { value.empty(); })
+    return field == JsonField::sparse && value.empty();
+  else if constexpr (std::equality_comparable<T>)
+    return field == JsonField::sparse && value == T();
+  else
+    return false;
+}
+
+/// A type that is none of those below has write_json(value) and read_json(json, place, into) beside it.
 template <class T>
 [[nodiscard]] nlohmann::json to_json_value(const T& value) {
-  if constexpr (JsonStruct<T>) {
-    nlohmann::json out = nlohmann::json::object();
-    each_field(value, [&](const std::string& name, const auto& member, bool) {
-      if constexpr (k_is_optional<std::remove_cvref_t<decltype(member)>>) {
-        if (member) out[name] = to_json_value(*member);
-      } else {
-        out[name] = to_json_value(member);
-      }
+  using nlohmann::json;
+  if constexpr (requires { write_json(value); }) {
+    return write_json(value);
+  } else if constexpr (JsonStruct<const T>) {
+    json out = json::object();
+    each_field(value, [&]<class Member>(const char* name, const Member& member, JsonField field = JsonField::always) {
+      if (!is_left_out(member, field)) out[name] = to_json_value(member);
     });
     return out;
+  } else if constexpr (k_is_optional<T>) {
+    return to_json_value(*value);
   } else if constexpr (NamedEnum<T>) {
     return names_of(value)[static_cast<std::size_t>(value)];
-  } else if constexpr (JsonMap<T>) {
-    nlohmann::json out = nlohmann::json::object();
+  } else if constexpr (std::same_as<T, JsonFormat>) {
+    return value.text;
+  } else if constexpr (std::same_as<T, Vec3>) {
+    return {value.x, value.y, value.z};
+  } else if constexpr (std::same_as<T, Message> || std::same_as<T, std::vector<Message>>) {
+    return encode(value);
+  } else if constexpr (JsonMap<T> || std::same_as<T, JsonTexts>) {
+    json out = json::object();
     for (const auto& [name, one] : value) out[name] = to_json_value(one);
     return out;
   } else if constexpr (JsonList<T>) {
-    nlohmann::json out = nlohmann::json::array();
+    json out = json::array();
     for (const auto& one : value) out.push_back(to_json_value(one));
     return out;
   } else if constexpr (std::derived_from<T, std::string>) {
@@ -174,66 +242,131 @@ template <class T>
   } else if constexpr (requires { T::k_least; }) {
     return value.value;
   } else if constexpr (std::is_empty_v<T>) {
-    return nlohmann::json::object();
+    return json::object();
   } else {
     return value;
   }
 }
 
-/// `field` is its name as a refusal says it: "sitting.exam". Throws Error when `from` is none, or beyond a limit.
+/// Where JSON comes from, and how strictly it is read.
+struct JsonSource {
+  std::string where;  ///< begins what a refusal says; may be empty
+  Message advice;
+  bool strict = true;                                           ///< what has no field, and null for a field, is refused
+  std::size_t most_bytes = SIZE_MAX, most_elements = SIZE_MAX;  ///< of a text or list that has no limit of its own
+  double largest = std::numeric_limits<double>::infinity();     ///< of numbers
+};
+/// A field of it, as a refusal says it: "sitting.exam"; empty: all of it.
+struct JsonPlace {
+  const JsonSource& source;
+  std::string field = {};
+  [[nodiscard]] JsonPlace member(std::string_view name) const { return {source, fmt::format("{}{}{}", field, field.empty() ? "" : ".", name)}; }
+  [[nodiscard]] std::string text() const {
+    if (field.empty()) return source.where;
+    return fmt::format("{}{}'{}'", source.where, source.where.empty() ? "" : ": ", one_line(field.substr(0, 200)));
+  }
+  [[noreturn]] void refuse(const Message& is) const { throw Error(text(), is, source.advice); }
+  void require(bool good, const Message& is) const {
+    if (!good) refuse(is);
+  }
+};
+
+/// Throws Error when `from` is none, or beyond a limit.
 template <class T>
-void read_json_value(const nlohmann::json& from, const std::string& field, T& into) {
-  const auto require = [&field](bool good, const Message& is) {
-    if (!good) throw Error(Name{fmt::format("'{}'", field)}, is, msg("send it as docs/office.md says"));
+void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
+  const auto read_list = [&](std::size_t most) {
+    at.require(from.is_array(), msg("is no list"));
+    at.require(from.size() <= most, msg("has more than {} elements", most));
   };
-  if constexpr (JsonStruct<T>) {
-    require(from.is_object(), msg("is no object"));
-    each_field(into, [&](const std::string& name, auto& member, bool optional) {
+  if constexpr (requires { read_json(from, at, into); }) {
+    read_json(from, at, into);
+  } else if constexpr (JsonStruct<T>) {
+    at.require(from.is_object(), msg("is no object"));
+    std::set<std::string> known;
+    each_field(into, [&]<class Member>(const char* name, Member&& member, JsonField field = JsonField::always) {
+      known.insert(name);
       const auto found = from.find(name);
-      const std::string whole = field.empty() ? name : field + "." + name;
-      if (found != from.end() && !found->is_null()) return read_json_value(*found, whole, member);
-      if (!optional) throw Error(fmt::format("'{}'", whole), msg("is missing"), msg("send it as docs/office.md says"));
+      if (found != from.end() && (at.source.strict || !found->is_null())) return read_json_value(*found, at.member(name), member);
+      if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"));
     });
+    if (at.source.strict)
+      for (const auto& [name, value] : from.items())
+        if (!known.contains(name)) at.member(name).refuse(msg("has no place here"));
   } else if constexpr (k_is_optional<T>) {
-    read_json_value(from, field, into.emplace());
+    read_json_value(from, at, into.emplace());
   } else if constexpr (NamedEnum<T>) {
     const auto names = names_of(into);
-    const auto found = std::find(names.begin(), names.end(), from.is_string() ? from.template get<std::string>() : "");
-    require(found != names.end(), msg("is none of: {}", list_of(names)));
+    const auto found = std::find(names.begin(), names.end(), from.is_string() ? from.template get<std::string>() : "\n");
+    at.require(found != names.end(), msg("is none of: {}", list_of(names)));
     into = static_cast<T>(found - names.begin());
-  } else if constexpr (JsonMap<T>) {
-    require(from.is_object(), msg("is no object"));
-    for (const auto& [name, one] : from.items()) read_json_value(one, field + "." + name, into[name]);
+  } else if constexpr (std::same_as<T, JsonFormat>) {
+    at.require(from == into.text, msg("is not '{}'", into.text));
+  } else if constexpr (std::same_as<T, Vec3>) {
+    at.require(from.is_array() && from.size() == 3, msg("is no place: three numbers"));
+    read_json_value(from[0], at, into.x), read_json_value(from[1], at, into.y), read_json_value(from[2], at, into.z);
+  } else if constexpr (std::same_as<T, Message> || std::same_as<T, std::vector<Message>>) {
+    try {
+      if constexpr (std::same_as<T, Message>)
+        into = decode_message(from);
+      else
+        into = decode_messages(from);
+    } catch (const std::invalid_argument& e) {
+      at.refuse(msg("is no message: {}", e.what()));
+    }
+  } else if constexpr (JsonMap<T> || std::same_as<T, JsonTexts>) {
+    at.require(from.is_object(), msg("is no object"));
+    for (const auto& [name, one] : from.items())
+      if constexpr (JsonMap<T>)
+        read_json_value(one, at.member(name), into[name]);
+      else
+        read_json_value(one, at.member(name), into.emplace_back(name, "").second);
   } else if constexpr (JsonList<T>) {
-    require(from.is_array(), msg("is no list"));
-    if constexpr (requires { T::k_most; }) require(from.size() <= T::k_most, msg("has more than {} elements", T::k_most));
+    if constexpr (requires { T::k_most; })
+      read_list(T::k_most);
+    else
+      read_list(at.source.most_elements);
     for (const auto& one : from) {
-      const std::string place = fmt::format("{}[{}]", field, into.size());
+      const JsonPlace place{at.source, fmt::format("{}[{}]", at.field, into.size())};
       read_json_value(one, place, into.emplace_back());
     }
+  } else if constexpr (requires { std::tuple_size<T>::value; }) {
+    at.require(from.is_array() && from.size() == into.size(), msg("is no list of {} elements", into.size()));
+    for (std::size_t i = 0; i < into.size(); ++i) read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into[i]);
   } else if constexpr (std::derived_from<T, std::string>) {
-    require(from.is_string(), msg("is no text"));
+    at.require(from.is_string(), msg("is no text"));
     static_cast<std::string&>(into) = from.template get<std::string>();
-    if constexpr (requires { T::k_most; }) require(into.size() <= T::k_most, msg("is longer than {} bytes", T::k_most));
-    if constexpr (requires { into.problem(); }) require(into.problem().empty(), into.problem());
+    std::size_t most = at.source.most_bytes;
+    if constexpr (requires { T::k_most; }) most = T::k_most;
+    at.require(into.size() <= most, msg("is longer than {} bytes", most));
+    if constexpr (requires { into.problem(); }) at.require(into.problem().empty(), into.problem());
   } else if constexpr (std::same_as<T, bool>) {
-    require(from.is_boolean(), msg("is neither true nor false"));
+    at.require(from.is_boolean(), msg("is neither true nor false"));
     into = from;
   } else if constexpr (std::integral<T>) {
     const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
-                                                : from.is_number_integer() && std::in_range<T>(from.template get<std::int64_t>());
-    require(fits, msg("is no whole number in its range"));
+                                                : from.is_number_integer() && sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
+                                                      std::in_range<T>(from.template get<std::int64_t>());
+    at.require(fits, msg("is no whole number in its range"));
     into = from;
   } else if constexpr (requires { T::k_least; }) {
-    read_json_value(from, field, into.value);
-    require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most));
+    read_json_value(from, at, into.value);
+    at.require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most));
   } else if constexpr (std::floating_point<T>) {
-    require(from.is_number(), msg("is no number"));
+    at.require(from.is_number(), msg("is no number"));
     into = from;
+    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)));
   } else {
     static_assert(std::same_as<T, nlohmann::json>);
     into = from;
   }
+}
+
+/// The whole of it.
+template <class T>
+[[nodiscard]] T json_value_of(const nlohmann::json& from, const JsonSource& source) {
+  T out{};
+  read_json_value(from, JsonPlace{source}, out);
+  return out;
 }
 
 }  // namespace cavum

@@ -5,7 +5,6 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 #include <functional>
-#include <stdexcept>
 
 #include "engine/statistics/statistics.h"
 
@@ -181,12 +180,6 @@ Message word_of(CheckOutcome outcome) {
       break;
   }
   return msg("doubtful");
-}
-
-CheckOutcome outcome_of(const std::string& name) {
-  for (std::size_t i = 0; i < k_outcomes.size(); ++i)
-    if (name == k_outcomes[i]) return static_cast<CheckOutcome>(i);
-  throw std::invalid_argument(name);
 }
 
 CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earlier) {

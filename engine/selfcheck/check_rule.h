@@ -23,8 +23,6 @@ enum class CheckOutcome { learning, unchanged, changed, doubtful };
 [[nodiscard]] const char* outcome_name(CheckOutcome outcome) noexcept;
 /// For people.
 [[nodiscard]] Message word_of(CheckOutcome outcome);
-/// Throws std::invalid_argument for another word.
-[[nodiscard]] CheckOutcome outcome_of(const std::string& name);
 
 struct CheckChange {
   std::string quantity;  ///< friction, gain, mass, "gain or mass", step, rate

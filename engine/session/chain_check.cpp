@@ -88,11 +88,9 @@ void check_chunks(const SessionReader& session, Findings& findings) {
   }
 }
 
-/// The station's signature on the beginning, where there is one: older recordings have none.
+/// The station's signature on the beginning.
 void check_beginning(const SessionReader& session, Findings& findings) {
-  const std::string key = session.fact(k_station_fact), signature = session.fact(k_begun_fact);
-  if (key.empty() && signature.empty()) return;
-  if (!is_signed_by(key, begin_message(session.meta(), session.artifacts()), signature))
+  if (!is_signed_by(session.fact(k_station_fact), begin_message(session.meta(), session.artifacts()), session.fact(k_begun_fact)))
     findings.push_back(msg("table meta: the signature of the station that began the session does not hold (a fact, a file or the key was changed)"));
 }
 

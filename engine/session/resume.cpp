@@ -33,9 +33,6 @@ void require_intact(const SessionReader& session) {
   if (session.closed()) throw Error(session.path(), msg("is closed"), msg("there is nothing to resume: start a new exam"));
   const auto findings = check_chain(session);
   if (!findings.empty()) throw Error(session.path(), findings.front(), msg("it is evidence now: keep it, and start a new exam"));
-  if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(session.path(), msg("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
-                msg("resume it with the program that recorded it"));
 }
 
 void simulate(const SessionReader& session, Simulation& simulation, const TickVisitor& visit) {

@@ -8,6 +8,7 @@
 #include <set>
 
 #include "engine/base/error.h"
+#include "engine/servo/servo.h"
 #include "engine/session/schema.h"
 #include "engine/session/session_image.h"
 #include "engine/session/sqlite.h"
@@ -164,6 +165,9 @@ void SessionReader::read_seal(Database& database) {
 
 void SessionReader::require_readable() const {
   if (!findings_.empty()) throw Error(path_, findings_.front(), msg("use an intact copy"));
+  if (number("physics_version", 0) != k_physics_version)
+    throw Error(path_, msg("was recorded under physics {}, this program has {}", fact("physics_version"), k_physics_version),
+                msg("use the program that recorded it"));
 }
 
 std::string SessionReader::fact(const std::string& key) const {

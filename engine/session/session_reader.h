@@ -34,7 +34,7 @@ class SessionReader {
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Damage found while reading, each naming its table and row; empty for a sound file.
   [[nodiscard]] const std::vector<Message>& findings() const noexcept { return findings_; }
-  /// Throws Error with the first finding, for callers that can do nothing with a damaged session.
+  /// Throws Error with the first finding, or of another physics, for callers that can do nothing with such a session.
   void require_readable() const;
 
   [[nodiscard]] bool closed() const noexcept { return seal_.has_value(); }

@@ -1,28 +1,131 @@
 #include "grading/ledger/entry_text.h"
 
 #include <fmt/core.h>
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
-#include <concepts>
-#include <set>
-#include <type_traits>
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/message_json.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
+#include "engine/session/source_json.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum::ledger {
-namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_longest_text = 1U << 20, k_longest_list = 1'000'000;
+constexpr auto names_of(Part) { return std::array{said("motion"), said("result"), said("sealed"), said("words")}; }
+constexpr auto names_of(FirstSitting) { return std::array{said("missed"), said("interrupted")}; }
+constexpr auto names_of(Outcome) { return std::array{said("stands"), said("changed")}; }
+
+/// A time as text, bytes as hexadecimal digits, and an opening as its hash.
+template <class Ns>
+struct AsUtc {
+  Ns& ns;
+};
+template <class Bytes>
+struct AsHex {
+  Bytes& bytes;
+};
+template <class Ns>
+AsUtc<Ns> as_utc(Ns& ns) {
+  return {ns};
+}
+template <class Bytes>
+AsHex<Bytes> as_hex(Bytes& bytes) {
+  return {bytes};
+}
+json write_json(const AsUtc<const std::int64_t>& t) { return utc_text(t.ns); }
+void read_json(const json& from, const JsonPlace& at, const AsUtc<std::int64_t>& t) {
+  std::string text;
+  read_json_value(from, at, text);
+  t.ns = parse_utc(text, at.text());
+}
+json write_json(const AsHex<const Sha256>& hash) { return to_hex(hash.bytes); }
+void read_json(const json& from, const JsonPlace& at, const AsHex<Sha256>& hash) {
+  std::string text;
+  read_json_value(from, at, text);
+  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, at.text());
+}
+json write_json(const Opening& o) { return o.sha256; }
+void read_json(const json& from, const JsonPlace& at, Opening& o) {
+  Sha256 hash{};
+  read_json(from, at, as_hex(hash));
+  o.sha256 = to_hex(hash);
+}
+
+// clang-format off
+// What each struct has, for whoever writes, reads or looks for openings.
+
+CAVUM_JSON_OF(Actor, (account, sparse), (reason, sparse), (station, sparse))
+CAVUM_JSON_OF(InitEntry, (ledger), (public_key), (school))
+void json_fields(auto& of, JsonOf<Ticket> auto& self) {
+  of("format", JsonFormat{"cavum ticket 1"});
+  CAVUM_NAMES((artifacts), (begun_at_ledger), (candidate), (exam), (grant_sha256), (ledger), (nonce), (public_key))
+  of("not_after", as_utc(self.not_after_utc_ns)), of("not_before", as_utc(self.not_before_utc_ns));
+}
+CAVUM_JSON_OF(MakesUp, (became), (ticket))
+CAVUM_JSON_OF(TicketEntry, (signature), (ticket), (makes_up))
+CAVUM_JSON_OF(CancelEntry, (ticket))
+void json_fields(auto& of, JsonOf<Begin> auto& self) {
+  of("format", JsonFormat{"cavum begin 1"});
+  CAVUM_NAMES((ledger), (nonce), (public_key), (ticket), (utc_ns))
+}
+CAVUM_JSON_OF(BeginEntry, (begin), (signature), (again, sparse))
+void json_fields(auto& of, JsonOf<SessionEntry> auto& self) {
+  CAVUM_NAMES((begun_utc_ns), (candidate), (chain_sha256), (closed_utc_ns), (file_sha256), (findings), (grading_version), (nonce), (physics_version),
+              (scenario_id), (simulated), (source), (station_key), (ticks))
+  of("opens", json_inside([&](auto& opens) { opens("result", self.result), opens("sealed", self.sealed); }));
+}
+void json_fields(auto& of, JsonOf<RegradeEntry> auto& self) {
+  CAVUM_NAMES((by), (session), (person, sparse))
+  of("opens", json_inside([&](auto& opens) { opens("result", self.result); }));
+}
+CAVUM_JSON_OF(ReleaseEntry, (results))
+CAVUM_JSON_OF(RetractEntry, (results))
+CAVUM_JSON_OF(AppealEntry, (session))
+CAVUM_JSON_OF(AnswerEntry, (answers), (outcome), (session))
+CAVUM_JSON_OF(Audience, (room, sparse), (stations, sparse))
+void json_fields(auto& of, JsonOf<AnnounceEntry> auto& e) { of("text", e.text), json_fields(of, e.audience); }
+void json_fields(auto& of, JsonOf<HoldEntry> auto& e) { json_fields(of, e.audience); }
+CAVUM_JSON_OF(GoOnEntry, (hold))
+void json_fields(auto& of, JsonOf<IncidentEntry> auto& self) {
+  CAVUM_NAMES((about_station, sparse), (candidate, sparse))
+  of("opens", json_inside([&](auto& opens) { opens("words", self.words); }));
+}
+CAVUM_JSON_OF(Seat, (station), (ticket))
+CAVUM_JSON_OF(SeatsEntry, (seats))
+CAVUM_JSON_OF(PassbackEntry, (answer), (line_item), (platform), (result), (session), (status))
+CAVUM_JSON_OF(ErasedPart, (entry), (what))
+CAVUM_JSON_OF(EraseEntry, (erased))
+CAVUM_JSON_OF(ForgetEntry, (candidate), (erased, sparse))
+CAVUM_JSON_OF(KeyEntry, (public_key), (signature), (until_utc_ns))
+void json_fields(auto& of, JsonOf<SizeAndRoot> auto& s) { of("root", as_hex(s.root)), of("size", s.size); }
+CAVUM_JSON_OF(RestoreEntry, (backup), (lost), (missing_sessions))
+CAVUM_JSON_OF(InviteEntry, (code_key), (name), (until_utc_ns))
+CAVUM_JSON_OF(Stylus, (name), (serial))
+void json_fields(auto& of, JsonOf<StationRequest> auto& self) {
+  of("format", JsonFormat{"cavum station request 1"});
+  CAVUM_NAMES((by), (devices), (made_utc_ns), (public_key), (school))
+}
+CAVUM_JSON_OF(SignedRequest, (request), (signature), (code_signature, sparse), (old_signature, sparse))
+CAVUM_JSON_OF(EnrolEntry, (asked), (until_utc_ns))
+CAVUM_JSON_OF(RevokeEntry, (public_key))
+CAVUM_JSON_OF(RoomEntry, (public_key), (room))
+// clang-format on
+
+/// All that an entry says beside its number and time.
+template <class Of, class Said>
+void body_fields(Of& of, Said& e) {
+  json_fields(of, e.by);
+  std::visit([&](auto& what) { json_fields(of, what); }, *e.what);
+}
+
+namespace {
 
 /// Of the kinds, in the order of Entry.
 constexpr std::array<const char*, std::variant_size_v<Entry>> k_kinds = {
@@ -30,376 +133,28 @@ constexpr std::array<const char*, std::variant_size_v<Entry>> k_kinds = {
     "go_on", "incident", "seats",  "passback", "erase",   "forget",  "key",     "restore", "invite", "enrol",  "revoke",   "room"};
 static_assert(k_kinds.back() != nullptr, "each kind has a name");
 
-/// Of an enum's values, in their order.
-template <class Enum>
-constexpr std::array<const char*, 0> k_words{};
-template <>
-constexpr std::array k_words<Part> = {said("motion"), said("result"), said("sealed"), said("words")};
-template <>
-constexpr std::array k_words<FirstSitting> = {said("missed"), said("interrupted")};
-template <>
-constexpr std::array k_words<Outcome> = {said("stands"), said("changed")};
-template <>
-constexpr std::array k_words<SourceKind> = k_source_kinds;
+JsonSource source_of(const std::string& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
 
-template <class E, class Kind>
-concept Is = std::same_as<std::remove_const_t<E>, Kind>;
+/// Notes where the openings are.
+struct FindOpenings {
+  std::map<Part, Opening*>& out;
 
-// What each struct has, for whoever writes, reads or looks for openings. `may`: absent where it is empty.
-
-void fields(auto& io, Is<Actor> auto& e) {
-  io.may("account", e.account);
-  io.may("reason", e.reason);
-  io.may("station", e.station);
-}
-void fields(auto& io, Is<InitEntry> auto& e) {
-  io("ledger", e.ledger);
-  io("public_key", e.public_key);
-  io("school", e.school);
-}
-void fields(auto& io, Is<Ticket> auto& t) {
-  io.format("cavum ticket 1");
-  io("artifacts", t.artifacts);
-  io("begun_at_ledger", t.begun_at_ledger);
-  io("candidate", t.candidate);
-  io("exam", t.exam);
-  io("grant_sha256", t.grant_sha256);
-  io("ledger", t.ledger);
-  io("nonce", t.nonce);
-  io.utc("not_after", t.not_after_utc_ns);
-  io.utc("not_before", t.not_before_utc_ns);
-  io("public_key", t.public_key);
-}
-void fields(auto& io, Is<MakesUp> auto& e) {
-  io("became", e.became);
-  io("ticket", e.ticket);
-}
-void fields(auto& io, Is<TicketEntry> auto& e) {
-  io("signature", e.signature);
-  io("ticket", e.ticket);
-  io.may("makes_up", e.makes_up);
-}
-void fields(auto& io, Is<CancelEntry> auto& e) { io("ticket", e.ticket); }
-void fields(auto& io, Is<Begin> auto& b) {
-  io.format("cavum begin 1");
-  io("ledger", b.ledger);
-  io("nonce", b.nonce);
-  io("public_key", b.public_key);
-  io("ticket", b.ticket);
-  io("utc_ns", b.utc_ns);
-}
-void fields(auto& io, Is<BeginEntry> auto& e) {
-  io("begin", e.begin);
-  io("signature", e.signature);
-  io.may("again", e.again);
-}
-void fields(auto& io, Is<MotionSource> auto& s) {
-  io("kind", s.kind);
-  io("name", s.name);
-  io("serial", s.serial);
-}
-void fields(auto& io, Is<SessionEntry> auto& e) {
-  io("begun_utc_ns", e.begun_utc_ns);
-  io("candidate", e.candidate);
-  io("chain_sha256", e.chain_sha256);
-  io("closed_utc_ns", e.closed_utc_ns);
-  io("file_sha256", e.file_sha256);
-  io("findings", e.findings);
-  io("grading_version", e.grading_version);
-  io("nonce", e.nonce);
-  io("physics_version", e.physics_version);
-  io("remarks", e.remarks);
-  io("scenario_id", e.scenario_id);
-  io("simulated", e.simulated);
-  io("source", e.source);
-  io("station_key", e.station_key);
-  io("ticks", e.ticks);
-  io.opens(Part::result, e.result);
-  io.opens(Part::sealed, e.sealed);
-}
-void fields(auto& io, Is<RegradeEntry> auto& e) {
-  io("by", e.by);
-  io("session", e.session);
-  io.may("person", e.person);
-  io.opens(Part::result, e.result);
-}
-void fields(auto& io, Is<ReleaseEntry> auto& e) { io("results", e.results); }
-void fields(auto& io, Is<RetractEntry> auto& e) { io("results", e.results); }
-void fields(auto& io, Is<AppealEntry> auto& e) { io("session", e.session); }
-void fields(auto& io, Is<AnswerEntry> auto& e) {
-  io("answers", e.answers);
-  io("outcome", e.outcome);
-  io("session", e.session);
-}
-void fields(auto& io, Is<Audience> auto& a) {
-  io.may("room", a.room);
-  io.may("stations", a.stations);
-}
-void fields(auto& io, Is<AnnounceEntry> auto& e) {
-  io("text", e.text);
-  fields(io, e.audience);
-}
-void fields(auto& io, Is<HoldEntry> auto& e) { fields(io, e.audience); }
-void fields(auto& io, Is<GoOnEntry> auto& e) { io("hold", e.hold); }
-void fields(auto& io, Is<IncidentEntry> auto& e) {
-  io.may("about_station", e.about_station);
-  io.may("candidate", e.candidate);
-  io.opens(Part::words, e.words);
-}
-void fields(auto& io, Is<Seat> auto& s) {
-  io("station", s.station);
-  io("ticket", s.ticket);
-}
-void fields(auto& io, Is<SeatsEntry> auto& e) { io("seats", e.seats); }
-void fields(auto& io, Is<PassbackEntry> auto& e) {
-  io("answer", e.answer);
-  io("line_item", e.line_item);
-  io("platform", e.platform);
-  io("result", e.result);
-  io("session", e.session);
-  io("status", e.status);
-}
-void fields(auto& io, Is<ErasedPart> auto& p) {
-  io("entry", p.entry);
-  io("what", p.what);
-}
-void fields(auto& io, Is<EraseEntry> auto& e) { io("erased", e.erased); }
-void fields(auto& io, Is<ForgetEntry> auto& e) {
-  io("candidate", e.candidate);
-  io.may("erased", e.erased);
-}
-void fields(auto& io, Is<KeyEntry> auto& e) {
-  io("public_key", e.public_key);
-  io("signature", e.signature);
-  io("until_utc_ns", e.until_utc_ns);
-}
-void fields(auto& io, Is<SizeAndRoot> auto& s) {
-  io("root", s.root);
-  io("size", s.size);
-}
-void fields(auto& io, Is<RestoreEntry> auto& e) {
-  io("backup", e.backup);
-  io("lost", e.lost);
-  io("missing_sessions", e.missing_sessions);
-}
-void fields(auto& io, Is<InviteEntry> auto& e) {
-  io("code_key", e.code_key);
-  io("name", e.name);
-  io("until_utc_ns", e.until_utc_ns);
-}
-void fields(auto& io, Is<Stylus> auto& s) {
-  io("name", s.name);
-  io("serial", s.serial);
-}
-void fields(auto& io, Is<StationRequest> auto& r) {
-  io.format("cavum station request 1");
-  io("by", r.by);
-  io("devices", r.devices);
-  io("made_utc_ns", r.made_utc_ns);
-  io("public_key", r.public_key);
-  io("school", r.school);
-}
-void fields(auto& io, Is<SignedRequest> auto& r) {
-  io("request", r.request);
-  io("signature", r.signature);
-  io.may("code_signature", r.code_signature);
-  io.may("old_signature", r.old_signature);
-}
-void fields(auto& io, Is<EnrolEntry> auto& e) {
-  io("asked", e.asked);
-  io("until_utc_ns", e.until_utc_ns);
-}
-void fields(auto& io, Is<RevokeEntry> auto& e) { io("public_key", e.public_key); }
-void fields(auto& io, Is<RoomEntry> auto& e) {
-  io("public_key", e.public_key);
-  io("room", e.room);
-}
-
-[[noreturn]] void no_entry(const std::string& where, const Message& what) { throw Error(where, what, msg("use an intact copy")); }
-
-class EntryWriter {
- public:
-  json out = json::object();
-
-  template <class T>
-  void operator()(const char* name, const T& value) {
-    out[name] = put(value);
+  void operator()(const char* name, Opening& o) const { out[of_word<Part>(name, name)] = &o; }
+  void operator()(const char* name, std::optional<Opening>& o) const {
+    if (o) (*this)(name, *o);
   }
-  template <class T>
-  void may(const char* name, const T& value) {
-    if (value != T()) out[name] = put(value);
+  template <class Fields>
+  void operator()(const char*, const JsonInside<Fields>& inside) const {
+    inside.fields(*this);
   }
-  template <class T>
-  void may(const char* name, const std::optional<T>& value) {
-    if (value) out[name] = put(*value);
-  }
-  template <class T>
-  void may(const char* name, const std::vector<T>& value) {
-    if (!value.empty()) out[name] = put(value);
-  }
-  void format(const char* text) { out["format"] = text; }
-  void utc(const char* name, std::int64_t utc_ns) { out[name] = utc_text(utc_ns); }
-  void opens(Part what, const Opening& o) { out["opens"][word_of(what)] = o.sha256; }
-  void opens(Part what, const std::optional<Opening>& o) {
-    if (o) opens(what, *o);
-  }
-
- private:
-  template <class T>
-  static json put(const T& value) {
-    if constexpr (std::is_enum_v<T>) {
-      return word_of(value);
-    } else if constexpr (std::same_as<T, Sha256>) {
-      return to_hex(value);
-    } else if constexpr (std::same_as<T, std::vector<Message>>) {
-      return encode(value);
-    } else if constexpr (std::constructible_from<json, const T&>) {
-      return value;
-    } else {
-      EntryWriter inside;
-      fields(inside, value);
-      return std::move(inside.out);
-    }
-  }
-  template <class T>
-  requires(!std::constructible_from<json, const T&>) static json put(const std::vector<T>& list) {
-    json all = json::array();
-    for (const T& one : list) all.push_back(put(one));
-    return all;
-  }
-};
-
-/// Of one object: what is missing, of another type or too long is an Error, and so is what nobody asked for.
-class EntryReader {
- public:
-  EntryReader(const json& j, std::string where) : j_(j), where_(std::move(where)) {
-    if (!j.is_object()) no_entry(where_, msg("is no JSON object"));
-  }
-  template <class T>
-  void operator()(const char* name, T& value) {
-    asked_.insert(name);
-    const auto found = j_.find(name);
-    if (found == j_.end()) no_entry(where_, msg("has no '{}'", name));
-    take(*found, fmt::format("{}: {}", where_, name), value);
-  }
-  template <class T>
-  void may(const char* name, T& value) {
-    asked_.insert(name);
-    if (j_.contains(name)) (*this)(name, value);
-  }
-  void format(const char* text) {
-    std::string is;
-    (*this)("format", is);
-    if (is != text) throw Error(where_, msg("is no '{}'", text), msg("use the version of Cavum that wrote it"));
-  }
-  void utc(const char* name, std::int64_t& utc_ns) {
-    std::string text;
-    (*this)(name, text);
-    utc_ns = parse_utc(text, fmt::format("{}: {}", where_, name));
-  }
-  void opens(Part what, Opening& o) {
-    asked_.insert("opens");
-    const auto all = j_.find("opens");
-    if (all == j_.end() || !all->is_object() || !all->contains(word_of(what))) no_entry(where_, msg("opens no '{}'", word_of(what)));
-    std::string hash;
-    take(all->at(word_of(what)), where_ + ": opens", hash);
-    o.sha256 = to_hex(fixed_from_hex<32>(hash, where_ + ": opens"));
-    ++opened_;
-  }
-  void opens(Part what, std::optional<Opening>& o) {
-    if (const auto all = j_.find("opens"); all != j_.end() && all->contains(word_of(what))) opens(what, o.emplace());
-  }
-  void done() const {
-    for (const auto& [name, value] : j_.items())
-      if (!asked_.contains(name)) no_entry(where_, msg("has a member that it should not have: '{}'", one_line(name.substr(0, 80))));
-    if (const auto all = j_.find("opens"); all != j_.end() && all->size() != opened_) no_entry(where_, msg("opens what its kind does not have"));
-  }
-
- private:
-  static void take(const json& j, const std::string& where, std::string& value) {
-    if (!j.is_string()) no_entry(where, msg("is no text"));
-    value = j.get<std::string>();
-    if (value.size() > k_longest_text) no_entry(where, msg("is longer than {} bytes", k_longest_text));
-  }
-  static void take(const json& j, const std::string& where, bool& value) {
-    if (!j.is_boolean()) no_entry(where, msg("is neither true nor false"));
-    value = j.get<bool>();
-  }
-  template <std::integral Whole>
-  static void take(const json& j, const std::string& where, Whole& value) {
-    const bool fits =
-        j.is_number_unsigned() ? std::in_range<Whole>(j.get<std::uint64_t>()) : j.is_number_integer() && std::in_range<Whole>(j.get<std::int64_t>());
-    if (!fits) no_entry(where, msg("is no whole number in its range"));
-    value = j.get<Whole>();
-  }
-  template <class Enum>
-  requires std::is_enum_v<Enum>
-  static void take(const json& j, const std::string& where, Enum& value) {
-    std::string word;
-    take(j, where, word);
-    value = of_word<Enum>(word, where);
-  }
-  static void take(const json& j, const std::string& where, Sha256& value) {
-    std::string hex;
-    take(j, where, hex);
-    value = fixed_from_hex<32>(hex, where);
-  }
-  static void take(const json& j, const std::string& where, std::vector<Message>& value) {
-    try {
-      value = decode_messages(j);
-    } catch (const std::invalid_argument& e) {
-      no_entry(where, msg("is no list of messages: {}", e.what()));
-    }
-  }
-  static void take(const json& j, const std::string& where, std::map<std::string, std::string>& value) {
-    if (!j.is_object()) no_entry(where, msg("is no JSON object"));
-    for (const auto& [name, text] : j.items()) take(text, where, value[name]);
-  }
-  template <class T>
-  static void take(const json& j, const std::string& where, std::vector<T>& list) {
-    if (!j.is_array() || j.size() > k_longest_list) no_entry(where, msg("is no list of at most {}", k_longest_list));
-    for (const json& one : j) take(one, where, list.emplace_back());
-  }
-  template <class T>
-  static void take(const json& j, const std::string& where, std::optional<T>& value) {
-    take(j, where, value.emplace());
-  }
-  template <class T>
-  requires std::is_class_v<T>
-  static void take(const json& j, const std::string& where, T& value) {
-    EntryReader inside(j, where);
-    fields(inside, value);
-    inside.done();
-  }
-
-  template <class T>
-  friend T ledger::value_in(const json& j, const std::string& where);
-
-  const json& j_;
-  std::string where_;
-  std::set<std::string> asked_;
-  std::size_t opened_ = 0;
-};
-
-class EntryOpenings {
- public:
-  std::map<Part, Opening*> out;
-
-  template <class T>
-  void operator()(const char*, const T&) {}
-  template <class T>
-  void may(const char*, const T&) {}
-  void opens(Part what, Opening& o) { out[what] = &o; }
-  void opens(Part what, std::optional<Opening>& o) {
-    if (o) out[what] = &*o;
-  }
+  void operator()(const char*, const auto&, JsonField = JsonField::always) const {}
 };
 
 /// Nothing is said in it yet.
-Entry entry_of_kind(const std::string& kind, const std::string& where) {
+Entry entry_of_kind(const std::string& kind, const JsonSource& source) {
   Entry out;
   const auto at = std::find(k_kinds.begin(), k_kinds.end(), kind);
-  if (at == k_kinds.end()) no_entry(where, msg("is of a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
+  if (at == k_kinds.end()) JsonPlace{source, "kind"}.refuse(msg("is a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
   [&]<std::size_t... I>(std::index_sequence<I...>) {
     ((I == static_cast<std::size_t>(at - k_kinds.begin()) ? static_cast<void>(out.emplace<I>()) : void()), ...);
   }
@@ -410,25 +165,21 @@ Entry entry_of_kind(const std::string& kind, const std::string& where) {
 }  // namespace
 
 std::string entry_text(const LedgerEntry& e) {
-  EntryWriter body;
-  fields(body, e.by);
-  std::visit([&](const auto& what) { fields(body, what); }, e.what.value());
-  return json{{"body", body.out}, {"kind", kind_name(*e.what)}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
+  const auto body = json_inside([&](auto& of) { body_fields(of, e); });
+  return json{{"body", to_json_value(body)}, {"kind", kind_name(*e.what)}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
 }
 
 LedgerEntry read_entry(const std::string& text, const std::string& where) {
   LedgerEntry e;
-  const json j = parse_json(text, where);
-  EntryReader all(j, where);
+  const JsonSource source = source_of(where);
   std::string kind;
-  all("kind", kind);
-  all("seq", e.seq);
-  all("utc_ns", e.utc_ns);
-  e.what = entry_of_kind(kind, where);
-  EntryReader body(member_of(j, "body"), where);
-  fields(body, e.by);
-  std::visit([&](auto& what) { fields(body, what); }, *e.what);
-  body.done();
+  auto all = json_inside([&](auto& of) {
+    of("kind", kind), of("seq", e.seq), of("utc_ns", e.utc_ns);
+    of("body", json_inside([&](auto& body) { body_fields(body, e); }));
+  });
+  const json j = parse_json(text, where);
+  e.what = entry_of_kind(text_in(j, "kind"), source);
+  read_json_value(j, {source}, all);
   e.text = text;
   return e;
 }
@@ -444,9 +195,10 @@ LedgerEntry read_entry_or_none(const std::string& text) noexcept {
 const char* kind_name(const Entry& entry) { return k_kinds[entry.index()]; }
 
 std::map<Part, Opening*> openings_of(Entry& entry) {
-  EntryOpenings found;
-  std::visit([&](auto& what) { fields(found, what); }, entry);
-  return found.out;
+  std::map<Part, Opening*> out;
+  const FindOpenings find{out};
+  std::visit([&](auto& what) { json_fields(find, what); }, entry);
+  return out;
 }
 
 std::map<Part, const Opening*> openings_of(const Entry& entry) {
@@ -456,29 +208,22 @@ std::map<Part, const Opening*> openings_of(const Entry& entry) {
 
 template <class Value>
 json json_of(const Value& value) {
-  EntryWriter io;
-  fields(io, value);
-  return std::move(io.out);
+  return to_json_value(value);
 }
 
 template <class Value>
 Value value_in(const json& j, const std::string& where) {
-  Value value;
-  EntryReader::take(j, where, value);
-  return value;
+  return json_value_of<Value>(j, source_of(where));
 }
 
 template <class Enum>
 const char* word_of(Enum value) {
-  return k_words<Enum>[static_cast<std::size_t>(value)];
+  return names_of(value)[static_cast<std::size_t>(value)];
 }
 
 template <class Enum>
 Enum of_word(const std::string& word, const std::string& where) {
-  const auto at = std::find(k_words<Enum>.begin(), k_words<Enum>.end(), word);
-  if (at == k_words<Enum>.end())
-    throw Error(where, msg("'{}' is none of its words", one_line(word.substr(0, 80))), msg("say {}", list_of(k_words<Enum>)));
-  return static_cast<Enum>(at - k_words<Enum>.begin());
+  return json_value_of<Enum>(word, {where, msg("say one of its words")});
 }
 
 template json json_of(const Ticket&);

@@ -133,11 +133,9 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);
-  const grading::SchoolMark mark =
-      session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
+  const grading::SchoolMark mark = session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}};
   e.findings = session.closed() ? mark.findings : mark.replay.findings;
   say_replay(e, session, mark);
-  for (const auto& r : mark.remarks) e.remarks.push_back(r);
   or_damage(e, [&] {
     for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
   });

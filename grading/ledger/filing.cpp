@@ -20,7 +20,7 @@ constexpr std::int64_t k_longest_refused_ticks = 600'000;  // 10 minutes, simula
 std::string scenario_id_of(const SessionSetup& setup, const grading::SchoolMark& mark) {
   if (mark.result.is_object()) return text_in(member_of(mark.result, "scenario"), "id");
   try {
-    return scenarios::parse_scenario(setup.scenario_toml, "scenario.toml", scenarios::Reading::recorded).id;
+    return scenarios::parse_scenario(setup.scenario_toml, "scenario.toml").id;
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception&) {
@@ -42,7 +42,6 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
   e.begun_utc_ns = session.created().utc_ns;
   e.closed_utc_ns = session.seal()->clocks.utc_ns;
   e.ticks = mark.replay.ticks;
-  e.remarks = mark.remarks;
   e.grading_version = grading::k_grading_version;
   e.physics_version = session.number("physics_version", 0);
   e.result = make_opening(mark.result);
@@ -71,7 +70,6 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   const auto claims = claims_of(ledger, session, options);
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
   out.findings.insert(out.findings.end(), mark.findings.begin(), mark.findings.end());
-  out.remarks = mark.remarks;
   out.findings.insert(out.findings.end(), claimed.begin(), claimed.end());
   if (refused()) return;
 

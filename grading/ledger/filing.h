@@ -15,7 +15,6 @@ namespace cavum::ledger {
 
 struct Filing {
   std::vector<Message> findings;     ///< why it was not filed, or with what it was; empty for a sound session
-  std::vector<Message> remarks;      ///< what is to be known beside: it was sealed by another version of grading
   std::optional<std::uint64_t> seq;  ///< of the new entry; none: refused
 };
 /// Simulates `session` tick by tick, runs its scenario and marks it again, checks station, source, clocks and ticket, keeps the file in the ledger's

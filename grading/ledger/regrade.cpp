@@ -45,7 +45,7 @@ std::optional<RegradeBasis> kept_basis(const LedgerContent& content, const Regra
 
 std::optional<scenarios::Scenario> scenario_of(const RegradeBasis& basis, const std::string& where) {
   if (basis.scenario_toml.empty()) return {};
-  scenarios::Scenario s = scenarios::parse_scenario(basis.scenario_toml, where, scenarios::Reading::recorded);
+  scenarios::Scenario s = scenarios::parse_scenario(basis.scenario_toml, where);
   scenarios::use_surfaces(s, basis.surfaces);
   return s;
 }

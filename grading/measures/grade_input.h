@@ -46,7 +46,6 @@ struct GradeInput {
   const NotShown* not_shown = nullptr;  ///< a preparation without its recording; nullptr: a recorded exam
   double surface_bound_mm = 0.0;        ///< how far a place of the cut surface of `after` may lie from the true one beside what leaves round
   double surface_mean_bound_mm = 0.0;   ///< and how far the surface as a whole, over which noise averages out
-  bool landmarks_anew = false;          ///< `zones` follow landmarks that the recording does not hold: they were found anew
 };
 
 /// Ticks of `recorded` that count: up to and with the one in which the exam was over.

@@ -57,7 +57,7 @@ std::string below(const std::string& folder, std::string words) {
 json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
   const auto graded = grading::load_for_grading(session, grounds);
   if (!work.scenario_toml.empty()) {
-    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario", scenarios::Reading::recorded);
+    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario");
     scenarios::use_surfaces(scenario, work.surfaces);
     grading::use_scenario(*graded, std::move(scenario), work.another_task);
     grading::use_rubric(*graded, graded->scenario.rubric);
@@ -122,7 +122,6 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
       line["ticks"] = mark.replay.ticks;
       line["findings"] = on_lines(findings);
       if (!findings.empty()) line["said"] = encode(findings);  // for whoever tells them in another language
-      line["remarks"] = on_lines(mark.remarks);
       line["result"] = mark.result;
     } else {
       line["result"] = marked(work, session, grounds);

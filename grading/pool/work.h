@@ -12,7 +12,7 @@
 namespace cavum::pool {
 
 enum class What {
-  verify,   ///< simulated, run and marked again: `verified`, `findings`, `remarks`, `result`
+  verify,   ///< simulated, run and marked again: `verified`, `findings`, `result`
   mark,     ///< marked as it stands: `result`
   regrade,  ///< marked by another rubric, or by a corrected scenario: `result`
 };

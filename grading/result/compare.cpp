@@ -80,9 +80,6 @@ std::optional<OldResult> read_old_result(const std::string& json_text) {
   };
   if (!j.is_object() || !j.contains("verdict") || !j["verdict"].is_string() || !j.contains("score") || !j["score"].is_object()) return {};
   OldResult r;
-  constexpr double k_most_versions = 1e6;
-  if (const double version = number_of(j, "grading_version"); version >= 0 && version < k_most_versions)
-    r.grading_version = static_cast<int>(version);
   r.verdict = one_line(j["verdict"].get<std::string>());
   r.points = number_of(j["score"], "points");
   r.max = number_of(j["score"], "max");
@@ -112,8 +109,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
   c.points = now.points;
   c.max = now.max_points;
   c.rules = changes_of_rules(old_rubric, new_rubric);
-  const bool same_version = sealed.grading_version == k_grading_version;
-  c.tampered = same_version && (sealed.verdict != verdict_name(again.verdict) || !same(sealed.points, again.points));
+  c.tampered = sealed.verdict != verdict_name(again.verdict) || !same(sealed.points, again.points);
   for (const auto& n : now.criteria) {
     CriterionChange d;
     d.id = n.id;
@@ -134,10 +130,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
       if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.push_back(msg("measured against the new scenario"));
       if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
-        c.tampered = c.tampered || same_version;
-        d.why.push_back(same_version ? msg("the sealed figure is not what this version of grading, which it names, gives: tampered with")
-                        : !same(a->value, o->value) ? msg("this version of the program measures otherwise")
-                                                    : msg("this version of the program marks otherwise"));
+        c.tampered = true;
+        d.why.push_back(msg("the sealed figure is not what grading gives: tampered with, or of another program"));
       }
       if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back(msg("another share of the work counts as done"));
     }
@@ -163,8 +157,8 @@ Message regrade_text(const Comparison& c) {
     return msg("{}, {} of {} points", Term{verdict}, as_points(points), as_points(max));
   };
   const Message now = result(c.verdict, c.points, c.max), sealed = result(c.before.verdict, c.before.points, c.before.max);
-  return c.tampered ? msg("marked anew by {}: {}; the exam was sealed as {}, which is not what its version of grading gives: the result was tampered "
-                          "with, or its station's program was",
+  return c.tampered ? msg("marked anew by {}: {}; the exam was sealed as {}, which is not what grading gives: the result was tampered "
+                          "with, or its station's program was, or is another one",
                           c.by, now, sealed)
                     : msg("marked anew by {}: {}; the exam was sealed as {}", c.by, now, sealed);
 }

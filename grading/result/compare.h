@@ -23,7 +23,6 @@ struct OldResult {
   std::string verdict;
   double points = 0.0, max = 0.0;
   std::vector<OldCriterion> criteria;
-  int grading_version = 0;  ///< that it says it comes from; 0 = none
 };
 /// None when there is no result in it.
 [[nodiscard]] std::optional<OldResult> read_old_result(const std::string& json_text);
@@ -42,7 +41,7 @@ struct Comparison {
   double points = 0.0, max = 0.0;
   std::vector<CriterionChange> criteria;  ///< the new rubric's, then those that it has no longer
   std::vector<Message> rules;             ///< changes of pass mark, band and rule
-  bool tampered = false;                  ///< the sealed result names this version of grading, which gives another one
+  bool tampered = false;                  ///< the sealed result is not what grading gives
   /// Verdict or points are not those that the session was sealed with.
   [[nodiscard]] bool differs() const;
 };

@@ -56,7 +56,6 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
   FINDING(step_timed_out, reader, "step '{}' ran out of its time at {} (tick {}): its limit was {}", "step", "t_s", "tick", "limit_s") \
   FINDING(step_timed_out_otherwise, reader, "step '{}' ran out of its time at {} (tick {})", "step", "t_s", "tick") \
   FINDING(record_differs, examiner, "the list of removed leaves and the final tooth disagree: an examiner must look at this recording", ) \
-  FINDING(landmarks_found_again, examiner, "the recording does not hold the landmarks that its zones follow: they were found again, and the zones may lie elsewhere than in the exam; an examiner must look at it, and the sealed result is the exam's", ) \
   /* of a scan */ \
   FINDING(scan_note, reader, "the scan: {}", "note") \
   FINDING(scan_shows_nothing, reader, "the scan shows nothing that was removed", ) \

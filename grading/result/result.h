@@ -18,7 +18,7 @@ namespace cavum::grading {
 
 /// Raised whenever the same recording may get another verdict, other points, other figures or another finding than before: sealed results are
 /// compared as a whole but for their sentences. It stands in every result.
-inline constexpr int k_grading_version = 9;
+inline constexpr int k_grading_version = 1;
 
 /// Tick of what was removed of a preparation that was handed in without its recording: nobody knows when.
 inline constexpr std::int64_t k_untimed_tick = 0x7fffffff;

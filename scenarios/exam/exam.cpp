@@ -85,7 +85,7 @@ std::vector<Message> check_servo(const std::string& servo_toml, const Scenario& 
 }
 
 ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& point_names) {
-  ExamTask task{parse_scenario(session.scenario_toml, scenario_name, Reading::recorded), {}, {}, std::move(session)};
+  ExamTask task{parse_scenario(session.scenario_toml, scenario_name), {}, {}, std::move(session)};
   use_surfaces(task.scenario, task.session.attachments);
   task.scenario.accommodations = granted(task.scenario.accommodations, task.session.notes, scenario_name);
   for (std::size_t i = 0; i < task.session.points_toml.size(); ++i) {

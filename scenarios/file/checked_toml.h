@@ -23,9 +23,7 @@ inline constexpr std::size_t k_most_tray = 16;
 
 class ProblemList {
  public:
-  explicit ProblemList(std::string path, Reading reading = Reading::to_be_run) : path_(std::move(path)), reading_(reading) {}
-  /// False for what an exam ran with before a rule was made: the rule is not for it.
-  [[nodiscard]] bool strict() const noexcept { return reading_ == Reading::to_be_run; }
+  explicit ProblemList(std::string path) : path_(std::move(path)) {}
   void add(const toml::source_region& at, const Message& what, const Message& what_to_do);
   [[nodiscard]] std::size_t size() const noexcept { return problems_.size(); }
   void add(Place at, const Message& what, const Message& what_to_do);
@@ -34,7 +32,6 @@ class ProblemList {
 
  private:
   std::string path_;
-  Reading reading_;
   std::vector<Problem> problems_;
 };
 

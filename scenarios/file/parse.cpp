@@ -21,14 +21,11 @@
 namespace cavum::scenarios {
 namespace {
 
-void check_measure(CheckedTable& t, const std::string& metric, const ProblemList& problems) {
+void check_measure(CheckedTable& t, const std::string& metric) {
   if (metric.empty() || find_measure(metric)) return;
   const Message what = msg("there is no measure '{}'", metric);
   const std::string of_tissue = metric + "_mm3";
-  if (find_measure(of_tissue) && metric != "touched_") {  // an exam that ran with it says so when it is marked
-    if (problems.strict()) t.problem("metric", what, msg("did you mean '{}'?", of_tissue));
-    return;
-  }
+  if (find_measure(of_tissue) && metric != "touched_") return t.problem("metric", what, msg("did you mean '{}'?", of_tissue));
   std::vector<std::string> names;
   for (const auto& m : measures()) names.push_back(m.name);
   t.problem("metric", what, suggestion(metric, names));
@@ -40,7 +37,7 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   c.id = read_id(t, "");
   c.title = t.text("title", c.id);
   c.metric = t.text("metric", "", true);
-  check_measure(t, c.metric, problems);
+  check_measure(t, c.metric);
   for (const char* key : {"metric", "full", "zero", "points", "critical_above", "critical_below"}) t.note(places, key, fmt::format("{}/{}", at, key));
   const auto place_of = [&](const char* key) {
     const auto found = places.find(fmt::format("{}/{}", at, key));
@@ -178,7 +175,7 @@ CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, P
   for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
     t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids));
-  if (c.perforates && scenario.perforation.faults.empty() && problems.strict())
+  if (c.perforates && scenario.perforation.faults.empty())
     t.problem("perforates", msg("'perforates' is true, and no tissue is a fault"),
               msg("list what is broken into under faults of [perforation], or leave 'perforates' out"));
   if (c == CarelessSpec{.fails_by = c.fails_by})
@@ -304,8 +301,8 @@ void require_none(std::vector<Problem> problems) {
   if (!problems.empty()) throw ProblemsError(std::move(problems));
 }
 
-ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading) {
-  ProblemList problems(path, reading);
+ReadScenario read_scenario(const std::string& text, const std::string& path) {
+  ProblemList problems(path);
   toml::table table;
   ReadScenario read;
   if (read_toml(text, path, table, problems)) read.scenario = read_table(table, path, problems);
@@ -315,8 +312,8 @@ ReadScenario read_scenario(const std::string& text, const std::string& path, Rea
 
 std::vector<Problem> check_scenario(const std::string& text, const std::string& path) { return read_scenario(text, path).problems; }
 
-Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading) {
-  ReadScenario read = read_scenario(text, path, reading);
+Scenario parse_scenario(const std::string& text, const std::string& path) {
+  ReadScenario read = read_scenario(text, path);
   throw_first(read.problems);
   return std::move(read.scenario);
 }

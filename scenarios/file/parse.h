@@ -35,19 +35,16 @@ class ProblemsError : public Error {
 /// Throws ProblemsError unless the list is empty.
 void require_none(std::vector<Problem> problems);
 
-/// A scenario that is to be examined with, or one that an exam has run with already: rules that came later do not bind that one.
-enum class Reading { to_be_run, recorded };
-
 /// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
 [[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
 /// Throws Error naming the first mistake, and how many there are.
-[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
+[[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
 /// Both at once: what could be read of a file, and its mistakes.
 struct ReadScenario {
   Scenario scenario;
   std::vector<Problem> problems;
 };
-[[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path, Reading reading = Reading::to_be_run);
+[[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
 /// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
 [[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const Message& what, const Message& what_to_do);

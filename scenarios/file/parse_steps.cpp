@@ -13,7 +13,7 @@
 namespace cavum::scenarios {
 namespace {
 
-void check_condition(CheckedTable& t, const char* key, const std::string& text, const ProblemList& problems) {
+void check_condition(CheckedTable& t, const char* key, const std::string& text) {
   if (text.empty()) return;
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
@@ -38,9 +38,9 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text, 
     std::vector<double> values(known.size(), 0.0);
     const Expression compiled(text, known, values);
     static_cast<void>(compiled);
-    if (const auto fault = problems.strict() ? condition_fault(text) : std::nullopt)
+    if (const auto fault = condition_fault(text))
       t.problem(key, msg("'{}' {}", key, fault->what), fault->what_to_do);
-    else if (problems.strict() && !is_condition(text))
+    else if (!is_condition(text))
       t.problem(key, msg("'{}' is a number, not a condition", key), msg("compare it with something, for example \"target_removed_percent >= 90\""));
   } catch (const std::runtime_error& e) {
     t.problem(key, msg("'{}' cannot be read ({})", key, e.what()), msg("write for example \"target_removed_percent >= 90 && depth_mm < 5\""));
@@ -69,10 +69,10 @@ std::vector<StepSpec> read_steps(CheckedTable& scenario, Places& places, Problem
     s.id = read_id(t, "");
     s.instruction = t.text("instruction", "", true);
     s.complete_when = t.text("complete_when", "", true);
-    check_condition(t, "complete_when", s.complete_when, problems);
+    check_condition(t, "complete_when", s.complete_when);
     t.note(places, "complete_when", at + "/complete_when");
     s.fail_when = t.text("fail_when", "");
-    check_condition(t, "fail_when", s.fail_when, problems);
+    check_condition(t, "fail_when", s.fail_when);
     t.note(places, "fail_when", at + "/fail_when");
     t.note(places, "time_limit_s", at + "/time_limit_s");
     if (t.has("time_limit_s"))

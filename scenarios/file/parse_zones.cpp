@@ -33,10 +33,9 @@ double area_mm2(const std::vector<Vec3>& p) {
   return std::fabs(0.5 * twice);
 }
 
-/// Outlines that are none; exams recorded before this was asked keep theirs.
-void check_outline(CheckedTable& t, const OutlineSpec& o, const ProblemList& problems) {
+/// Outlines that are none.
+void check_outline(CheckedTable& t, const OutlineSpec& o) {
   using Kind = OutlineSpec::Kind;
-  if (!problems.strict()) return;
   if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) ||
       ((o.kind == Kind::stroke || o.kind == Kind::fissure) && 0.5 * o.width_mm + o.offset_mm <= 0))
     t.problem("offset_mm", msg("'offset_mm' leaves nothing of the outline"), msg("move it inwards by less than half its width"));
@@ -86,7 +85,7 @@ OutlineSpec read_outline(const toml::table& table, const std::string& name, Prob
     o.centre_mm = t.vector("centre_mm", 2, {});
     o.from_chamber = t.word("from", {"tooth", "chamber"}, 0) == 1;
   }
-  check_outline(t, o, problems);
+  check_outline(t, o);
   t.finish();
   return o;
 }

@@ -18,8 +18,8 @@ namespace cavum::scenarios {
 
 /// What an exam keeps of its tooth's landmarks (landmarks_text); empty when its zones follow none.
 [[nodiscard]] std::string landmarks_to_keep(const Scenario& scenario, const Tooth& tooth);
-/// The zones of an exam that kept `landmarks_json`; where it is empty (exams of before it was kept) they are found anew. Throws Error as build_zones
-/// does, and when the text is none that landmarks_text wrote; `where` names the exam.
+/// The zones of an exam that kept `landmarks_json`; where it is empty (its own scenario follows none) they are found anew. Throws Error as
+/// build_zones does, and when the text is none that landmarks_text wrote; `where` names the exam.
 [[nodiscard]] ZoneMap build_zones_of_exam(const Scenario& scenario, const Tooth& tooth, const std::string& landmarks_json, const std::string& where);
 
 /// A fissure's outline with its lines (`paths_mm`) on the tooth: the central fissure from ridge to ridge, as far as `ridge_mm` lets it, and the

@@ -35,7 +35,7 @@ def station_as_an_oracle(s):
 
 @attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "taken up|begun|began")
 def station_as_an_oracle_unsigned(s):
-    """... whose beginning is not signed at all, as in older recordings."""
+    """... whose beginning is not signed at all."""
     def change(r):
         del r.facts["begun_signature"], r.facts["station_key"]
         r.rebuild()

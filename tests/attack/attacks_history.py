@@ -76,9 +76,9 @@ def witness_line_made_up(s):
     return s.ledger("verify")
 
 
-@attack("history", FOUND, "lines of before format 4 have no signature", "witness|rewritten|put back")
+@attack("history", FOUND, "each line bears a signature", "witness|rewritten|put back")
 def witness_line_unsigned(s):
-    """A line of a larger size without signature, as those of before format 4."""
+    """A line of a larger size without signature."""
     with open(s.witness_path(), "a") as file:
         file.write(f"40 {sha(b'x').hex()} {2 * 10**18}\n")
     return s.ledger("verify")

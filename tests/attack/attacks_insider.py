@@ -45,19 +45,14 @@ def forged_criterion(s):
     return insider(s, change)
 
 
-@attack("insider", ACCEPTED, "a result of another version of grading is filed under the school's mark, the old one beside it")
-def forged_result_of_an_old_grading(s):
-    """The forged result says that grading version 7 gave it: it may be filed, but must not count anywhere."""
+@attack("insider", FOUND, MARK, "tampered|result")
+def forged_result_of_another_grading(s):
+    """The forged result says that grading version 7 gave it."""
     def change(r):
         result = json.loads(r.result)
         result["verdict"], result["score"]["points"], result["grading_version"] = "pass", 100.0, 7
         r.result = json.dumps(result, ensure_ascii=False, separators=(",", ":"))
-    done = insider(s, change)
-    if done.rc == 0:
-        s.ledger("release", "--all", "--undecided")
-        s.ledger("export", "--format", "moodle", "--out", s.p("g.csv"))
-        s.must("100" not in open(s.p("g.csv")).read().split("4711")[1].split("\n")[0].replace("of 100", ""), "the forged points reach the gradebook")
-    return done
+    return insider(s, change)
 
 
 @attack("insider", FOUND, REPLAY, "simulat|differ|tick")

@@ -76,7 +76,6 @@ std::vector<Bytes> entries_seeds() {
                      {"opens", {{"result", hash}}},
                      {"grading_version", 3},
                      {"physics_version", 4},
-                     {"remarks", json::array()},
                      {"scenario_id", "drill"},
                      {"station_key", key},
                      {"ticks", 30}};

@@ -1,8 +1,5 @@
 // A tooth file. Its checksum would turn away nearly all that a fuzzer makes, so the first byte says how the rest is wrapped: 0 as it is, 1 as all
-// of version 2 but magic and checksum, which are put right (5: of version 3), 2 as the unpacked body of version 1, 3 as the unpacked octree's bytes
-// behind a sound head, 4 as all of either version but the checksum.
-#include <zstd.h>
-
+// but magic and checksum, which are put right, 2 as all but the checksum.
 #include <cstdlib>
 
 #include "engine/tooth/tooth.h"
@@ -42,52 +39,11 @@ Bytes sealed(Bytes file) {
   return file;
 }
 
-Bytes version_1(Data body) {
-  Bytes packed(ZSTD_compressBound(body.size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), body.data(), body.size(), 1));
-  ByteWriter out;
-  for (const char c : std::string("CVTOOTH1")) out.put(c);
-  out.put(static_cast<std::uint64_t>(body.size()));
-  out.put(static_cast<std::uint64_t>(packed.size()));
-  out.put_bytes(packed);
-  return sealed(out.take());
-}
-
-/// What stands before the octree: name, source and tissues, as in version 2.
-Bytes head(const Tooth& tooth) {
-  ByteWriter out;
-  out.put_string(tooth.name);
-  out.put_string(tooth.source);
-  out.put(static_cast<std::uint8_t>(tooth.tissues.size()));
-  for (const auto& t : tooth.tissues) {
-    out.put(t.id);
-    out.put(static_cast<std::uint8_t>(t.solid));
-    out.put_string(t.name);
-  }
-  return out.take();
-}
-
 Bytes unwrapped(std::uint8_t how, Data rest) {
   Bytes file(rest.begin(), rest.end());
-  switch (how % 6) {
-    case 4:
-      return sealed(file);
-    case 0:
-      return file;
-    case 1:
-      file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '2'});
-      return sealed(file);
-    case 5:
-      file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '3'});
-      return sealed(file);
-    case 2:
-      return version_1(rest);
-    default: {
-      static const Bytes k_head = head(smallest_tooth());
-      file.insert(file.begin(), k_head.begin(), k_head.end());
-      return version_1(file);
-    }
-  }
+  if (how % 3 == 0) return file;
+  if (how % 3 == 1) file.insert(file.begin(), {'C', 'V', 'T', 'O', 'O', 'T', 'H', '1'});
+  return sealed(file);
 }
 
 Bytes with(std::uint8_t how, Data rest) {
@@ -112,21 +68,10 @@ void fuzz_tooth(Data data) {
 std::vector<Bytes> tooth_seeds() {
   const Tooth tooth = smallest_tooth();
   const Bytes file = save_tooth(tooth);
-  ByteWriter octree;
-  tooth.octree.write(octree);
-  Bytes body = head(tooth);
-  body.insert(body.end(), octree.bytes().begin(), octree.bytes().end());
-  const Bytes old = version_1(body);
   Tooth marked = tooth;
   marked.placed_landmarks = {{"central_pit", {0.1, 0.2, 0.3}}, {"cusp_1", {-0.3, 0, 0.4}}};
-  const Bytes third = save_tooth(marked);
-  return {with(0, file),
-          with(4, Data(file).first(file.size() - k_sum)),
-          with(4, Data(old).first(old.size() - k_sum)),
-          with(1, Data(file).subspan(k_magic, file.size() - k_magic - k_sum)),
-          with(5, Data(third).subspan(k_magic, third.size() - k_magic - k_sum)),
-          with(2, body),
-          with(3, octree.bytes())};
+  const Bytes more = save_tooth(marked);
+  return {with(0, file), with(2, Data(file).first(file.size() - k_sum)), with(1, Data(more).subspan(k_magic, more.size() - k_magic - k_sum))};
 }
 
 }  // namespace cavum::fuzz

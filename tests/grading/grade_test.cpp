@@ -109,21 +109,6 @@ TEST(Grade, TaperIsMeasuredToADegree) {
   }
 }
 
-// A recording of before exams kept their landmarks may be marked by zones that lie elsewhere: no verdict on it is the program's alone.
-TEST(Grade, WhereLandmarksWereFoundAnewAPersonMustLook) {
-  Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
-  c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 100);
-  GradeInput input = c.input();
-  Result kept = grade(input, c.scenario.rubric);
-  mark(kept, c.scenario.rubric);
-  input.landmarks_anew = true;
-  Result anew = grade(input, c.scenario.rubric);
-  mark(anew, c.scenario.rubric);
-  EXPECT_EQ(kept.verdict, Verdict::pass);
-  EXPECT_EQ(anew.verdict, Verdict::review);
-  EXPECT_EQ(anew.points, kept.points);
-}
-
 TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {
   Carved c(scenario_text(k_box_target), dentin_block(4, 4, 0.05));
   c.carve(box_hole(-1.5, 1.5, -1, 1, -2), 100);

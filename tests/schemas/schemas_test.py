@@ -205,7 +205,7 @@ class Scenarios(unittest.TestCase):
                 self.assertEqual([], [e.message for e in self.valid.iter_errors(scenario)])
 
     def test_templates_are_valid(self):
-        for tooth, task in (("molar", "access"), ("molar", "class_2"), ("premolar", "access"), ("incisor", "access"), ("carious_molar", "lesion"), ("block", "cross")):
+        for tooth, task in (("molar", "access"), ("molar", "class_2_mesial"), ("premolar", "access"), ("incisor", "access"), ("carious_molar", "lesion"), ("block", "cross")):
             with self.subTest(f"{tooth} {task}"), tempfile.TemporaryDirectory() as folder:
                 path = pathlib.Path(folder) / "new.toml"
                 self.assertEqual(0, cavum("scenario", "new", "--tooth", tooth, "--task", task, "--out", path).returncode)

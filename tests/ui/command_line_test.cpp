@@ -128,8 +128,8 @@ TEST_F(CommandLine, AMisspeltTissueOrPointIsFoundBeforeAnyExam) {
 // Two of them, drawn by the seed, and all with CAVUM_DEEP: a solution takes up to twenty seconds.
 TEST_F(CommandLine, TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays) {
   const std::vector<std::pair<std::string, std::string>> templates{
-      {"block", "class_1"}, {"block", "slot"},   {"block", "cross"},     {"molar", "class_1"},  {"molar", "class_2"},
-      {"molar", "slot"},    {"molar", "access"}, {"premolar", "access"}, {"incisor", "access"}, {"carious_molar", "lesion"}};
+      {"block", "class_1"},     {"block", "slot"},   {"block", "cross"},     {"molar", "class_1"},  {"molar", "class_2_mesial"},
+      {"molar", "slot_mesial"}, {"molar", "access"}, {"premolar", "access"}, {"incisor", "access"}, {"carious_molar", "lesion"}};
   for (const auto& [tooth, task] : testing_basics::some_of(templates, 2, "CommandLine.TemplatesAreSolvedByTheExpertInAboutTheTimeThatCheckSays")) {
     const std::string file = path(tooth + task + ".toml");
     ASSERT_EQ(run("scenario new --untried --tooth " + tooth + " --task " + task + " --out " + file).exit_code, 0);

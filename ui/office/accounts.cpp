@@ -7,22 +7,27 @@
 #include <array>
 #include <cctype>
 #include <filesystem>
-#include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
-#include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/text.h"
 #include "grading/ledger/decision.h"
 #include "ui/office/one_time_code.h"
 
 namespace cavum::office {
+
+struct AccountsFile {
+  std::vector<Account> accounts;
+};
+void json_fields(auto& of, JsonOf<Account> auto& self) {
+  CAVUM_NAMES((name), (role), (code_secret), (known_as))
+  of("password", self.password_hash);
+}
+void json_fields(auto& of, JsonOf<AccountsFile> auto& file) { of("format", JsonFormat{"cavum accounts 1"}), of("accounts", file.accounts); }
+
 namespace {
-
-using nlohmann::json;
-
-constexpr char k_accounts_format[] = "cavum accounts 1";
 
 std::string hash_of(const std::string& password) {
   std::array<char, crypto_pwhash_STRBYTES> hash{};
@@ -52,15 +57,10 @@ std::string in_address(const std::string& text) {
 
 std::vector<Account> Accounts::all() const {
   if (!std::filesystem::exists(path_)) return {};
-  const json file = parse_json(read_text_file(path_), path_);
-  const auto refuse = [&] { throw Error(path_, msg("is no file of accounts"), msg("restore it, or remove it and add the accounts anew")); };
-  if (text_in(file, "format") != k_accounts_format || !member_of(file, "accounts").is_array()) refuse();
-  std::vector<Account> out;
-  for (const json& a : file["accounts"]) {
-    const auto role = role_named(text_in(a, "role"));
-    out.push_back({text_in(a, "name"), role.value_or(Role::reader), text_in(a, "password"), text_in(a, "code_secret"), text_in(a, "known_as")});
-    if (!role || out.back().name.empty() || !out.back().password_hash.starts_with("$argon2id$")) refuse();
-  }
+  const JsonSource source{path_, msg("restore it, or remove it and add the accounts anew")};
+  auto out = json_value_of<AccountsFile>(parse_json(read_text_file(path_), path_), source).accounts;
+  for (const Account& a : out)
+    if (a.name.empty() || !a.password_hash.starts_with("$argon2id$")) throw Error(path_, msg("is no file of accounts"), source.advice);
   return out;
 }
 
@@ -71,12 +71,8 @@ std::optional<Account> Accounts::of(const std::string& name) const {
 }
 
 void Accounts::write(const std::vector<Account>& accounts) const {
-  json list = json::array();
-  for (const auto& a : accounts)
-    list.push_back(
-        {{"name", a.name}, {"role", name_of(a.role)}, {"password", a.password_hash}, {"code_secret", a.code_secret}, {"known_as", a.known_as}});
   make_private_folder(std::filesystem::path(path_).parent_path().string());
-  write_private_text_file(path_, json{{"format", k_accounts_format}, {"accounts", list}}.dump(1) + "\n");
+  write_private_text_file(path_, to_json_value(AccountsFile{accounts}).dump(1) + "\n");
 }
 
 std::optional<Account> Accounts::called(const std::string& known_as) const {

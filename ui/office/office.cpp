@@ -121,8 +121,7 @@ struct Office::Parts {
   template <class Served>
   [[nodiscard]] Reply serve(const Call& call) {
     if constexpr (JsonStruct<typename Served::Request>) {
-      typename Served::Request asked;
-      read_json_value(call.json(), "", asked);
+      auto asked = json_value_of<typename Served::Request>(call.json(), asked_json());
       if constexpr (std::same_as<Served, route::count_regrade>)
         regrades.require_ready(asked.id, call.by->account);  // or a code is used up for nothing
       if constexpr (Served::row.needs_code()) require_code(asked.code, call.by->account);

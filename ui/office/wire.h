@@ -112,7 +112,7 @@ using UpToADay = Between<-1, 86'400>;  ///< s
 /// One report of a station.
 /// `candidate`: pseudonym; empty: nobody sits; `step`: of the exam, for people; `alarm`: what an invigilator should see to; empty: nothing; `left_s`:
 /// on the exam's clock; -1: no clock runs; `held`: the exam stands still because the office paused it; `heard`: entry of the last announcement that
-/// was read; `here_s`: since the candidate signed in; -1: not said (stations of before), or nobody did.
+/// was read; `here_s`: since the candidate signed in; -1: nobody did.
 CAVUM_JSON(StationReport, (AtStation, state), (ShortLine, candidate, optional), (ShortLine, step, optional), (ShortLine, alarm, optional),
            (UpToADay, left_s, optional), (bool, held, optional), (std::uint64_t, heard, optional), (UpToADay, here_s, optional))
 /// `refused`: the candidate whom it may not begin; `since_utc_ns`: when the candidate signed in; 0: nobody did.

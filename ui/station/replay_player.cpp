@@ -12,10 +12,6 @@ namespace {
 
 const SessionReader& sound(const SessionReader& reader) {
   reader.require_readable();
-  const std::int64_t version = reader.number("physics_version", 0);
-  if (version != k_physics_version)
-    throw Error(Name{reader.path()}, msg("was recorded under physics {}, this is {}", version, k_physics_version),
-                msg("use the program that recorded it"));
   return reader;
 }
 

@@ -98,7 +98,7 @@ int ledger_add(const LedgerOptions& o) {
       filing.findings.push_back(msg("{}: cannot be filed ({}); use an intact copy", path, e.what()));
     }
     all = all && filing.seq && filing.findings.empty();
-    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}, {"remarks", filing.remarks}};
+    json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
       if (!o.out.empty()) write_private_text_file(fmt::format("{}/receipt-{}.json", o.out, *filing.seq), one["receipt"].dump(2) + "\n");
@@ -106,7 +106,6 @@ int ledger_add(const LedgerOptions& o) {
     if (!o.as_json) {
       say(filing.seq ? msg("{}: entry {}", path, *filing.seq) : msg("{}: NOT FILED", path));
       for (const auto& f : filing.findings) say(msg("- {}", f), 2);
-      for (const auto& r : filing.remarks) say(msg("({})", r), 2);
     }
     printed.push_back(std::move(one));
   }

@@ -48,9 +48,6 @@ std::string tooth_file(const NewArguments& o) {
               msg("choose {}, or a tooth file (.cvt)", tooth_names()));
 }
 
-/// Words of before: a mesial box was the only one that there was.
-std::string task_word(const std::string& word) { return word == "class_2" || word == "slot" ? word + "_mesial" : word; }
-
 /// A tooth's file as the scenario beside `out` names it: by its name where both lie together or it ships, else by its whole path.
 std::string named_from(const std::string& out, const std::string& tooth_file) {
   namespace fs = std::filesystem;
@@ -120,7 +117,7 @@ int make_for_tooth(const NewArguments& o) {
   const std::string file = tooth_file(o);
   const Tooth tooth = load_tooth_file(file);
   const Landmarks landmarks = find_landmarks(tooth);
-  std::string task = task_word(o.task);
+  std::string task = o.task;
   for (const auto& t : scenarios::offered_tasks(tooth, landmarks))
     if (task.empty() && t.why_not.empty()) task = t.task;
   if (task.empty())

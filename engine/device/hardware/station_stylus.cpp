@@ -90,9 +90,6 @@ StationStylus parse_station_stylus(const std::string& text, const std::string& w
   s.placement.offset_mm = {offset[0], offset[1], offset[2]};
   s.placement.tool = quaternion(in, "tool");
   for (const auto& setting : kind.settings) s.settings[setting.key] = read_setting(in, setting);
-  for (const auto& other : stylus_kinds().all())
-    for (const auto& setting : other.settings)
-      if (!s.settings.contains(setting.key)) static_cast<void>(read_setting(in, setting));
   in.finish();
   return s;
 }

@@ -36,7 +36,7 @@ struct StationStylus {
 /// What is meant when nobody has placed it: the kind's own.
 [[nodiscard]] StationStylus usual_station_stylus(const StylusKind& kind);
 /// Throws Error on a file that is no such text: `rotation` and `tool` (w, x, y, z; not all 0), `offset_mm` (x, y, z within 1 m), and optionally the
-/// settings of `kind`, each in its range. Settings of other styluses are left out: older versions wrote them into every file.
+/// settings of `kind`, each in its range.
 [[nodiscard]] StationStylus parse_station_stylus(const std::string& text, const std::string& where, const StylusKind& kind);
 /// What the station keeps, or the usual. Throws Error when the file is damaged.
 [[nodiscard]] StationStylus load_station_stylus(const StylusKind& kind);

@@ -161,9 +161,6 @@ Recording joined(const std::vector<std::vector<Row>>& contacts, std::size_t leas
 Recording read_session_recording(const std::string& path, const std::string& force_csv) {
   const SessionReader session(path);
   session.require_readable();
-  if (session.number("physics_version", 0) != k_physics_version)
-    throw Error(path, msg("was recorded under physics {}, this program has {}", session.fact("physics_version"), k_physics_version),
-                msg("explain it with the program that recorded it"));
   Simulation simulation = make_simulation(session.setup(), path);
   const double tick_s = simulation.model.config.tick_s;
   const Force measured = force_csv.empty() ? force_of_events(session, tick_s) : force_of_csv(force_csv);

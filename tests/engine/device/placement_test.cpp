@@ -104,15 +104,6 @@ TEST(StationStylus, IsReadAsItWasWritten) {
   EXPECT_EQ(code_of([&] { static_cast<void>(read.text("arm_offset_deg")); }), DeviceError::not_a_setting) << "a number, not a text";
 }
 
-TEST(StationStylus, AFileOfAnOlderVersionWithSettingsOfOtherStylusesIsRead) {
-  const StylusKind& touch = kind("touch");
-  const std::string old = to_toml(usual_station_stylus(touch)) + "arm_offset_deg = 35\n";
-  const StationStylus read = parse_station_stylus(old, "stylus.toml", touch);
-  EXPECT_EQ(read.text("library"), "libHD.so");
-  EXPECT_EQ(code_of([&] { static_cast<void>(read.number("arm_offset_deg")); }), DeviceError::not_a_setting);
-  EXPECT_THROW(static_cast<void>(parse_station_stylus(old + "arm_lenght = 1\n", "stylus.toml", touch)), Error) << "known to none";
-}
-
 TEST(StationStylus, WrongFilesAreRefused) {
   const std::string good = to_toml(usual_station_stylus(kind("falcon")));
   for (const auto& [from, to] : {std::pair{"rotation", "turning"},

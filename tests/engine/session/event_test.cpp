@@ -76,10 +76,10 @@ TEST(SessionEvents, WhatIsWrongInADamagedOneIsNamed) {
   EXPECT_NE(wrong("perforation", R"({"site_mm":[0.0,1.0,2.0],"tissue":256})").find("'tissue'"), std::string::npos);
   EventText gap = encode(RecordingGap{});
   gap.detail_json.replace(gap.detail_json.find("\"device\":\"\""), 11, "\"device\":0");
-  EXPECT_NE(wrong(gap.kind, gap.detail_json).find("'by'"), std::string::npos);
+  EXPECT_NE(wrong(gap.kind, gap.detail_json).find("'by.device'"), std::string::npos);
   EventText lateness = encode(ServoLateness{});
   lateness.detail_json.replace(lateness.detail_json.find("[0,"), 3, "[1e300,");
-  EXPECT_NE(wrong(lateness.kind, lateness.detail_json).find("'servo'"), std::string::npos);
+  EXPECT_NE(wrong(lateness.kind, lateness.detail_json).find("'servo.lateness.counts[0]'"), std::string::npos);
   for (const char* detail : {R"({"step": 0})", R"({"more":1,"step":0})", R"({"step":1,"step":0})", R"({"step":0} )", "", "null", "{\"step\":0"})
     EXPECT_NE(wrong("step_started", detail), "") << detail;
   std::string deep;

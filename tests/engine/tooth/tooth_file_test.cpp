@@ -1,5 +1,4 @@
 #include <gtest/gtest.h>
-#include <zstd.h>
 
 #include <cstring>
 #include <functional>
@@ -26,8 +25,14 @@ TEST(ToothFile, SavesTheSameBytesAfterLoading) {
   EXPECT_EQ(again.octree.to_grid().distance, tooth.octree.to_grid().distance);
 }
 
+Bytes cube_with_a_landmark() {
+  Tooth tooth = make_cube(0.5, "dentin", 0.1);
+  tooth.placed_landmarks = {{"apex_1", {0.1, 0.2, 1.0}}};
+  return save_tooth(tooth);
+}
+
 TEST(ToothFile, EveryTruncationIsAnError) {
-  const Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
+  const Bytes bytes = cube_with_a_landmark();
   for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
 }
 
@@ -40,35 +45,12 @@ TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
 }
 
 TEST(ToothFile, EveryFlippedBitIsAnError) {
-  Bytes bytes = save_tooth(make_cube(0.5, "dentin", 0.1));
+  Bytes bytes = cube_with_a_landmark();
   for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
     bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
     ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
     bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
   }
-}
-
-/// What programs before version 2 wrote, by the layout in tooth_file.cpp.
-Bytes saved_as_version_1(const Tooth& tooth) {
-  ByteWriter body;
-  body.put_string(tooth.name);
-  body.put_string(tooth.source);
-  body.put(static_cast<std::uint8_t>(tooth.tissues.size()));
-  for (const auto& t : tooth.tissues) {
-    body.put(t.id);
-    body.put(static_cast<std::uint8_t>(t.solid));
-    body.put_string(t.name);
-  }
-  tooth.octree.write(body);
-  Bytes packed(ZSTD_compressBound(body.bytes().size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), body.bytes().data(), body.bytes().size(), 3));
-  ByteWriter out;
-  for (const char c : {'C', 'V', 'T', 'O', 'O', 'T', 'H', '1'}) out.put(c);
-  out.put(static_cast<std::uint64_t>(body.bytes().size()));
-  out.put(static_cast<std::uint64_t>(packed.size()));
-  out.put_bytes(packed);
-  out.put_bytes(sha256(out.bytes()));
-  return out.take();
 }
 
 std::string refusal_of(const Bytes& file) {
@@ -80,79 +62,34 @@ std::string refusal_of(const Bytes& file) {
   return "";
 }
 
-/// A tooth of version 1 that nobody made: `octree` as Octree::write would have written it.
-Bytes version_1_of(double leaf_mm, int edge, const Bytes& shape, std::size_t bricks) {
-  ByteWriter body;
-  body.put_string("made up");
-  body.put_string("");
-  body.put(std::uint8_t{0});
-  body.put(leaf_mm);
-  for (int i = 0; i < 3; ++i) body.put(0.0);
-  for (int i = 0; i < 3; ++i) body.put(static_cast<std::int32_t>(edge));
+/// An octree as Octree::write would have written it.
+std::string refusal_of_octree(double leaf_mm, int edge, const Bytes& shape, std::size_t bricks) {
+  ByteWriter octree;
+  octree.put(leaf_mm);
+  for (int i = 0; i < 3; ++i) octree.put(0.0);
+  for (int i = 0; i < 3; ++i) octree.put(static_cast<std::int32_t>(edge));
   for (const Bytes& part : {shape, Bytes(bricks * 64), Bytes()}) {
-    body.put(static_cast<std::uint64_t>(part.size()));
-    body.put_bytes(part);
+    octree.put(static_cast<std::uint64_t>(part.size()));
+    octree.put_bytes(part);
   }
-  Bytes packed(ZSTD_compressBound(body.bytes().size()));
-  packed.resize(ZSTD_compress(packed.data(), packed.size(), body.bytes().data(), body.bytes().size(), 1));
-  ByteWriter out;
-  for (const char c : {'C', 'V', 'T', 'O', 'O', 'T', 'H', '1'}) out.put(c);
-  out.put(static_cast<std::uint64_t>(body.bytes().size()));
-  out.put(static_cast<std::uint64_t>(packed.size()));
-  out.put_bytes(packed);
-  out.put_bytes(sha256(out.bytes()));
-  return out.take();
+  ByteReader in(octree.bytes(), "tooth");
+  return testing_basics::error_of([&] { (void)Octree::read(in, {}); });
 }
 
 TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
   const Bytes uniform{0, 0};  // one uniform cube of air
-  EXPECT_EQ(refusal_of(version_1_of(0.05, 512, uniform, 0)), "");
+  EXPECT_EQ(refusal_of_octree(0.05, 512, uniform, 0), "");
   for (const double leaf : {0.001, 10.0, -1.0})
-    EXPECT_NE(refusal_of(version_1_of(leaf, 8, uniform, 0)).find("leaves have 0.005 to 2 mm"), std::string::npos) << leaf;
-  EXPECT_NE(refusal_of(version_1_of(0.1, 1024, uniform, 0)).find("at most 60 mm"), std::string::npos);
+    EXPECT_NE(refusal_of_octree(leaf, 8, uniform, 0).find("leaves have 0.005 to 2 mm"), std::string::npos) << leaf;
+  EXPECT_NE(refusal_of_octree(0.1, 1024, uniform, 0).find("at most 60 mm"), std::string::npos);
 }
 
-TEST(ToothFile, Version1HasNoMoreBricksThanVersion2) {
-  // a full tree of six levels over bricks of label: 64³ of them, one more than may be
-  Bytes shape;
-  const std::function<void(int)> node = [&](int level) {
-    shape.push_back(level > 0 ? 1 : 2);
-    for (int i = 0; level > 0 && i < 8; ++i) node(level - 1);
-  };
-  node(6);
-  const std::size_t bricks = 64UL * 64 * 64;
-  EXPECT_EQ(refusal_of(version_1_of(0.05, 256, shape, bricks)), "") << "2^18 are the most";
-  node(6);  // and the root of a larger one
-  Bytes larger{1};
-  larger.insert(larger.end(), shape.begin(), shape.end());
-  for (int i = 0; i < 6; ++i) larger.push_back(0), larger.push_back(0);
-  EXPECT_NE(refusal_of(version_1_of(0.05, 512, larger, 2 * bricks)).find("more bricks than the limit of 262144"), std::string::npos);
-}
-
-TEST(ToothFile, ReadsVersion1) {
-  const Tooth tooth = small_block();
-  const Tooth again = load_tooth(saved_as_version_1(tooth), "old.cvt");
-  EXPECT_EQ(save_tooth(again), save_tooth(tooth));
-}
-
-TEST(ToothFile, DamagedFilesOfVersion1AreErrors) {
-  Bytes bytes = saved_as_version_1(make_cube(0.5, "dentin", 0.1));
-  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-    ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-  }
-}
-
-TEST(ToothFile, PlacedLandmarksMakeItVersion3AndCountInTheHash) {
+TEST(ToothFile, PlacedLandmarksAreKeptAndCountInTheHash) {
   Tooth tooth = small_block();
   const Bytes plain = save_tooth(tooth);
   const std::string hash = tooth_hash(tooth);
   tooth.placed_landmarks = {{"central_pit", {0.1, 0.2, 1.0}}, {"cusp_1", {-1, 2, 3}}};
   const Bytes placed = save_tooth(tooth);
-  EXPECT_EQ(plain[7], '2');
-  EXPECT_EQ(placed[7], '3');
   const Tooth again = load_tooth(placed, "t.cvt");
   EXPECT_EQ(again.placed_landmarks, tooth.placed_landmarks);
   EXPECT_EQ(save_tooth(again), placed);
@@ -161,20 +98,8 @@ TEST(ToothFile, PlacedLandmarksMakeItVersion3AndCountInTheHash) {
   tooth.placed_landmarks[0].at_mm.z = 1.5;
   EXPECT_NE(tooth_hash(tooth), tooth_hash(again));
   tooth.placed_landmarks.clear();
-  EXPECT_EQ(save_tooth(tooth), plain) << "old teeth keep their bytes";
+  EXPECT_EQ(save_tooth(tooth), plain);
   EXPECT_EQ(tooth_hash(tooth), hash);
-}
-
-TEST(ToothFile, DamagedFilesOfVersion3AreErrors) {
-  Tooth tooth = make_cube(0.5, "dentin", 0.1);
-  tooth.placed_landmarks = {{"apex_1", {0.1, 0.2, 1.0}}};
-  Bytes bytes = save_tooth(tooth);
-  for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";
-  for (std::size_t bit = 0; bit < 8 * bytes.size(); ++bit) {
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-    ASSERT_THROW((void)load_tooth(bytes, "flipped"), Error) << "bit " << bit;
-    bytes[bit / 8] ^= static_cast<std::uint8_t>(1u << bit % 8);
-  }
 }
 
 TEST(ToothFile, LandmarksOfNoToothAreRefusedWhenTheyAreWrittenAndWhenTheyAreRead) {

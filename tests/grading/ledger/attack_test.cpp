@@ -190,7 +190,7 @@ TEST_F(Attack, AResultThatIsNone) {
     std::filesystem::remove(path);
     const Simulation simulation = make_simulation(setup, "test");
     Recorder::create(path, setup).close(save_tooth(drilled_tooth(simulation)), result);
-    expect_refused(path, {"names no version of grading"});
+    expect_refused(path, {"by grading version 0"});
   }
 }
 TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticket"}); }
@@ -410,7 +410,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   refused({.sessions = {4}}, {"entries 4 and 5", "--with-findings"});
   refused({.with_findings = true, .sessions = {1}}, {"no session's entry"});
   EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
-  // both at once, as an older version released them, is no choice
+  // both at once is no choice
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{4, 5}}; });
   for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
   expect_finding(check_ledger(school_.places(), false).remarks, {"names two endings of the same exam"});

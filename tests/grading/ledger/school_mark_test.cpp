@@ -113,21 +113,10 @@ TEST_F(SchoolMarks, AnHonestResultSignedWithANewKey) {
   }();
   expect_finding(refused(path), {"is not enrolled: anybody can make such a recording"});
 }
-TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionCountsForNothing) {
-  const std::string path = forged(school_, session_, {.result = [](json& r) {
-                                    improve(r);
-                                    r["grading_version"] = grading::k_grading_version + 1;
-                                  }});
-  const Filing f = file(path);
-  ASSERT_TRUE(f.seq);
-  expect_finding(f.remarks, {"grading version", "the school's mark", "counts"});
-  const FiledSession s = read_registry(read_ledger(school_.places())).sessions.at(0);
-  EXPECT_EQ(s.filed, json::parse(SessionReader(session_).result_json())) << "the school's own";
-  EXPECT_EQ(s.sealed->at("score")["points"], 100.0) << "the old beside it";
-  EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
-}
-TEST_F(SchoolMarks, AResultThatNamesNoVersion) {
-  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r.erase("grading_version"); }})), {"names no version of grading"});
+TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionOrOfNone) {
+  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r["grading_version"] = grading::k_grading_version + 1; }})),
+                 {"by grading version 2", "grading_version 2, marked 1"});
+  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r.erase("grading_version"); }})), {"by grading version 0"});
 }
 TEST_F(SchoolMarks, AnEventLeftOut) {
   expect_finding(refused(forged(school_, session_, {.events = [](auto& e) { e.erase(e.begin()); }})), {"event 0", "the motion gives 'step_started"});

@@ -56,14 +56,5 @@ TEST_F(KeptLandmarks, AreNotKeptWhereNoZoneFollowsThem) {
   EXPECT_EQ(exam_in("[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, 0]\nsize_mm = [1, 1, 3]\n")->session.landmarks_json, "");
 }
 
-TEST_F(KeptLandmarks, ASessionOfBeforeFindsThemAnew) {
-  const auto setup = exam_in(k_along_the_fissure);
-  SessionSetup old = setup->session;
-  old.landmarks_json.clear();
-  const auto again = prepare_exam(old);
-  EXPECT_EQ(again->zones.low(), setup->zones.low());
-  EXPECT_EQ(again->zones.size(), setup->zones.size());
-}
-
 }  // namespace
 }  // namespace cavum::scenarios

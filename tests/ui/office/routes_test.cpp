@@ -123,8 +123,7 @@ TEST(Routes, OnlyTheExactPathIsOne) {
 TEST(Wire, ARefusalNamesTheField) {
   const auto why = [](const nlohmann::json& asked) -> std::string {
     try {
-      Issue issue;
-      read_json_value(asked, "", issue);
+      static_cast<void>(json_value_of<Issue>(asked, asked_json()));
     } catch (const Error& wrong) {
       return wrong.what();
     }
@@ -160,8 +159,7 @@ TEST(Wire, WhatIsWrittenReadsBack) {
   row.findings = {"a", "b"};
   const nlohmann::json written = to_json_value(row);
   EXPECT_FALSE(written.contains("later"));
-  ResultRow read;
-  read_json_value(written, "", read);
+  const auto read = json_value_of<ResultRow>(written, asked_json());
   EXPECT_EQ(to_json_value(read), written);
   EXPECT_EQ(read.decided->by, "Eva");
 }

@@ -3,63 +3,30 @@
 #include <algorithm>
 #include <filesystem>
 
-#include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/json_struct.h"
 
 namespace cavum::office {
-namespace {
 
-using nlohmann::json;
-
-constexpr char k_courses_format[] = "cavum courses 1";
-
-}  // namespace
+struct CoursesFile {
+  std::vector<LtiCourse> courses;
+};
+// clang-format off
+CAVUM_JSON_OF(LtiCourse, (issuer), (client_id), (context), (exam), (title), (lineitems), (lineitem), (item), (scopes), (learners))
+// clang-format on
+void json_fields(auto& of, JsonOf<CoursesFile> auto& file) { of("format", JsonFormat{"cavum courses 1"}), of("courses", file.courses); }
 
 std::vector<LtiCourse> LtiCourses::read() const {
   if (!std::filesystem::exists(path_)) return {};
-  const json read = parse_json(read_text_file(path_), path_);
-  if (text_in(read, "format") != k_courses_format || !member_of(read, "courses").is_array())
-    throw Error(path_, msg("is no file of courses"), msg("remove it: each course is in it again once somebody opens its link"));
-  std::vector<LtiCourse> out;
-  for (const json& one : read["courses"]) {
-    LtiCourse c{text_in(one, "issuer"),
-                text_in(one, "client_id"),
-                text_in(one, "context"),
-                text_in(one, "exam"),
-                text_in(one, "title"),
-                text_in(one, "lineitems"),
-                text_in(one, "lineitem"),
-                text_in(one, "item"),
-                {},
-                {}};
-    if (const json& scopes = member_of(one, "scopes"); scopes.is_array())
-      for (const json& s : scopes)
-        if (s.is_string()) c.scopes.push_back(s);
-    if (const json& learners = member_of(one, "learners"); learners.is_object())
-      for (const auto& [id, sub] : learners.items())
-        if (sub.is_string()) c.learners[id] = sub;
-    out.push_back(std::move(c));
-  }
-  return out;
+  const JsonSource source{path_, msg("remove it: each course is in it again once somebody opens its link")};
+  return json_value_of<CoursesFile>(parse_json(read_text_file(path_), path_), source).courses;
 }
 
 void LtiCourses::write(const std::vector<LtiCourse>& courses) const {
-  json list = json::array();
-  for (const auto& c : courses)
-    list.push_back({{"issuer", c.issuer},
-                    {"client_id", c.client_id},
-                    {"context", c.context},
-                    {"exam", c.exam},
-                    {"title", c.title},
-                    {"lineitems", c.lineitems},
-                    {"lineitem", c.lineitem},
-                    {"item", c.item},
-                    {"scopes", c.scopes},
-                    {"learners", c.learners}});
   make_private_folder(std::filesystem::path(path_).parent_path().string());
-  write_private_text_file(path_, json{{"format", k_courses_format}, {"courses", list}}.dump(1) + "\n");
+  write_private_text_file(path_, to_json_value(CoursesFile{courses}).dump(1) + "\n");
 }
 
 std::vector<LtiCourse> LtiCourses::all() const {
@@ -80,8 +47,8 @@ void LtiCourses::note(const LtiLaunch& launch) {
                  {}};
   if (told.exam.empty()) return;
   if (told.lineitems.empty() && told.lineitem.empty()) return;
-  if (const json& scopes = member_of(launch.grades, "scope"); scopes.is_array())
-    for (const json& s : scopes)
+  if (const auto& scopes = member_of(launch.grades, "scope"); scopes.is_array())
+    for (const auto& s : scopes)
       if (s.is_string()) told.scopes.push_back(s);
   const std::lock_guard guard(lock_);
   std::vector<LtiCourse> courses = read();

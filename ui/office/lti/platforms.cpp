@@ -16,7 +16,6 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char k_platforms_format[] = "cavum platforms 1";
 constexpr std::size_t k_kept_keys = 2;
 
 void require_line(const LtiLine& text, const char* name, bool needed) {
@@ -49,11 +48,7 @@ bool LtiPlatform::may_ask(const std::string& address) const {
                              origin == origin_of(jwks_url) || std::find(hosts.begin(), hosts.end(), origin) != hosts.end());
 }
 
-LtiPlatform platform_in(const json& given) {
-  LtiPlatform p;
-  read_json_value(given, "", p);
-  return sound_platform(std::move(p));
-}
+LtiPlatform platform_in(const json& given) { return sound_platform(json_value_of<LtiPlatform>(given, asked_json())); }
 
 LtiPlatform sound_platform(LtiPlatform p) {
   static const std::regex k_claim("sub|(custom|lis)\\.[A-Za-z0-9_]{1,100}");
@@ -86,27 +81,32 @@ LtiPlatform sound_platform(LtiPlatform p) {
   return p;
 }
 
+// clang-format off
+CAVUM_JSON_OF(LtiKey, (kid), (pem), (made_utc_ns))
+// clang-format on
 struct LtiPlatforms::File {
   std::vector<LtiPlatform> platforms;
   std::vector<LtiKey> keys;
 };
 
+/// Of the file.
+static auto file_of(auto& platforms, auto& keys) {
+  return json_inside([&](auto& of) { of("format", JsonFormat{"cavum platforms 1"}), of("platforms", platforms), of("keys", keys); });
+}
+
 LtiPlatforms::File LtiPlatforms::read() const {
-  if (!std::filesystem::exists(path_)) return {};
-  const json read = parse_json(read_text_file(path_), path_);
-  if (text_in(read, "format") != k_platforms_format || !member_of(read, "platforms").is_array() || !member_of(read, "keys").is_array())
-    throw Error(path_, msg("is no file of learning platforms"), msg("restore it, or remove it and set them up anew"));
   File file;
-  for (const json& one : read["platforms"]) file.platforms.push_back(platform_in(one));
-  for (const json& k : read["keys"]) file.keys.push_back({text_in(k, "kid"), text_in(k, "pem"), whole_in(k, "made_utc_ns")});
+  if (!std::filesystem::exists(path_)) return file;
+  const JsonSource source{path_, msg("restore it, or remove it and set them up anew")};
+  auto all = file_of(file.platforms, file.keys);
+  read_json_value(parse_json(read_text_file(path_), path_), {source}, all);
+  for (LtiPlatform& p : file.platforms) p = sound_platform(std::move(p));
   return file;
 }
 
 void LtiPlatforms::write(const File& file) const {
-  json keys = json::array();
-  for (const auto& k : file.keys) keys.push_back({{"kid", k.kid}, {"pem", k.pem}, {"made_utc_ns", k.made_utc_ns}});
   make_private_folder(std::filesystem::path(path_).parent_path().string());
-  write_private_text_file(path_, json{{"format", k_platforms_format}, {"platforms", to_json_value(file.platforms)}, {"keys", keys}}.dump(1) + "\n");
+  write_private_text_file(path_, to_json_value(file_of(file.platforms, file.keys)).dump(1) + "\n");
 }
 
 std::vector<LtiPlatform> LtiPlatforms::all() const {
