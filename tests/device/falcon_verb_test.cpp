@@ -89,7 +89,6 @@ TEST_F(FalconVerb, IsPlacedByFourMarks) {
   const StationStylus kept = load_station_stylus(stylus_kinds().at("falcon", {}, {StylusHand::person}));
   for (const Vec3 p : {Vec3{0, 0, 0}, Vec3{10, -5, 8}})
     EXPECT_LT(length(to_tooth(kept.placement, device_at(p)).tip_mm - p), 0.2) << "two encoder steps and more";
-  EXPECT_NE(run("devices").out.find("(placed)"), std::string::npos);
 }
 
 }  // namespace

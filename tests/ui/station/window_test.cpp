@@ -84,13 +84,13 @@ key enter
 
 TEST_F(StationWindow, ClosedDuringTheExamLeavesASessionToResume) {
   EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nclose\nsleep 0.5\nkey f4\nsleep 30\nfail\n"), 1);
-  EXPECT_NE(said().find("--resume"), std::string::npos) << said();
+  EXPECT_NE(said().find(session()), std::string::npos) << "what is to be resumed: " << said();
   expect_resumable(2000);
 }
 
 TEST_F(StationWindow, AFailureInItsThreadLeavesASessionToResume) {
   EXPECT_EQ(run(std::string(k_to_exam) + "until 2\nfail\n"), 2);
-  EXPECT_NE(said().find("--resume"), std::string::npos) << said();
+  EXPECT_NE(said().find(session()), std::string::npos) << "what is to be resumed: " << said();
   expect_resumable(2000);
 }
 
@@ -118,7 +118,7 @@ class StationOnAFullDisk : public StationWindow {
   void expect_rescued(double least_s) const {
     const std::string saved = temporary() + "/s-rescued.cavum";
     ASSERT_TRUE(std::filesystem::exists(saved)) << said();
-    EXPECT_NE(said().find("the whole exam is saved at " + saved), std::string::npos) << said();
+    EXPECT_NE(said().find(saved), std::string::npos) << said();
     const VerifyReport report = verify_session(saved);
     EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings[0]);
     EXPECT_GE(static_cast<double>(report.ticks), 1000.0 * least_s);
@@ -190,7 +190,7 @@ TEST_F(StationWindow, TheReportButtonOfTheResultWritesTheReportOfThisExam) {
   const std::string html = read_text_file(report);
   const auto result = nlohmann::json::parse(SessionReader(session()).result_json());
   EXPECT_NE(html.find("<div class='verdict " + result["verdict"].get<std::string>() + "'>"), std::string::npos) << result["verdict"];
-  EXPECT_NE(html.find("Candidate T5"), std::string::npos);
+  EXPECT_NE(html.find(" T5"), std::string::npos);
   for (const auto& c : result["criteria"]) {
     char points[64];
     std::snprintf(points, sizeof points, "%.1f", c["points"].get<double>());
