@@ -7,6 +7,7 @@
 
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/ledger_error.h"
 
 namespace cavum::ledger {
 namespace {
@@ -40,9 +41,9 @@ double percent_of(const std::string& field, const std::string& at) {
   if (text.find('.') == std::string::npos)
     if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   const auto number = number_in_field(text);
-  if (!number) throw Error(at, msg("'{}' is no percentage", field), msg("write it as 25, or leave it empty"));
+  if (!number) throw Error(LedgerError::malformed, Name{at}, msg("'{}' is no percentage", field), msg("write it as 25, or leave it empty"));
   if (*number > 0 && *number < 1)
-    throw Error(at, msg("'{}' is less than one percent", field),
+    throw Error(LedgerError::out_of_range, Name{at}, msg("'{}' is less than one percent", field),
                 msg("write {} if the exam is to be longer by {} percent", as_number(100 * *number), as_number(100 * *number)));
   return *number;
 }
@@ -52,7 +53,7 @@ bool yes_of(const std::string& field, const std::string& at) {
     if (word == yes) return true;
   for (const char* no : {"no", "nein", "false", "0"})
     if (word == no) return false;
-  throw Error(at, msg("'{}' is neither yes nor no", field), msg("write yes (or ja, x), no (or nein), or nothing"));
+  throw Error(LedgerError::malformed, Name{at}, msg("'{}' is neither yes nor no", field), msg("write yes (or ja, x), no (or nein), or nothing"));
 }
 
 constexpr Column k_columns[] = {
@@ -75,16 +76,17 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
     const bool passed = std::find(passed_over.begin(), passed_over.end(), field) != passed_over.end();
     const bool is_known = found != std::end(k_columns) && !passed;
     if (!is_known && !passed)
-      throw Error(at, msg("a ticket knows no column '{}'", one_line(field)),
+      throw Error(LedgerError::unknown, Name{at}, msg("a ticket knows no column '{}'", one_line(field)),
                   msg("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
     if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
       throw Error(
-          at, msg("has the column '{}' twice", found->name),
+          LedgerError::twice, Name{at}, msg("has the column '{}' twice", found->name),
           std::string_view(found->name) == "name" ? msg("join surname and first name to one column in the spreadsheet") : msg("leave one of them"));
     columns.push_back(is_known ? found : nullptr);
   }
   if (std::find(columns.begin(), columns.end(), &k_columns[0]) == columns.end())
-    throw Error(at, msg("is no heading of candidates"), msg("begin with a line of column names, of which one is id: {}", known));
+    throw Error(LedgerError::malformed, Name{at}, msg("is no heading of candidates"),
+                msg("begin with a line of column names, of which one is id: {}", known));
   return columns;
 }
 
@@ -145,7 +147,8 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
       Person p = person_of(rows[i], columns, at);
       if (!seen.insert(p.id).second) throw Error(at, msg("'{}' stands there a second time", p.id), msg("leave one of them"));
       if (!p.station.empty() && !stations.insert(p.station).second)
-        throw Error(at + ": station", msg("'{}' is given to two candidates", p.station), msg("give each a station of his own"));
+        throw Error(LedgerError::twice, Name{at + ": station"}, msg("'{}' is given to two candidates", p.station),
+                    msg("give each a station of his own"));
       people.push_back(std::move(p));
     });
   mistakes.tell();

@@ -141,7 +141,7 @@ TEST_F(Inverse3Exam, IsPlacedByFourMarksAndACrownAtTheEdgeOfItsReachIsNamed) {
     const StationStylus kept = load_station_stylus(inverse3_kind());
     EXPECT_LT(length(to_tooth(kept.placement, crown_mm).tip_mm), 1e-6);
     EXPECT_EQ(kept.number("port"), service_.port()) << "what the station had told it stays";
-    EXPECT_EQ(read_text_file(said).find("150") != std::string::npos, off_mm > 0) << "how far it is off: " << read_text_file(said);
+    EXPECT_EQ(read_text_file(said).find("100 mm") != std::string::npos, off_mm > 0) << "how far it is off, and its reach: " << read_text_file(said);
   }
 }
 
