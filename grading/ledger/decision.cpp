@@ -26,9 +26,9 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
                 msg("decide the makeup sitting's own result"));
   if (found->undecided() || (found->open_appeal() != nullptr && found->result->is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
-    throw Error(where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
+    throw Error(LedgerError::twice, where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
                 msg("nothing was changed; after an appeal it can be decided anew"));
-  throw Error(where,
+  throw Error(LedgerError::not_now, where,
               found->result->is_object() ? msg("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
                                          : msg("has no result"),
               msg("nothing was changed; after an appeal it can be decided anew"));

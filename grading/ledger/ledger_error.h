@@ -9,12 +9,12 @@ enum class LedgerError : std::uint8_t {
   lost,       ///< was here, and has to be restored
   malformed,  ///< cannot be read as what it should be
   out_of_range,
-  unknown,    ///< nothing here bears this name, number or key
-  twice,      ///< stands there, or is asked for, a second time
-  used,       ///< good once
-  ended,      ///< ran out, cancelled
-  not_now,    ///< before or after the time within which it is good
-  contested,  ///< another ending or sitting of the same exam counts
+  unknown,     ///< nothing here bears this name, number or key
+  twice,       ///< stands there, or is asked for, a second time
+  used,        ///< good once
+  ended,       ///< ran out, cancelled
+  not_now,     ///< before or after the time within which it is good, or can be done
+  contested,   ///< another ending or sitting of the same exam counts
   questioned,  ///< was filed with findings
   erased,
   damaged,        ///< does not hold

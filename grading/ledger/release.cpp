@@ -48,7 +48,8 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
 
 Release select_results(const Registry& registry, const ReleaseWish& wish) {
   for (const auto seq : wish.sessions)
-    if (registry.session(seq) == nullptr) throw Error(LedgerError::unknown, msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
+    if (registry.session(seq) == nullptr)
+      throw Error(LedgerError::unknown, msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, msg("has no session in this ledger"), msg("see `cavum ledger show`"));
@@ -97,7 +98,7 @@ const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64
           const FiledSession* s = ledger.registry().session(seq);
           const Message where = msg("entry {}", seq);
           if (s == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger show`"));
-          if (s->shown_seq == 0) throw Error(where, msg("has no released result"), msg("there is nothing to take back"));
+          if (s->shown_seq == 0) throw Error(LedgerError::not_now, where, msg("has no released result"), msg("there is nothing to take back"));
           entry.results.push_back(s->shown_seq);
         }
         return entry;

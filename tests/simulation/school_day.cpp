@@ -375,10 +375,9 @@ void SchoolDay::cosign_here() {
     notes_.push_back(signed_note.note);
     to_office_ = signed_note.note;
   } catch (const Error& e) {
-    const std::string what = e.what(), words = "this cosigner has signed ";
-    const auto at = what.find(words);
-    if (at == std::string::npos) throw;
-    cosigner_asks_since_ = std::stoull(what.substr(at + words.size()));
+    if (!(e.code() == ledger::LedgerError::another_state)) throw;
+    const auto signed_last = std::get<Message>(e.problem().values().at(1));  // "3 entries"
+    cosigner_asks_since_ = static_cast<std::uint64_t>(std::get<std::int64_t>(signed_last.values().at(0)));
     to_cosigner_.clear();
   }
 }

@@ -143,9 +143,9 @@ TEST_F(ListedSeats, AListInPortionsIsTheListAsAWhole) {
 TEST_F(ListedSeats, ARevokedStationAndANameOfTwoAreNone) {
   const json invited_now = officer_.get("/api/board").json()["stations"];
   ASSERT_EQ(officer_.post("/api/stations/revoke", {{"public_key", invited_now[1]["public_key"]}, {"reason", "stolen"}}).status, 200);
-  expect_refused("id,station\n1,Seat 2\n", "no station that is enrolled");
+  expect_refused("id,station\n1,Seat 2\n", "the list:2: station: |'Seat 2'");
   enrol("Seat 1", "three");
-  expect_refused("id,station\n1,Seat 1\n", "two stations bear the name");
+  expect_refused("id,station\n1,Seat 1\n", "the list:2: station: |'Seat 1'");
 }
 
 TEST_F(ListedSeats, ByHandNeitherHaveTwoAtOneTime) {

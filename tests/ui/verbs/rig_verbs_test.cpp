@@ -72,23 +72,23 @@ TEST_F(RigVerbs, GrindSaysHowFastEachTissueGoesUnderALoad) {
 
 TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {
   write_text_file(path("bad.toml"), "name = \"bad\"\n[cutting]\nrpm_ref = -1\n");
-  for (const auto& [verb, named] : std::vector<std::pair<std::string, std::string>>{
-           {"cube --out " + path("c.png"), "c.png"},
-           {"cube --out " + path("no/folder/c.svg"), "c.svg"},
-           {"cube --k 0.4 --csv " + path("c.csv"), "--csv-k"},
-           {"cube --model nothing", "nothing.toml"},
-           {"cube --runs 0", "--runs"},
-           {"cube --k -1", "--k"},
-           {"tooth --tooth " + path("nothing.cvt"), "nothing.cvt"},
-           {"tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), "--at"},
-           {"press --c strong", "paper"},
-           {"press --k 0", "--k"},
-           {"servo --seconds nan --out " + path("s.cavum"), "'nan'"},
-           {"servo", "--out"},
-           {"grind --load-n 0", "--load-n"},
-           {"cube --model clinical", "clinical"},
-           {"tooth --model clinical", "clinical"},
-           {"tooth --model " + path("bad.toml"), "bad.toml:3"}})
+  for (const auto& [verb, named] :
+       std::vector<std::pair<std::string, std::string>>{{"cube --out " + path("c.png"), "c.png"},
+                                                        {"cube --out " + path("no/folder/c.svg"), "c.svg"},
+                                                        {"cube --k 0.4 --csv " + path("c.csv"), "--csv-k"},
+                                                        {"cube --model nothing", "nothing.toml"},
+                                                        {"cube --runs 0", "--runs"},
+                                                        {"cube --k -1", "--k"},
+                                                        {"tooth --tooth " + path("nothing.cvt"), "nothing.cvt"},
+                                                        {"tooth --at 40,0 --tooth " + testing_basics::data_path("teeth/lower_molar.cvt"), "--at"},
+                                                        {"press --c strong", "paper"},
+                                                        {"press --k 0", "--k"},
+                                                        {"servo --seconds nan --out " + path("s.cavum"), "'nan'"},
+                                                        {"servo", "--out"},
+                                                        {"grind --load-n 0", "--load-n"},
+                                                        {"cube --model clinical", "clinical"},
+                                                        {"tooth --model clinical", "clinical"},
+                                                        {"tooth --model " + path("bad.toml"), "bad.toml:3"}})
     expect_refused("rig " + verb, {named});
   for (const char* nan : {"cube --k nan", "cube --csv-k nan", "tooth --spread-mm nan", "press --press nan", "press --hand nan", "press --k nan"})
     expect_refused(std::string("rig ") + nan, {"'nan'"});
