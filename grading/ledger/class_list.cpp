@@ -41,9 +41,9 @@ double percent_of(const std::string& field, const std::string& at) {
   if (text.find('.') == std::string::npos)
     if (const auto comma = text.find(','); comma != std::string::npos) text[comma] = '.';
   const auto number = number_in_field(text);
-  if (!number) throw Error(LedgerError::malformed, Name{at}, msg("'{}' is no percentage", field), msg("write it as 25, or leave it empty"));
+  if (!number) throw Error(at, msg("'{}' is no percentage", field), msg("write it as 25, or leave it empty"));
   if (*number > 0 && *number < 1)
-    throw Error(LedgerError::out_of_range, Name{at}, msg("'{}' is less than one percent", field),
+    throw Error(at, msg("'{}' is less than one percent", field),
                 msg("write {} if the exam is to be longer by {} percent", as_number(100 * *number), as_number(100 * *number)));
   return *number;
 }
@@ -53,7 +53,7 @@ bool yes_of(const std::string& field, const std::string& at) {
     if (word == yes) return true;
   for (const char* no : {"no", "nein", "false", "0"})
     if (word == no) return false;
-  throw Error(LedgerError::malformed, Name{at}, msg("'{}' is neither yes nor no", field), msg("write yes (or ja, x), no (or nein), or nothing"));
+  throw Error(at, msg("'{}' is neither yes nor no", field), msg("write yes (or ja, x), no (or nein), or nothing"));
 }
 
 constexpr Column k_columns[] = {
@@ -147,8 +147,7 @@ std::vector<Person> parse_people(const std::vector<CsvRow>& rows, const std::str
       Person p = person_of(rows[i], columns, at);
       if (!seen.insert(p.id).second) throw Error(at, msg("'{}' stands there a second time", p.id), msg("leave one of them"));
       if (!p.station.empty() && !stations.insert(p.station).second)
-        throw Error(LedgerError::twice, Name{at + ": station"}, msg("'{}' is given to two candidates", p.station),
-                    msg("give each a station of his own"));
+        throw Error(at + ": station", msg("'{}' is given to two candidates", p.station), msg("give each a station of his own"));
       people.push_back(std::move(p));
     });
   mistakes.tell();

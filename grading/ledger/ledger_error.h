@@ -8,7 +8,6 @@ namespace cavum::ledger {
 enum class LedgerError : std::uint8_t {
   lost,       ///< was here, and has to be restored
   malformed,  ///< cannot be read as what it should be
-  out_of_range,
   unknown,     ///< nothing here bears this name, number or key
   twice,       ///< stands there, or is asked for, a second time
   used,        ///< good once

