@@ -1,6 +1,7 @@
 #include "grading/ledger/appeal.h"
 
 #include "engine/base/json_fields.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
@@ -36,7 +37,8 @@ const LedgerEntry& open_appeal(Ledger& ledger, std::uint64_t session, const std:
         const FiledSession& s = appealed(ledger.registry(), session);
         const Message where = msg("entry {}", session);
         if (!s.result->is_object()) throw Error(where, msg("has no result"), msg("there is nothing to appeal against"));
-        if (const Appeal* open = s.open_appeal()) throw Error(where, msg("an appeal is open (entry {})", open->seq), msg("answer that one first"));
+        if (const Appeal* open = s.open_appeal())
+          throw Error(LedgerError::twice, where, msg("an appeal is open (entry {})", open->seq), msg("answer that one first"));
         return AppealEntry{session};
       },
       reason);
@@ -49,13 +51,13 @@ const LedgerEntry& answer_appeal(Ledger& ledger, std::uint64_t session, Outcome 
         const FiledSession& s = appealed(ledger.registry(), session);
         const Message where = msg("entry {}", session);
         const Appeal* open = s.open_appeal();
-        if (open == nullptr) throw Error(where, msg("no appeal is open"), msg("see `cavum ledger appeal` without --session"));
+        if (open == nullptr) throw Error(LedgerError::unknown, where, msg("no appeal is open"), msg("see `cavum ledger appeal` without --session"));
         const bool changed = changed_since(s, *open);
         if (outcome == Outcome::changed && !changed)
-          throw Error(where, msg("no other result was entered since the appeal"),
+          throw Error(LedgerError::not_now, where, msg("no other result was entered since the appeal"),
                       msg("enter it first: `cavum ledger regrade` or `cavum ledger decide`"));
         if (outcome == Outcome::stands && changed)
-          throw Error(where, msg("another result was entered since the appeal"),
+          throw Error(LedgerError::another_state, where, msg("another result was entered since the appeal"),
                       msg("look at that one; if it is right, answer that the result was changed"));
         return AnswerEntry{session, open->seq, outcome};
       },

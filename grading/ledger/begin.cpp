@@ -9,6 +9,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "grading/ledger/entry_text.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/registry.h"
 
 namespace cavum::ledger {
@@ -57,16 +58,16 @@ std::string let_begin(Ledger& ledger, const std::string& nonce, const std::strin
         const std::int64_t utc_ns = read_clocks().utc_ns;
         const auto t =
             std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const IssuedTicket& issued) { return issued.ticket.nonce == nonce; });
-        const auto refuse = [](const Message& why, const Message& advice) { throw Error(msg("the ticket"), why, advice); };
-        if (t == registry.tickets.end()) refuse(msg("was not issued by this ledger"), msg("name a ticket of it"));
-        if (t->cancelled_by) refuse(msg("was cancelled by entry {}", *t->cancelled_by), msg("give the candidate another"));
-        if (t->made_up_by) refuse(msg("was made up by entry {}", *t->made_up_by), msg("the makeup's ticket is good"));
-        if (t->used_by) refuse(msg("was used: its exam is filed as entry {}", *t->used_by), msg("give the candidate another"));
+        const auto refuse = [](LedgerError code, const Message& why, const Message& advice) { throw Error(code, msg("the ticket"), why, advice); };
+        if (t == registry.tickets.end()) refuse(LedgerError::unknown, msg("was not issued by this ledger"), msg("name a ticket of it"));
+        if (t->cancelled_by) refuse(LedgerError::ended, msg("was cancelled by entry {}", *t->cancelled_by), msg("give the candidate another"));
+        if (t->made_up_by) refuse(LedgerError::contested, msg("was made up by entry {}", *t->made_up_by), msg("the makeup's ticket is good"));
+        if (t->used_by) refuse(LedgerError::used, msg("was used: its exam is filed as entry {}", *t->used_by), msg("give the candidate another"));
         if (utc_ns < t->ticket.not_before_utc_ns || utc_ns > t->ticket.not_after_utc_ns)
-          refuse(msg("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
+          refuse(LedgerError::not_now, msg("is good from {} to {}", utc_text(t->ticket.not_before_utc_ns), utc_text(t->ticket.not_after_utc_ns)),
                  msg("wait, or give another"));
         if (!t->begins.empty() && again.empty())
-          refuse(begun_before(registry, now.entries.at(t->begins.back().seq)),
+          refuse(LedgerError::twice, begun_before(registry, now.entries.at(t->begins.back().seq)),
                  msg("only the exam that bears the last word counts: say with --again why it begins anew"));
         BeginEntry entry{{now.id, nonce, random_hex(16), utc_ns, now.public_key}, {}, !t->begins.empty()};
         entry.signature = to_hex(ledger.key().sign(message_of(entry.begin)));

@@ -7,6 +7,7 @@
 
 #include "engine/base/text.h"
 #include "grading/ledger/candidate_id.h"
+#include "grading/ledger/ledger_error.h"
 
 namespace cavum::ledger {
 namespace {
@@ -75,16 +76,17 @@ std::vector<const Column*> columns_of(const std::vector<std::string>& heading, c
     const bool passed = std::find(passed_over.begin(), passed_over.end(), field) != passed_over.end();
     const bool is_known = found != std::end(k_columns) && !passed;
     if (!is_known && !passed)
-      throw Error(at, msg("a ticket knows no column '{}'", one_line(field)),
+      throw Error(LedgerError::unknown, Name{at}, msg("a ticket knows no column '{}'", one_line(field)),
                   msg("name it as one of {}, or say --pass-over '{}' when it is not needed", known, one_line(field)));
     if (is_known && std::find(columns.begin(), columns.end(), found) != columns.end())
       throw Error(
-          at, msg("has the column '{}' twice", found->name),
+          LedgerError::twice, Name{at}, msg("has the column '{}' twice", found->name),
           std::string_view(found->name) == "name" ? msg("join surname and first name to one column in the spreadsheet") : msg("leave one of them"));
     columns.push_back(is_known ? found : nullptr);
   }
   if (std::find(columns.begin(), columns.end(), &k_columns[0]) == columns.end())
-    throw Error(at, msg("is no heading of candidates"), msg("begin with a line of column names, of which one is id: {}", known));
+    throw Error(LedgerError::malformed, Name{at}, msg("is no heading of candidates"),
+                msg("begin with a line of column names, of which one is id: {}", known));
   return columns;
 }
 

@@ -10,6 +10,7 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "grading/ledger/folder_lock.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
 #include "grading/ledger/school_keys.h"
@@ -63,7 +64,7 @@ std::optional<Memory> remembered(const std::string& path, const std::string& led
   const ReadCheckpoint read = parse_checkpoint(text.substr(first + 1), m.school_key, path);
   m.last = read.checkpoint;
   if (read.ledger_id != ledger_id || key.name != ledger_origin(ledger_id) || !is_signed_by_school(ledger_id, m.school_key, m.last))
-    throw Error(path, msg("what was cosigned of this ledger was changed"), msg("restore it from its backup"));
+    throw Error(LedgerError::another_state, Name{path}, msg("what was cosigned of this ledger was changed"), msg("restore it from its backup"));
   return m;
 }
 
@@ -127,10 +128,10 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
   const FolderLock lock(cosigner.memory, msg("the cosigner's memory cannot be kept there"), msg("name a folder with --state"));
   const auto memory = remembered(path, id);
   if (!memory && cosigner.school_key.empty())
-    throw Error(where, msg("is of a ledger that this cosigner does not know"),
+    throw Error(LedgerError::unknown, Name{where}, msg("is of a ledger that this cosigner does not know"),
                 msg("name its school's public key with --school-key, from the school itself"));
   if (memory && !cosigner.school_key.empty() && cosigner.school_key != memory->school_key)
-    throw Error("--school-key", msg("is not the key of the ledger that was cosigned before"),
+    throw Error(LedgerError::another_key, Name{"--school-key"}, msg("is not the key of the ledger that was cosigned before"),
                 msg("leave it out; that the school replaced its key is shown by the receipt of that entry (--key-receipt)"));
   const std::string school = memory ? successor_of(memory->school_key, id, cosigner.key_entries) : cosigner.school_key;
   const ReadCheckpoint read = parse_checkpoint(request.note, school, where);
@@ -149,7 +150,8 @@ Cosigned cosign(const Cosigner& cosigner, const std::string& text, const std::st
     return out;
   }
   if (request.since != last)
-    throw Error(where, msg("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
+    throw Error(LedgerError::another_state, Name{where},
+                msg("proves what was added since {}, and this cosigner has signed {}", entries(request.since), entries(last)),
                 msg("ask for `cavum ledger checkpoint LEDGER --since {}`", last));
   if (memory) out.findings = fork_of(*memory, p, request, path);
   if (!memory && !request.proof.empty()) no_request(where, msg("it proves something of no earlier entries"));

@@ -2,6 +2,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
@@ -21,13 +22,13 @@ const FiledSession& undecided_session(const Registry& registry, std::uint64_t se
   const FiledSession* found = registry.session(session);
   if (found == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger decide` without --session"));
   if (found->made_up_by)
-    throw Error(where, msg("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
+    throw Error(LedgerError::contested, where, msg("does not count: the makeup sitting of entry {} counts in its place", *found->made_up_by),
                 msg("decide the makeup sitting's own result"));
   if (found->undecided() || (found->open_appeal() != nullptr && found->result->is_object())) return *found;
   if (const Regrade* r = found->regrade(found->result_seq); r != nullptr && !r->person.empty())
-    throw Error(where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
+    throw Error(LedgerError::twice, where, msg("was decided by {} (entry {}): {}", r->person, r->seq, found->result->value("verdict", "")),
                 msg("nothing was changed; after an appeal it can be decided anew"));
-  throw Error(where,
+  throw Error(LedgerError::not_now, where,
               found->result->is_object() ? msg("its verdict is {}: the program leaves nothing to a person", found->result->value("verdict", ""))
                                          : msg("has no result"),
               msg("nothing was changed; after an appeal it can be decided anew"));

@@ -6,6 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/reason.h"
 #include "grading/ledger/registry.h"
 
@@ -54,10 +55,11 @@ const LedgerEntry& cancel_ticket(Ledger& ledger, std::uint64_t seq, const std::s
         const Message where = msg("entry {}", seq);
         if (t == nullptr) throw Error(where, msg("is no ticket's entry"), msg("see `cavum ledger tickets`"));
         if (t->used_by)
-          throw Error(where, msg("was used: its exam is filed as entry {}", *t->used_by),
+          throw Error(LedgerError::used, where, msg("was used: its exam is filed as entry {}", *t->used_by),
                       msg("there is nothing left to cancel: what becomes of its result is decided with `cavum ledger release`"));
         if (t->made_up_by) throw Error(where, msg("was made up by entry {}", *t->made_up_by), msg("cancel that one, if it is too much"));
-        if (t->cancelled_by) throw Error(where, msg("was cancelled before, by entry {}", *t->cancelled_by), msg("nothing is left to do"));
+        if (t->cancelled_by)
+          throw Error(LedgerError::ended, where, msg("was cancelled before, by entry {}", *t->cancelled_by), msg("nothing is left to do"));
         return CancelEntry{seq};
       },
       reason);

@@ -8,6 +8,7 @@
 #include "engine/session/session.h"
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/school_keys.h"
 
@@ -17,7 +18,8 @@ void Ledger::create(const std::string& folder, const std::string& school_name, c
   const LedgerPlaces places{folder};
   if (std::filesystem::exists(places.database())) throw Error(folder, msg("holds a ledger already"), msg("choose another folder"));
   if (holds_parts_of_a_ledger(places))
-    throw Error(folder, msg("holds sessions or identities of a ledger whose ledger.db is gone"), instead_of_none(places.database()));
+    throw Error(LedgerError::lost, Name{folder}, msg("holds sessions or identities of a ledger whose ledger.db is gone"),
+                instead_of_none(places.database()));
   make_private_folder(folder + "/sessions");
   // complete under another name first: a process killed here leaves no half a ledger
   const std::string fresh = temporary_name_beside(places.database());
@@ -69,12 +71,12 @@ void Ledger::reload() {
     if (content_.findings.empty()) throw;
   }
   if (!content_.findings.empty())
-    throw Error(places_.folder,
+    throw Error(LedgerError::damaged, Name{places_.folder},
                 use_ != LedgerUse::tell ? msg("nothing is added to a ledger that does not hold ({})", content_.findings.front())
                                         : msg("nothing is told of a ledger that does not hold ({})", content_.findings.front()),
                 msg("see `cavum ledger verify {}`, and go back to the copy that holds", places_.folder));
   if (content_.public_key != to_hex(key_.public_key))
-    throw Error(places_.folder,
+    throw Error(LedgerError::another_key, Name{places_.folder},
                 content_.has_key(to_hex(key_.public_key)) ? msg("has gone on with another key of the school, which took the place of this one")
                                                           : msg("belongs to another school's key"),
                 msg("name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again"));

@@ -10,6 +10,7 @@
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/merkle.h"
@@ -221,7 +222,8 @@ bool holds_parts_of_a_ledger(const LedgerPlaces& places) {
 }
 
 LedgerContent read_ledger(const LedgerPlaces& places, AskWitness ask) {
-  if (!std::filesystem::exists(places.database())) throw Error(places.folder, msg("holds no ledger"), instead_of_none(places.database()));
+  if (!std::filesystem::exists(places.database()))
+    throw Error(code_of_none(places.database()), Name{places.folder}, msg("holds no ledger"), instead_of_none(places.database()));
   try {
     Database live = Database::open(places.database(), false, k_long_wait);
     return read_content(live, places.database(), ask);

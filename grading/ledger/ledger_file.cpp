@@ -6,6 +6,7 @@
 #include <map>
 
 #include "grading/ledger/entry_text.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_schema.h"
 
 namespace cavum::ledger {
@@ -21,9 +22,12 @@ std::map<std::string, std::string> schema_of(Database& db) {
 
 }  // namespace
 
+LedgerError code_of_none(const std::string& path) {
+  return holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}) ? LedgerError::lost : LedgerError::unknown;
+}
+
 Message instead_of_none(const std::string& path) {
-  if (holds_parts_of_a_ledger({std::filesystem::path(path).parent_path().string()}))
-    return msg("restore ledger.db from its backup: the ledger's sessions or identities are still here");
+  if (code_of_none(path) == LedgerError::lost) return msg("restore ledger.db from its backup: the ledger's sessions or identities are still here");
   return msg("make one with `cavum ledger init FOLDER`");
 }
 
@@ -31,7 +35,7 @@ void require_ledger(Database& db, const std::string& where) {
   if (db.integer("PRAGMA application_id") != k_ledger_application_id) {
     std::error_code none;
     const bool empty = std::filesystem::file_size(where, none) == 0 && !none;
-    throw Error(where, empty ? msg("is empty") : msg("is no ledger"), instead_of_none(where));
+    throw Error(code_of_none(where), Name{where}, empty ? msg("is empty") : msg("is no ledger"), instead_of_none(where));
   }
   if (const auto format = db.integer("PRAGMA user_version"); format != k_ledger_format)
     throw Error(where, msg("is of format {}, and this version of Cavum reads format {}", format, k_ledger_format),
@@ -72,9 +76,10 @@ void make_tables(Database& db) {
 }
 
 Database open_for_adding(const std::string& path, bool make) {
-  if (!make && !std::filesystem::exists(path)) throw Error(path, msg("there is no ledger"), instead_of_none(path));
+  if (!make && !std::filesystem::exists(path)) throw Error(code_of_none(path), Name{path}, msg("there is no ledger"), instead_of_none(path));
   std::error_code none;  // an empty file would become a database below
-  if (!make && std::filesystem::file_size(path, none) == 0 && !none) throw Error(path, msg("is empty"), instead_of_none(path));
+  if (!make && std::filesystem::file_size(path, none) == 0 && !none)
+    throw Error(code_of_none(path), Name{path}, msg("is empty"), instead_of_none(path));
   Database db = Database::open(path, make, k_long_wait);
   db.run("PRAGMA journal_mode = WAL");
   db.run("PRAGMA synchronous = FULL");
@@ -97,7 +102,7 @@ void insert(Database& db, const LedgerEntry& e, std::span<const std::string> era
 
 void wipe_erased(Database& db, const std::string& where) {
   if (db.integer("PRAGMA wal_checkpoint(TRUNCATE)") != 0)
-    throw Error(where, msg("what was erased is still in its log, which another program is reading"),
+    throw Error(LedgerError::in_use, Name{where}, msg("what was erased is still in its log, which another program is reading"),
                 msg("end that program, and run `cavum ledger erase` again"));
 }
 

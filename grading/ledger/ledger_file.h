@@ -2,6 +2,7 @@
 #pragma once
 
 #include "grading/ledger/ledger_content.h"
+#include "grading/ledger/ledger_error.h"
 
 namespace cavum::ledger {
 
@@ -13,6 +14,8 @@ inline constexpr std::int64_t k_ledger_application_id = 0x4361764c;
 /// With a write-ahead log, synced at each commit. Throws Error when there is none and `make` does not ask for one.
 [[nodiscard]] Database open_for_adding(const std::string& path, bool make);
 /// What to do where a ledger is absent or empty: restore it where others of its files are, else make one.
+/// Of an error that bears it: lost, where there was one.
+[[nodiscard]] LedgerError code_of_none(const std::string& database_path);
 [[nodiscard]] Message instead_of_none(const std::string& database_path);
 /// Throws Error unless it is a ledger's, of this format.
 void require_ledger(Database& database, const std::string& where);

@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/reason.h"
 
 namespace cavum::ledger {
@@ -26,17 +27,19 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
   const Message where = msg("entry {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
-      throw Error(where, msg("is an ending of the same exam as entry {}, and one counts", other), msg("choose one of them"));
+      throw Error(LedgerError::contested, where, msg("is an ending of the same exam as entry {}, and one counts", other), msg("choose one of them"));
   if (const FiledSession* other = registry.chosen_instead_of(s))
-    throw Error(where, msg("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq), msg("it stays unreleased"));
+    throw Error(LedgerError::contested, where, msg("entry {}, another ending of the same exam, was chosen before and alone counts", other->seq),
+                msg("it stays unreleased"));
   if (s.made_up_by)
     throw Error(where, msg("a makeup sitting was given in its place (entry {})", *s.made_up_by), msg("the makeup's result is released"));
   if (const FiledSession* other = registry.shown_beside(s))
     throw Error(where, msg("entry {}, another sitting of the same exam, is released", other->seq), msg("take that one back first"));
-  if (s.result_erased_by) throw Error(where, msg("its result was erased (entry {})", *s.result_erased_by), msg("there is nothing left to release"));
+  if (s.result_erased_by)
+    throw Error(LedgerError::erased, where, msg("its result was erased (entry {})", *s.result_erased_by), msg("there is nothing left to release"));
   if (s.questioned() && !wish.with_findings)
     throw Error(
-        where,
+        LedgerError::questioned, where,
         s.contested_by.empty() ? msg("was filed with findings") : msg("is one of several endings of the same exam (entries {})", entries_of(s)),
         msg("look at it; to release it all the same, add --with-findings"));
 }
@@ -45,7 +48,8 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
 
 Release select_results(const Registry& registry, const ReleaseWish& wish) {
   for (const auto seq : wish.sessions)
-    if (registry.session(seq) == nullptr) throw Error(msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
+    if (registry.session(seq) == nullptr)
+      throw Error(LedgerError::unknown, msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
   for (const auto& c : wish.candidates)
     if (std::none_of(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.candidate == c; }))
       throw Error("--candidate " + c, msg("has no session in this ledger"), msg("see `cavum ledger show`"));
@@ -56,7 +60,8 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
     if (by_entry) require_releasable(registry, wish, s);
     const bool undecided = !s.contested_by.empty() && !s.chosen && registry.chosen_instead_of(s) == nullptr;
     if (by_candidate && undecided && !by_entry)
-      throw Error("--candidate " + s.candidate, msg("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
+      throw Error(LedgerError::contested, Name{"--candidate " + s.candidate},
+                  msg("several endings of one exam are filed, entries {}, and one counts", entries_of(s)),
                   msg("choose it with --session and --with-findings"));
     if (s.made_up_by) continue;
     // what was released before somebody contested it is not chosen yet
@@ -93,7 +98,7 @@ const LedgerEntry& retract_results(Ledger& ledger, const std::vector<std::uint64
           const FiledSession* s = ledger.registry().session(seq);
           const Message where = msg("entry {}", seq);
           if (s == nullptr) throw Error(where, msg("is no session's entry"), msg("see `cavum ledger show`"));
-          if (s->shown_seq == 0) throw Error(where, msg("has no released result"), msg("there is nothing to take back"));
+          if (s->shown_seq == 0) throw Error(LedgerError::not_now, where, msg("has no released result"), msg("there is nothing to take back"));
           entry.results.push_back(s->shown_seq);
         }
         return entry;

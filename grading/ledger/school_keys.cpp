@@ -10,6 +10,7 @@
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
+#include "grading/ledger/ledger_error.h"
 
 namespace cavum::ledger {
 namespace {
@@ -66,7 +67,8 @@ std::optional<std::string> successor_named_by(const std::string& entry_text, con
 void require_key_in_time(const LedgerContent& c, std::int64_t now_utc_ns) {
   const SchoolKey& k = c.keys.back();
   if (k.until_utc_ns > 0 && now_utc_ns > k.until_utc_ns)
-    throw Error(msg("the school's key"), msg("ran out on {}", utc_text(k.until_utc_ns)), msg("replace it: `cavum ledger key LEDGER --replace`"));
+    throw Error(LedgerError::ended, msg("the school's key"), msg("ran out on {}", utc_text(k.until_utc_ns)),
+                msg("replace it: `cavum ledger key LEDGER --replace`"));
 }
 
 KeyEntry school_key_entry(const LedgerContent& c, const SigningKey& present, const SigningKey& next, std::int64_t until_utc_ns) {

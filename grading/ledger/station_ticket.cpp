@@ -15,6 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/session/station_check.h"
 #include "grading/ledger/begin.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum::ledger {
@@ -57,7 +58,7 @@ void use_ticket(const HeldTicket& held, scenarios::ExamOptions& options) {
 
 void require_promised(const HeldTicket& held, const SessionSetup& setup) {
   if (held.ticket.begun_at_ledger && held.begin.empty())
-    throw Error(held.path, msg("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
+    throw Error(LedgerError::unknown, Name{held.path}, msg("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
                 msg("have the office run `cavum ledger begin LEDGER --ticket {}`", held.path));
   auto wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
   if (wrong.empty()) return;
@@ -125,7 +126,7 @@ std::string nonce_in(const std::vector<std::pair<std::string, std::string>>& not
 
 void refuse_used(const HeldTicket& held, const std::optional<TicketUse>& use) {
   if (use)
-    throw Error(held.path, msg("was used at this station on {} for {}", use->when, use->session),
+    throw Error(LedgerError::used, Name{held.path}, msg("was used at this station on {} for {}", use->when, use->session),
                 msg("go on with that exam (--resume), or ask the school for a new ticket"));
 }
 

@@ -11,6 +11,7 @@
 #include "engine/session/session.h"
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/ledger.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/registry.h"
 
 namespace cavum::ledger {
@@ -37,7 +38,7 @@ SigningKey key_of_code(const std::string& code) {
     digits += c == 'O' ? '0' : c == 'I' || c == 'L' ? '1' : c;
   }
   if (digits.size() != k_code_digits || digits.find_first_not_of(k_code_alphabet) != std::string::npos)
-    throw Error(msg("station code"), msg("'{}' is none", one_line(code)),
+    throw Error(LedgerError::malformed, msg("station code"), msg("'{}' is none", one_line(code)),
                 msg("type the code that `cavum ledger station … --invite` printed: S- and five groups of four"));
   const Sha256 seed = sha256("CVCODE_1" + digits);
   SigningKey key;
@@ -56,9 +57,11 @@ void require_signed(const SignedRequest& asked, const std::string& where) {
   const StationRequest& r = asked.request;
   const bool has_code = !asked.code_signature.empty();
   if (!is_signed_by(r.public_key, request_message(r), asked.signature))
-    throw Error(where, msg("the station's signature does not hold: the request was changed"), msg("make it again on the station"));
+    throw Error(LedgerError::bad_signature, Name{where}, msg("the station's signature does not hold: the request was changed"),
+                msg("make it again on the station"));
   if (!is_signed_by(r.by, request_message(r), has_code ? asked.code_signature : asked.old_signature))
-    throw Error(where, has_code ? msg("the code's signature does not hold") : msg("the signature of the key that is replaced does not hold"),
+    throw Error(LedgerError::bad_signature, Name{where},
+                has_code ? msg("the code's signature does not hold") : msg("the signature of the key that is replaced does not hold"),
                 msg("make it again on the station"));
   if (r.devices.size() > k_most_devices)
     throw Error(where, msg("names no list of at most {} styluses", k_most_devices), msg("make it again on the station"));
@@ -72,7 +75,8 @@ Station* station_in(StationRegister& r, const std::string& key) {
 /// Whom the request makes a station, by code or in place of another. Throws Error when that cannot be.
 Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t now_utc_ns, const std::string& where) {
   const StationRequest& request = asked.request;
-  if (station_in(r, request.public_key) != nullptr) throw Error(where, msg("this key was enrolled before"), msg("see `cavum ledger station`"));
+  if (station_in(r, request.public_key) != nullptr)
+    throw Error(LedgerError::twice, Name{where}, msg("this key was enrolled before"), msg("see `cavum ledger station`"));
   Station s;
   s.public_key = request.public_key;
   s.enrolled_utc_ns = now_utc_ns;
@@ -90,10 +94,12 @@ Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t no
   }
   const auto code = std::find_if(r.invitations.begin(), r.invitations.end(), [&](const StationInvitation& i) { return i.code_key == request.by; });
   if (code == r.invitations.end())
-    throw Error(where, msg("its code was not given out by this ledger"), msg("invite the station with `cavum ledger station --invite`"));
-  if (code->used) throw Error(where, msg("its code was used before"), msg("invite the station anew: each code is good once"));
+    throw Error(LedgerError::unknown, Name{where}, msg("its code was not given out by this ledger"),
+                msg("invite the station with `cavum ledger station --invite`"));
+  if (code->used)
+    throw Error(LedgerError::used, Name{where}, msg("its code was used before"), msg("invite the station anew: each code is good once"));
   if (now_utc_ns > code->until_utc_ns)
-    throw Error(where, msg("its code ran out on {}", utc_text(code->until_utc_ns)), msg("invite the station anew"));
+    throw Error(LedgerError::ended, Name{where}, msg("its code ran out on {}", utc_text(code->until_utc_ns)), msg("invite the station anew"));
   code->used = true;
   s.name = code->name;
   return s;
@@ -186,7 +192,8 @@ const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::i
   require_signed(asked, where);
   return ledger.append([&](const LedgerContent& now) {
     if (asked.request.school != now.public_key)
-      throw Error(where, msg("asks another school to be enrolled"), msg("copy this school's school.pub to the station, and ask again"));
+      throw Error(LedgerError::another_key, Name{where}, msg("asks another school to be enrolled"),
+                  msg("copy this school's school.pub to the station, and ask again"));
     StationRegister stations = ledger.registry().stations;
     static_cast<void>(enrolled(stations, asked, read_clocks().utc_ns, where));
     return EnrolEntry{asked, until_utc_ns};

@@ -16,6 +16,7 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing_basics::code_of;
+using testing_basics::tells;
 using testing_basics::text_of;
 using testing_device::comes_true;
 using testing_device::EmulatedInverse3;
@@ -195,7 +196,7 @@ TEST_F(Inverse3, OfTwoDevicesOneIsChosenAndBothCanBeOpen) {
   {
     const Inverse3Stylus any(own_frame(service_));
     EXPECT_TRUE(becomes(any, DeviceError::several)) << text_of(any.health().problem);
-    EXPECT_NE(text_of(any.health().problem).find("049D, AAAA"), std::string::npos) << "those that there are";
+    for (const char* there : {"049D", "AAAA"}) EXPECT_TRUE(tells(any.health().problem, there)) << text_of(any.health().problem);
     const Inverse3Stylus other(own_frame(service_, "BBBB"));
     EXPECT_TRUE(becomes(other, DeviceError::not_there)) << text_of(other.health().problem);
     const Inverse3Stylus no_grip(own_frame(service_, "AAAA"));

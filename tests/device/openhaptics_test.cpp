@@ -18,8 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing_basics::code_of;
-using testing_basics::error_of;
+using testing_basics::tells;
 using testing_basics::text_of;
+using testing_basics::thrown_by;
 
 bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 20000ms) {
   for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
@@ -80,9 +81,9 @@ TEST_F(OpenHaptics, ADeviceThatDoesNotBeginIsNamed) {
   ::setenv("FAKE_HD_NO_DEVICE", "1", 1);
   const auto begin = [](const std::string& name) { return [name] { const OpenHapticsStylus s(station(name)); }; };
   EXPECT_EQ(code_of(begin("")), DeviceError::refuses);
-  EXPECT_NE(error_of(begin("")).find("0x0300"), std::string::npos) << "the number of its maker's driver";
+  EXPECT_TRUE(tells(thrown_by(begin("")), "0x0300")) << "the number of its maker's driver";
   ::unsetenv("FAKE_HD_NO_DEVICE");
-  EXPECT_NE(error_of(begin("right")).find("right"), std::string::npos);
+  EXPECT_TRUE(tells(thrown_by(begin("right")), "right"));
   const StylusLook look = look_for_touch(station(), true);
   EXPECT_TRUE(look.there && !look.problem) << text_of(look.problem);
   StylusOptions options;

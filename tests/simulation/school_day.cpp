@@ -8,18 +8,22 @@
 #include "grading/ledger/backup.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/check_ledger.h"
+#include "grading/ledger/claims.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/issue.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/registry.h"
 #include "grading/ledger/release.h"
 #include "grading/ledger/stations.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::simulation {
 namespace {
 
 using nlohmann::json;
+using testing_basics::tells;
 
 constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
 constexpr std::int64_t k_patience_ns = 300 * k_s_ns, k_margin_ns = 60 * k_s_ns;
@@ -35,10 +39,14 @@ grading::ExamGrounds& grounds() {
   return shared;
 }
 
-bool holds(const std::vector<Message>& findings, const std::string& words) {
-  for (const auto& f : findings)
-    if (english_text(f).find(words) != std::string::npos) return true;
-  return false;
+/// Whether one of `findings` names the clock of a station: by the exam's beginning or end, as the station says, or by the tick from which it was
+/// uneven.
+bool names_clock(const std::vector<Message>& findings, const SatExam& exam) {
+  return std::any_of(findings.begin(), findings.end(), [&](const Message& f) {
+    if (exam.clock == WrongClock::uneven)
+      return f.values().size() == 2 && std::holds_alternative<std::int64_t>(f.values()[0]) && std::holds_alternative<Message>(f.values()[1]);
+    return tells(f, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
+  });
 }
 
 std::string all(const std::vector<Message>& findings) {
@@ -138,7 +146,7 @@ void SchoolDay::work(const std::string& name) {
       const std::string what = std::string(name_of(task)) + ": " + e.what();
       ++counts_[std::string("refused ") + name_of(task)];
       if (!world_.process().computer->had_faults) wrong("no disk failed, and yet: " + what);
-      if (what.find("; ") == std::string::npos) wrong("does not say what to do: " + what);
+      if (e.advice().empty()) wrong("does not say what to do: " + what);
     } catch (const std::exception& e) {
       wrong(std::string(name_of(task)) + " ended with an exception that is no Error: " + e.what());
     }
@@ -210,7 +218,7 @@ void SchoolDay::enrol_station() {
     const ledger::LedgerEntry& e = ledger::enrol_station(ledger, request, 0, "request");
     entered(ledger, e.seq);
   } catch (const Error& e) {
-    if (changes == world_.process().computer->clock_changes || std::string(e.what()).find("ran out") == std::string::npos) throw;
+    if (changes == world_.process().computer->clock_changes || !(e.code() == ledger::LedgerError::ended)) throw;
   }
 }
 
@@ -233,19 +241,23 @@ void SchoolDay::file_exam() {
   const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
   if (changes != office.clock_changes) return;
   const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns, least_late_ns = before_utc_ns - exam.closed_utc_ns;
-  if (!exam.clock.empty()) {
+  if (exam.clock != WrongClock::none) {
     // a station two hours ahead and an office that is ahead as well agree with one another
-    const bool agree = exam.clock[0] == "after it was handed in" && late_ns > -k_patience_ns - k_margin_ns;
+    const bool agree = exam.clock == WrongClock::ahead && late_ns > -k_patience_ns - k_margin_ns;
     if (filing.seq && !agree) wrong("a station's wrong clock was not named: " + what);
-    if (!filing.seq && !agree && !holds(filing.findings, exam.clock[0])) wrong("a station's wrong clock was not named: " + what);
+    if (!filing.seq && !agree && !names_clock(filing.findings, exam)) wrong("a station's wrong clock was not named: " + what);
     return;
   }
   const bool too_early = late_ns<-k_patience_ns - k_margin_ns, too_late = least_late_ns> 120 * k_hour_ns;
-  if (too_early && (filing.seq || !holds(filing.findings, "after it was handed in"))) wrong("the office's clock, behind, was not named: " + what);
-  if (too_late && (filing.seq || !holds(filing.findings, "more than a day"))) wrong("the office's clock, ahead, was not named: " + what);
+  if (too_early && (filing.seq || !names_clock(filing.findings, exam))) wrong("the office's clock, behind, was not named: " + what);
+  if (too_late && (filing.seq || !names_clock(filing.findings, exam))) wrong("the office's clock, ahead, was not named: " + what);
   const bool fits = late_ns > -k_patience_ns + k_margin_ns && late_ns < 24 * k_hour_ns;
-  const bool forgotten = holds(filing.findings, "its ticket was cancelled");  // that of a candidate whom somebody forgot meanwhile
-  if (fits && !filing.seq && !begun_before && !forgotten && !holds(filing.findings, "before: entry")) wrong("a sound exam was refused: " + what);
+  // cancelled: that of a candidate whom somebody forgot meanwhile
+  const std::string nonce = ledger::ticket_nonce_in(SessionReader(exam.path).setup());
+  const auto tickets = ledger::read_registry(ledger.content()).tickets;
+  const auto ticket = std::find_if(tickets.begin(), tickets.end(), [&](const ledger::IssuedTicket& t) { return t.ticket.nonce == nonce; });
+  const bool gone = ticket != tickets.end() && (ticket->cancelled_by || ticket->used_by);
+  if (fits && !filing.seq && !begun_before && !gone) wrong("a sound exam was refused: " + what);
   if (too_early || too_late) ++counts_["office's clock named at filing"];
 }
 
@@ -286,7 +298,7 @@ void SchoolDay::cancel_some_ticket() {
   try {
     entered(ledger, ledger::cancel_ticket(ledger, t->seq, "drawn").seq);
   } catch (const Error& e) {  // somebody was quicker
-    if (std::string(e.what()).find("cancelled before") == std::string::npos) throw;
+    if (!(e.code() == ledger::LedgerError::ended)) throw;
   }
 }
 
@@ -300,8 +312,7 @@ void SchoolDay::let_some_exam_begin() {
     entered(ledger, ledger.content().entries.size() - 1);
     static_cast<void>(ledger::parse_begin(word, ledger.content().public_key, "word"));
   } catch (const Error& e) {
-    const std::string what = e.what();
-    const bool clock = what.find("is good from") != std::string::npos, cancelled = what.find("was cancelled") != std::string::npos;
+    const bool clock = e.code() == ledger::LedgerError::not_now, cancelled = e.code() == ledger::LedgerError::ended;
     if (!clock && !cancelled) throw;
     ++counts_[clock ? "no word outside the ticket's time" : "no word for a cancelled ticket"];
   }
@@ -356,18 +367,17 @@ void SchoolDay::cosign_here() {
     to_cosigner_.clear();
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
-      // an older request that was overtaken by a newer one is refused in just these words
-      if (!holds(signed_note.findings, "this is an older file")) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      // an older request that was overtaken by a newer one: the sizes of both are told, and where what was signed is kept
+      if (signed_note.findings[0].values().size() != 3) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
       return;
     }
     cosigned_size_ = std::max(cosigned_size_, signed_note.size);
     notes_.push_back(signed_note.note);
     to_office_ = signed_note.note;
   } catch (const Error& e) {
-    const std::string what = e.what(), words = "this cosigner has signed ";
-    const auto at = what.find(words);
-    if (at == std::string::npos) throw;
-    cosigner_asks_since_ = std::stoull(what.substr(at + words.size()));
+    if (!(e.code() == ledger::LedgerError::another_state)) throw;
+    const auto signed_last = std::get<Message>(e.problem().values().at(1));  // "3 entries"
+    cosigner_asks_since_ = static_cast<std::uint64_t>(std::get<std::int64_t>(signed_last.values().at(0)));
     to_cosigner_.clear();
   }
 }
@@ -386,7 +396,9 @@ void SchoolDay::keep_cosignature() {
 void SchoolDay::verify() {
   ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
-  std::erase_if(check.findings, [](const Message& f) { return english_text(f).find("its recording is erased by entry") != std::string::npos; });
+  for (const auto& s : ledger::read_registry(ledger::read_ledger({k_ledger})).sessions)
+    if (s.motion_erased_by)
+      std::erase_if(check.findings, [&](const Message& f) { return tells(f, ledger::LedgerPlaces{k_ledger}.session(s.file_sha256)); });
   // a disk that fails meanwhile may well be in the way of looking
   if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }

@@ -19,11 +19,14 @@
 
 namespace cavum::simulation {
 
+/// How a station's clock was wrong, as a finding names it.
+enum class WrongClock { none, ahead, behind, uneven };
+
 /// An exam that was sat and waits to be handed in.
 struct SatExam {
-  std::string path;                  ///< on the office's computer
-  std::vector<std::string> clock{};  ///< words of the finding that names the station's wrong clock; empty: it was right
-  std::int64_t closed_utc_ns = 0;    ///< by the station's clock
+  std::string path;  ///< on the office's computer
+  WrongClock clock = WrongClock::none;
+  std::int64_t begun_utc_ns = 0, closed_utc_ns = 0;  ///< by the station's clock
 };
 
 /// The school on the morning of every day: disks of its computers, and the exams that were sat.

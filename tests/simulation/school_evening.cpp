@@ -8,6 +8,7 @@
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
 #include "grading/ledger/identities.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/registry.h"
 #include "grading/ledger/school_keys.h"
@@ -33,9 +34,7 @@ std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("ut
 bool names_clock(const std::vector<Message>& remarks, std::uint64_t after, std::uint64_t until) {
   for (std::uint64_t k = after + 1; k <= until; ++k)
     for (const auto& r : remarks)
-      if (const std::string text = english_text(r);
-          text.starts_with("entry " + std::to_string(k) + ": ") && text.find("the clock was set back") != std::string::npos)
-        return true;
+      if (r.values() == std::vector<Value>{static_cast<std::int64_t>(k)}) return true;
   return false;
 }
 
@@ -127,8 +126,9 @@ void SchoolDay::check_clocks(const std::vector<Message>& remarks) {
   for (const auto& [seq, utc_ns] : times)
     if (utc_ns > k_begin_utc_ns + world_.true_ns() + k_patience_ns) {
       ++counts_["ledger's clock ahead"];
-      if (std::none_of(remarks.begin(), remarks.end(),
-                       [](const Message& r) { return english_text(r).find("has not come yet") != std::string::npos; }))
+      if (std::none_of(remarks.begin(), remarks.end(), [&](const Message& r) {
+            return r.values() == std::vector<Value>{static_cast<std::int64_t>(seq), Name{utc_text(utc_ns)}};
+          }))
         wrong("entry " + std::to_string(seq) + " bears a time that is still to come, and nothing says so");
     }
 }
@@ -170,8 +170,7 @@ void SchoolDay::check_cosigner(const ledger::LedgerContent& content) {
       const ledger::Cosigned now = ledger::cosign(cosigner, ledger::cosign_request(content, cosigned_size_), "request", 1);
       words = all(now.findings);
     } catch (const Error& e) {  // it signed a later state, and was killed before it could say so
-      words = e.what();
-      if (words.find("this cosigner has signed ") != std::string::npos) words.clear();
+      if (!(e.code() == ledger::LedgerError::another_state)) words = e.what();
     }
     if (!words.empty()) wrong("the cosigner refuses the honest ledger: " + words);
   });

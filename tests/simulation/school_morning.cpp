@@ -17,7 +17,7 @@ const std::string k_scenario = std::string(CAVUM_SOURCE_DIR) + "/tests/replay/bl
 /// A station's clock, and the words of the finding that names it when it is wrong.
 struct Seat {
   testing_ledger::StationClock clock;
-  std::vector<std::string> named{};
+  WrongClock named = WrongClock::none;
 };
 
 }  // namespace
@@ -49,11 +49,11 @@ Morning make_morning() {
   const std::vector<Seat> clocks = {{},
                                     {},
                                     {},
-                                    {{2 * k_hour_ns, 0, 0}, {"after it was handed in"}},
-                                    {{-2 * k_hour_ns, 0, 0}, {"before its ticket was issued"}},
-                                    {{0, 60 * k_s_ns, 0}, {"clocks, from tick"}},
-                                    {{0, -60 * k_s_ns, 0}, {"clocks, from tick"}},
-                                    {{0, 0, 100 * k_s_ns}, {"clocks, from tick"}}};
+                                    {{2 * k_hour_ns, 0, 0}, WrongClock::ahead},
+                                    {{-2 * k_hour_ns, 0, 0}, WrongClock::behind},
+                                    {{0, 60 * k_s_ns, 0}, WrongClock::uneven},
+                                    {{0, -60 * k_s_ns, 0}, WrongClock::uneven},
+                                    {{0, 0, 100 * k_s_ns}, WrongClock::uneven}};
   std::vector<std::string> tickets;
   world.calmly("office", [&] {
     ledger::Ledger l = ledger();
@@ -70,7 +70,8 @@ Morning make_morning() {
       const std::string path = "/sim/station/exam-" + std::to_string(i) + ".cavum";
       testing_ledger::sit_shortly(k_scenario, path, tickets[i], clocks[i].clock);
       files.push_back(read_file(path));
-      out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named, SessionReader(path).seal()->clocks.utc_ns});
+      out.exams.push_back({"/sim/office/exams/" + std::to_string(i) + ".cavum", clocks[i].named, SessionReader(path).created().utc_ns,
+                           SessionReader(path).seal()->clocks.utc_ns});
     }
   });
   world.calmly("office", [&] {

@@ -29,7 +29,8 @@ std::vector<std::string> tasks() {
   return list;
 }
 
-std::string text_of(const grading::Result& r) {
+/// For what a failed test prints.
+std::string told(const grading::Result& r) {
   std::string all =
       std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + english_text(reason.message()) + "\n";
@@ -84,21 +85,21 @@ class TakenTask : public Library {};
 TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) {
   const auto setup = prepared();
   const grading::Result expert = taken_by("expert", *setup);
-  EXPECT_EQ(expert.verdict, grading::Verdict::pass) << text_of(expert);
-  EXPECT_GE(expert.points, 90) << text_of(expert);
+  EXPECT_EQ(expert.verdict, grading::Verdict::pass) << told(expert);
+  EXPECT_GE(expert.points, 90) << told(expert);
   for (const auto& c : expert.criteria)
     EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << english_text(msg("{}", c.reason));
-  EXPECT_EQ(expert.progress.finish, Finish::completed) << text_of(expert);
+  EXPECT_EQ(expert.progress.finish, Finish::completed) << told(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;
   ASSERT_FALSE(reason.empty()) << "a task that ships says what it is there to catch";
   const grading::Result careless = taken_by("careless", *setup);
-  EXPECT_EQ(careless.verdict, grading::Verdict::fail) << text_of(careless);
+  EXPECT_EQ(careless.verdict, grading::Verdict::fail) << told(careless);
   EXPECT_NE(careless.progress.finish, Finish::time) << "failed by a time-out instead";
   const auto c = std::find_if(careless.criteria.begin(), careless.criteria.end(), [&](const auto& one) { return one.id == reason; });
   ASSERT_NE(c, careless.criteria.end());
-  EXPECT_TRUE(c->critical_failed) << text_of(careless);
-  EXPECT_DOUBLE_EQ(c->points, 0) << text_of(careless);
+  EXPECT_TRUE(c->critical_failed) << told(careless);
+  EXPECT_DOUBLE_EQ(c->points, 0) << told(careless);
 }
 
 /// The criteria that fail whoever breaks into what is no aim, whatever else he has points for.
@@ -125,9 +126,9 @@ class BlockTask : public Library {};
 TEST_P(BlockTask, WhoPerforatesFails) {
   const auto setup = prepared();
   const grading::Result r = taken_by("perforator", *setup);
-  ASSERT_TRUE(r.perforation.fault.perforated) << text_of(r);
-  EXPECT_EQ(r.verdict, grading::Verdict::fail) << text_of(r);
-  for (const auto& c : r.criteria) EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << text_of(r);
+  ASSERT_TRUE(r.perforation.fault.perforated) << told(r);
+  EXPECT_EQ(r.verdict, grading::Verdict::fail) << told(r);
+  for (const auto& c : r.criteria) EXPECT_TRUE(c.metric != "perforated" || c.critical_failed) << told(r);
 }
 INSTANTIATE_TEST_SUITE_P(Tasks, BlockTask, ::testing::Values("slot", "cross"), [](const auto& test) { return test.param; });
 

@@ -61,7 +61,7 @@ Picture distribution(const ClassFigures& f) {
 }
 
 ReportTable key_figures(const ClassFigures& f) {
-  ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 2}, {tr("What it says"), false, 6}}, {}, tr("The class in figures")};
+  ReportTable t{{{tr("Figure"), false, 3}, {tr("Value"), true, 2}, {tr("What it says"), false, 6}}, {}, tr("The class in figures"), 0, "figures"};
   const auto row = [&](const std::string& what, const std::string& value, const std::string& says) { t.rows.push_back({{{what}, {value}, {says}}}); };
   row(tr("mean"), tr("{} of {}", as_points(f.mean), as_number(f.max_points)), tr("points"));
   row(tr("standard deviation"), figure(as_points(f.sd)), tr("points"));
@@ -169,10 +169,10 @@ void add_criteria(Document& d, const ClassFigures& f) {
 void add_stations(Document& d, const ClassFigures& f) {
   d.blocks.emplace_back(Heading{tr("Stations")});
   if (f.stations.size() < 2) {
-    d.blocks.emplace_back(Paragraph{tr("All sat at one station."), ""});
+    d.blocks.emplace_back(Paragraph{tr("All sat at one station."), "", Paragraph::Kind::normal, "one_station"});
     return;
   }
-  ReportTable t{{{tr("Station"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations")};
+  ReportTable t{{{tr("Station"), false, 4}, {tr("Candidates"), true, 2}, {tr("Mean points"), true, 2}}, {}, tr("Stations"), 0, "stations"};
   for (const auto& s : f.stations) t.rows.push_back({{{s.name}, {std::to_string(s.n)}, {number(s.mean, 1)}}});
   d.blocks.emplace_back(std::move(t));
   if (!f.station_effect) return;
@@ -246,7 +246,7 @@ Document class_document(const ClassFigures& f, const ClassTooth& tooth) {
                       : tr("{} of them were sat by simulated operators, and every figure below mixes them with people: they are listed at the end.",
                            f.simulated),
                   tr("Note"), Paragraph::Kind::note});
-  if (f.marked_by.size() > 1) d.blocks.emplace_back(Paragraph{marked_differently(f), tr("Note"), Paragraph::Kind::note});
+  if (f.marked_by.size() > 1) d.blocks.emplace_back(Paragraph{marked_differently(f), tr("Note"), Paragraph::Kind::note, "marked_differently"});
   d.blocks.emplace_back(key_figures(f));
   d.blocks.emplace_back(Pictures{{distribution(f)}, 1, false});
   add_places(d, f, tooth);

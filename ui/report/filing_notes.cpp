@@ -5,14 +5,15 @@
 namespace cavum::report {
 
 void add_filing_notes(Document& d, const ReportSource& s) {
-  const auto note = [&](const std::string& lead, const std::string& text) {
-    d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note});
+  const auto note = [&](const std::string& id, const std::string& lead, const std::string& text) {
+    d.blocks.push_back(Paragraph{one_line(text), lead, Paragraph::Kind::note, id});
   };
   if (!s.integrity.findings.empty() && (!s.filing || s.filing->findings.empty())) {
     const Message& first = s.integrity.findings.front();
-    note(tr("Does not hold"), s.integrity.findings.size() > 1
-                                  ? tr("This session does not hold, and its result is no sound one: {}; and more, under \"What is proved\"", first)
-                                  : tr("This session does not hold, and its result is no sound one: {}", first));
+    note("does_not_hold", tr("Does not hold"),
+         s.integrity.findings.size() > 1
+             ? tr("This session does not hold, and its result is no sound one: {}; and more, under \"What is proved\"", first)
+             : tr("This session does not hold, and its result is no sound one: {}", first));
   }
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade; r && !r->person.empty()) {
@@ -20,15 +21,16 @@ void add_filing_notes(Document& d, const ReportSource& s) {
     const Message decided = s.reader == ReportReader::student
                                 ? msg("{}: {} (entry {} of the ledger, {}).", verdict, r->reason, r->entry, r->date)
                                 : msg("{}, by {}: {} (entry {} of the ledger, {}).", verdict, r->person, r->reason, r->entry, r->date);
-    note(tr("Decided by a person"),
+    note("decided", tr("Decided by a person"),
          tr("{} {}", decided,
             r->by_program == grading::verdict_name(grading::Verdict::review) ? msg("The program had left it to a person")
                                                                              : msg("The program's own verdict was {}", Term{r->by_program})));
   } else if (r)
-    note(tr("Why it was regraded"),
+    note("regraded", tr("Why it was regraded"),
          tr("{} (entry {} of the ledger, {}). The result below is the one that counts", as_is(r->reason), r->entry, as_is(r->date)));
-  if (!s.filing->not_filed.empty()) note(tr("Not the ledger's result"), tr(s.filing->not_filed));
-  if (!s.filing->findings.empty()) note(tr("In doubt"), tr("The result of this session does not stand as sound. {}", List{s.filing->findings, true}));
+  if (!s.filing->not_filed.empty()) note("not_the_ledgers_result", tr("Not the ledger's result"), tr(s.filing->not_filed));
+  if (!s.filing->findings.empty())
+    note("in_doubt", tr("In doubt"), tr("The result of this session does not stand as sound. {}", List{s.filing->findings, true}));
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {

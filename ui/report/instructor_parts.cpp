@@ -19,8 +19,11 @@ Number bounded(double v, double bound, int digits, Unit unit) { return {v, unit,
 
 void add_volumes(Document& d, const grading::Result& r) {
   d.blocks.push_back(Heading{tr("Volumes")});
-  ReportTable t{
-      {{tr("What"), false, 4}, {tr("Volume"), true, 3}, {tr("First at"), true, 1.4}, {tr("Place x, y, z, mm"), true, 2.2}}, {}, tr("Volumes")};
+  ReportTable t{{{tr("What"), false, 4}, {tr("Volume"), true, 3}, {tr("First at"), true, 1.4}, {tr("Place x, y, z, mm"), true, 2.2}},
+                {},
+                tr("Volumes"),
+                0,
+                "volumes"};
   const auto volume = [&](const std::string& name, const grading::BoundedVolume& v, const grading::Trace& first = {}) {
     t.rows.push_back({{{name},
                        {figure(bounded(v.mm3, v.bound_mm3, 2, Unit::mm3))},
@@ -60,7 +63,9 @@ void add_walls(Document& d, const grading::Result& r) {
                  {tr("under"), true},
                  {tr("at"), true, 0.9}},
                 {},
-                tr("Walls")};
+                tr("Walls"),
+                0,
+                "walls"};
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const grading::WallMeasures& m = r.shape.wall[w];
     const auto cell = [&](double v, double bound) { return TableCell{m.samples == 0 ? k_dash : figure(bounded(v, bound, 2, Unit::none))}; };
@@ -73,9 +78,9 @@ void add_walls(Document& d, const grading::Result& r) {
                        time_cell(m.worst_under.tick, m.worst_under.site_mm)}});
   }
   d.blocks.push_back(std::move(t));
-  d.blocks.push_back(Paragraph{floor_words(), "", Paragraph::Kind::small});
+  d.blocks.push_back(Paragraph{floor_words(), "", Paragraph::Kind::small, "floor"});
   d.blocks.push_back(Heading{tr("Cavity")});
-  ReportTable c{{{tr("What"), false, 3}, {tr("Measured"), true, 2}, {tr("Target"), true, 2}}, {}, tr("Cavity")};
+  ReportTable c{{{tr("What"), false, 3}, {tr("Measured"), true, 2}, {tr("Target"), true, 2}}, {}, tr("Cavity"), 0, "cavity"};
   const auto shape = [&](const std::string& name, const std::optional<double>& v, double target) {
     c.rows.push_back({{{name}, {v ? figure(bounded(*v, r.shape.bound_mm, 2, Unit::mm)) : k_dash}, {figure(as_mm(target))}}});
   };
@@ -109,7 +114,9 @@ void add_perforation(Document& d, const grading::Result& r) {
   ReportTable t{
       {{tr("Source"), false, 1}, {tr("Kind"), false, 0.9}, {tr("Time"), true, 1.3}, {tr("Place x, y, z, mm"), true, 2}, {tr("What"), false, 5}},
       {},
-      tr("Perforation")};
+      tr("Perforation"),
+      0,
+      "perforations"};
   for (const auto& e : p.events)
     t.rows.push_back(
         {{{tr("force")},
@@ -146,7 +153,7 @@ void add_work(Document& d, const ReportSource& s) {
          as_s(m.time_s, 1), as_s(m.handpiece_time_s, 1), as_s(m.idle_s, 1), as_mm(m.path_mm, 0), as_n(m.force_mean_n), as_n(m.force_peak_n),
          as_s(m.force_over_limit_s, 1), r.progress.steps_completed, r.progress.steps, r.progress.violations, finish_words(r.progress.finish)),
       ""});
-  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Accommodations, pauses, late work")};
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Accommodations, pauses, late work"), 0, "work"};
   const auto seconds = [](std::int64_t ticks) { return as_s(static_cast<double>(ticks) * k_tick_s, 1); };
   const auto granted = scenarios::accommodations_text(r.accommodations);
   t.rows.push_back({{{tr("accommodations")}, {granted.empty() ? tr("none") : tr(msg("{}", granted))}}});
@@ -178,7 +185,7 @@ void add_servo(ReportTable& t, const RealTimeReport& servo) {
 
 void add_device(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Device and calibration")});
-  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Device and calibration")};
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Device and calibration"), 0, "device"};
   t.rows.push_back({{{tr("device")}, {tr("{}", as_is(s.facts.device))}}});
   t.rows.push_back({{{tr("calibration")}, {s.facts.calibration.empty() ? tr("none recorded") : s.facts.calibration}}});
   for (const auto& [key, value] : s.facts.notes)

@@ -62,16 +62,17 @@ void add_integrity(Document& d, const ReportSource& s) {
   using Replay = ReportIntegrity::Replay;
   const ReportIntegrity& i = s.integrity;
   d.blocks.push_back(Heading{tr("What is proved")});
-  std::string promise;
+  std::string promise, id = "does_not_hold";
   if (!i.findings.empty() || i.replay == Replay::differs)
     promise = tr("This session does not hold: see below.");
   else if (i.replay == Replay::agrees)
+    id = i.at_filing ? "replayed_at_filing" : "replayed",
     promise = i.at_filing ? tr("This session is tamper-evident and replay-verified (when it was filed).")
                           : tr("This session is tamper-evident and replay-verified.");
   else
-    promise = tr("This session is tamper-evident. It was not replayed for this report.");
-  d.blocks.push_back(Paragraph{promise, ""});
-  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("What is proved")};
+    id = "not_replayed", promise = tr("This session is tamper-evident. It was not replayed for this report.");
+  d.blocks.push_back(Paragraph{promise, "", Paragraph::Kind::normal, id});
+  ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("What is proved"), 0, "integrity"};
   const auto row = [&](const std::string& what, const std::string& text) {
     if (!text.empty()) t.rows.push_back({{{what}, {text}}});
   };

@@ -21,9 +21,9 @@ void require_report_place(const std::string& path, bool overwrite) {
   require_writable(path);
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0 || overwrite) return;
   const std::string text = read_text_file(path, k_largest_file), head = text.substr(0, 200);
-  const bool report = path.ends_with(".svg")   ? head.starts_with("<svg") && text.find("of the target removed") != std::string::npos
+  const bool report = path.ends_with(".svg")   ? head.starts_with("<svg") && text.find("id='cavum-sections'") != std::string::npos
                       : path.ends_with(".pdf") ? head.starts_with("%PDF") && text.find("(Cavum ") != std::string::npos
-                                               : head.starts_with("<!doctype html>") && text.find(".md of Cavum") != std::string::npos;
+                                               : head.starts_with("<!doctype html>") && text.find("id=\"cavum-data\"") != std::string::npos;
   if (!report) throw Error(path, msg("exists already and is no report of Cavum"), msg("choose another name, or overwrite it with --overwrite"));
 }
 

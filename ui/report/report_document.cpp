@@ -73,18 +73,22 @@ Message shown_value(const grading::CriterionResult& c, bool with_bound = true) {
 }
 
 /// What a reader of the criteria would else have to guess.
-std::vector<std::string> how_to_read(const grading::Result& r) {
-  std::vector<std::string> words{
-      tr("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {}. ± after points: what the "
-         "value at either end of its ± would give.",
-         as_mm(r.leaf_mm, k_as_needed))};
+std::vector<Paragraph> how_to_read(const grading::Result& r) {
+  const auto small = [](const std::string& text, const char* id) { return Paragraph{text, "", Paragraph::Kind::small, id}; };
+  std::vector<Paragraph> words{
+      small(tr("± after a value: how far the true one may lie from it, because the tooth is known in leaves of {}. ± after points: what the "
+               "value at either end of its ± would give.",
+               as_mm(r.leaf_mm, k_as_needed)),
+            "bounds")};
   const auto any = [&r](const auto& is) { return std::any_of(r.criteria.begin(), r.criteria.end(), is); };
   if (any([](const grading::CriterionResult& c) { return c.work_share < 1; }))
     words.push_back(
-        tr("Care counts for as much as was done: where less than {} of the target at the place in question was removed, points are given "
-           "in proportion, and their ± holds that share at either end of its own ±, too.",
-           as_percent(grading::k_care_counts_percent)));
-  if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; })) words.push_back(floor_words());
+        small(tr("Care counts for as much as was done: where less than {} of the target at the place in question was removed, points are given "
+                 "in proportion, and their ± holds that share at either end of its own ±, too.",
+                 as_percent(grading::k_care_counts_percent)),
+              "care"));
+  if (any([](const grading::CriterionResult& c) { return scenarios::known_measure(c.metric).of_floor; }))
+    words.push_back(small(floor_words(), "floor"));
   return words;
 }
 
@@ -93,7 +97,9 @@ void add_criteria(Document& d, const ReportSource& s) {
   ReportTable t{
       {{tr("Criterion"), false, 2.2}, {tr("Value"), true, 1.9}, {tr("Limits"), false, 2.4}, {tr("Points"), true, 1.8}, {tr("Why"), false, 3.8}},
       {},
-      tr("Criteria")};
+      tr("Criteria"),
+      0,
+      "criteria"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     const std::string points = !c.judged ? tr("not judged") : tr("{} / {}", Number{c.points, Unit::none, 1, c.points_bound}, as_points(c.max));
@@ -102,7 +108,7 @@ void add_criteria(Document& d, const ReportSource& s) {
                       c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
-  for (const auto& words : how_to_read(s.result)) d.blocks.push_back(Paragraph{words, "", Paragraph::Kind::small});
+  for (auto& words : how_to_read(s.result)) d.blocks.push_back(std::move(words));
 }
 
 /// What is asked of a criterion, and why care gives fewer points than its value would.
@@ -118,8 +124,11 @@ std::string asked_text(const grading::CriterionResult& c, const scenarios::Crite
 /// What a student reads first of the criteria: no bounds, places and ticks.
 void add_marks(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Marks")});
-  ReportTable t{
-      {{tr("What was looked at"), false, 2.6}, {tr("Yours"), true, 1.6}, {tr("Asked"), false, 3.6}, {tr("Points"), true, 1.4}}, {}, tr("Marks")};
+  ReportTable t{{{tr("What was looked at"), false, 2.6}, {tr("Yours"), true, 1.6}, {tr("Asked"), false, 3.6}, {tr("Points"), true, 1.4}},
+                {},
+                tr("Marks"),
+                0,
+                "marks"};
   for (std::size_t i = 0; i < s.result.criteria.size(); ++i) {
     const grading::CriterionResult& c = s.result.criteria[i];
     t.rows.push_back({{{tr("{}", Authored{c.title})},
@@ -305,20 +314,23 @@ void add_course(Document& d, const ReportSource& s) {
 }
 
 /// Whether the marks changed by more than they do by themselves.
-std::string progress_words(const ReportFiling& f) {
+Paragraph progress_words(const ReportFiling& f) {
+  const auto paragraph = [](const char* id, const std::string& words) { return Paragraph{words, "", Paragraph::Kind::normal, id}; };
   if (!f.scatter)
-    return tr("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
-              cohort::k_least_steps, cohort::k_least_repeaters);
-  if (!f.progress) return tr("This is the first attempt that counts.");
+    return paragraph("change_unknown",
+                     tr("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
+                        cohort::k_least_steps, cohort::k_least_repeaters));
+  if (!f.progress) return paragraph("first_attempt", tr("This is the first attempt that counts."));
   const cohort::Progress& p = *f.progress;
   const Message by_chance = msg("up to {} may be chance, as {} steps of {} candidates from one attempt to the next show", as_percent(p.bound_percent),
                                 f.scatter->steps, f.scatter->candidates);
   if (!p.told())
-    return tr("Over {} attempts no change can be told from chance: {}, and {}.", p.attempts, Number{p.change_percent, Unit::percent, 0, 0, true},
-              by_chance);
+    return paragraph("no_change", tr("Over {} attempts no change can be told from chance: {}, and {}.", p.attempts,
+                                     Number{p.change_percent, Unit::percent, 0, 0, true}, by_chance));
   const Number by = as_percent(std::fabs(p.change_percent));
-  return p.change_percent > 0 ? tr("Over {} attempts the mark rose by {}: more than chance explains ({}).", p.attempts, by, by_chance)
-                              : tr("Over {} attempts the mark fell by {}: more than chance explains ({}).", p.attempts, by, by_chance);
+  return p.change_percent > 0
+             ? paragraph("rose", tr("Over {} attempts the mark rose by {}: more than chance explains ({}).", p.attempts, by, by_chance))
+             : paragraph("fell", tr("Over {} attempts the mark fell by {}: more than chance explains ({}).", p.attempts, by, by_chance));
 }
 
 void add_attempts(Document& d, const ReportSource& s) {
@@ -335,7 +347,9 @@ void add_attempts(Document& d, const ReportSource& s) {
                  {tr("Entry"), true, 1},
                  {"", false, 2.5}},
                 {},
-                tr("Attempts")};
+                tr("Attempts"),
+                0,
+                "attempts"};
   std::vector<ReportAttempt> shown;
   for (const auto& a : s.filing->attempts) {
     if (!all && !a.released) continue;
@@ -346,10 +360,12 @@ void add_attempts(Document& d, const ReportSource& s) {
                        {points_of(a.points, a.max)},
                        {std::to_string(a.entry)},
                        {attempt_remark(a)}},
-                      !a.doubt.empty()});
+                      !a.doubt.empty(),
+                      std::string(a.doubt.empty() ? "sound" : "in_doubt") + (a.regraded ? " regraded" : "") + (a.simulated ? " simulated" : "") +
+                          (a.released ? "" : " unreleased")});
   }
   d.blocks.push_back(Pictures{{attempts_chart(shown, s.result.pass_percent)}});
-  d.blocks.push_back(Paragraph{progress_words(*s.filing), ""});
+  d.blocks.push_back(progress_words(*s.filing));
   d.blocks.push_back(std::move(t));
 }
 
@@ -358,7 +374,9 @@ void add_regrade(Document& d, const grading::Comparison& c) {
   d.blocks.push_back(Heading{tr("Beside the sealed result")});
   ReportTable t{{{"", false, 2}, {tr("Sealed"), true, 1.5}, {tr("Regrade"), true, 1.5}, {tr("Change"), true, 1}, {tr("What changed"), false, 5}},
                 {},
-                tr("Sealed result and regrade")};
+                tr("Sealed result and regrade"),
+                0,
+                "regrade"};
   t.rows.push_back({{{tr("verdict")}, {tr("{}", Term{c.before.verdict})}, {tr("{}", Term{c.verdict})}, {""}, {because(c.rules)}}});
   t.rows.push_back({{{tr("points")},
                      {points_of(c.before.points, c.before.max)},
@@ -447,7 +465,8 @@ Document report_document(const ReportSource& s) {
   else
     d.subtitle = tr(subtitle_of(s));
   d.created = s.facts.created;
-  if (s.regrade != nullptr) d.blocks.push_back(Paragraph{tr("{}.", grading::regrade_text(*s.regrade)), tr("Regrade"), Paragraph::Kind::note});
+  if (s.regrade != nullptr)
+    d.blocks.push_back(Paragraph{tr("{}.", grading::regrade_text(*s.regrade)), tr("Regrade"), Paragraph::Kind::note, "regrade"});
   add_filing_notes(d, s);
   const bool decided = s.filing && s.filing->regrade && !s.filing->regrade->person.empty();
   const std::string verdict = decided ? s.filing->regrade->verdict : grading::verdict_name(r.verdict);
@@ -458,7 +477,7 @@ Document report_document(const ReportSource& s) {
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     d.blocks.push_back(Paragraph{tr("{} was opened at {}, which this task asks to spare: {} of its wall lie open, {} of it were removed",
                                     Term{p.tissue}, as_s(p.first.t_s(), 3), as_mm2(p.area_mm2, 3), as_mm3(p.volume_mm3, 3)),
-                                 tr("Perforation"), Paragraph::Kind::note});
+                                 tr("Perforation"), Paragraph::Kind::note, "perforation"});
   add_lessons(d, s);
   for (const auto& note : r.notes) d.blocks.push_back(Paragraph{tr(finding_for(note, s)), tr("Note")});
   const bool student = s.reader == ReportReader::student;

@@ -133,7 +133,7 @@ std::vector<SideWord> side_words(const CrownSides& sides, const Camera& camera, 
       at = next;
       if (!meets(crown, at, room)) break;
     }
-    if (!meets(cavity, at, half)) words.push_back({word, at, size});
+    if (!meets(cavity, at, half)) words.push_back({word, at, size, towards});
   }
   return words;
 }

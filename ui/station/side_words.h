@@ -27,6 +27,7 @@ struct CrownSides {
 struct SideWord {
   Message word;         ///< "mesial"
   ImVec2 middle, size;  ///< pixels from the picture's upper left corner
+  Vec3 towards;         ///< its side, in the tooth's axes
 };
 /// Those that have a place beside the crown in a picture of this size, pixels, as one or the other eye sees it (Camera::view). A side that looks at
 /// the eye or away from it has none, nor has one whose only place would be over the cavity. `size_of`: of a word, as it is shown; `apart`:

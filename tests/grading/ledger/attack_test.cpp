@@ -7,6 +7,7 @@
 #include "grading/close_exam.h"
 #include "grading/ledger/explain_session.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_schema.h"
 #include "grading/ledger/release.h"
 #include "grading/ledger/station_ticket.h"
@@ -16,6 +17,9 @@ namespace cavum::ledger {
 namespace {
 
 using namespace testing_ledger;
+using testing_basics::code_of;
+using testing_basics::text_of;
+using testing_basics::thrown_by;
 
 std::string blob(std::span<const std::uint8_t> bytes) { return "x'" + to_hex(bytes) + "'"; }
 
@@ -43,10 +47,6 @@ class Attack : public testing::Test {
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
     EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   }
-  void expect_edit_refused(const std::string& sql, const std::vector<std::string>& words) {
-    test::tamper(session_, sql);
-    expect_refused(session_, words);
-  }
   /// Changes the ledger's file as someone with an SQLite shell would: triggers do not stop him, he puts them back afterwards.
   void edit_ledger(const std::string& sql) {
     std::string drop, make;
@@ -63,6 +63,19 @@ class Attack : public testing::Test {
   void expect_ledger_finding(const std::vector<std::string>& words) {
     expect_finding(check_ledger(school_.places(), false).findings, words);
     EXPECT_THROW(school_.ledger(), Error) << "nothing is added to a ledger that does not hold";
+  }
+  /// Each edit of the ledger as it is now, and what the finding tells; `past_triggers`: they are put back afterwards.
+  void expect_found(const std::vector<std::pair<std::string, std::string>>& edits, bool past_triggers) {
+    const Bytes sound = read_file(school_.places().database());
+    for (const auto& [sql, told] : edits) {
+      SCOPED_TRACE(sql.substr(0, 80));
+      if (past_triggers)
+        edit_ledger(sql);
+      else
+        test::tamper(school_.places().database(), sql);
+      expect_ledger_finding({told});
+      write_file(school_.places().database(), sound);
+    }
   }
 
   School school_{*shared_};
@@ -84,70 +97,65 @@ TEST_F(Attack, NoneIsFiledAndHolds) {
   EXPECT_FALSE(registry.sessions[0].released);
 }
 
-TEST_F(Attack, AChangedPose) {
+TEST_F(Attack, EveryEditOfARecording) {
   auto inputs = SessionReader(session_).motion(3).inputs;
   inputs[10].tip_nm[2] += 20'000;
-  expect_edit_refused("UPDATE chunk SET inputs = " + blob(pack_inputs(inputs)) + " WHERE seq = 3", {"chunk 3", "motion (inputs)"});
+  for (const auto& [sql, told] : std::vector<std::pair<std::string, std::string>>{
+           {"UPDATE chunk SET inputs = " + blob(pack_inputs(inputs)) + " WHERE seq = 3", " 3"},
+           {"UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0", ""},
+           {"UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2", " 2"},
+           {"UPDATE artifact SET bytes = CAST(replace(CAST(bytes AS TEXT), 'pass_percent', 'pass_percent ') AS BLOB) WHERE name = 'scenario.toml'",
+            "scenario.toml"},
+           {"UPDATE result SET json = replace(json, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", ""},
+           {"UPDATE artifact SET bytes = zeroblob(100) WHERE name = 'final_tooth.cvt'", ""},
+           {"DELETE FROM chunk WHERE seq = 4", ""},
+           {"UPDATE chunk SET seq = 1000 WHERE seq = 4; UPDATE chunk SET seq = 4 WHERE seq = 5; UPDATE chunk SET seq = 5 WHERE seq = 1000", ""},
+           {"CREATE TEMP TABLE again AS SELECT * FROM chunk WHERE seq = 4; UPDATE again SET seq = (SELECT max(seq) + 1 FROM chunk); "
+            "INSERT INTO chunk SELECT * FROM again",
+            ""},
+           {"DELETE FROM chunk WHERE seq > 5", ""}}) {
+    SCOPED_TRACE(sql.substr(0, 80));
+    const std::string edited = school_.file("edited.cavum");
+    std::filesystem::copy_file(session_, edited, std::filesystem::copy_options::overwrite_existing);
+    test::tamper(edited, sql);
+    expect_refused(edited, {told});
+  }
 }
-TEST_F(Attack, AChangedEvent) { expect_edit_refused("UPDATE event SET detail_json = '{\"step\":9}' WHERE seq = 0", {"chunk", "events"}); }
-TEST_F(Attack, AChangedClock) { expect_edit_refused("UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2", {"chunk 2", "clocks"}); }
-TEST_F(Attack, AChangedScenario) {
-  expect_edit_refused(
-      "UPDATE artifact SET bytes = CAST(replace(CAST(bytes AS TEXT), 'pass_percent', 'pass_percent ') AS BLOB) WHERE name = 'scenario.toml'",
-      {"scenario.toml"});
-}
-TEST_F(Attack, AChangedResult) {
-  expect_edit_refused("UPDATE result SET json = replace(json, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", {"result was changed"});
-}
-TEST_F(Attack, AChangedTooth) { expect_edit_refused("UPDATE artifact SET bytes = zeroblob(100) WHERE name = 'final_tooth.cvt'", {"tooth"}); }
-TEST_F(Attack, ADroppedChunk) { expect_edit_refused("DELETE FROM chunk WHERE seq = 4", {"chunk"}); }
-TEST_F(Attack, SwappedChunks) {
-  expect_edit_refused("UPDATE chunk SET seq = 1000 WHERE seq = 4; UPDATE chunk SET seq = 4 WHERE seq = 5; UPDATE chunk SET seq = 5 WHERE seq = 1000",
-                      {"chunk"});
-}
-TEST_F(Attack, ARepeatedChunk) {
-  expect_edit_refused(
-      "CREATE TEMP TABLE again AS SELECT * FROM chunk WHERE seq = 4; UPDATE again SET seq = (SELECT max(seq) + 1 FROM chunk); "
-      "INSERT INTO chunk SELECT * FROM again",
-      {"chunk"});
-}
-TEST_F(Attack, AnEndCutOff) { expect_edit_refused("DELETE FROM chunk WHERE seq > 5", {"chunk"}); }
 
 TEST_F(Attack, ASessionSubmittedTwice) {
   ASSERT_TRUE(file(session_).seq);
   const Filing again = file(session_);
   EXPECT_FALSE(again.seq);
-  expect_finding(again.findings, {"submitted before", "entry 4"});
+  expect_finding(again.findings, {"4"});
 }
 TEST_F(Attack, ATicketUsedForASecondAttempt) {
   ASSERT_TRUE(file(session_).seq);
   const Filing second = file(school_.sit(ticket_, "novice"));
   EXPECT_FALSE(second.seq);
-  expect_finding(second.findings, {"ticket was used before", "entry 4"});
+  expect_finding(second.findings, {"4"});
 }
 TEST_F(Attack, AnOldTicket) {
   const std::string old = school_.ticket("4712", [](Ticket& t) {
     t.not_before_utc_ns -= 48 * k_hour_ns;
     t.not_after_utc_ns -= 48 * k_hour_ns;
   });
-  expect_refused(school_.sit(old), {"the exam began on", "ticket is good from"});
+  expect_refused(school_.sit(old), {});
 }
 TEST_F(Attack, AnotherCandidatesSession) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }),
-                 {"the exam was sat by C-AAAA-BBBB-CCCC"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), {"C-AAAA-BBBB-CCCC"});
 }
 TEST_F(Attack, MoreTimeThanWasGranted) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), {"accommodations"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), {});
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml is not the one"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {
   const Ticket t = parse_ticket(ticket_, "", "ticket");
   Ticket forged = t;
   const SigningKey forger = load_signing_key(school_.file("forger.key"), "school");
   forged.public_key = to_hex(forger.public_key);
-  expect_refused(school_.sit(sign_ticket(forged, forger).text), {"ticket of another school"});
+  expect_refused(school_.sit(sign_ticket(forged, forger).text), {});
 }
 TEST_F(Attack, ATicketChangedAfterSigning) {
   auto j = nlohmann::json::parse(ticket_);
@@ -158,11 +166,11 @@ TEST_F(Attack, ATicketChangedAfterSigning) {
 TEST_F(Attack, ATicketThatWasNeverIssued) {
   Ticket own = parse_ticket(ticket_, "", "ticket");
   own.nonce = random_hex(16);
-  expect_refused(school_.sit(sign_ticket(own, School::key()).text), {"has not issued this ticket"});
+  expect_refused(school_.sit(sign_ticket(own, School::key()).text), {});
 }
 TEST_F(Attack, ASimulatedOperatorInTheCandidatesPlace) {
   const std::string simulated = school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
-  expect_refused(simulated, {"no candidate's hand moved this exam", "'expert'"});
+  expect_refused(simulated, {"'expert'"});
   Ledger ledger = school_.ledger();
   ASSERT_TRUE(file_session(ledger, simulated, {.simulated = true}).seq);
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert") << "it stays marked";
@@ -173,7 +181,7 @@ TEST_F(Attack, APseudonymWithoutItsTicket) {
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session, {.without_ticket = true});
   EXPECT_FALSE(f.seq);
-  expect_finding(f.findings, {"bears a pseudonym"});
+  expect_finding(f.findings, {});
 }
 TEST_F(Attack, NamesExchangedAmongTheIdentities) {
   school_.ticket("4712");
@@ -190,79 +198,42 @@ TEST_F(Attack, AResultThatIsNone) {
     std::filesystem::remove(path);
     const Simulation simulation = make_simulation(setup, "test");
     Recorder::create(path, setup).close(save_tooth(drilled_tooth(simulation)), result);
-    expect_refused(path, {"by grading version 0"});
+    expect_refused(path, {" 0"});
   }
 }
-TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {"holds no ticket"}); }
+TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {}); }
 
-TEST_F(Attack, AnEntryEditedInTheLedger) {
-  ASSERT_TRUE(file(session_).seq);
-  edit_ledger("UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')");
-  expect_ledger_finding({"entry 4", "its result was changed"});
-}
-TEST_F(Attack, AnEntrysTextEditedInTheLedger) {
-  ASSERT_TRUE(file(session_).seq);
-  edit_ledger("UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4");
-  expect_ledger_finding({"entry 4", "its text was changed"});
-}
-TEST_F(Attack, AResultTakenOutOfTheLedger) {
-  ASSERT_TRUE(file(session_).seq);
-  edit_ledger("DELETE FROM opening");
-  expect_ledger_finding({"entry 4", "its result was taken out"});
-}
-TEST_F(Attack, AnOpeningOfNoEntry) {
-  edit_ledger("INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')");
-  expect_ledger_finding({"opening 000", "belongs to no entry"});
-}
-TEST_F(Attack, AnEntryEditedWithItsHash) {
+TEST_F(Attack, EveryEditOfAFiledEntry) {
   ASSERT_TRUE(file(session_).seq);
   std::string text = read_ledger(school_.places()).entries.at(4).text;
   text.replace(text.find("\"findings\":[]"), 13, "\"findings\":[7]");
-  const Sha256 leaf = leaf_hash({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()});
-  edit_ledger("UPDATE entry SET text = CAST(" + blob({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()}) +
-              " AS TEXT), leaf_sha256 = " + blob(leaf) + " WHERE seq = 4");
-  expect_ledger_finding({"checkpoint 5", "not what the school signed"});
+  const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
+  expect_found({{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", " 4"},
+                {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4", " 4"},
+                {"DELETE FROM opening", " 4"},
+                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4", " 5"},
+                {"DELETE FROM entry WHERE seq = 4", ""},
+                {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", " 5"}},
+               true);
 }
-TEST_F(Attack, AnEntryTakenOutOfTheLedger) {
-  ASSERT_TRUE(file(session_).seq);
-  edit_ledger("DELETE FROM entry WHERE seq = 4");
-  expect_ledger_finding({"entries were taken out"});
-}
-TEST_F(Attack, AnEntryTakenOutWithItsSignature) {
-  ASSERT_TRUE(file(session_).seq);
-  edit_ledger("DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5");
-  expect_ledger_finding({"older copy", "has 4 entries, and had 5"});
-}
-TEST_F(Attack, AnEntrySlippedIn) {
-  edit_ledger("INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))");
-  expect_ledger_finding({"entry 4", "signed nothing"});
-}
-/// One entry is in the ledger, so that a change counts as one.
-TEST_F(Attack, ATriggerTakenOutOfTheLedger) {
-  test::tamper(school_.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq");
-  expect_ledger_finding({"trigger entry_stays", "taken out"});
-}
-TEST_F(Attack, ATriggerThatNoLongerRefuses) {
-  test::tamper(school_.places().database(),
-               "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END");
-  expect_ledger_finding({"trigger entry_stays", "altered"});
-}
-TEST_F(Attack, AViewThatShowsOtherFigures) {
-  test::tamper(
-      school_.places().database(),
-      "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry");
-  expect_ledger_finding({"view session", "altered"});
-}
-TEST_F(Attack, AnIndexAndATableOfSomebodysOwn) {
-  test::tamper(school_.places().database(), "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)");
-  expect_ledger_finding({"table notes", "does not belong"});
-  expect_ledger_finding({"index by_text", "does not belong"});
+TEST_F(Attack, EveryEditOfTheLedgersTables) {
+  expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", "000"},
+                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))", " 4"}},
+               true);
+  const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
+                    own = "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";
+  expect_found({{changed, "entry_stays"},
+                {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END", "entry_stays"},
+                {changed + "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry", "session"},
+                {own, "notes"},
+                {own, "by_text"}},
+               false);
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
   const Bytes old = read_file(school_.places().database());
   ASSERT_TRUE(file(session_).seq);
   write_file(school_.places().database(), old);
-  expect_ledger_finding({"put back to an older copy", "has 4 entries, and had 5"});
+  expect_ledger_finding({" 4 ", " 5"});
 }
 TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   const std::string witness = witness_path(read_ledger(school_.places()).id);
@@ -276,18 +247,18 @@ TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   school_.ticket("4713");
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "nothing on this computer remembers";
   const LedgerContent now = read_ledger(school_.places());
-  expect_finding(check_receipt(receipt, now.public_key, &now), {"history was rewritten"});
+  expect_findings(check_receipt(receipt, now.public_key, &now), 1);
   write_file(witness, full_witness);
-  expect_ledger_finding({"history was rewritten"});
+  expect_ledger_finding({});
 }
 TEST_F(Attack, AFiledSessionChangedInItsFolder) {
   ASSERT_TRUE(file(session_).seq);
   const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
   std::filesystem::copy_file(school_.sit(ticket_, "novice"), school_.places().session(filed.file_sha256),
                              std::filesystem::copy_options::overwrite_existing);
-  expect_finding(check_ledger(school_.places(), false).findings, {"entry 4", "its file was changed"});
+  expect_finding(check_ledger(school_.places(), false).findings, {"4"});
   std::filesystem::remove(school_.places().session(filed.file_sha256));
-  expect_finding(check_ledger(school_.places(), false).findings, {"entry 4", "its file is gone"});
+  expect_finding(check_ledger(school_.places(), false).findings, {"4"});
 }
 TEST_F(Attack, AReceiptThatWasImproved) {
   const Filing filed = file(session_);
@@ -299,13 +270,13 @@ TEST_F(Attack, AReceiptThatWasImproved) {
   EXPECT_EQ(entry.find("verdict"), std::string::npos) << "a receipt shows no marks";
   entry.replace(entry.find("\"findings\":[]"), 13, "\"findings\":[7]");
   better["entry"] = entry;
-  expect_finding(check_receipt(better, "", nullptr), {"not the one that the school signed"});
+  expect_findings(check_receipt(better, "", nullptr), 1);
   auto other = receipt;
   std::string note = other["checkpoint"];
   note.replace(note.find("\nutc_ns ") - 4, 3, "AAA");  // the root's end
   other["checkpoint"] = note;
-  expect_finding(check_receipt(other, "", nullptr), {"signature"});
-  expect_finding(check_receipt(nlohmann::json::array(), "", nullptr), {"no receipt"});
+  expect_findings(check_receipt(other, "", nullptr), 2);
+  expect_findings(check_receipt(nlohmann::json::array(), "", nullptr), 1);
 }
 TEST_F(Attack, ExportedResultsThatWereImproved) {
   ASSERT_TRUE(file(session_).seq);
@@ -314,14 +285,14 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
   const std::string& key = ledger.content().public_key;
   EXPECT_TRUE(check_results(text, key, &ledger.content()).empty());
   EXPECT_TRUE(check_results(text + "\n", "", nullptr).empty());
-  expect_finding(check_results(text, std::string(64, '0'), nullptr), {"another school's key"});
+  expect_findings(check_results(text, std::string(64, '0'), nullptr), 1);
   // a second list of results, which some programs read and others do not
   std::string twice = text;
   twice.insert(1, "\"results\":[],");
-  expect_finding(check_results(twice, key, nullptr), {"written anew"});
-  expect_finding(check_results("[]", key, nullptr), {"no exported results"});
+  expect_findings(check_results(twice, key, nullptr), 1);
+  expect_findings(check_results("[]", key, nullptr), 1);
   text.replace(text.find("\"pass\""), 6, "\"fail\"");
-  expect_finding(check_results(text, key, &ledger.content()), {"signature on the results does not hold"});
+  expect_findings(check_results(text, key, &ledger.content()), 1);
 }
 /// A copy of a closed session as somebody makes it who wants a better end: without the end, and not closed.
 std::string cut_back(const School& school, const std::string& session, const std::string& name) {
@@ -348,16 +319,15 @@ TEST_F(Attack, AnExamCutBackAndEndedAgainAtAnotherStation) {
   setenv("CAVUM_HOME", home.c_str(), 1);
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_FALSE(told.holds);
-  expect_finding(told.findings, {"ended by another station than began it"});
-  expect_finding(told.findings, {"taken up again at tick 4000 by another station"});
-  expect_refused(cut, {"ended by another station than began it"});
+  expect_finding(told.findings, {"4000"});
+  expect_refused(cut, {"4000"});
 }
 TEST_F(Attack, AnExamTakenUpAgainWhereTheMemoryOfUsedTicketsIsGone) {
   const std::string cut = cut_back(school_, session_, "cut.cavum");
   std::filesystem::remove(used_tickets_path());
   close_again(cut);
-  expect_finding(explain_session(cut, "").findings, {"did not remember beginning it"});
-  expect_refused(cut, {"did not remember beginning it", "memory of used tickets was removed"});
+  expect_findings(explain_session(cut, "").findings, 1);
+  expect_refused(cut, {});
 }
 TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   // the same file, at a station that began it and did not close it: what a crash leaves. A memory that was put back to that looks alike.
@@ -366,7 +336,6 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   const SessionExplanation open = explain_session(cut, "");
   EXPECT_FALSE(open.holds);
   EXPECT_TRUE(open.interrupted);
-  EXPECT_NE(english_text(to_text(open)).find("INTERRUPTED"), std::string::npos);
   close_again(cut);
   const Filing f = file(cut);
   EXPECT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
@@ -374,7 +343,7 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_TRUE(told.holds);
   EXPECT_FALSE(told.interrupted);
-  expect_finding(told.remarks, {"interrupted for", "taken up again"});
+  expect_finding(told.remarks, {"4000"});
 }
 TEST_F(Attack, TwoEndingsOfOneExam) {
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
@@ -385,8 +354,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   // whoever holds the other ending can show it
   const Filing other = file(session_);
   EXPECT_FALSE(other.seq);
-  expect_finding(other.findings, {"ticket was used before", "entry 4 holds another ending of the same recording", "the same up to tick 4000",
-                                  "taken up again at tick 4000, this one at tick"});
+  expect_finding(other.findings, {"4", "4000"});
   EXPECT_FALSE(read_registry(read_ledger(school_.places())).sessions.at(0).doubtful());
   Ledger ledger = school_.ledger();
   const Filing contest = file_session(ledger, session_, {.with_findings = true});
@@ -395,47 +363,48 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   ASSERT_EQ(registry.sessions.size(), 2u);
   EXPECT_EQ(registry.sessions[0].contested_by, std::vector<std::uint64_t>{*contest.seq});
   EXPECT_TRUE(registry.sessions[0].doubtful()) << "what was filed as sound goes to a person, too";
-  expect_finding(check_ledger(school_.places(), false).remarks, {"is contested by entry 5"});
+  expect_finding(check_ledger(school_.places(), false).remarks, {"4", "5"});
 
   // a person chooses one, by its entry, and that one alone counts
   const std::string candidate = registry.sessions[0].candidate;
-  const auto refused = [&](const ReleaseWish& wish, const std::vector<std::string>& words) {
-    const std::string said = testing_basics::error_of([&] { release_results(ledger, wish); });
-    for (const auto& w : words) EXPECT_NE(said.find(w), std::string::npos) << "'" << w << "' is missing in: " << said;
+  const auto refused = [&](const ReleaseWish& wish, const std::optional<ErrorCode>& why, const std::vector<std::string>& names) {
+    const auto error = thrown_by([&] { release_results(ledger, wish); });
+    EXPECT_EQ(code_of(error), why) << text_of(error);
+    for (const auto& n : names) EXPECT_NE(text_of(error).find(n), std::string::npos) << "'" << n << "' is missing in: " << text_of(error);
     EXPECT_TRUE(std::none_of(ledger.content().entries.begin(), ledger.content().entries.end(),
                              [](const LedgerEntry& e) { return e.as<ReleaseEntry>() != nullptr; }));
   };
-  refused({.with_findings = true, .candidates = {candidate}}, {"entries 4 and 5", "choose it with --session"});
-  refused({.with_findings = true, .sessions = {4, 5}}, {"endings of the same exam"});
-  refused({.sessions = {4}}, {"entries 4 and 5", "--with-findings"});
-  refused({.with_findings = true, .sessions = {1}}, {"no session's entry"});
+  refused({.with_findings = true, .candidates = {candidate}}, LedgerError::contested, {candidate, "4", "5"});
+  refused({.with_findings = true, .sessions = {4, 5}}, LedgerError::contested, {"4", "5"});
+  refused({.sessions = {4}}, LedgerError::questioned, {"4", "5"});
+  refused({.with_findings = true, .sessions = {1}}, LedgerError::unknown, {"1"});
   EXPECT_EQ(release_results(ledger, {.all = true}).kept_back, 2u);
   // both at once is no choice
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{4, 5}}; });
   for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
-  expect_finding(check_ledger(school_.places(), false).remarks, {"names two endings of the same exam"});
+  expect_finding(check_ledger(school_.places(), false).remarks, {"4", "5"});
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {4}}).results, std::vector<std::uint64_t>{4});
-  const std::string again = testing_basics::error_of([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
-  EXPECT_NE(again.find("entry 4, another ending of the same exam, was chosen before"), std::string::npos) << again;
+  const auto again = thrown_by([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
+  EXPECT_EQ(code_of(again), LedgerError::contested);
+  EXPECT_NE(text_of(again).find("4"), std::string::npos) << "it was chosen before: " << text_of(again);
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .candidates = {candidate}}).results.size(), 0u) << "the other is not released with it";
   // not even by an entry that some other program makes
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{5}}; });
   const Registry chosen = read_registry(ledger.content());
   EXPECT_TRUE(chosen.findings.empty());
-  expect_finding(check_ledger(school_.places(), false).remarks, {"has not released entry 5", "was chosen before"});
+  expect_finding(check_ledger(school_.places(), false).remarks, {"5", "4"});
   EXPECT_FALSE(chosen.sessions[0].doubtful()) << "it counts in a class's figures";
   EXPECT_TRUE(chosen.sessions[1].doubtful());
   EXPECT_TRUE(chosen.sessions[1].shown->is_null());
   Identities identities(school_.places().identities());
   int left_out = 0;
-  const std::string said = "Several endings of this exam were filed (also entry 5), and this one was chosen by a person.";
   const std::string csv = moodle_csv(chosen, identities, left_out);
   EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed->at("score")["points"].dump() + ","), std::string::npos) << csv;
-  EXPECT_NE(csv.find(said), std::string::npos) << csv;
+  EXPECT_NE(csv.find(" 5"), std::string::npos) << "the ending that was not chosen: " << csv;
   const auto scores = lti_scores(chosen, identities);
   ASSERT_EQ(scores.size(), 1u);
   EXPECT_EQ(scores[0]["score"]["scoreGiven"], chosen.sessions[0].filed->at("score")["points"]);
-  EXPECT_NE(scores[0]["score"]["comment"].get<std::string>().find(said), std::string::npos);
+  EXPECT_NE(scores[0]["score"]["comment"].get<std::string>().find(" 5"), std::string::npos);
 }
 TEST_F(Attack, AnEndingThatWasReleasedBeforeItWasContested) {
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
@@ -471,14 +440,14 @@ TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
   test::tamper(cut, sql);
   const auto findings = check_chain(SessionReader(cut));
   ASSERT_EQ(findings.size(), 1u);
-  expect_finding(findings, {"signature of the station that began the session does not hold"});
+  expect_finding(findings, {});
 }
 TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
   test::tamper(session_, "UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2");
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session_, {.with_findings = true});
   ASSERT_TRUE(f.seq);
-  expect_finding(f.findings, {"chunk 2", "clocks"});
+  expect_finding(f.findings, {" 2"});
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).findings, f.findings);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }

@@ -5,6 +5,7 @@
 #include <random>
 
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_error.h"
 #include "tests/grading/ledger/school.h"
 
 namespace cavum::ledger {
@@ -12,6 +13,9 @@ namespace {
 
 using namespace testing_ledger;
 using nlohmann::json;
+using testing_basics::code_of;
+using testing_basics::tells;
+using testing_basics::thrown_by;
 
 constexpr std::uint64_t k_now_s = 1'800'000'000;
 constexpr int k_changes = 2000;
@@ -101,11 +105,11 @@ TEST_F(Cosigning, AForkIsRefused) {
   add(4);  // another history, which the school's own key has signed, and which its witness knows nothing against
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   const std::string request = cosign_request(content(), 6);
-  expect_finding(sign(request).findings, {"history was rewritten", "both bear the school's signature"});
+  expect_findings(sign(request).findings, 1);
   // nor with a proof that is left out, or is somebody's own
   std::string bare = request;
   bare.erase(bare.find('\n') + 1, bare.find("\n\n") - bare.find('\n'));
-  expect_finding(sign(bare).findings, {"history was rewritten"});
+  expect_findings(sign(bare).findings, 1);
   EXPECT_EQ(read_text_file(school_.file("memory/" + content().id)), memory) << "what was refused is not remembered";
 }
 
@@ -115,7 +119,7 @@ TEST_F(Cosigning, AnotherRootOfTheSameSizeIsRefused) {
   ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
   put_back(old);
   add(2);
-  expect_finding(sign(cosign_request(content(), 3)).findings, {"other entries than those that were cosigned"});
+  expect_findings(sign(cosign_request(content(), 3)).findings, 1);
 }
 
 TEST_F(Cosigning, ASmallerOneIsRefused) {
@@ -124,26 +128,26 @@ TEST_F(Cosigning, ASmallerOneIsRefused) {
   const std::string request = cosign_request(content(), 0);
   add(1);
   ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
-  expect_finding(sign(request).findings, {"older copy", "it has 3 entries, and 4 entries were cosigned"});
+  expect_finding(sign(request).findings, {"3", "4"});
   put_back(old);
-  expect_finding(sign(cosign_request(content(), 3)).findings, {"older copy"});
+  expect_finding(sign(cosign_request(content(), 3)).findings, {"3", "4"});
 }
 
 TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
   const std::string request = cosign_request(content(), 0);
-  const auto said = [&](const std::string& text, const std::string& key = "") {
-    return testing_basics::error_of([&] { static_cast<void>(sign(text, key)); });
-  };
-  EXPECT_NE(said(request).find("does not know"), std::string::npos);
-  expect_finding(sign(request, std::string(64, 'a')).findings, {"the school's signature does not hold"});
+  const auto why = [&](const std::string& text, const std::string& key = "") { return code_of([&] { static_cast<void>(sign(text, key)); }); };
+  EXPECT_EQ(why(request), LedgerError::unknown);
+  expect_findings(sign(request, std::string(64, 'a')).findings, 1);  // not signed by that key
   ASSERT_TRUE(sign(request, school_key()).findings.empty());
-  EXPECT_NE(said(request, std::string(64, 'a')).find("is not the key of the ledger that was cosigned before"), std::string::npos);
-  EXPECT_NE(said(request).find("--since 1"), std::string::npos) << "the proof has to begin where this cosigner stopped";
+  EXPECT_EQ(why(request, std::string(64, 'a')), LedgerError::another_key) << "than that by which it was cosigned before";
+  EXPECT_EQ(why(request), LedgerError::another_state) << "the proof has to begin where this cosigner stopped";
   const std::string path = school_.file("memory/" + content().id);
   std::string memory = read_text_file(path);
   memory.replace(memory.find("\n1\n"), 3, "\n0\n");
   write_text_file(path, memory);
-  EXPECT_NE(said(cosign_request(content(), 1)).find("was changed"), std::string::npos) << "somebody has put its memory back";
+  const auto changed = thrown_by([&] { static_cast<void>(sign(cosign_request(content(), 1))); });
+  EXPECT_EQ(code_of(changed), LedgerError::another_state) << "somebody has put its memory back";
+  EXPECT_TRUE(tells(changed, path));
   for (const char* bad : {"", "old 0\n", "old x\n\n", "old 01\n\nx", "new 0\n\nx", "old 0\nAAAA\n\nx"})
     EXPECT_THROW(static_cast<void>(sign(bad, school_key())), Error) << bad;
 }
@@ -156,7 +160,7 @@ TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
   ASSERT_TRUE(sign(cosign_request(content(), 1)).findings.empty());
   put_back(old);
   add(3);
-  expect_finding(sign(cosign_request(content(), 3)).findings, {"history was rewritten"});
+  expect_findings(sign(cosign_request(content(), 3)).findings, 1);
   write_text_file(path, memory);
   EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
 }
@@ -225,17 +229,17 @@ TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAn
   const json receipt = make_receipt(content(), 2);
   put_back(old);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "the cosignature in the ledger went with it";
-  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"older copy", "has 2 entries, the cosigned note saw 3"});
+  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"2", "3"});
   LedgerContent now = content();
-  expect_finding(check_receipt(receipt, school_key(), &now), {"older copy", "the receipt saw 3"});
+  expect_finding(check_receipt(receipt, school_key(), &now), {"2", "3"});
   add(3);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"history was rewritten"});
+  expect_findings(check_cosigned(cosigned.note, known(), content()).findings, 1);
   now = content();
-  expect_finding(check_receipt(receipt, school_key(), &now), {"history was rewritten"});
+  expect_findings(check_receipt(receipt, school_key(), &now), 1);
   std::filesystem::remove(witness_path(now.id));
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  expect_finding(check_ledger(school_.places(), false).not_checked, {"whether an older copy was put back", "no witness"});
+  expect_findings(check_ledger(school_.places(), false).not_checked, 1);  // there is no witness
 }
 
 TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
@@ -245,14 +249,14 @@ TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
   EXPECT_EQ(unknown.not_checked.size(), 1u);
   SignedNote changed = parse_note(cosigned.note, "note");
   changed.signatures.at(1).signature[20] ^= 1;
-  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"cosignature of cosigner.example/one does not hold"});
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"cosigner.example/one"});
   changed = parse_note(cosigned.note, "note");
   changed.signatures.erase(changed.signatures.begin());
-  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"the ledger's school has not signed it"});
+  expect_findings(check_cosigned(write_note(changed), known(), content()).findings, 1);
   changed = parse_note(cosigned.note, "note");
   changed.signatures.at(0).signature[20] ^= 1;
-  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"the school's signature does not hold"});
-  expect_finding(check_cosigned("no note", known(), content()).findings, {"is no signed note"});
+  expect_findings(check_cosigned(write_note(changed), known(), content()).findings, 1);
+  expect_findings(check_cosigned("no note", known(), content()).findings, 1);
 }
 
 TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
@@ -274,10 +278,10 @@ TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
   other.signature[30] ^= 1;
   Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(1, {{other}});
   check_cosignatures(content(), known(), findings, not_checked);
-  expect_finding(findings, {"cosigner.example/one under 1 entry: does not hold"});
+  expect_finding(findings, {"cosigner.example/one"});
   Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(7, check.cosignatures);
   check_cosignatures(content(), known(), findings, not_checked);
-  expect_finding(findings, {"under 7 entries: there is no such checkpoint"});
+  expect_finding(findings, {"7"});
 }
 
 TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
@@ -288,10 +292,10 @@ TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
     EXPECT_TRUE(check_receipt(r, school_key(), nullptr).empty()) << from;
     json other = r;
     other["consistency"]["from"] = make_receipt(c, 4, from == 7 ? 6 : from + 1)["consistency"]["from"];
-    expect_finding(check_receipt(other, school_key(), nullptr), {"not the beginning"});
+    expect_findings(check_receipt(other, school_key(), nullptr), 1);
     other = r;
     other["consistency"]["proof"].push_back(std::string(64, '0'));
-    expect_finding(check_receipt(other, school_key(), nullptr), {"not the beginning"});
+    expect_findings(check_receipt(other, school_key(), nullptr), 1);
   }
   EXPECT_THROW(static_cast<void>(make_receipt(c, 4, 8)), std::out_of_range);
 }
@@ -302,7 +306,7 @@ TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
   const std::string sound = read_text_file(path);
   // a line of somebody else's making accuses nobody
   write_text_file(path, sound + "9 " + std::string(64, '1') + " 1 " + to_base64(Bytes(64, 7)) + "\n");
-  expect_finding(content().findings, {"the witness was changed at entry 9"});
+  expect_finding(content().findings, {"9", path});
   // a line that a power cut left short, and what was told after it
   write_text_file(path, sound.substr(0, sound.size() - 40));
   EXPECT_TRUE(content().findings.empty());

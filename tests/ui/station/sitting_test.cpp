@@ -198,9 +198,8 @@ TEST_F(SittingTest, BeginsAtTheSecondPlaceWhenTheFirstRefuses) {
   Sitting sitting(options_, "K6");
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
   sitting.begin();
-  const std::string moved = english_text(sitting.moved());
-  EXPECT_NE(moved.find(options_.out + " cannot be written"), std::string::npos) << "told at once: " << moved;
-  EXPECT_NE(moved.find(sitting.path()), std::string::npos) << moved;
+  for (const std::string& path : {options_.out, sitting.path()})
+    EXPECT_NE(english_text(sitting.moved()).find(path), std::string::npos) << "told at once: " << sitting.moved();
   EXPECT_EQ(std::filesystem::path(sitting.path()).parent_path(), std::filesystem::path(options_.out_if_full));
   ASSERT_TRUE(goes_on(sitting, [&] { return sitting.live().view().ticks > 1200; }));
   EXPECT_EQ(sitting.live().view().recording_error, Message());

@@ -43,23 +43,18 @@ TEST_F(CohortVerbs, AClassIsReportedInWordsFiguresAndPictures) {
   EXPECT_NEAR(figures["points"]["mean"].get<double>(), points, 1e-9);
   EXPECT_EQ(figures["verdicts"]["pass"], passed);
   EXPECT_NEAR(figures["walls"]["floor"]["p95_mm"].get<double>(), floor_mm, 1e-9);
-  EXPECT_NE(told.out.find("block_cavity: 5 candidates, 5 of them simulated"), std::string::npos) << told.out;
+  EXPECT_EQ(figures["simulated"], 5);
   for (const auto& criterion : figures["criteria"]) EXPECT_NE(told.out.find(criterion["id"].get<std::string>()), std::string::npos) << told.out;
 
   const std::string page = read_text_file(path("class.html"));
-  EXPECT_NE(page.find("5 cavities laid over each other"), std::string::npos);
   EXPECT_GE(count(page, "<svg"), 6u) << "distribution, four pictures of the tooth and their key";
   EXPECT_EQ(count(page, "src='") + count(page, "src=\"") + count(page, "<link"), 0u) << "nothing from a network";
   EXPECT_EQ(page.find("simulated-1-"), std::string::npos) << "no number of the school";
 
-  const auto nobody = run("cohort report " + path("L") + " --exam unknown");
-  EXPECT_EQ(nobody.exit_code, 2);
-  EXPECT_NE(nobody.err.find("was sat by nobody"), std::string::npos) << nobody.err;
+  expect_refused("cohort report " + path("L") + " --exam unknown", {"unknown"});
 
   write_text_file(path("marks.csv"), "candidate,judge,points,rating\nsimulated-1-0001,x,3,2\nsimulated-1-0002,x,3,4\n");
-  const auto beyond = run("cohort report " + path("L") + " --exam block_cavity --marks " + path("marks.csv") + " --borderline 5");
-  EXPECT_EQ(beyond.exit_code, 2) << beyond.out;
-  EXPECT_NE(beyond.err.find("--borderline 5: does not lie within the ratings"), std::string::npos) << beyond.err;
+  expect_refused("cohort report " + path("L") + " --exam block_cavity --marks " + path("marks.csv") + " --borderline 5", {"--borderline 5"});
 }
 
 TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
@@ -90,7 +85,8 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
   const double by_hand[] = {(ms_row - ms_rest) / 2, (ms_column - ms_rest) / 4, ms_rest};
   for (std::size_t k = 0; k < 3; ++k) EXPECT_NEAR(j["program"]["components"][k]["variance"].get<double>(), by_hand[k], 1e-6) << k;
   EXPECT_GT(j["stations"]["conditions"].size(), 0u);
-  EXPECT_EQ(j["people"]["why_not"], "no marks of people");
+  EXPECT_TRUE(j["people"]["as_sat"].is_null());
+  EXPECT_TRUE(j["people"]["why_not"].is_string());
 
   // Two judges of both exams, of whom one takes ten points off.
   const auto marks = [&](const std::string& exam) {
@@ -136,11 +132,8 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
   // One judge written in two ways.
   some.replace(some.find(",A,"), 3, ",a ,");
   write_text_file(path("some_b.csv"), some);
-  for (const char* exam : {"block_cavity", "harder"}) {  // in one file, and in two
-    const auto twice = run("cohort circuit " + path("L") + " --exams block_cavity,harder --marks " + exam + "=" + path("some_b.csv"));
-    EXPECT_EQ(twice.exit_code, 2) << twice.out;
-    EXPECT_NE(twice.err.find("which differ by case or blanks alone"), std::string::npos) << twice.err;
-  }
+  for (const char* exam : {"block_cavity", "harder"})  // in one file, and in two
+    expect_refused("cohort circuit " + path("L") + " --exams block_cavity,harder --marks " + exam + "=" + path("some_b.csv"), {"'a'"});
 
   // Marks all alike are no study; a mark of somebody who did not sit the exam is told by name.
   std::string alike = "candidate,judge,points\nnobody,A,50\n";
@@ -150,7 +143,7 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
   const std::string of_alike =
       "cohort circuit " + path("L") + " --exams block_cavity,harder --marks block_cavity=" + path("a.csv") + " --marks harder=" + path("b.csv");
   const auto nothing = json::parse(run(of_alike + " --json").out);
-  EXPECT_NE(nothing["people"]["why_not"].get<std::string>().find("are all alike"), std::string::npos) << nothing["people"];
+  EXPECT_NE(nothing["people"]["why_not"], j["people"]["why_not"]) << "for another reason than that there are none";
   EXPECT_TRUE(nothing["people"].at("as_sat").is_null());
   ASSERT_EQ(nothing["marks_left_out"].size(), 2u);
   EXPECT_EQ(nothing["marks_left_out"][0]["candidate"], "nobody");
@@ -158,13 +151,9 @@ TEST_F(CohortVerbs, ACircuitsComponentsAreThoseOfTheAnalysisOfVariance) {
   EXPECT_NE(in_words.find("nobody (block_cavity), nobody (harder)"), std::string::npos) << in_words;
 
   for (const auto& [line, error] :
-       {std::pair{"--exams harder", "a circuit: has two exams at least"}, std::pair{"--exams harder,harder", "a circuit: names an exam twice"},
-        std::pair{"--exams harder,unknown", "was sat by nobody"},
-        std::pair{"--exams harder,block_cavity --marks other=x.csv", "is of no exam of the circuit"}}) {
-    const auto wrong = run("cohort circuit " + path("L") + " " + line);
-    EXPECT_EQ(wrong.exit_code, 2) << line;
-    EXPECT_NE(wrong.err.find(error), std::string::npos) << wrong.err;
-  }
+       {std::pair{"--exams harder", ""}, std::pair{"--exams harder,harder", ""}, std::pair{"--exams harder,unknown", "unknown"},
+        std::pair{"--exams harder,block_cavity --marks other=x.csv", "other"}})
+    expect_refused("cohort circuit " + path("L") + " " + line, {error});
 }
 
 TEST_F(CohortVerbs, AFormThatGivesFewerPointsForTheSameWorkIsTooHard) {
@@ -202,15 +191,9 @@ TEST_F(CohortVerbs, AFormThatGivesFewerPointsForTheSameWorkIsTooHard) {
   EXPECT_NEAR(j["forms"][0]["mean_percent"].get<double>(), own / n, 1e-3);
   EXPECT_NEAR(j["forms"][1]["constant_percent"].get<double>(), (own - other) / n / 2, 1e-3) << "half of what lies between two forms";
 
-  const auto one = run("cohort difficulty " + task);
-  EXPECT_EQ(one.exit_code, 2);
-  EXPECT_NE(one.err.find("needs two forms at least"), std::string::npos) << one.err;
-  const auto twice = run("cohort difficulty " + task + " " + task + " --candidates 10");
-  EXPECT_EQ(twice.exit_code, 2);
-  EXPECT_NE(twice.err.find("is that of another form"), std::string::npos) << twice.err;
-  const auto marks = run("cohort difficulty " + task + " " + changed("other", "pass_percent = 60", "pass_percent = 61") + " --candidates 10");
-  EXPECT_EQ(marks.exit_code, 2);
-  EXPECT_NE(marks.err.find("forms of one exam have one pass mark"), std::string::npos) << marks.err;
+  expect_refused("cohort difficulty " + task, {});
+  expect_refused("cohort difficulty " + task + " " + task + " --candidates 10", {"block_cavity"});
+  expect_refused("cohort difficulty " + task + " " + changed("other", "pass_percent = 60", "pass_percent = 61") + " --candidates 10", {"60", "61"});
 }
 
 }  // namespace

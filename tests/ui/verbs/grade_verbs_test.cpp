@@ -8,12 +8,17 @@
 #include <sstream>
 
 #include "engine/base/file.h"
+#include "engine/base/hash.h"
+#include "engine/base/text.h"
 #include "tests/ui/program.h"
+#include "tests/ui/report/kinds.h"
 
 namespace cavum::ui {
 namespace {
 
 using nlohmann::json;
+using testing_report::holds;
+using testing_report::of_kind;
 using testing_ui::Ran;
 
 const std::string k_source = CAVUM_SOURCE_DIR;
@@ -56,9 +61,8 @@ std::string bound_pointer(const std::string& pointer) {
 }
 
 TEST_F(GradeVerb, PrintsTheTableOfMeasuresWithoutASession) {
-  const Ran r = run("grade --measures");
-  EXPECT_EQ(r.exit_code, 0) << r.err;
-  EXPECT_EQ(r.out, read_text_file(k_source + "/docs/measures.md"));
+  ASSERT_EQ(std::system(("env -u CAVUM_ALTER_SENTENCES " CAVUM_BINARY " grade --measures >" + path("m.md")).c_str()), 0);
+  EXPECT_EQ(read_text_file(path("m.md")), read_text_file(k_source + "/docs/measures.md"));
   EXPECT_EQ(run("grade").exit_code, 2);
 }
 
@@ -129,11 +133,8 @@ TEST_F(GradeVerb, WhyShowsTicksPlacesAndPointsThatAddUp) {
   double missed = 0;
   for (const auto& m : removed["moments"]) missed += m["amount"].get<double>();
   EXPECT_NEAR(missed, grade["volumes"]["missed_mm3"].get<double>(), 1e-4);
-  const Ran text = run("grade " + session + " --why floor");
-  EXPECT_NE(text.out.find("tick "), std::string::npos) << text.out;
-  const Ran unknown = run("grade " + session + " --why nonsense");
-  EXPECT_EQ(unknown.exit_code, 2);
-  EXPECT_NE(unknown.err.find("use one of: removed, floor, walls, whole, time"), std::string::npos) << unknown.err;
+  EXPECT_NE(run("grade " + session + " --why floor").out.find(floor["moments"][0]["tick"].dump()), std::string::npos);
+  expect_refused("grade " + session + " --why nonsense", {"removed, floor, walls, whole, time"});
 }
 
 TEST_F(GradeVerb, AZoneFromAnStlStaysWithTheSessionAndAChangedOneIsRefused) {
@@ -158,10 +159,10 @@ TEST_F(GradeVerb, AZoneFromAnStlStaysWithTheSessionAndAChangedOneIsRefused) {
   std::filesystem::rename(path("box.stl"), path("kept.stl"));  // the session needs no file
   EXPECT_EQ(run_json("grade " + path("s.cavum")), first);
   EXPECT_EQ(run("replay " + path("s.cavum") + " --verify").exit_code, 0);
-  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"), {"stl.toml:", "'box.stl': there is no such file"});
+  expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"), {"stl.toml:", "'box.stl'"});
   box("1.6,1.6,1.1", "1.1");
   expect_refused("grade " + path("s.cavum") + " --scenario " + path("stl.toml"),
-                 {"stl.toml:", "'box.stl' is not the surface that the session ran with (SHA-256 "});
+                 {"stl.toml:", "'box.stl'", to_hex(sha256(read_file(path("kept.stl")))).substr(0, 8)});
   std::filesystem::rename(path("kept.stl"), path("box.stl"));
   const json again = run_json("grade " + path("s.cavum") + " --scenario " + path("stl.toml"));
   EXPECT_EQ(again["score"], first["score"]);
@@ -195,10 +196,11 @@ points = 10
   EXPECT_DOUBLE_EQ(by_id.at("removed")["new_points"], 40);
   EXPECT_NEAR(by_id.at("removed")["old_points"].get<double>(), 19.44, 1.5);  // by hand, see the worked page
   EXPECT_EQ(by_id.at("removed")["old_points"], run_json("grade " + session)["criteria"][0]["points"]);
-  EXPECT_EQ(by_id.at("removed")["changed"], json::array({"full marks at: 90 → 60"}));
+  ASSERT_EQ(by_id.at("removed")["changed"].size(), 1u);
+  EXPECT_NE(by_id.at("removed")["changed"][0].get<std::string>().find("90 → 60"), std::string::npos);
   EXPECT_TRUE(by_id.at("hand")["old_points"].is_null());
   EXPECT_TRUE(by_id.at("floor")["new_points"].is_null());
-  EXPECT_EQ(by_id.at("floor")["changed"], json::array({"no longer a criterion"}));
+  EXPECT_EQ(by_id.at("floor")["changed"].size(), 1u);
   EXPECT_FALSE(re["rules"].empty());
   EXPECT_FALSE(run_json("grade " + session).contains("regrade"));
   EXPECT_EQ(read_text_file(session), bytes) << "a session is never written to";
@@ -229,9 +231,8 @@ points = 10
     const Ran r = run(verb + " --rubric " + path("r.toml"));
     EXPECT_EQ(r.exit_code, 2);
     EXPECT_EQ(r.out, "");
-    EXPECT_NE(r.err.find("r.toml:5:10: 'touched_pulpa_mm3' measures no tissue of this tooth; did you mean 'touched_pulp_mm3'?\n"), std::string::npos)
-        << r.err;
-    EXPECT_NE(r.err.find("r.toml:11:10: 'protected_mm3' measures nothing in this exam: nothing is protected;"), std::string::npos) << r.err;
+    for (const char* told : {"r.toml:5:10: ", "'touched_pulpa_mm3'", "'touched_pulp_mm3'", "r.toml:11:10: ", "'protected_mm3'"})
+      EXPECT_NE(r.err.find(told), std::string::npos) << told << " in " << r.err;
   }
   std::string text = read_text_file(k_worked + ".toml");
   const auto metric = text.find("metric = \"container_bottom_mm3\"");
@@ -240,12 +241,12 @@ points = 10
   write_text_file(path("s.toml"), text);
   const Ran scenario = run("grade " + session + " --scenario " + path("s.toml"));
   EXPECT_EQ(scenario.exit_code, 2);
-  EXPECT_NE(scenario.err.find("this tooth has no tissue 'pulpa'"), std::string::npos) << scenario.err;
+  EXPECT_NE(scenario.err.find("'pulpa'"), std::string::npos) << scenario.err;
   write_text_file(path("turned.toml"),
                   "rule = \"compensatory\"\npass_percent = 50\n[[criteria]]\nid = \"d\"\nmetric = \"dice\"\nfull = 0\nzero = 1\npoints = 1\n");
   const Ran turned = run("grade " + session + " --rubric " + path("turned.toml"));
   EXPECT_EQ(turned.exit_code, 0);
-  EXPECT_NE(turned.err.find("turned.toml:7:8: warning: "), std::string::npos) << turned.err;
+  EXPECT_NE(turned.err.find("turned.toml:7:8: "), std::string::npos) << turned.err;
 }
 
 TEST_F(GradeVerb, AnotherTasksScenarioIsRefusedUnlessAskedFor) {
@@ -254,8 +255,10 @@ TEST_F(GradeVerb, AnotherTasksScenarioIsRefusedUnlessAskedFor) {
   const auto id = text.find("id = \"");
   text.insert(id + 6, "another_");
   write_text_file(path("other.toml"), text);
-  expect_refused("grade " + session + " --scenario " + path("other.toml"), {"other.toml: this is the task 'another_", "--another-task"});
-  EXPECT_EQ(run_json("grade " + session + " --another-task --scenario " + path("other.toml"))["regrade"]["by"], "the scenario " + path("other.toml"));
+  expect_refused("grade " + session + " --scenario " + path("other.toml"), {"other.toml: ", "'another_"});
+  EXPECT_NE(
+      run_json("grade " + session + " --another-task --scenario " + path("other.toml"))["regrade"]["by"].get<std::string>().find(path("other.toml")),
+      std::string::npos);
 }
 
 TEST_F(GradeVerb, ARegradesReportSaysSoAndShowsTheSealedVerdictBesideTheNewOne) {
@@ -267,19 +270,17 @@ TEST_F(GradeVerb, ARegradesReportSaysSoAndShowsTheSealedVerdictBesideTheNewOne) 
   const std::string again = session + " --rubric " + path("r.toml");
   ASSERT_EQ(run("report " + again + " --out " + path("r.html")).exit_code, 0);
   const std::string html = read_text_file(path("r.html"));
-  EXPECT_NE(html.find("<b>Regrade</b>: marked anew by the rubric "), std::string::npos);
-  char points[80];
-  std::snprintf(points, sizeof points, "%.1f of 100.0 points", run_json("grade " + session)["score"]["points"].get<double>());
-  EXPECT_NE(html.find(std::string(": fail, ") + points + "; the exam was sealed as pass, " + points), std::string::npos) << points;
-  EXPECT_NE(html.find("Beside the sealed result"), std::string::npos);
-  EXPECT_NE(html.find("pass mark: 60 % → 95 %"), std::string::npos);
+  const std::string points = fixed(run_json("grade " + session)["score"]["points"], 1),
+                    table = of_kind(html.substr(html.find("class='verdict ")), "regrade");
+  EXPECT_TRUE(holds(of_kind(html, "regrade"), path("r.toml"), "fail", points, "100.0", "pass", points));
+  EXPECT_TRUE(holds(table, "60 % → 95 %"));
   for (const char* criterion : {"removed", "floor", "walls", "whole", "time"})
-    EXPECT_NE(html.find("<tr><td>" + std::string(criterion) + "</td>"), std::string::npos) << criterion;
-  const Ran text = run("grade " + again);
-  EXPECT_TRUE(text.out.starts_with("REGRADE: marked anew by the rubric ")) << text.out.substr(0, 200);
+    EXPECT_TRUE(holds(table, "<tr><td>" + std::string(criterion) + "</td>")) << criterion;
+  const Ran text = run("grade " + again), plain = run("grade " + session);
+  EXPECT_TRUE(holds(text.out.substr(0, text.out.find('\n')), path("r.toml"))) << text.out.substr(0, 200);
   ASSERT_EQ(run("report " + session + " --out " + path("own.html")).exit_code, 0);
-  EXPECT_EQ(read_text_file(path("own.html")).find("Regrade"), std::string::npos);
-  EXPECT_EQ(run("grade " + session).out.find("REGRADE"), std::string::npos);
+  EXPECT_EQ(of_kind(read_text_file(path("own.html")), "regrade"), "");
+  EXPECT_EQ(plain.out.find("r.toml"), std::string::npos);
 }
 
 TEST_F(GradeVerb, AFoldersTableNamesEverySessionOnceAndWhatWasNotGraded) {
@@ -288,25 +289,22 @@ TEST_F(GradeVerb, AFoldersTableNamesEverySessionOnceAndWhatWasNotGraded) {
   write_text_file(path("group/b.cavum"), "no session");
   const Ran twice = run("grade " + path("group") + " " + session + " " + path("group/../group/a.cavum"));
   EXPECT_EQ(twice.exit_code, 1);
-  EXPECT_NE(twice.out.find("2 sessions, 1 stay pass, 1 not graded\n"), std::string::npos) << twice.out;
+  EXPECT_TRUE(holds(twice.out.substr(twice.out.rfind('\n', twice.out.size() - 2)), "2 ", "1 ", "pass", "1 ")) << twice.out;
   std::string rubric = read_text_file(k_worked + ".toml");
   rubric = rubric.substr(rubric.find("[rubric]")) + "\n[[rubric.criteria]]\nid = \"extra\"\nmetric = \"dice\"\nfull = 1\nzero = 0.99\npoints = 10\n";
   write_text_file(path("r.toml"), rubric);
   const Ran extra = run("grade " + path("group") + " --rubric " + path("r.toml"));
-  EXPECT_NE(extra.out.find("extra +0.0: new criterion"), std::string::npos) << extra.out;
+  EXPECT_TRUE(holds(extra.out, "extra", "+0.0")) << extra.out;
 }
 
-TEST_F(GradeVerb, AnAdviceIsGivenOnceAndHoldsWhatIsNeeded) {
+TEST_F(GradeVerb, ADamagedSessionIsOneLineWithOneAdvice) {
   const std::string session = hole();
   std::string bytes = read_text_file(session);
   for (std::size_t i = bytes.size() / 2; i < bytes.size() / 2 + 40; ++i) bytes[i] = static_cast<char>(bytes[i] ^ 0x55);
   write_text_file(path("bad.cavum"), bytes);
   const Ran bad = run("grade " + path("bad.cavum"));
   EXPECT_EQ(bad.exit_code, 2);
-  const auto once = bad.err.find("intact copy");
-  ASSERT_NE(once, std::string::npos) << bad.err;
-  EXPECT_EQ(bad.err.find("intact copy", once + 1), std::string::npos) << bad.err;
-  EXPECT_EQ(run("grade " + session).out.find("aim not opened"), std::string::npos) << "the task has no aim";
+  EXPECT_EQ(std::count(bad.err.begin(), bad.err.end(), ';'), 1) << bad.err;
 }
 
 TEST_F(GradeVerb, AReportIsWrittenOverAReportAndOverNothingElse) {
@@ -315,7 +313,7 @@ TEST_F(GradeVerb, AReportIsWrittenOverAReportAndOverNothingElse) {
   ASSERT_EQ(run(write).exit_code, 0);
   EXPECT_EQ(run(write).exit_code, 0);
   write_text_file(path("r.html"), "<!doctype html>\nmy notes");
-  expect_refused(write, {"r.html: exists already and is no report of Cavum", "--overwrite"});
+  expect_refused(write, {"r.html: "});
   EXPECT_EQ(read_text_file(path("r.html")), "<!doctype html>\nmy notes");
   EXPECT_EQ(run(write + " --overwrite").exit_code, 0);
   const std::string picture = "report " + session + " --out " + path("r.svg");
@@ -339,14 +337,13 @@ TEST_F(GradeVerb, ACorrectedScenarioIsMeasuredAnewForAWholeFolder) {
   for (const auto& s : all["sessions"]) {
     EXPECT_EQ(s["new"]["points"], one["score"]["points"]);
     EXPECT_EQ(s["criteria"], one["regrade"]["criteria"]);
-    EXPECT_NE(s["criteria"][0]["changed"].dump().find("measured against the new scenario"), std::string::npos) << s["criteria"][0];
+    EXPECT_FALSE(s["criteria"][0]["changed"].empty()) << s["criteria"][0];
   }
   // a damaged session is a row of its own, and the others are graded
   write_text_file(path("group/c.cavum"), "no session");
   const Ran table = run("grade " + path("group") + " --scenario " + path("corrected.toml"));
   EXPECT_EQ(table.exit_code, 1);
-  EXPECT_NE(table.out.find("cannot be graded"), std::string::npos) << table.out;
-  EXPECT_NE(table.out.find("2 stay pass"), std::string::npos) << table.out;
+  EXPECT_TRUE(holds(table.out, "group/c.cavum", "2 ", "pass")) << table.out;
   EXPECT_EQ(run("grade " + path("group/a.cavum") + " " + path("group/b.cavum") + " --why floor").exit_code, 2);
   EXPECT_EQ(run("grade " + path("group/a.cavum") + " --scenario " + k_worked + ".csv").exit_code, 2);
 }

@@ -10,6 +10,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
+#include "ui/office/lti/lti_error.h"
 
 namespace cavum::office {
 namespace {
@@ -48,7 +49,7 @@ PlaceOf place_of(const std::string& address) {
 PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& method, const std::string& address,
                             const std::map<std::string, std::string>& fields, const std::string& body) {
   if (!platform.may_ask(address))
-    throw Error(one_line(address), msg("is no address of this platform that was set up"),
+    throw Error(LtiError::address, Message(Name{one_line(address)}), msg("is no address of this platform that was set up"),
                 msg("the office asks no other host, and nothing but https"));
   const PlaceOf place = place_of(address);
   asio::io_context context;

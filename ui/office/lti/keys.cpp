@@ -17,6 +17,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "grading/ledger/ledger_key.h"
+#include "ui/office/lti/lti_error.h"
 
 namespace cavum::office {
 namespace {
@@ -45,8 +46,8 @@ constexpr std::size_t k_longest_token = 64U << 10, k_kid_bytes = 16;
 Error key_error() {
   return {msg("the office's key for learning platforms"), msg("cannot be used"), msg("have a new one made: cavum serve --new-lti-key")};
 }
-Error token_error(const Message& what) {
-  return {msg("the platform's token"), what, msg("open the link on the platform again; if it stays, tell the office")};
+Error token_error(LtiError code, const Message& what) {
+  return {code, msg("the platform's token"), what, msg("open the link on the platform again; if it stays, tell the office")};
 }
 
 std::string bytes_of(const BIGNUM* n) {
@@ -102,10 +103,10 @@ bool names_stand_once(const std::string& text) {
 
 json part_in(std::string_view part) {
   const auto bytes = from_base64url(part);
-  if (!bytes) throw token_error(msg("is none"));
+  if (!bytes) throw token_error(LtiError::not_understood, msg("is none"));
   const json read = parse_json_or_null(*bytes, {k_longest_token, 5'000, 16});
-  if (!read.is_object()) throw token_error(msg("is none"));
-  if (!names_stand_once(*bytes)) throw token_error(msg("says something twice"));
+  if (!read.is_object()) throw token_error(LtiError::not_understood, msg("is none"));
+  if (!names_stand_once(*bytes)) throw token_error(LtiError::twice, msg("says something twice"));
   return read;
 }
 
@@ -182,16 +183,17 @@ std::string sign_token(const json& claims, const LtiKey& key) {
 
 ReadToken read_token(const std::string& token) {
   const auto first = token.find('.'), last = token.rfind('.');
-  if (token.size() > k_longest_token || first == std::string::npos || token.find('.', first + 1) != last) throw token_error(msg("is none"));
+  if (token.size() > k_longest_token || first == std::string::npos || token.find('.', first + 1) != last)
+    throw token_error(LtiError::not_understood, msg("is none"));
   const json header = part_in(std::string_view(token).substr(0, first));
-  if (text_in(header, "alg") != "RS256") throw token_error(msg("is not signed by RS256"));
-  if (header.contains("crit")) throw token_error(msg("asks for what this office does not know"));
+  if (text_in(header, "alg") != "RS256") throw token_error(LtiError::algorithm, msg("is not signed by RS256"));
+  if (header.contains("crit")) throw token_error(LtiError::not_understood, msg("asks for what this office does not know"));
   const json& type = member_of(header, "typ");
-  if (!type.is_null() && type != "JWT") throw token_error(msg("is of another type than JWT"));
+  if (!type.is_null() && type != "JWT") throw token_error(LtiError::not_understood, msg("is of another type than JWT"));
   ReadToken read{text_in(header, "kid"), part_in(std::string_view(token).substr(first + 1, last - first - 1)), token.substr(0, last), {}};
-  if (read.kid.empty()) throw token_error(msg("does not say which key has signed it"));
+  if (read.kid.empty()) throw token_error(LtiError::key, msg("does not say which key has signed it"));
   const auto signature = from_base64url(std::string_view(token).substr(last + 1));
-  if (!signature) throw token_error(msg("is none"));
+  if (!signature) throw token_error(LtiError::not_understood, msg("is none"));
   read.signature = *signature;
   return read;
 }
@@ -204,17 +206,17 @@ bool has_key(const json& keys, const std::string& kid) {
 void require_signed(const ReadToken& token, const json& keys) {
   bool twice = false;
   const json* jwk = key_named(keys, token.kid, twice);
-  if (jwk == nullptr) throw token_error(msg("is signed by a key that is not the platform's"));
-  if (twice) throw token_error(msg("is signed by a key whose name stands twice in the platform's key set"));
+  if (jwk == nullptr) throw token_error(LtiError::key, msg("is signed by a key that is not the platform's"));
+  if (twice) throw token_error(LtiError::key, msg("is signed by a key whose name stands twice in the platform's key set"));
   const json &use = member_of(*jwk, "use"), &algorithm = member_of(*jwk, "alg");
   const RsaKey key =
       text_in(*jwk, "kty") == "RSA" && (use.is_null() || use == "sig") && (algorithm.is_null() || algorithm == "RS256") ? public_key(*jwk) : RsaKey();
-  if (!key) throw token_error(msg("is signed by a key that is none for RS256, or has fewer than 2048 bits"));
+  if (!key) throw token_error(LtiError::key, msg("is signed by a key that is none for RS256, or has fewer than 2048 bits"));
   const Digest digest(EVP_MD_CTX_new());
   const bool good = digest && EVP_DigestVerifyInit(digest.get(), nullptr, EVP_sha256(), nullptr, key.get()) == 1 &&
                     EVP_DigestVerify(digest.get(), reinterpret_cast<const unsigned char*>(token.signature.data()), token.signature.size(),
                                      reinterpret_cast<const unsigned char*>(token.signed_text.data()), token.signed_text.size()) == 1;
-  if (!good) throw token_error(msg("does not bear the platform's signature"));
+  if (!good) throw token_error(LtiError::signature, msg("does not bear the platform's signature"));
 }
 
 }  // namespace cavum::office

@@ -23,6 +23,7 @@ struct Wish {
   scenarios::View view;
   Vec3 through_mm;
   Message why;
+  SectionOf of = SectionOf::target;
 };
 
 double at_of(scenarios::View view, Vec3 p) {
@@ -75,9 +76,10 @@ void add_beside(const grading::BesideMeasures& m, std::vector<Wish>& list) {
   constexpr double k_narrow_mm = 0.2;
   if (m.nick_depth_mm >= k_least_seen_mm)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::horizontal})
-      list.push_back({v, m.deepest.site_mm, msg("neighbouring tooth cut, {} deep here", as_mm(m.nick_depth_mm))});
+      list.push_back({v, m.deepest.site_mm, msg("neighbouring tooth cut, {} deep here", as_mm(m.nick_depth_mm)), SectionOf::nick});
   if (m.clearance_mm && *m.clearance_mm < k_narrow_mm)
-    list.push_back({scenarios::View::mesio_distal, m.clearance_from_mm, msg("{} from the neighbour here", as_mm(*m.clearance_mm))});
+    list.push_back(
+        {scenarios::View::mesio_distal, m.clearance_from_mm, msg("{} from the neighbour here", as_mm(*m.clearance_mm)), SectionOf::contact});
 }
 
 std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& input) {
@@ -98,20 +100,20 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
   };
   if (const grading::PerforationTruth& p = r.perforation.fault; p.perforated)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
-      list.push_back({v, p.first.site_mm, msg("{} broken into here", Term{p.tissue})});
+      list.push_back({v, p.first.site_mm, msg("{} broken into here", Term{p.tissue}), SectionOf::opening});
   else
     for (const auto& e : r.perforation.events)
       if (e.fault && list.size() < 5)
         for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::bucco_lingual})
-          list.push_back({v, e.site_mm, msg("breakthrough in the force here")});
+          list.push_back({v, e.site_mm, msg("breakthrough in the force here"), SectionOf::force});
   add_beside(r.beside, list);
   if (over) {
-    list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named(true, *over)});
-    list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named(true, *over)});
+    list.push_back({view_of(over->wall, r.shape.facing), over->site_mm, named(true, *over), SectionOf::overcut});
+    list.push_back({other(view_of(over->wall, r.shape.facing)), halfway(*over, r.shape.facing, -1), named(true, *over), SectionOf::overcut});
   }
   if (under) {
-    list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named(false, *under)});
-    list.push_back({other(view_of(under->wall, r.shape.facing)), halfway(*under, r.shape.facing, 1), named(false, *under)});
+    list.push_back({view_of(under->wall, r.shape.facing), under->site_mm, named(false, *under), SectionOf::undercut});
+    list.push_back({other(view_of(under->wall, r.shape.facing)), halfway(*under, r.shape.facing, 1), named(false, *under), SectionOf::undercut});
   }
   // what is still free shows more of the target
   for (const double share : {0.2, 0.8, 0.35, 0.65}) {
@@ -121,7 +123,7 @@ std::vector<Wish> wishes(const grading::Result& r, const grading::GradeInput& in
     list.push_back({scenarios::View::bucco_lingual, low + extent * share, msg("through the target at {} of its length", at)});
   }
   for (int i = 1; list.size() < 64; ++i)  // a target of a few leaves: beside it
-    list.push_back({scenarios::View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, msg("below the target")});
+    list.push_back({scenarios::View::horizontal, low - Vec3{0, 0, i * input.zones.leaf_mm()}, msg("below the target"), SectionOf::beside});
   return list;
 }
 
@@ -188,7 +190,7 @@ std::vector<SectionPicture> section_pictures(const grading::Result& r, const gra
     const std::pair key{w.view, w.view == scenarios::View::mesio_distal ? leaf.y : w.view == scenarios::View::bucco_lingual ? leaf.x : leaf.z};
     if (std::find(shown.begin(), shown.end(), key) != shown.end()) continue;
     shown.push_back(key);
-    SectionPicture p{w.view, at_of(w.view, w.through_mm), "", ""};
+    SectionPicture p{w.view, at_of(w.view, w.through_mm), "", "", w.of};
     const Message place = place_text(p.view, p.at_mm);
     p.title = tr("{}: {}", place, w.why);
     p.svg = scenarios::section_svg(input.seen_before(), &input.seen_after(), input.zones,
@@ -246,7 +248,7 @@ std::string sections_svg(const grading::Result& r, const grading::GradeInput& in
                all = height + k_text_px + legend_px + k_margin_px;
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<rect width='100%' "
-      "height='100%' fill='#ffffff'/>\n<text x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
+      "height='100%' fill='#ffffff'/>\n<text id='cavum-sections' x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
       fixed(width, 0), fixed(all, 0), fixed(width, 0), fixed(all, 0),
       xml_text(tr("{}: {} of the target removed", Authored{r.scenario_title}, as_percent(r.volumes.target_removed_percent, 1))), body,
       group(k_margin_px, all - legend_px, legend));

@@ -2,6 +2,7 @@
 // undercut, and through a perforation where there is one; and three on one sheet, as a picture by itself.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
@@ -11,11 +12,15 @@
 
 namespace cavum::report {
 
+/// For what a section is cut just there.
+enum class SectionOf : std::uint8_t { target, opening, force, nick, contact, overcut, undercut, beside };
+
 struct SectionPicture {
   scenarios::View view = scenarios::View::mesio_distal;
   double at_mm = 0.0;  ///< where it is cut, along the axis looked at, tooth frame
   std::string title;   ///< in the reader's language, with its place: "Mesio-distal, y = 0.12 mm: through the middle of the target"
   std::string svg;     ///< a complete `<svg>` element
+  SectionOf of = SectionOf::target;
 };
 
 inline constexpr std::size_t k_report_sections = 8;

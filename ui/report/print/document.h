@@ -26,6 +26,7 @@ struct Paragraph {
   std::string text;
   std::string lead;  ///< bold, before the text
   enum class Kind { normal, small, note } kind = Kind::normal;
+  std::string id = {};  ///< which it is, as programs know it (`data-kind` of the page); may be empty
 };
 
 struct Bullets {
@@ -45,12 +46,14 @@ struct TableColumn {
 struct TableRow {
   std::vector<TableCell> cells;  ///< as many as columns
   bool lost = false;             ///< points were lost here
+  std::string id = {};           ///< what it is, as of a paragraph
 };
 struct ReportTable {
   std::vector<TableColumn> columns;
   std::vector<TableRow> rows;
   std::string name;         ///< for those who cannot see it
   double least_row_pt = 0;  ///< height of each row below the heads, where somebody writes into it; 0: its text's
+  std::string id = {};      ///< as of a paragraph
 };
 
 struct VerdictBox {

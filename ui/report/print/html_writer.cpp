@@ -40,7 +40,8 @@ class Writer {
   }
   void operator()(const Paragraph& b) {
     const char* kind = b.kind == Paragraph::Kind::small ? " class='small'" : b.kind == Paragraph::Kind::note ? " class='note'" : "";
-    h_ += fmt::format("<p{}>{}{}</p>\n", kind, b.lead.empty() ? "" : fmt::format("<b>{}</b>: ", text_html(b.lead)), text_html(b.text));
+    h_ += fmt::format("<p{}{}>{}{}</p>\n", kind, data_kind(b.id), b.lead.empty() ? "" : fmt::format("<b>{}</b>: ", text_html(b.lead)),
+                      text_html(b.text));
   }
   void operator()(const Bullets& b) {
     h_ += b.small ? "<ul class='small'>\n" : "<ul>\n";
@@ -48,12 +49,12 @@ class Writer {
     h_ += "</ul>\n";
   }
   void operator()(const ReportTable& b) {
-    h_ += fmt::format("<table aria-label='{}'><thead><tr>", xml_text(b.name));
+    h_ += fmt::format("<table aria-label='{}'{}><thead><tr>", xml_text(b.name), data_kind(b.id));
     for (const auto& c : b.columns)  // a heading of nothing is no heading
       h_ += c.title.empty() ? "<td></td>" : fmt::format("<th scope='col'{}>{}</th>", c.number ? " class='n'" : "", text_html(c.title));
     h_ += "</tr></thead><tbody>\n";
     for (const auto& row : b.rows) {
-      h_ += row.lost ? "<tr class='lost'>" : "<tr>";
+      h_ += fmt::format("<tr{}{}>", row.lost ? " class='lost'" : "", data_kind(row.id));
       for (std::size_t i = 0; i < row.cells.size(); ++i) cell(row.cells[i], b.columns[i].number);
       h_ += "</tr>\n";
     }
@@ -95,6 +96,7 @@ class Writer {
   void operator()(const CutLine&) { h_ += "<hr>\n"; }
 
  private:
+  static std::string data_kind(const std::string& id) { return id.empty() ? "" : fmt::format(" data-kind='{}'", xml_text(id)); }
   void button(const Jump& to, const std::string& text) {
     h_ += fmt::format("<button class='jump' type='button' data-t='{}'", exact(to.t_s));
     if (const auto& p = to.site_mm) h_ += fmt::format(" data-x='{}' data-y='{}' data-z='{}'", exact(p->x), exact(p->y), exact(p->z));

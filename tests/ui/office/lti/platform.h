@@ -105,7 +105,10 @@ struct Browser {
     const Heard login = ask("GET", "/lti/login?" + begun(who, attack));
     EXPECT_EQ(login.status, 302) << login.body;
     if (login.status != 302) return "";
-    const std::string to = login.fields.at("location");
+    return form_at(login.fields.at("location"));
+  }
+  /// The same from where a login was answered.
+  [[nodiscard]] std::string form_at(const std::string& to) const {
     EXPECT_TRUE(to.starts_with(platform->issuer() + "/auth?")) << to;
     const Heard page = Visitor{platform->number()}.get(to.substr(platform->issuer().size()));
     EXPECT_EQ(page.status, 200) << page.body;
