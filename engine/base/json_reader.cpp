@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -63,7 +64,7 @@ class Count {
 
 json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
   const auto refuse = [&where](const Message& what) {
-    throw Error(where, msg("holds JSON {}", what), msg("use an intact file: nothing that Cavum writes is like that"));
+    throw Error(FileError::too_large, Name{where}, msg("holds JSON {}", what), msg("use an intact file: nothing that Cavum writes is like that"));
   };
   if (text.size() > limits.bytes) refuse(msg("of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
@@ -71,7 +72,7 @@ json parse_json(std::string_view text, const std::string& where, const JsonLimit
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(where, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
+    throw Error(FileError::malformed, Name{where}, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
   }
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "scenarios/file/mistake.h"
 
 namespace cavum::scenarios {
 
@@ -24,23 +25,23 @@ class ZoneWork {
  public:
   explicit ZoneWork(std::string where) : where_(std::move(where)) {}
   void zone_leaves(std::uint64_t leaves) const {
-    require(leaves, k_most_zone_leaves, fmt::format("the target and its margins hold {} leaves of the tooth", leaves),
-            "make the target smaller, or the tooth with larger leaves");
+    require(leaves, k_most_zone_leaves, msg("the target and its margins hold {} leaves of the tooth", leaves),
+            msg("make the target smaller, or the tooth with larger leaves"));
   }
   void body_leaves(std::uint64_t leaves) {
     body_leaves_ += leaves;
-    require(body_leaves_, k_most_body_leaves, fmt::format("the bodies that are tissues or surfaces reach over {} leaves", body_leaves_),
-            "use fewer of them, or a smaller 'offset_mm'");
+    require(body_leaves_, k_most_body_leaves, msg("the bodies that are tissues or surfaces reach over {} leaves", body_leaves_),
+            msg("use fewer of them, or a smaller 'offset_mm'"));
   }
   void steps(std::uint64_t leaves, std::uint64_t pieces) {
     steps_ += leaves * pieces;
-    require(steps_, k_most_zone_steps, fmt::format("the zones need {} distances to pieces of bodies", steps_),
-            "use fewer bodies, outlines of fewer points, surfaces of fewer triangles, or a smaller target");
+    require(steps_, k_most_zone_steps, msg("the zones need {} distances to pieces of bodies", steps_),
+            msg("use fewer bodies, outlines of fewer points, surfaces of fewer triangles, or a smaller target"));
   }
 
  private:
   void require(std::uint64_t count, std::uint64_t most, const Message& what, const Message& what_to_do) const {
-    if (count > most) throw Error(where_, msg("{}, more than the limit of {}", what, most), what_to_do);
+    if (count > most) throw Error(Mistake::too_large, Name{where_}, msg("{}, more than the limit of {}", what, most), what_to_do);
   }
   std::string where_;
   std::uint64_t body_leaves_ = 0, steps_ = 0;

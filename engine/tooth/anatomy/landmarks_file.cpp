@@ -7,6 +7,7 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/json_reader.h"
 
 namespace cavum {
@@ -44,20 +45,21 @@ class Reader {
   template <class One>
   void get(const char* key, One& out) const {
     const auto at = object_.is_object() ? object_.find(key) : object_.end();
-    if (at == object_.end()) refuse(key, msg("is missing"));
+    if (at == object_.end()) refuse(FileError::missing, key, msg("is missing"));
     read(key, *at, out);
   }
 
  private:
-  [[noreturn]] void refuse(const std::string& key, const Message& what) const {
-    throw Error(where_, msg("'{}' {}", key, what), msg("the file was changed or is damaged: use the original"));
+  [[noreturn]] void refuse(FileError code, const std::string& key, const Message& what) const {
+    throw Error(code, Name{where_}, msg("'{}' {}", key, what), msg("the file was changed or is damaged: use the original"));
   }
   void read(const char* key, const Kept& from, double& out) const {
-    if (!from.is_number() || !(std::fabs(from.get<double>()) <= k_furthest_landmark_mm)) refuse(key, msg("is no number of at most 1000"));
+    if (!from.is_number() || !(std::fabs(from.get<double>()) <= k_furthest_landmark_mm))
+      refuse(FileError::wrong_type, key, msg("is no number of at most 1000"));
     out = from.get<double>();
   }
   void read(const char* key, const Kept& from, std::string& out) const {
-    if (!from.is_string()) refuse(key, msg("is no text"));
+    if (!from.is_string()) refuse(FileError::wrong_type, key, msg("is no text"));
     out = from.get<std::string>();
   }
   void read(const char* key, const Kept& from, ToothClass& out) const {
@@ -68,10 +70,10 @@ class Reader {
         out = kind;
         return;
       }
-    refuse(key, msg("is no class of teeth"));
+    refuse(FileError::wrong_type, key, msg("is no class of teeth"));
   }
   void read(const char* key, const Kept& from, Vec3& out) const {
-    if (!from.is_array() || from.size() != 3) refuse(key, msg("is no point of three numbers"));
+    if (!from.is_array() || from.size() != 3) refuse(FileError::wrong_type, key, msg("is no point of three numbers"));
     read(key, from[0], out.x);
     read(key, from[1], out.y);
     read(key, from[2], out.z);
@@ -94,7 +96,8 @@ class Reader {
   }
   template <class One>
   void read(const char* key, const Kept& from, std::vector<One>& out) const {
-    if (!from.is_array() || from.size() > k_most_landmark_points) refuse(key, msg("is no list of at most {}", k_most_landmark_points));
+    if (!from.is_array() || from.size() > k_most_landmark_points)
+      refuse(from.is_array() ? FileError::too_large : FileError::wrong_type, key, msg("is no list of at most {}", k_most_landmark_points));
     out.clear();
     for (const auto& one : from) read(key, one, out.emplace_back());
   }

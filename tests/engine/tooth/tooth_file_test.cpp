@@ -13,6 +13,8 @@
 namespace cavum {
 namespace {
 
+using namespace testing_basics;
+
 Tooth small_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
 
 TEST(ToothFile, SavesTheSameBytesAfterLoading) {
@@ -36,7 +38,7 @@ TEST(ToothFile, NamesThatCannotBeShownAreMadeReadableOrRefused) {
   tooth.name = "z\xe4hne\n";
   EXPECT_EQ(load_tooth(save_tooth(tooth), "t.cvt").name, "z?hne ");
   tooth.tissues[0].name = "ena\xffmel";
-  EXPECT_NE(testing_basics::error_of([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }).find("name of tissue 1"), std::string::npos);
+  EXPECT_TRUE(tells(thrown_by([&] { (void)load_tooth(save_tooth(tooth), "t.cvt"); }), 1)) << "the tissue";
 }
 
 TEST(ToothFile, EveryFlippedBitIsAnError) {
@@ -71,13 +73,8 @@ Bytes saved_as_version_1(const Tooth& tooth) {
   return out.take();
 }
 
-std::string refusal_of(const Bytes& file) {
-  try {
-    static_cast<void>(load_tooth(file, "t.cvt"));
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+std::optional<Error> refusal_of(const Bytes& file) {
+  return thrown_by([&] { static_cast<void>(load_tooth(file, "t.cvt")); });
 }
 
 /// A tooth of version 1 that nobody made: `octree` as Octree::write would have written it.
@@ -105,11 +102,11 @@ Bytes version_1_of(double leaf_mm, int edge, const Bytes& shape, std::size_t bri
 }
 
 TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
+  constexpr int k_most_leaves = Octree::k_max_edge_leaves;
   const Bytes uniform{0, 0};  // one uniform cube of air
-  EXPECT_EQ(refusal_of(version_1_of(0.05, 512, uniform, 0)), "");
-  for (const double leaf : {0.001, 10.0, -1.0})
-    EXPECT_NE(refusal_of(version_1_of(leaf, 8, uniform, 0)).find("leaves have 0.005 to 2 mm"), std::string::npos) << leaf;
-  EXPECT_NE(refusal_of(version_1_of(0.1, 1024, uniform, 0)).find("at most 60 mm"), std::string::npos);
+  EXPECT_FALSE(refusal_of(version_1_of(0.05, 512, uniform, 0)));
+  for (const double leaf : {0.001, 10.0, -1.0}) EXPECT_TRUE(tells(refusal_of(version_1_of(leaf, 8, uniform, 0)), k_most_leaves)) << leaf;
+  EXPECT_TRUE(tells(refusal_of(version_1_of(0.1, 1024, uniform, 0)), k_most_leaves));
 }
 
 TEST(ToothFile, Version1HasNoMoreBricksThanVersion2) {
@@ -121,12 +118,12 @@ TEST(ToothFile, Version1HasNoMoreBricksThanVersion2) {
   };
   node(6);
   const std::size_t bricks = 64UL * 64 * 64;
-  EXPECT_EQ(refusal_of(version_1_of(0.05, 256, shape, bricks)), "") << "2^18 are the most";
+  EXPECT_FALSE(refusal_of(version_1_of(0.05, 256, shape, bricks))) << "2^18 are the most";
   node(6);  // and the root of a larger one
   Bytes larger{1};
   larger.insert(larger.end(), shape.begin(), shape.end());
   for (int i = 0; i < 6; ++i) larger.push_back(0), larger.push_back(0);
-  EXPECT_NE(refusal_of(version_1_of(0.05, 512, larger, 2 * bricks)).find("more bricks than the limit of 262144"), std::string::npos);
+  EXPECT_TRUE(tells(refusal_of(version_1_of(0.05, 512, larger, 2 * bricks)), 262144));
 }
 
 TEST(ToothFile, ReadsVersion1) {
@@ -181,15 +178,15 @@ TEST(ToothFile, LandmarksOfNoToothAreRefusedWhenTheyAreWrittenAndWhenTheyAreRead
   Tooth tooth = make_cube(0.5, "dentin", 0.1);
   const auto refused = [&](std::vector<NamedPoint> placed) {
     tooth.placed_landmarks = std::move(placed);
-    return testing_basics::error_of([&] { (void)save_tooth(tooth); });
+    return thrown_by([&] { (void)save_tooth(tooth); });
   };
   std::vector<NamedPoint> many;
   for (int i = 0; i < 65; ++i) many.push_back({"p" + std::to_string(i), {0, 0, 0}});
-  EXPECT_NE(refused(many).find("at most 64"), std::string::npos);
-  EXPECT_NE(refused({{std::string(33, 'a'), {}}}).find("more than 32 bytes"), std::string::npos);
-  EXPECT_NE(refused({{"", {}}}).find("cannot be read"), std::string::npos);
-  EXPECT_NE(refused({{"a", {}}, {"a", {}}}).find("name of another"), std::string::npos);
-  EXPECT_NE(refused({{"a", {0, 0, 1e300}}}).find("nowhere in a tooth"), std::string::npos);
+  EXPECT_TRUE(tells(refused(many), 64));
+  EXPECT_TRUE(tells(refused({{std::string(33, 'a'), {}}}), 32));
+  EXPECT_TRUE(tells(refused({{"", {}}}), 1));
+  EXPECT_TRUE(tells(refused({{"a", {}}, {"a", {}}}), 2));
+  EXPECT_TRUE(tells(refused({{"a", {0, 0, 1e300}}}), 1));
   // the same by hand: 0 and 65 landmarks behind the octree, and a sound checksum
   tooth.placed_landmarks = {{"a", {1, 2, 3}}};
   const Bytes sound = save_tooth(tooth);
@@ -202,9 +199,7 @@ TEST(ToothFile, LandmarksOfNoToothAreRefusedWhenTheyAreWrittenAndWhenTheyAreRead
     return file;
   };
   EXPECT_EQ(with_count(1), sound);
-  EXPECT_NE(refusal_of(with_count(0)), "");
-  EXPECT_NE(refusal_of(with_count(0xffffffff)), "");
-  EXPECT_NE(refusal_of(with_count(2)), "");
+  for (const std::uint32_t count : {0U, 0xffffffffU, 2U}) EXPECT_TRUE(refusal_of(with_count(count))) << count;
 }
 
 TEST(ToothFile, ShippedMolarKeepsItsBytes) {
