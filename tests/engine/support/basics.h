@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/lines.h"
 #include "engine/base/random.h"
 
 namespace cavum {
@@ -109,6 +110,21 @@ inline std::vector<double> figures_in(const Message& message) {
   }
   return all;
 }
+/// All cells of several lines.
+inline std::vector<Message> cells_of(const Lines& lines) {
+  std::vector<Message> all;
+  for (const Lines::Line& line : lines.all()) all.insert(all.end(), line.cells.begin(), line.cells.end());
+  return all;
+}
+template <class Wanted>
+bool tells(const Lines& lines, const Wanted& wanted) {
+  return tells(cells_of(lines), wanted);
+}
+template <class Wanted>
+bool tells(const List& list, const Wanted& wanted) {
+  return tells(list.items, wanted);
+}
+inline bool tells(const Message& message, const Message& part) { return message == part || tells(message, Value(part)); }
 /// The Error that `action` throws; none.
 template <class Action>
 std::optional<Error> thrown_by(const Action& action) {
