@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <span>
 
+#include "engine/base/file_error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
@@ -189,11 +190,14 @@ Event decode(const EventText& text, const std::string& where) {
   const std::string at = fmt::format("{}, '{}'", where, one_line(text.kind));
   const json was = parse_json(text.detail_json, at, k_event_limits);
   Event event;
-  if (!read_kind(text.kind, was, event)) throw Error(at, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
+  if (!read_kind(text.kind, was, event))
+    throw Error(FileError::unknown, Name{at}, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
   const json is = detail_of(event);
   for (const auto& [key, value] : is.items())
-    if (member_of(was, key.c_str()) != value) throw Error(at, msg("its '{}' is missing, or is no such value", key), msg("use an intact copy"));
-  if (is.dump() != text.detail_json) throw Error(at, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
+    if (member_of(was, key.c_str()) != value)
+      throw Error(FileError::missing, Name{at}, msg("its '{}' is missing, or is no such value", key), msg("use an intact copy"));
+  if (is.dump() != text.detail_json)
+    throw Error(FileError::malformed, Name{at}, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
   return event;
 }
 

@@ -62,7 +62,7 @@ class Adviser {
 
  private:
   static bool among(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
-  void warn(const std::string& place, const Message& what, const Message& what_to_do, Mistake mistake) {
+  void warn(const std::string& place, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other) {
     problems_.push_back(problem_at(s_, place, what, what_to_do, mistake));
     problems_.back().warning = true;
   }
