@@ -48,7 +48,7 @@ std::string values_of(const Message& m) {
 
 /// Each problem of a file on a line: place, kind, what it names, and what its remedy names; of what is no TOML and no condition, whose reason is
 /// the library's, place and kind alone. The block is given by hand, so that only a file without it goes looking.
-std::string problems_of(const std::string& name) {
+std::string golden_of(const std::string& name) {
   const std::string file = name + ".toml", text = read_text_file(k_folder + "/" + file);
   fs::current_path(k_folder);  // a zone's STL lies beside its file
   const bool own_tooth = text.find("\"block.cvt\"") != std::string::npos;
@@ -66,7 +66,7 @@ std::string problems_of(const std::string& name) {
 class Broken : public ::testing::TestWithParam<std::string> {};
 
 TEST_P(Broken, HasTheProblemsOfItsGoldenFile) {
-  const std::string golden = k_folder + "/" + GetParam() + ".txt", found = problems_of(GetParam());
+  const std::string golden = k_folder + "/" + GetParam() + ".txt", found = golden_of(GetParam());
   if (std::getenv("CAVUM_WRITE_GOLDEN") != nullptr) write_text_file(golden, found);
   EXPECT_FALSE(found.empty());
   EXPECT_EQ(found, read_text_file(golden));

@@ -88,6 +88,7 @@ inline bool tells(const Message& message, const char* name) { return tells(messa
 inline bool tells(const Message& message, const std::string& name) { return tells(message, Value(Name{name})); }
 inline bool tells(const Message& message, int whole) { return tells(message, Value(std::int64_t{whole})); }
 inline bool tells(const Message& message, double number) { return tells(message, Value(as_number(number))); }
+inline bool tells(const Message& message, const Message& part) { return message == part || tells(message, Value(part)); }
 template <class Wanted>
 bool tells(const std::vector<Message>& messages, const Wanted& wanted) {
   return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return tells(m, wanted); });
@@ -124,7 +125,6 @@ template <class Wanted>
 bool tells(const List& list, const Wanted& wanted) {
   return tells(list.items, wanted);
 }
-inline bool tells(const Message& message, const Message& part) { return message == part || tells(message, Value(part)); }
 /// The Error that `action` throws; none.
 template <class Action>
 std::optional<Error> thrown_by(const Action& action) {

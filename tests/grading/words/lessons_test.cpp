@@ -23,7 +23,7 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
 
-Message side_text(scenarios::Wall wall) { return wall_text(static_cast<std::size_t>(wall), {}); }
+Message told_wall(scenarios::Wall wall) { return wall_text(static_cast<std::size_t>(wall), {}); }
 
 /// The moment that a lesson names; -1 where it names none.
 double told_s(const Message& m) {
@@ -96,7 +96,7 @@ TEST_F(Lessons, WhatWasLeftIsNamedWithItsWall) {
   const auto all = of();
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::left_standing);
-  for (const Message& m : {all[0].what, all[0].instead}) EXPECT_TRUE(tells(m, side_text(scenarios::Wall::distal))) << m;
+  for (const Message& m : {all[0].what, all[0].instead}) EXPECT_TRUE(tells(m, told_wall(scenarios::Wall::distal))) << m;
   EXPECT_NEAR(figures_in(all[0].what).back(), 0.85, 0.05) << "up to so thick";
 }
 
@@ -106,7 +106,7 @@ TEST_F(Lessons, AWallThatWasCutTooFarIsNamedWithItsTime) {
   const auto all = of();
   ASSERT_FALSE(all.empty());
   EXPECT_EQ(all[0].topic, Topic::beside);
-  EXPECT_TRUE(tells(all[0].what, side_text(scenarios::Wall::buccal))) << all[0].what;
+  EXPECT_TRUE(tells(all[0].what, told_wall(scenarios::Wall::buccal))) << all[0].what;
   EXPECT_NEAR(figures_in(all[0].what).at(0), 0.85, 0.05);
   EXPECT_NEAR(told_s(all[0].what), 95, 0.5);
   EXPECT_NEAR(all[0].points, 20 * (0.8 - 0.3) / 0.7 + 20, 4);

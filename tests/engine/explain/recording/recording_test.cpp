@@ -12,7 +12,6 @@ namespace cavum::explain {
 namespace {
 
 using testing_basics::code_of, testing_basics::place_of, testing_basics::tells, testing_basics::thrown_by;
-using enum DataFault::Kind;
 
 bool has_fault(const Recording& r, DataFault::Kind kind) {
   const auto faults = data_faults(r);
@@ -69,18 +68,18 @@ TEST(Faults, ASoundRecordingHasNone) { EXPECT_TRUE(data_faults(made::recording({
 TEST(Faults, ShuffledAndRepeatedTimeStamps) {
   Recording r = made::recording({});
   std::swap(r.t_s[100], r.t_s[101]);
-  EXPECT_TRUE(has_fault(r, time_stamps));
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::time_stamps));
   r = made::recording({});
   r.t_s[100] = r.t_s[99];
-  EXPECT_TRUE(has_fault(r, time_stamps));
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::time_stamps));
 }
 
 TEST(Faults, TheUnitOfTimeIsJudgedByTheRowsThatTellIt) {
   Recording r = made::recording({});
   r.t_s *= 1e3;
-  EXPECT_TRUE(has_fault(r, time_base));
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::time_base));
   r.t_s /= 1e9;
-  EXPECT_TRUE(has_fault(r, time_base));
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::time_base));
   // a hold written in wide steps after a quick ramp, on average more than a second apart
   Recording uneven;
   for (const double t : {0.0, 0.005, 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0, 10.0, 20.0, 40.0})
@@ -88,12 +87,12 @@ TEST(Faults, TheUnitOfTimeIsJudgedByTheRowsThatTellIt) {
   uneven.x_mm = (1.0 - (-uneven.t_s).exp()).eval();
   uneven.f_n = uneven.x_mm;
   uneven.sessions = {{"1", 0, uneven.t_s.size()}};
-  EXPECT_FALSE(has_fault(uneven, time_base));
+  EXPECT_FALSE(has_fault(uneven, DataFault::Kind::time_base));
   // packets: of two rows one comes a microsecond after the other
   Recording packets = made::recording({});
   for (const auto& s : packets.sessions)
     for (Eigen::Index i = s.begin; i + 1 < s.end; i += 2) packets.t_s[i + 1] = packets.t_s[i] + 1e-6;
-  EXPECT_FALSE(has_fault(packets, time_base));
+  EXPECT_FALSE(has_fault(packets, DataFault::Kind::time_base));
 }
 
 TEST(Faults, SpeedThatDoesNotIntegrateToThePosition) {
@@ -104,22 +103,22 @@ TEST(Faults, SpeedThatDoesNotIntegrateToThePosition) {
   EXPECT_TRUE(data_faults(r).empty());
   Recording slow = r;
   slow.t_s *= 1.05;
-  EXPECT_TRUE(has_fault(slow, time_base));
+  EXPECT_TRUE(has_fault(slow, DataFault::Kind::time_base));
   Recording metres = r;
   metres.x_mm *= 1e-3;
-  EXPECT_TRUE(has_fault(metres, units));
+  EXPECT_TRUE(has_fault(metres, DataFault::Kind::units));
   metres.v_mm_s *= 1e-3;  // both: the rig's stiffness tells
-  EXPECT_TRUE(has_fault(metres, units));
+  EXPECT_TRUE(has_fault(metres, DataFault::Kind::units));
 }
 
 TEST(Faults, ClippedForce) {
   Recording r = made::recording({});
   r.f_n = r.f_n.min(0.4);
-  EXPECT_TRUE(has_fault(r, clipped));  // the plateau is exact
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::clipped));  // the plateau is exact
   r = made::recording({});
   r.rig.force_limit_n = 0.4;
   r.f_n = r.f_n.min(0.4);
-  EXPECT_TRUE(has_fault(r, clipped));
+  EXPECT_TRUE(has_fault(r, DataFault::Kind::clipped));
 }
 
 }  // namespace
