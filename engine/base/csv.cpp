@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -48,7 +49,7 @@ char separator_of(std::string_view heading, const CsvForm& form) {
 
 void refuse_utf16(std::string_view text, const std::string& where) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff"))
-    throw Error(where, msg("is in UTF-16, as spreadsheets write 'Unicode text'"), msg("save it as CSV in UTF-8"));
+    throw Error(FileError::unsupported, Name{where}, msg("is in UTF-16, as spreadsheets write 'Unicode text'"), msg("save it as CSV in UTF-8"));
 }
 
 CsvReader::CsvReader(std::string_view text, std::string where, const CsvForm& form) : text_(text), where_(std::move(where)), form_(form) {
@@ -104,7 +105,7 @@ void CsvReader::read_row() {
   for (;;) {
     fields_.push_back(read_field());
     if (fields_.size() > form_.most_fields)
-      fail(msg("has more than {} {}", form_.most_fields, form_.field_word), msg("leave out what is not asked for"));
+      fail(FileError::too_large, msg("has more than {} {}", form_.most_fields, form_.field_word), msg("leave out what is not asked for"));
     if (at_ == text_.size() || text_[at_] != separator_) break;
     ++at_;
   }
@@ -128,7 +129,7 @@ std::string_view CsvReader::read_quoted() {
   bool doubled = false;
   for (;; at_ += 2, doubled = true) {
     at_ = text_.find('"', at_);
-    if (at_ == std::string_view::npos) fail(msg("begins a quote that does not end"), msg("close it with \""));
+    if (at_ == std::string_view::npos) fail(FileError::malformed, msg("begins a quote that does not end"), msg("close it with \""));
     if (!text_.substr(at_).starts_with("\"\"")) break;
   }
   const std::string_view inside = text_.substr(from, at_++ - from);
@@ -151,14 +152,14 @@ void CsvReader::end_line() {
 
 void CsvReader::check_row() {
   if (form_.plain_text && !std::all_of(fields_.begin(), fields_.end(), is_plain_text))
-    fail(msg("is no UTF-8 text, or holds a control character"), msg("save the table as CSV UTF-8"));
+    fail(FileError::malformed, msg("is no UTF-8 text, or holds a control character"), msg("save the table as CSV UTF-8"));
   if (columns_ == 0) {
     columns_ = fields_.size();
     return;
   }
   if (fields_.size() != columns_ && !form_.uneven)
-    fail(msg("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), msg("complete the row"));
-  if (rows_++ == form_.most_rows) fail(msg("is beyond the limit of {} rows", form_.most_rows), msg("split the table"));
+    fail(FileError::inconsistent, msg("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), msg("complete the row"));
+  if (rows_++ == form_.most_rows) fail(FileError::too_large, msg("is beyond the limit of {} rows", form_.most_rows), msg("split the table"));
 }
 
 std::vector<CsvRow> parse_csv(std::string_view text, const std::string& where, const CsvForm& form) {

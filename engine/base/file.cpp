@@ -10,6 +10,7 @@
 #include <cstring>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 
 namespace cavum {
 namespace {
@@ -29,13 +30,18 @@ template <class Content>
 Content read_as(const std::string& path, std::uint64_t largest) {
   if (path.empty()) throw Error(msg("file"), msg("its name is empty"), msg("name a file"));
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};  // a pipe that nobody writes to must not hold us
-  if (file.fd < 0) throw Error(path, msg("cannot be opened ({})", reason()), msg("check the path and its permissions"));
+  if (file.fd < 0)
+    throw Error(errno == ENOENT ? ErrorCode(FileError::missing) : General::error, Name{path}, msg("cannot be opened ({})", reason()),
+                msg("check the path and its permissions"));
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) throw Error(path, msg("cannot be read ({})", reason()), msg("check the disk and the permissions"));
-  if (S_ISDIR(info.st_mode)) throw Error(path, msg("is a folder"), msg("name a file"));
-  if (!S_ISREG(info.st_mode)) throw Error(path, msg("is no ordinary file but a device, a pipe or a socket"), msg("name a file"));
+  if (S_ISDIR(info.st_mode)) throw Error(FileError::not_a_file, Name{path}, msg("is a folder"), msg("name a file"));
+  if (!S_ISREG(info.st_mode))
+    throw Error(FileError::not_a_file, Name{path}, msg("is no ordinary file but a device, a pipe or a socket"), msg("name a file"));
   const auto require_size = [&](std::uint64_t size) {
-    if (size > largest) throw Error(path, msg("is larger than {} bytes, the most that is read of such a file", largest), msg("name an intact file"));
+    if (size > largest)
+      throw Error(FileError::too_large, Name{path}, msg("is larger than {} bytes, the most that is read of such a file", largest),
+                  msg("name an intact file"));
   };
   require_size(static_cast<std::uint64_t>(info.st_size));
   Content content;

@@ -5,6 +5,7 @@
 #include <functional>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -62,14 +63,16 @@ class Count {
 }  // namespace
 
 json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
-  const auto refuse = [&where](const Message& what) { throw Error(where, what, msg("use an intact file: nothing that Cavum writes is like that")); };
+  const auto refuse = [&where](const Message& what) {
+    throw Error(FileError::too_large, Name{where}, what, msg("use an intact file: nothing that Cavum writes is like that"));
+  };
   if (text.size() > limits.bytes) refuse(msg("holds JSON of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
   static_cast<void>(json::sax_parse(text, &counted));
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(where, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
+    throw Error(FileError::malformed, Name{where}, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
   }
 }
 

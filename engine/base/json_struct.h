@@ -21,6 +21,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
@@ -261,13 +262,14 @@ struct JsonPlace {
   const JsonSource& source;
   std::string field = {};
   [[nodiscard]] JsonPlace member(std::string_view name) const { return {source, fmt::format("{}{}{}", field, field.empty() ? "" : ".", name)}; }
-  [[nodiscard]] std::string text() const {
-    if (field.empty()) return source.where;
-    return fmt::format("{}{}'{}'", source.where, source.where.empty() ? "" : ": ", one_line(field.substr(0, 200)));
+  [[nodiscard]] Message text() const {
+    if (field.empty()) return Name{source.where};
+    const std::string short_field = one_line(field.substr(0, 200));
+    return source.where.empty() ? msg("'{}'", short_field) : msg("{}: '{}'", source.where, short_field);
   }
-  [[noreturn]] void refuse(const Message& is) const { throw Error(text(), is, source.advice); }
-  void require(bool good, const Message& is) const {
-    if (!good) refuse(is);
+  [[noreturn]] void refuse(const Message& is, FileError code = FileError::wrong_type) const { throw Error(code, text(), is, source.advice); }
+  void require(bool good, const Message& is, FileError code = FileError::wrong_type) const {
+    if (!good) refuse(is, code);
   }
 };
 
@@ -276,7 +278,7 @@ template <class T>
 void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
   const auto read_list = [&](std::size_t most) {
     at.require(from.is_array(), msg("is no list"));
-    at.require(from.size() <= most, msg("has more than {} elements", most));
+    at.require(from.size() <= most, msg("has more than {} elements", most), FileError::too_large);
   };
   if constexpr (requires { read_json(from, at, into); }) {
     read_json(from, at, into);
@@ -287,11 +289,11 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
       known.insert(name);
       const auto found = from.find(name);
       if (found != from.end() && (at.source.strict || !found->is_null())) return read_json_value(*found, at.member(name), member);
-      if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"));
+      if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"), FileError::missing);
     });
     if (at.source.strict)
       for (const auto& [name, value] : from.items())
-        if (!known.contains(name)) at.member(name).refuse(msg("has no place here"));
+        if (!known.contains(name)) at.member(name).refuse(msg("has no place here"), FileError::unknown);
   } else if constexpr (k_is_optional<T>) {
     read_json_value(from, at, into.emplace());
   } else if constexpr (NamedEnum<T>) {
@@ -337,7 +339,7 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     static_cast<std::string&>(into) = from.template get<std::string>();
     std::size_t most = at.source.most_bytes;
     if constexpr (requires { T::k_most; }) most = T::k_most;
-    at.require(into.size() <= most, msg("is longer than {} bytes", most));
+    at.require(into.size() <= most, msg("is longer than {} bytes", most), FileError::too_large);
     if constexpr (requires { into.problem(); }) at.require(into.problem().empty(), into.problem());
   } else if constexpr (std::same_as<T, bool>) {
     at.require(from.is_boolean(), msg("is neither true nor false"));
@@ -346,15 +348,15 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
                                                 : from.is_number_integer() && sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
                                                       std::in_range<T>(from.template get<std::int64_t>());
-    at.require(fits, msg("is no whole number in its range"));
+    at.require(fits, msg("is no whole number in its range"), FileError::out_of_range);
     into = from;
   } else if constexpr (requires { T::k_least; }) {
     read_json_value(from, at, into.value);
-    at.require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most));
+    at.require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most), FileError::out_of_range);
   } else if constexpr (std::floating_point<T>) {
     at.require(from.is_number(), msg("is no number"));
     into = from;
-    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)));
+    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)), FileError::out_of_range);
   } else {
     static_assert(std::same_as<T, nlohmann::json>);
     into = from;

@@ -35,6 +35,7 @@ class TomlReader {
   /// Throws Error naming the first key that was never asked for.
   void finish() const;
   [[noreturn]] void fail(std::string_view key, const Message& what, const Message& todo) const;
+  [[noreturn]] void fail(ErrorCode code, std::string_view key, const Message& what, const Message& todo) const;
   [[nodiscard]] const std::string& where() const noexcept { return where_; }
 
  private:

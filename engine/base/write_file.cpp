@@ -13,6 +13,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 
 namespace cavum {
 namespace {
@@ -47,7 +48,7 @@ std::string folder_of(const std::string& path) {
 void require_no_node(const std::string& path) {
   struct stat info {};
   if (::stat(path.c_str(), &info) == 0 && !S_ISREG(info.st_mode) && !S_ISDIR(info.st_mode))
-    throw Error(path, msg("is no ordinary file but a device, a pipe or a socket"), msg("name a file"));
+    throw Error(FileError::not_a_file, Name{path}, msg("is no ordinary file but a device, a pipe or a socket"), msg("name a file"));
 }
 
 /// 0, or the errno of what failed; `what` then says it.
@@ -81,13 +82,13 @@ bool rename_new(const std::string& made, const std::string& path) {
 
 void require_writable(const std::string& path) {
   std::error_code none;
-  if (fs::is_directory(path, none)) throw Error(path, msg("is a folder"), msg("name a file"));
+  if (fs::is_directory(path, none)) throw Error(FileError::not_a_file, Name{path}, msg("is a folder"), msg("name a file"));
   require_no_node(path);
   const std::string folder = folder_of(path);
   if (!fs::is_directory(folder, none))
-    throw Error(path, msg("cannot be written: there is no folder {}", folder), msg("make it, or name another place"));
+    throw Error(FileError::not_written, Name{path}, msg("cannot be written: there is no folder {}", folder), msg("make it, or name another place"));
   if (::access(folder.c_str(), W_OK | X_OK) != 0)
-    throw Error(path, msg("cannot be written: folder {} is closed to you ({})", folder, words_of(errno)),
+    throw Error(FileError::not_written, Name{path}, msg("cannot be written: folder {} is closed to you ({})", folder, words_of(errno)),
                 msg("change its permissions, or name another place"));
 }
 
@@ -108,11 +109,11 @@ void write_file(const std::string& path, std::span<const std::uint8_t> bytes, co
   const std::string temporary = temporary_name_beside(path);
   const auto fail = [&](const std::string& what, int error) {
     ::unlink(temporary.c_str());
-    throw Error(path, msg("{} ({})", what, words_of(error)), msg(k_try_again));
+    throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, words_of(error)), msg(k_try_again));
   };
   {
     const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, how.is_private ? 0600 : 0666));
-    if (file.get() < 0) throw Error(path, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
+    if (file.get() < 0) throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
     const char* what = nullptr;
     if (const int error = write_all(file.get(), bytes, what); error != 0) fail(what, error);
   }
@@ -128,8 +129,8 @@ void write_private_text_file(const std::string& path, const std::string& text) {
 void make_private_file(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600));
   if (file.get() >= 0) return;
-  if (errno == EEXIST) throw Error(path, msg("is there already"), msg("choose another name: nothing is written over it"));
-  throw Error(path, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
+  if (errno == EEXIST) throw Error(FileError::exists, Name{path}, msg("is there already"), msg("choose another name: nothing is written over it"));
+  throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
 }
 
 void make_private_folder(const std::string& path) {
@@ -144,7 +145,7 @@ void make_private_folder(const std::string& path) {
     const int error = errno;
     std::error_code none;
     if (!fs::is_directory(made, none))
-      throw Error(path, msg("cannot be made ({})", words_of(error)), msg("name another folder, or make it yourself"));
+      throw Error(FileError::not_written, Name{path}, msg("cannot be made ({})", words_of(error)), msg("name another folder, or make it yourself"));
   }
 }
 
@@ -168,7 +169,8 @@ void sync_folder_of(const std::string& path) {
   if (open.get() < 0 && (errno == EACCES || errno == EPERM)) return;  // a folder that may be written and not be listed
   if (open.get() >= 0 && ::fsync(open.get()) == 0) return;
   if (errno == EINVAL || errno == ENOTSUP) return;  // a file system that syncs no folders
-  throw Error(path, msg("its folder cannot be synced ({})", words_of(errno)), msg("check the disk: the file may be gone after a power cut"));
+  throw Error(FileError::not_written, Name{path}, msg("its folder cannot be synced ({})", words_of(errno)),
+              msg("check the disk: the file may be gone after a power cut"));
 }
 
 }  // namespace cavum

@@ -2,6 +2,7 @@
 
 #include <fmt/core.h>
 
+#include "engine/base/file_error.h"
 #include "engine/base/toml_reader.h"
 
 namespace cavum {
@@ -73,9 +74,10 @@ ForceModel parse_force_model(const std::string& text, const std::string& where) 
     model.materials.emplace(name.str(), material);
   }
   if (const auto* terms = in.array("terms")) {
-    if (terms->size() > k_max_terms) in.fail("terms", msg("are more than {}", k_max_terms), msg("leave out the smallest"));
+    if (terms->size() > k_max_terms) in.fail(FileError::too_large, "terms", msg("are more than {}", k_max_terms), msg("leave out the smallest"));
     for (const auto& node : *terms) {
-      if (!node.is_table()) in.fail("terms", msg("hold something that is not a table"), msg("write [[terms]] with kind = \"…\" for each"));
+      if (!node.is_table())
+        in.fail(FileError::wrong_type, "terms", msg("hold something that is not a table"), msg("write [[terms]] with kind = \"…\" for each"));
       model.terms.push_back(read_force_term(*node.as_table(), where));
       TermValues values{node.as_table()->get("kind")->value_or(std::string()), {}};
       for (const auto& p : find_term_kind(values.kind)->parameters)

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <sstream>
 
+#include "engine/base/file_error.h"
 #include "engine/force/coulomb_friction.h"
 #include "engine/force/cutting_terms.h"
 #include "engine/force/friction_terms.h"
@@ -64,7 +65,7 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   TomlReader in(table, where);
   const std::string name = in.text("kind");
   const TermKind* kind = find_term_kind(name);
-  if (kind == nullptr) in.fail("kind", msg("is '{}', which is no force term", name), msg("use one of: {}", all_kinds()));
+  if (kind == nullptr) in.fail(FileError::unknown, "kind", msg("is '{}', which is no force term", name), msg("use one of: {}", all_kinds()));
   std::vector<std::string> known{"kind"};
   std::vector<double> values;
   for (const auto& p : kind->parameters) {
@@ -73,9 +74,10 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   }
   for (const auto& [key, node] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
-      in.fail(key.str(), msg("is no parameter of {}", name), msg("it has: {}", listed({known.begin() + 1, known.end()})));
+      in.fail(FileError::unknown, key.str(), msg("is no parameter of {}", name), msg("it has: {}", listed({known.begin() + 1, known.end()})));
   if (table.size() < 2)
-    in.fail("kind", msg("stands alone, so this term does nothing"), msg("give one of: {}", listed({known.begin() + 1, known.end()})));
+    in.fail(FileError::missing, "kind", msg("stands alone, so this term does nothing"),
+            msg("give one of: {}", listed({known.begin() + 1, known.end()})));
   return kind->make(values);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/rig/rig_error.h"
 
 namespace cavum {
 namespace {
@@ -51,11 +52,12 @@ Message load_cell_words(const MachineSettings& s) {
 ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_n_per_mm) {
   const auto found = model.materials.find(tissue);
   if (found == model.materials.end())
-    throw Error(msg("force model '{}'", model.name), msg("has no material for '{}'", tissue), msg("add [materials.{}]", tissue));
+    throw Error(RigError::no_material, msg("force model '{}'", model.name), msg("has no material for '{}'", tissue),
+                msg("add [materials.{}]", tissue));
   Viscoelastic& v = found->second.voigt;
   if (!(v.stiffness_n_per_mm > 0))
-    throw Error(msg("force model '{}'", model.name), msg("gives '{}' no stiffness, so its damping ratio is not known", tissue),
-                msg("give it a k_n_per_mm above 0"));
+    throw Error(RigError::no_stiffness, msg("force model '{}'", model.name),
+                msg("gives '{}' no stiffness, so its damping ratio is not known", tissue), msg("give it a k_n_per_mm above 0"));
   v.damping_n_s_per_mm *= std::sqrt(k_n_per_mm / v.stiffness_n_per_mm);
   v.stiffness_n_per_mm = k_n_per_mm;
   return model;
@@ -63,7 +65,7 @@ ForceModel with_stiffness(ForceModel model, const std::string& tissue, double k_
 
 void require_penetration(const ForceModel& model) {
   if (model.law == CuttingLaw::pressure)
-    throw Error(msg("force model '{}'", model.name),
+    throw Error(RigError::by_pressure, msg("force model '{}'", model.name),
                 msg("cuts by pressure, and this experiment feeds at the paper's speed, for which it needs tau_s"),
                 msg("name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one"));
 }

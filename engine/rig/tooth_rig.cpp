@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/rig/rig_error.h"
 #include "engine/statistics/independent_runs.h"
 
 namespace cavum {
@@ -57,7 +58,7 @@ std::pair<double, double> middle_of_roof(const Octree& tooth) {
     }
   const double least = std::min(k_chamber_mm, 0.5 * highest);
   std::erase_if(places, [&](Vec3 p) { return p.z < least; });
-  if (places.empty()) throw Error(msg("tooth"), msg("has no pulp under solid tissue"), msg("take another tooth"));
+  if (places.empty()) throw Error(RigError::no_pulp, msg("tooth"), msg("has no pulp under solid tissue"), msg("take another tooth"));
   Vec3 sum;
   for (const Vec3 p : places) sum += p / static_cast<double>(places.size());
   const auto far = [&](Vec3 p) { return (p.x - sum.x) * (p.x - sum.x) + (p.y - sum.y) * (p.y - sum.y); };
@@ -137,7 +138,8 @@ ToothRun run_once(const ServoModel& servo, const Tooth& tooth, const ToothRigOpt
     run.y_mm = middle.second + dy;
     c = column_at(tooth.octree, run.x_mm, run.y_mm);
     if (dx * dx + dy * dy <= o.spread_mm * o.spread_mm && c.over_pulp) break;
-    if (tries > 2000) throw Error(msg("tooth"), msg("has no pulp under solid tissue around the chosen place"), msg("name another with --at"));
+    if (tries > 2000)
+      throw Error(RigError::no_pulp, msg("tooth"), msg("has no pulp under solid tissue around the chosen place"), msg("name another with --at"));
   }
   const double start_mm = highest_under_mm(tooth.octree, run.x_mm, run.y_mm, servo.tray[0].point.head_radius_mm) + k_air_mm;
   TestingMachine machine(servo, tooth, {run.x_mm, run.y_mm, start_mm}, o.machine, random);

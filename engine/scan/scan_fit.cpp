@@ -126,12 +126,13 @@ void require_same_tooth(const ScanFit& f, const std::string& where) {
       "of the crown is seen",
       percent(f.fits), fixed(f.within_mm, 3), fixed(f.rms_mm, 3), fixed(f.form_mm, 3), percent(f.beyond), percent(f.shallow), percent(f.crown_seen));
   if (!fits_tooth(f))
-    throw Error(where, msg("is not the tooth of this exam: {}", found),
+    throw Error(ScanError::another_tooth, Name{where}, msg("is not the tooth of this exam: {}", found),
                 msg("give the scan of this very tooth, without its neighbours, or name its tooth with --tooth; if it is this tooth, too much of its "
                     "crown was "
                     "ground off to lay the scan upon the rest"));
   if (f.crown_seen < k_least_crown)
-    throw Error(where, msg("shows too little of the crown to be sure: {}", found), msg("scan the whole crown down to its neck"));
+    throw Error(ScanError::crown_not_seen, Name{where}, msg("shows too little of the crown to be sure: {}", found),
+                msg("scan the whole crown down to its neck"));
 }
 
 }  // namespace cavum

@@ -9,6 +9,8 @@
 
 namespace cavum {
 
+enum class ScanError : std::uint8_t { another_tooth, crown_not_seen };
+
 /// Shares are of area, 0..1. `within_mm`: three standard deviations of the noise, 0.03 mm at least.
 struct ScanFit {
   double noise_mm = 0.0;    ///< standard deviation of the distance where it fits, by the median

@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
@@ -77,7 +78,8 @@ std::string station_name(const SigningKey& key) {
 
 void set_station_name(const std::string& name) {
   if (name.empty() || name.size() > k_longest_station_name || one_line(name) != name)
-    throw Error("--station-name", msg("is no name: one line of 1 to {} bytes", k_longest_station_name), msg("name it as it stands on its desk"));
+    throw Error(FileError::malformed, Name{"--station-name"}, msg("is no name: one line of 1 to {} bytes", k_longest_station_name),
+                msg("name it as it stands on its desk"));
   const std::string path = station_path("station.name");
   make_private_folder(std::filesystem::path(path).parent_path().string());
   write_private_text_file(path, name + "\n");
@@ -94,10 +96,10 @@ CheckHistory::CheckHistory(std::string path) : path_(std::move(path)) {
     try {
       entry = read_check_entry(parse_json(line, where), where);
     } catch (const Error& e) {
-      throw Error(where, msg("is damaged ({})", e.without_advice()), msg(k_put_away));
+      throw Error(FileError::damaged, Name{where}, msg("is damaged ({})", e.without_advice()), msg(k_put_away));
     }
     if (entry.previous != (lines_.empty() ? std::string() : to_hex(sha256(lines_.back()))))
-      throw Error(where, msg("does not follow the line before it: lines were changed or taken out"), msg(k_put_away));
+      throw Error(FileError::damaged, Name{where}, msg("does not follow the line before it: lines were changed or taken out"), msg(k_put_away));
     entries_.push_back(std::move(entry));
     lines_.push_back(line);
   }
@@ -180,7 +182,7 @@ void CheckHistory::add_decision(const CheckedStylus& stylus, bool go_on, const s
 }
 
 void CheckHistory::begin_anew(const CheckedStylus& stylus, const std::string& reason, std::int64_t utc_ns, const SigningKey& key) {
-  if (reason.empty()) throw Error("--new-history", msg("gives no reason"), msg("say what was repaired or changed"));
+  if (reason.empty()) throw Error(FileError::missing, Name{"--new-history"}, msg("gives no reason"), msg("say what was repaired or changed"));
   CheckEntry e;
   e.kind = CheckEntry::Kind::new_history;
   e.utc_ns = utc_ns;
@@ -201,7 +203,7 @@ void CheckHistory::add(CheckEntry entry, const SigningKey& key) {
   const LockedFile file(path_);
   const std::size_t there = file.size();
   if (there < sound_bytes_ || (there > sound_bytes_ && CheckHistory(path_).lines_.size() != lines_.size()))
-    throw Error(path_, msg("was changed by another program meanwhile"), msg("check again"));
+    throw Error(FileError::inconsistent, Name{path_}, msg("was changed by another program meanwhile"), msg("check again"));
   file.write_at(sound_bytes_, line + "\n");
   sync_folder_of(path_);
   sound_bytes_ += line.size() + 1;

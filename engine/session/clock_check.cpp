@@ -29,7 +29,7 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     const auto* gap = e.as<RecordingGap>();
     if (gap == nullptr) continue;
     gaps.push_back(e.tick);
-    out.push_back({e.tick, 0,
+    out.push_back({ClockRemark::Kind::interrupted, e.tick, 0,
                    gap->by.device.empty() ? msg("interrupted for {} and taken up again", seconds(gap->utc_s()))
                                           : msg("interrupted for {} and taken up again with {}", seconds(gap->utc_s()), gap->by.device),
                    false});
@@ -59,23 +59,28 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
       if (first_ahead < 0) first_ahead = c.first_tick;
       ahead_s = early_s;
     }
-    const auto say = [&](const Message& what, bool doubtful) { out.push_back({c.first_tick, c.ticks, what, doubtful}); };
-    if (monotonic_s < 0 || boot_s < 0) say(msg("the computer's own clock ran backwards"), true);
-    if (boot_s - monotonic_s > k_suspend_s) say(msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
+    const auto say = [&](ClockRemark::Kind kind, const Message& what, bool doubtful) {
+      out.push_back({kind, c.first_tick, c.ticks, what, doubtful});
+    };
+    if (monotonic_s < 0 || boot_s < 0) say(ClockRemark::Kind::backwards, msg("the computer's own clock ran backwards"), true);
+    if (boot_s - monotonic_s > k_suspend_s) say(ClockRemark::Kind::slept, msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
     if (std::fabs(utc_s - boot_s) > k_set_s)
-      say(utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
+      say(ClockRemark::Kind::set,
+          utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
                          : msg("the wall clock was set back by {}", seconds(boot_s - utc_s)),
           true);
     if (monotonic_s > k_slow * ticks_s + k_slow_s)
-      say(msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
+      say(ClockRemark::Kind::slow,
+          msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
   }
   end_stretch();
   if (first_ahead >= 0)
-    out.push_back({first_ahead, 0,
+    out.push_back({ClockRemark::Kind::ahead, first_ahead, 0,
                    msg("the exam is {} ahead of the station's clock: recorded faster than real time, no hand moved it", seconds(ahead_s)), true});
   if (lost_s - admitted_lost_s(session) > k_lost_s)
-    out.push_back(
-        {0, 0, msg("{} passed that the recording does not account for: its program stood still, or its clocks were changed", seconds(lost_s)), true});
+    out.push_back({ClockRemark::Kind::lost, 0, 0,
+                   msg("{} passed that the recording does not account for: its program stood still, or its clocks were changed", seconds(lost_s)),
+                   true});
   return out;
 }
 

@@ -13,6 +13,8 @@ namespace cavum {
 
 /// One stretch of a recording in which the clocks disagree.
 struct ClockRemark {
+  enum class Kind : std::uint8_t { interrupted, backwards, slept, set, slow, ahead, lost };
+  Kind kind = Kind::interrupted;
   std::int64_t first_tick = 0, ticks = 0;
   Message what;           ///< with times
   bool doubtful = false;  ///< no honest exam of a hand looks so: a finding when it is filed as one

@@ -4,6 +4,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/file_error.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"
 #include "engine/base/text.h"
@@ -109,9 +110,9 @@ Event decode(const EventText& text, const std::string& where) {
   const JsonSource source{at, msg("use an intact copy")};
   Event event;
   if (!read_kind(text.kind, was, {source}, event))
-    throw Error(at, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
+    throw Error(FileError::unknown, Name{at}, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
   if (detail_of(event).dump() != text.detail_json)
-    throw Error(at, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
+    throw Error(FileError::malformed, Name{at}, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
   return event;
 }
 

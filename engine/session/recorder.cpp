@@ -12,12 +12,14 @@
 #include <map>
 #include <set>
 
+#include "engine/base/file_error.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/version.h"
 #include "engine/base/write_file.h"
 #include "engine/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/schema.h"
+#include "engine/session/session_error.h"
 
 namespace cavum {
 namespace {
@@ -83,7 +85,7 @@ void put_session_in_place(const std::string& made, const std::string& path) {
   }
   if (placed) return;
   ::unlink(made.c_str());
-  throw Error(path, msg("exists already: another exam began to record into it"),
+  throw Error(FileError::exists, Name{path}, msg("exists already: another exam began to record into it"),
               msg("choose another name; an existing session is never overwritten"));
 }
 
@@ -113,7 +115,8 @@ void remove_leftovers(const std::string& path) {
 void require_free(const std::string& path) {
   for (const char* suffix : {"", "-wal", "-journal"})
     if (struct stat info{}; ::lstat((path + suffix).c_str(), &info) == 0)
-      throw Error(path + suffix, msg("exists already"), msg("choose another name; an existing session is never overwritten"));
+      throw Error(FileError::exists, Name{path + suffix}, msg("exists already"),
+                  msg("choose another name; an existing session is never overwritten"));
 }
 
 }  // namespace
@@ -128,7 +131,7 @@ Recorder::Recorder(std::string path, SigningKey key, ReadClocks clocks)
 
 Recorder Recorder::create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks) {
   const auto need = [&](bool there, const Message& what) {
-    if (!there) throw Error(path, msg("a session needs {}", what), msg("give it in the setup"));
+    if (!there) throw Error(FileError::missing, Name{path}, what, msg("give it in the setup"));
   };
   need(!setup.tooth.empty(), msg("a session needs a tooth"));
   need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, msg("a session needs between 1 and 255 diamond points"));
@@ -195,13 +198,14 @@ void Recorder::require_database() {
 }
 
 void Recorder::require_open() const {
-  if (sealed_) throw Error(path_, msg("the session is closed"), msg("record into a new one"));
+  if (sealed_) throw Error(SessionError::closed, Name{path_}, msg("the session is closed"), msg("record into a new one"));
 }
 
 void Recorder::append(const TickInput& input, const TickRecord& record, std::span<const RemovedLeaf> removed, std::uint64_t state_hash) {
   require_open();
   if (record.removed != removed.size())
-    throw Error(path_, msg("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
+    throw Error(FileError::inconsistent, Name{path_},
+                msg("tick {} lists {} removed leaves, its record says {}", ticks_, removed.size(), record.removed),
                 msg("hand over state.removed of the same tick"));
   Pending& now = pending_.back();
   now.inputs.push_back(input);
@@ -234,7 +238,8 @@ void Recorder::flush() {
 }
 
 void Recorder::move_to(const std::string& path, const std::string& why) {
-  if (database_ && !database_->is_open() && sealed_) throw Error(path_, msg("the session is closed"), msg("copy its file"));
+  if (database_ && !database_->is_open() && sealed_)
+    throw Error(SessionError::closed, Name{path_}, msg("the session is closed"), msg("copy its file"));
   require_database();
   require_free(path);
   const std::string made = path + k_being_made + std::to_string(::getpid());
@@ -333,7 +338,8 @@ void Recorder::write_seal(std::span<const std::uint8_t> final_tooth, const std::
 }
 
 void Recorder::close(std::span<const std::uint8_t> final_tooth, const std::string& result_json) {
-  if (final_tooth.empty()) throw Error(path_, msg("the final tooth is missing"), msg("give save_tooth of the drilled tooth"));
+  if (final_tooth.empty())
+    throw Error(FileError::missing, Name{path_}, msg("the final tooth is missing"), msg("give save_tooth of the drilled tooth"));
   if (!is_json(result_json, k_json_part)) throw Error(path_, msg("the result is not JSON"), msg("give one JSON value"));
   require_database();
   if (!sealed_) write_seal(final_tooth, result_json);

@@ -2,6 +2,7 @@
 
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
+#include "engine/session/session_error.h"
 
 namespace cavum {
 
@@ -30,7 +31,8 @@ namespace {
 
 void require_intact(const SessionReader& session) {
   session.require_readable();
-  if (session.closed()) throw Error(session.path(), msg("is closed"), msg("there is nothing to resume: start a new exam"));
+  if (session.closed())
+    throw Error(SessionError::closed, Name{session.path()}, msg("is closed"), msg("there is nothing to resume: start a new exam"));
   const auto findings = check_chain(session);
   if (!findings.empty()) throw Error(session.path(), findings.front(), msg("it is evidence now: keep it, and start a new exam"));
 }

@@ -10,6 +10,7 @@
 #include "engine/base/error.h"
 #include "engine/servo/servo.h"
 #include "engine/session/schema.h"
+#include "engine/session/session_error.h"
 #include "engine/session/session_image.h"
 #include "engine/session/sqlite.h"
 
@@ -103,7 +104,9 @@ void SessionReader::read(Bytes image) {
   try {
     check_schema(database, findings_);
   } catch (const Error& e) {
-    if (!marked) throw Error(path_, msg("is an SQLite database, but not a Cavum session"), msg("name a .cavum file that an exam wrote"));
+    if (!marked)
+      throw Error(SessionError::not_a_session, Name{path_}, msg("is an SQLite database, but not a Cavum session"),
+                  msg("name a .cavum file that an exam wrote"));
     findings_.push_back(msg("file: {}", e.without_advice()));
     return;  // with tables of another shape, every query would be a guess
   }

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/tooth/marching.h"
 
 namespace cavum {
@@ -70,9 +71,12 @@ void check_lattice(IVec3 size, double leaf_mm, const std::string& where, std::ui
   if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, msg("nothing to build"), msg("check the size of the input"));
   const int widest = std::max({size.x, size.y, size.z});
   if (widest > Octree::k_max_edge_leaves)
-    throw Error(where, msg("{} leaves along one edge, 1024 is the most", widest), msg("use a larger --leaf-mm, or check that the unit is mm"));
+    throw Error(FileError::too_large, Name{where}, msg("{} leaves along one edge, 1024 is the most", widest),
+                msg("use a larger --leaf-mm, or check that the unit is mm"));
   const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
-  if (leaves > most) throw Error(where, msg("{} leaves, {} is the most", leaves, most), msg("use a larger --leaf-mm, or check that the unit is mm"));
+  if (leaves > most)
+    throw Error(FileError::too_large, Name{where}, msg("{} leaves, {} is the most", leaves, most),
+                msg("use a larger --leaf-mm, or check that the unit is mm"));
 }
 
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where) {
@@ -87,7 +91,7 @@ void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, co
     const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
     near += leaves(high.x - low.x) * leaves(high.y - low.y) * leaves(high.z - low.z);
     if (near > k_most_near_triangles)
-      throw Error(where, msg("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
+      throw Error(FileError::too_large, Name{where}, msg("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
                   msg("use a larger --leaf-mm, or a mesh of fewer large triangles"));
   }
 }

@@ -251,7 +251,7 @@ void BatteryRun::put(const WrongWork& work, const Result& r) {
       row.should.empty() ? msg("wrong work passes: '{}' ({}) gets {} of {} points", row.name, row.what, as_points(row.points), as_points(row.max))
                          : msg("wrong work passes: '{}' ({}) gets {} of {} points, and {} should have caught it", row.name, row.what,
                                as_points(row.points), as_points(row.max), row.should),
-      advice_against(should)));
+      advice_against(should), scenarios::Mistake::wrong_work));
 }
 
 std::vector<scenarios::Problem> BatteryRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {

@@ -10,6 +10,7 @@
 
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 #include "grading/cohort/judge_names.h"
 #include "grading/ledger/exam_scale.h"
@@ -280,7 +281,9 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
   const auto at = [&](const CsvRow& row) { return FilePlace{where, row.line, 0}; };
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
-  if (!known) throw Error(where + ":1", msg("is no heading of marks"), msg("begin with candidate,judge,points or candidate,judge,points,rating"));
+  if (!known)
+    throw Error(FileError::malformed, Name{where + ":1"}, msg("is no heading of marks"),
+                msg("begin with candidate,judge,points or candidate,judge,points,rating"));
   std::vector<HumanMark> out;
   std::set<std::string> judges;
   std::set<std::pair<std::string, std::string>> given;
@@ -290,13 +293,13 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       double v = 0;
       const auto [end, error] = std::from_chars(field.data(), field.data() + field.size(), v);
       if (error != std::errc() || end != field.data() + field.size() || !std::isfinite(v))
-        throw Error(msg("{}: {}", at(rows[i]), column), wrong, msg("write it with a decimal point"));
+        throw Error(FileError::wrong_type, msg("{}: {}", at(rows[i]), column), wrong, msg("write it with a decimal point"));
       return v;
     };
     HumanMark m{f[0], f[1], number_in(f[2], msg("column 3 (points)"), msg("'{}' is no number of points", f[2])), {}};
-    if (m.judge.empty()) throw Error(at(rows[i]), msg("names no judge"), msg("give each judge a name or number"));
+    if (m.judge.empty()) throw Error(FileError::missing, Name{at(rows[i])}, msg("names no judge"), msg("give each judge a name or number"));
     if (m.points < 0 || m.points > max_points)
-      throw Error(msg("{}: {}", at(rows[i]), msg("column 3 (points)")),
+      throw Error(FileError::out_of_range, msg("{}: {}", at(rows[i]), msg("column 3 (points)")),
                   m.points < 0 ? msg("{} is less than no points", m.points) : msg("{} is more than the exam's {} points", m.points, max_points),
                   msg("write points of the exam's own scale, 0 to {}; nothing of the file was taken", max_points));
     const auto enrolled = identities.of_id(m.candidate);
@@ -304,12 +307,12 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], msg("column 4 (rating)"), msg("'{}' is no number of a rating", f[3]));
     if (!given.emplace(m.candidate, m.judge).second)
-      throw Error(at(rows[i]), msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
+      throw Error(FileError::duplicate, Name{at(rows[i])}, msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
     judges.insert(m.judge);
     out.push_back(std::move(m));
   }
   require_distinct_judges(judges, Name{where});
-  if (out.empty()) throw Error(where, msg("holds no mark"), msg("write a row for each candidate and judge"));
+  if (out.empty()) throw Error(FileError::missing, Name{where}, msg("holds no mark"), msg("write a row for each candidate and judge"));
   return out;
 }
 

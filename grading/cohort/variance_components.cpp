@@ -179,7 +179,7 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   }
   auto inverse = inverted(expected_);
   if (!inverse)
-    throw Error(msg("these marks"), msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
+    throw Error(StudyError::effects_not_apart, msg("these marks"), msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
                 msg("a study needs two conditions of each facet, and candidates who share them"));
   of_squares_ = std::move(*inverse);
   marking_ = Marking(design_, marks);
@@ -296,8 +296,9 @@ void require_differences(const StudyDesign& design, const VarianceComponents& co
   };
   if (there(true)) return;
   if (!there(false))
-    throw Error(msg("these marks"), msg("are all alike: nothing varies, and nothing tells how dependable they are"), msg("study marks that differ"));
-  throw Error(msg("these marks"),
+    throw Error(StudyError::all_alike, msg("these marks"), msg("are all alike: nothing varies, and nothing tells how dependable they are"),
+                msg("study marks that differ"));
+  throw Error(StudyError::conditions_alone, msg("these marks"),
               msg("differ by their conditions alone: no variance is of the candidates, and nothing tells how dependable theirs are"),
               msg("study candidates who differ"));
 }

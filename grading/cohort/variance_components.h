@@ -14,6 +14,9 @@
 
 namespace cavum::cohort {
 
+/// Why marks tell nothing of how dependable they are.
+enum class StudyError : std::uint8_t { all_alike, conditions_alone, effects_not_apart };
+
 /// Everybody under every condition: each set of facets is an effect. One to four facets beside the persons, else Error.
 [[nodiscard]] StudyDesign crossed_design(std::vector<std::string> facets);
 /// persons x (inner : outer): each inner condition (a rater) belongs to one outer one (a task).

@@ -24,9 +24,9 @@ inline constexpr std::size_t k_most_tray = 16;
 class ProblemList {
  public:
   explicit ProblemList(std::string path) : path_(std::move(path)) {}
-  void add(const toml::source_region& at, const Message& what, const Message& what_to_do);
+  void add(const toml::source_region& at, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
   [[nodiscard]] std::size_t size() const noexcept { return problems_.size(); }
-  void add(Place at, const Message& what, const Message& what_to_do);
+  void add(Place at, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
   /// Sorted by place.
   [[nodiscard]] std::vector<Problem> take();
 
@@ -62,9 +62,11 @@ class CheckedTable {
   std::vector<const toml::table*> tables(std::string_view key, bool required = false);
   /// Place of a key's value, or of the table.
   [[nodiscard]] toml::source_region where(std::string_view key) const;
-  void problem(std::string_view key, const Message& what, const Message& what_to_do) { problems_.add(where(key), what, what_to_do); }
+  void problem(std::string_view key, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other) {
+    problems_.add(where(key), what, what_to_do, mistake);
+  }
   /// The same for an item of the list under `key`.
-  void problem_in(std::string_view key, std::size_t item, const Message& what, const Message& what_to_do);
+  void problem_in(std::string_view key, std::size_t item, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other);
   /// Notes where a key's value stands (and, under `name/0` and so on, its items), if it is written.
   void note(std::map<std::string, Place>& places, std::string_view key, const std::string& name) const;
   /// Reports keys that nobody asked for. Call last.

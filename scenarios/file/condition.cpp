@@ -152,20 +152,22 @@ std::optional<ConditionFault> condition_fault(const std::string& text) {
       i += c == '|' || c == '&' ? 1 : 0;
     } else if (c == ',') {
       if (!level.of_a_function)
-        return ConditionFault{msg("has a comma, and only what follows it would count"), msg("join conditions by && or ||, and write numbers as 0.5")};
+        return ConditionFault{ConditionFault::Kind::comma, msg("has a comma, and only what follows it would count"),
+                              msg("join conditions by && or ||, and write numbers as 0.5")};
       level.comparisons = 0;
     } else if (const auto op = std::find_if(k_compare.begin(), k_compare.end(), [&](Text o) { return t.substr(i, o.size()) == o; });
                op != k_compare.end()) {
       if (++level.comparisons > 1)
-        return ConditionFault{msg("is a chain of comparisons, which does not mean what it reads"),
+        return ConditionFault{ConditionFault::Kind::chain, msg("is a chain of comparisons, which does not mean what it reads"),
                               msg("write for example \"depth_mm > 1 && depth_mm < 5\"")};
       i += op->size() - 1;
     } else if (c == '/') {
       const Text by = divisor(t, i + 1);
       if (!by.empty() && at_zero(by) == 0.0) {
         if (names_in_expression(std::string(by)).empty())
-          return ConditionFault{msg("divides by 0"), msg("divide by something else, or take that part out")};
-        return ConditionFault{msg("divides by '{}', which is 0 when an exam begins", by), msg("multiply instead, or divide by max({}, 1)", by)};
+          return ConditionFault{ConditionFault::Kind::zero, msg("divides by 0"), msg("divide by something else, or take that part out")};
+        return ConditionFault{ConditionFault::Kind::zero_at_first, msg("divides by '{}', which is 0 when an exam begins", by),
+                              msg("multiply instead, or divide by max({}, 1)", by)};
       }
     }
     if (c != ' ' && c != '\t' && c != '\n') before = c;

@@ -23,6 +23,8 @@ enum class Outlook { never, perhaps, always };
 
 /// What a condition means otherwise than it reads, and what to write instead.
 struct ConditionFault {
+  enum class Kind : std::uint8_t { comma, chain, zero, zero_at_first };
+  Kind kind = Kind::comma;
   Message what, what_to_do;
 };
 /// A chain of comparisons (0 < x < 10 compares yes or no with 10), a comma outside a function (only what follows the last one would count),

@@ -25,10 +25,10 @@ void check_measure(CheckedTable& t, const std::string& metric) {
   if (metric.empty() || find_measure(metric)) return;
   const Message what = msg("there is no measure '{}'", metric);
   const std::string of_tissue = metric + "_mm3";
-  if (find_measure(of_tissue) && metric != "touched_") return t.problem("metric", what, msg("did you mean '{}'?", of_tissue));
+  if (find_measure(of_tissue) && metric != "touched_") return t.problem("metric", what, msg("did you mean '{}'?", of_tissue), Mistake::unknown_name);
   std::vector<std::string> names;
   for (const auto& m : measures()) names.push_back(m.name);
-  t.problem("metric", what, suggestion(metric, names));
+  t.problem("metric", what, suggestion(metric, names), Mistake::unknown_name);
 }
 
 CriterionSpec read_criterion(const toml::table& table, const std::string& at, Places& places, ProblemList& problems) {
@@ -49,7 +49,8 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   c.full = t.number("full", -1e9, 1e9, 1, true);
   c.zero = t.number("zero", -1e9, 1e9, 0, true);
   if (problems.size() == problems_before && c.full == c.zero)
-    t.problem("zero", msg("'full' and 'zero' are the same value"), msg("points run linearly from one to the other: make them differ"));
+    t.problem("zero", msg("'full' and 'zero' are the same value"), msg("points run linearly from one to the other: make them differ"),
+              Mistake::contradictory);
   c.points = t.number("points", 0, 1000, 1, true);
   if (t.has("critical_above"))
     c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
@@ -65,7 +66,7 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
   for (std::size_t i = 0; i < c.band_limits.size(); ++i)
     if (worse * (c.band_limits[i] - (i == 0 ? c.full : c.band_limits[i - 1])) <= (i == 0 ? -1e-12 : 0)) {
       t.problem("bands", msg("the limit {} does not lie beyond {}", as_number(c.band_limits[i]), as_number(i == 0 ? c.full : c.band_limits[i - 1])),
-                msg("list where the bands end, best first: from 'full' towards 'zero'"));
+                msg("list where the bands end, best first: from 'full' towards 'zero'"), Mistake::contradictory);
       break;
     }
   c.shares_with = t.texts("shares_with");
@@ -85,17 +86,18 @@ std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
       band.most = b.whole("most", 0, 100, 0);
     else
       b.whole("most", 0, 0, 0);
-    if (bands.empty() && band.most) b.problem("most", msg("the best band has a 'most'"), msg("take it out: nobody fails for what is good"));
+    if (bands.empty() && band.most)
+      b.problem("most", msg("the best band has a 'most'"), msg("take it out: nobody fails for what is good"), Mistake::contradictory);
     for (const auto& other : bands)
-      if (other.name == band.name) b.problem("name", msg("two bands are called '{}'", band.name), msg("give each its own name"));
+      if (other.name == band.name) b.problem("name", msg("two bands are called '{}'", band.name), msg("give each its own name"), Mistake::duplicate);
     b.finish();
     bands.push_back(std::move(band));
   }
   if (bands.empty()) return bands;
   if (bands.size() < 2 || bands.size() > k_most_bands)
-    t.problem("bands", msg("there are {} bands", bands.size()), msg("write 2 to {}, best first", k_most_bands));
+    t.problem("bands", msg("there are {} bands", bands.size()), msg("write 2 to {}, best first", k_most_bands), Mistake::out_of_range);
   if (std::none_of(bands.begin(), bands.end(), [](const BandSpec& b) { return b.most.has_value(); }))
-    t.problem("bands", msg("the bands fail nobody"), msg("say how many criteria may lie in a band: most = 0 for the worst"));
+    t.problem("bands", msg("the bands fail nobody"), msg("say how many criteria may lie in a band: most = 0 for the worst"), Mistake::contradictory);
   return bands;
 }
 
@@ -105,11 +107,12 @@ void check_band_limits(const RubricSpec& r, ProblemList& problems) {
     any = any || !c.band_limits.empty();
     if (!c.band_limits.empty() && c.band_limits.size() + 1 != r.bands.size())
       problems.add(c.metric_at, msg("'{}' has {} limits of bands, and the rubric {} bands", c.id, c.band_limits.size(), r.bands.size()),
-                   r.bands.empty() ? msg("list the bands under [[rubric.bands]]") : msg("write {}: the last band has no end", r.bands.size() - 1));
+                   r.bands.empty() ? msg("list the bands under [[rubric.bands]]") : msg("write {}: the last band has no end", r.bands.size() - 1),
+                   Mistake::contradictory);
   }
   if (!any && !r.bands.empty() && !r.criteria.empty())
     problems.add(r.criteria[0].metric_at, msg("the rubric has bands, and no criterion has limits of them"),
-                 msg("give criteria bands = [...], or take [[rubric.bands]] out"));
+                 msg("give criteria bands = [...], or take [[rubric.bands]] out"), Mistake::contradictory);
 }
 
 /// Each id under `shares_with` is that of another criterion.
@@ -120,7 +123,7 @@ void check_shares(const RubricSpec& r, ProblemList& problems) {
       for (const auto& other : r.criteria)
         if (other.id != c.id) others.push_back(other.id);
       if (std::find(others.begin(), others.end(), id) == others.end())
-        problems.add(c.metric_at, msg("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others));
+        problems.add(c.metric_at, msg("'{}' shares with '{}', which is no other criterion", c.id, id), suggestion(id, others), Mistake::unknown_name);
     }
 }
 
@@ -139,18 +142,20 @@ RubricSpec read_rubric(const toml::table& table, const std::string& name, Places
     sum += r.criteria.back().points;
     for (std::size_t i = 0; i + 1 < r.criteria.size(); ++i)
       if (r.criteria[i].id == r.criteria.back().id && !r.criteria[i].id.empty())
-        problems.add(c->source(), msg("two criteria are called '{}'", r.criteria[i].id), msg("give each its own id"));
+        problems.add(c->source(), msg("two criteria are called '{}'", r.criteria[i].id), msg("give each its own id"), Mistake::duplicate);
   }
   check_shares(r, problems);
   check_band_limits(r, problems);
-  if (!r.criteria.empty() && !(sum > 0)) t.problem("criteria", msg("no criterion gives any points"), msg("give at least one some points"));
+  if (!r.criteria.empty() && !(sum > 0))
+    t.problem("criteria", msg("no criterion gives any points"), msg("give at least one some points"), Mistake::missing);
   t.finish();
   return r;
 }
 
 void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (!good_id(list[i])) t.problem_in(key, i, msg("'{}' is no name of a tissue", list[i]), msg("use names such as pulp or periodontium"));
+    if (!good_id(list[i]))
+      t.problem_in(key, i, msg("'{}' is no name of a tissue", list[i]), msg("use names such as pulp or periodontium"), Mistake::bad_name);
 }
 
 PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
@@ -174,12 +179,12 @@ CarelessSpec read_careless(const toml::table& table, const Scenario& scenario, P
   std::vector<std::string> ids;
   for (const auto& criterion : scenario.rubric.criteria) ids.push_back(criterion.id);
   if (!c.fails_by.empty() && std::find(ids.begin(), ids.end(), c.fails_by) == ids.end())
-    t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids));
+    t.problem("fails_by", msg("the rubric has no criterion '{}'", c.fails_by), suggestion(c.fails_by, ids), Mistake::unknown_name);
   if (c.perforates && scenario.perforation.faults.empty())
     t.problem("perforates", msg("'perforates' is true, and no tissue is a fault"),
-              msg("list what is broken into under faults of [perforation], or leave 'perforates' out"));
+              msg("list what is broken into under faults of [perforation], or leave 'perforates' out"), Mistake::contradictory);
   if (c == CarelessSpec{.fails_by = c.fails_by})
-    t.problem("fails_by", msg("nothing is done carelessly"), msg("set sides_mm, bottom_mm, opening_percent or perforates"));
+    t.problem("fails_by", msg("nothing is done carelessly"), msg("set sides_mm, bottom_mm, opening_percent or perforates"), Mistake::contradictory);
   t.finish();
   return c;
 }
@@ -190,7 +195,7 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
   const auto names = scenario.texts("gauges");
   for (std::size_t i = 0; i < names.size(); ++i) {
     if (std::find(known.begin(), known.end(), names[i]) == known.end())
-      scenario.problem_in("gauges", i, msg("there is no gauge '{}'", names[i]), suggestion(names[i], known));
+      scenario.problem_in("gauges", i, msg("there is no gauge '{}'", names[i]), suggestion(names[i], known), Mistake::unknown_name);
     gauges.speed |= names[i] == "speed";
     gauges.force |= names[i] == "force";
     gauges.depth |= names[i] == "depth";
@@ -209,12 +214,13 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.points = t.texts("points", true);
   for (std::size_t i = 0; i < s.points.size(); ++i)
     if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
-      t.problem_in("points", i, msg("'{}' is no name of a diamond point", s.points[i]), msg("use names of data/points, such as round-1.0"));
+      t.problem_in("points", i, msg("'{}' is no name of a diamond point", s.points[i]), msg("use names of data/points, such as round-1.0"),
+                   Mistake::bad_name);
     else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
              s.points.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem_in("points", i, msg("'{}' is listed twice", s.points[i]), msg("list each point once"));
+      t.problem_in("points", i, msg("'{}' is listed twice", s.points[i]), msg("list each point once"), Mistake::duplicate);
   if (s.points.size() > k_most_tray) {
-    t.problem("points", msg("'points' has {} items", s.points.size()), msg("list at most {}", k_most_tray));
+    t.problem("points", msg("'points' has {} items", s.points.size()), msg("list at most {}", k_most_tray), Mistake::too_large);
     s.points.resize(k_most_tray);
   }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
@@ -244,7 +250,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     check_tissues(pt, "faults", s.perforation.faults);
     for (const auto& aim : s.perforation.aims)
       if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
-        pt.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"));
+        pt.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"), Mistake::contradictory);
     pt.finish();
   }
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
@@ -260,11 +266,11 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
     const bool wide = text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff");
     problems.add(Place{1, 1}, wide ? msg("this is a text in UTF-16") : msg("this is no text: it holds zero bytes"),
-                 wide ? msg("save it as UTF-8") : msg("give a scenario or rubric, a text file (TOML)"));
+                 wide ? msg("save it as UTF-8") : msg("give a scenario or rubric, a text file (TOML)"), Mistake::not_toml);
     return false;
   }
   if (const auto beyond = beyond_toml_limits(text)) {
-    problems.add(Place{static_cast<int>(beyond->line), 1}, beyond->what, beyond->what_to_do);
+    problems.add(Place{static_cast<int>(beyond->line), 1}, beyond->what, beyond->what_to_do, Mistake::too_large);
     return false;
   }
   try {
@@ -273,9 +279,9 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
   } catch (const toml::parse_error& e) {
     const bool encoding = e.description().find("utf-8") != std::string_view::npos;
     if (encoding)
-      problems.add(e.source(), msg("a letter here is not in UTF-8, as in a text saved as Latin-1"), msg("save the file as UTF-8"));
+      problems.add(e.source(), msg("a letter here is not in UTF-8, as in a text saved as Latin-1"), msg("save the file as UTF-8"), Mistake::not_toml);
     else
-      problems.add(e.source(), msg("this is not TOML ({})", e.description()), msg("correct the line"));
+      problems.add(e.source(), msg("this is not TOML ({})", e.description()), msg("correct the line"), Mistake::not_toml);
     return false;
   }
 }
@@ -289,13 +295,14 @@ void throw_first(const std::vector<Problem>& problems) {
   if (problems.empty()) return;
   const auto more = problems.size() - 1;
   const Problem& p = problems[0];
-  throw Error(p.where, p.what,
+  throw Error(p.mistake, p.where, p.what,
               more == 0 ? p.what_to_do : msg("{} (and {} more: `cavum scenario check` names every mistake of a scenario)", p.what_to_do, more));
 }
 
 }  // namespace
 
-ProblemsError::ProblemsError(std::vector<Problem> list) : Error(list.at(0).where, list[0].what, summary(list)), problems_(std::move(list)) {}
+ProblemsError::ProblemsError(std::vector<Problem> list)
+    : Error(list.at(0).mistake, list[0].where, list[0].what, summary(list)), problems_(std::move(list)) {}
 
 void require_none(std::vector<Problem> problems) {
   if (!problems.empty()) throw ProblemsError(std::move(problems));
@@ -348,7 +355,7 @@ std::string find_tooth_file(const Scenario& scenario) {
   for (const auto& data : shipped_folders()) places.push_back(data / "teeth" / written);
   for (const fs::path& candidate : places)
     if (fs::exists(candidate, unreadable)) return candidate.lexically_normal().string();
-  throw Error(scenario.path, msg("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
+  throw Error(Mistake::unknown_name, Name{scenario.path}, msg("the tooth file '{}' is nowhere to be found", scenario.tooth_file),
               msg("put it beside the scenario or in data/teeth, or name another with --tooth"));
 }
 
@@ -358,7 +365,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
   std::vector<Problem> problems;
   const auto need = [&](const std::string& name, const std::string& place) {
     if (std::find(known.begin(), known.end(), name) == known.end())
-      problems.push_back(problem_at(s, place, msg("this tooth has no tissue '{}'", name), suggestion(name, known)));
+      problems.push_back(problem_at(s, place, msg("this tooth has no tissue '{}'", name), suggestion(name, known), Mistake::unknown_name));
   };
   for (const auto& [key, list] : {std::pair("perforation/aims/", &s.perforation.aims), std::pair("perforation/faults/", &s.perforation.faults)})
     for (std::size_t i = 0; i < list->size(); ++i) need((*list)[i], key + std::to_string(i));
@@ -382,12 +389,12 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
 
 void require_tissues(const Scenario& scenario, const Tooth& tooth) { require_none(missing_tissues(scenario, tooth)); }
 
-Problem problem_at(const Scenario& s, const std::string& place, const Message& what, const Message& what_to_do) {
+Problem problem_at(const Scenario& s, const std::string& place, const Message& what, const Message& what_to_do, Mistake mistake) {
   // the place itself, else what holds it
   for (std::string key = place;; key.erase(key.rfind('/'))) {
     const auto at = s.places.find(key);
-    if (at != s.places.end()) return {{s.path, at->second.line, at->second.column}, what, what_to_do};
-    if (key.rfind('/') == std::string::npos) return {{s.path}, what, what_to_do};
+    if (at != s.places.end()) return {{s.path, at->second.line, at->second.column}, what, what_to_do, false, mistake};
+    if (key.rfind('/') == std::string::npos) return {{s.path}, what, what_to_do, false, mistake};
   }
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/tooth.h"
+#include "scenarios/file/mistake.h"
 #include "scenarios/file/scenario.h"
 
 namespace cavum::scenarios {
@@ -17,6 +18,7 @@ struct Problem {
   FilePlace where;
   Message what, what_to_do;
   bool warning = false;
+  Mistake mistake = Mistake::other;
   [[nodiscard]] Message message() const {
     return warning ? msg("{}: warning: {}; {}", where, what, what_to_do) : msg("{}: {}; {}", where, what, what_to_do);
   }
@@ -47,7 +49,8 @@ struct ReadScenario {
 [[nodiscard]] ReadScenario read_scenario(const std::string& text, const std::string& path);
 [[nodiscard]] Scenario load_scenario(const std::string& path);
 /// A problem that stands at one of the scenario's `places`, or at the nearest one that holds it.
-[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const Message& what, const Message& what_to_do);
+[[nodiscard]] Problem problem_at(const Scenario& scenario, const std::string& place, const Message& what, const Message& what_to_do,
+                                 Mistake mistake = Mistake::other);
 /// Every tissue that zones, perforation or the rubric's measures name and the tooth does not have.
 [[nodiscard]] std::vector<Problem> missing_tissues(const Scenario& scenario, const Tooth& tooth);
 /// Throws ProblemsError when a tissue that the scenario names is none of the tooth's: misspelt, it would never be touched.

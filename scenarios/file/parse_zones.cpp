@@ -38,12 +38,12 @@ void check_outline(CheckedTable& t, const OutlineSpec& o) {
   using Kind = OutlineSpec::Kind;
   if ((o.kind == Kind::circle && o.radius_mm + o.offset_mm <= 0) ||
       ((o.kind == Kind::stroke || o.kind == Kind::fissure) && 0.5 * o.width_mm + o.offset_mm <= 0))
-    t.problem("offset_mm", msg("'offset_mm' leaves nothing of the outline"), msg("move it inwards by less than half its width"));
+    t.problem("offset_mm", msg("'offset_mm' leaves nothing of the outline"), msg("move it inwards by less than half its width"), Mistake::outline);
   if (o.kind != Kind::polygon || o.points_mm.size() < 3) return;
   if (crosses_itself(o.points_mm))
-    t.problem("points_mm", msg("the polygon crosses itself"), msg("list its corners in their order around the outline"));
+    t.problem("points_mm", msg("the polygon crosses itself"), msg("list its corners in their order around the outline"), Mistake::outline);
   else if (area_mm2(o.points_mm) < 0.01)
-    t.problem("points_mm", msg("the polygon encloses nothing"), msg("give corners that do not lie on one line"));
+    t.problem("points_mm", msg("the polygon encloses nothing"), msg("give corners that do not lie on one line"), Mistake::outline);
 }
 
 TissuePart read_part(CheckedTable& t) { return t.word("part", {"all", "chamber"}, 0) == 1 ? TissuePart::chamber : TissuePart::all; }
@@ -121,7 +121,7 @@ BottomSpec read_bottom(const toml::table& table, const std::string& name, Proble
 
 void read_axis(CheckedTable& t, ShapeSpec& s) {
   const Vec3 along = t.vector("axis", 3, {0, 0, 1});
-  if (length(along) < 1e-6) t.problem("axis", msg("'axis' has no direction"), msg("write for example [0, 0, 1]"));
+  if (length(along) < 1e-6) t.problem("axis", msg("'axis' has no direction"), msg("write for example [0, 0, 1]"), Mistake::wrong_type);
   s.axis = normalized(along);
 }
 
@@ -141,7 +141,7 @@ void read_box(CheckedTable& t, ShapeSpec& s) {
   read_turned_place(t, s);
   s.size_mm = t.vector("size_mm", 3, {1, 1, 1}, true);
   if (!(s.size_mm.x > 0 && s.size_mm.y > 0 && s.size_mm.z > 0))
-    t.problem("size_mm", msg("'size_mm' must be positive"), msg("write three lengths in mm"));
+    t.problem("size_mm", msg("'size_mm' must be positive"), msg("write three lengths in mm"), Mistake::out_of_range);
 }
 
 void read_cylinder(CheckedTable& t, ShapeSpec& s) {
@@ -167,7 +167,7 @@ void read_prism(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemL
   s.height_mm = read_length(t, "height_mm");
   if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
   if (s.outline.kind == OutlineSpec::Kind::projection || s.outline.kind == OutlineSpec::Kind::fissure)
-    t.problem("outline", msg("a prism cannot follow a tissue or a fissure"), msg("use shape = \"column\""));
+    t.problem("outline", msg("a prism cannot follow a tissue or a fissure"), msg("use shape = \"column\""), Mistake::contradictory);
 }
 
 void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
@@ -179,7 +179,8 @@ void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, Problem
                        (s.bottom.kind == BottomSpec::Kind::tissue_roof || s.bottom.kind == BottomSpec::Kind::tissue_floor);
   if (s.leans && !follows)
     t.problem("lean", msg("a leaning column follows a tissue with its outline and its bottom"),
-              msg("use an outline of kind projection and a bottom of kind tissue_roof or tissue_floor, or a prism with an axis"));
+              msg("use an outline of kind projection and a bottom of kind tissue_roof or tissue_floor, or a prism with an axis"),
+              Mistake::contradictory);
 }
 
 void read_tissue(CheckedTable& t, ShapeSpec& s) {
@@ -192,7 +193,7 @@ void read_stl(CheckedTable& t, ShapeSpec& s) {
   s.file = t.text("file", "", true);
   const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
   if (!s.file.empty() && !named)
-    t.problem("file", msg("'file' is no STL file"), msg("name a closed surface in mm, in the tooth's frame, ending in .stl"));
+    t.problem("file", msg("'file' is no STL file"), msg("name a closed surface in mm, in the tooth's frame, ending in .stl"), Mistake::surface);
 }
 
 void read_canal_cone(CheckedTable& t, ShapeSpec& s) {
@@ -225,7 +226,7 @@ void read_side_cavity(CheckedTable& t, ShapeSpec& s, const std::string& name, Pr
   using Kind = OutlineSpec::Kind;
   if (s.outline.kind == Kind::projection || s.outline.kind == Kind::fissure || s.outline.from_chamber)
     t.problem("outline", msg("a cavity in a side has an outline of its own"),
-              msg("use a circle, a polygon or a stroke, counted from the neck's middle"));
+              msg("use a circle, a polygon or a stroke, counted from the neck's middle"), Mistake::contradictory);
 }
 
 void read_crown(CheckedTable& t, ShapeSpec& s) {
@@ -290,7 +291,8 @@ std::vector<ShapeSpec> read_shapes(CheckedTable& zones, const char* key, bool re
   for (const auto* table : zones.tables(key, required)) {
     list.push_back(read_shape(*table, fmt::format("[[zones.{}]]", key), fmt::format("zones/{}/{}", key, list.size()), places, problems));
     if (list.size() == 1 && list[0].combine != ShapeSpec::Combine::add)
-      problems.add(table->source(), msg("the first shape of a zone must be added"), msg("take out 'combine' or put another shape first"));
+      problems.add(table->source(), msg("the first shape of a zone must be added"), msg("take out 'combine' or put another shape first"),
+                   Mistake::contradictory);
   }
   return list;
 }
@@ -303,8 +305,10 @@ void check_sum(CheckedTable& zones, const ZoneSpec& z) {
       ++bodies;
       points += shape.outline.points_mm.size();
     }
-  if (bodies > k_most_bodies) zones.problem("target", msg("the zones have {} bodies", bodies), msg("use at most {}", k_most_bodies));
-  if (points > k_most_points) zones.problem("target", msg("the outlines have {} points in all", points), msg("use at most {}", k_most_points));
+  if (bodies > k_most_bodies)
+    zones.problem("target", msg("the zones have {} bodies", bodies), msg("use at most {}", k_most_bodies), Mistake::too_large);
+  if (points > k_most_points)
+    zones.problem("target", msg("the outlines have {} points in all", points), msg("use at most {}", k_most_points), Mistake::too_large);
 }
 
 MarginSpec read_margin(CheckedTable& zones, const char* key, ProblemList& problems) {
@@ -329,7 +333,8 @@ ZoneSpec read_zones(const toml::table& table, std::map<std::string, Place>& plac
   z.leeway = read_margin(t, "leeway", problems);
   z.container = read_margin(t, "container", problems);
   if (problems.size() == before && (z.container.sides_mm < z.leeway.sides_mm || z.container.bottom_mm < z.leeway.bottom_mm))
-    t.problem("container", msg("the container is narrower than the leeway"), msg("make it at least as wide: it is measured from the target too"));
+    t.problem("container", msg("the container is narrower than the leeway"), msg("make it at least as wide: it is measured from the target too"),
+              Mistake::contradictory);
   z.protected_shapes = read_shapes(t, "protected", false, places, problems);
   check_sum(t, z);
   t.finish();

@@ -11,8 +11,8 @@
 namespace cavum::scenarios {
 namespace {
 
-Problem problem_of(const RubricSpec& rubric, Place at, const Message& what, const Message& what_to_do) {
-  return {{rubric.path, at.line, at.column}, what, what_to_do};
+Problem problem_of(const RubricSpec& rubric, Place at, const Message& what, const Message& what_to_do, Mistake mistake) {
+  return {{rubric.path, at.line, at.column}, what, what_to_do, false, mistake};
 }
 
 bool any_of(const TissueSet& set) {
@@ -64,10 +64,11 @@ std::vector<Problem> not_in_this_exam(const RubricSpec& rubric, const Scenario& 
   for (const auto& c : rubric.criteria) {
     const Measure measure = known_measure(c.metric);
     if (!measure.tissue.empty() && std::find(known.begin(), known.end(), c.metric) == known.end())
-      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known)));
+      problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures no tissue of this tooth", c.metric), suggestion(c.metric, known),
+                                    Mistake::unknown_name));
     if (const Message what = lacking(measure.needs, scenario, tooth); !what.empty())
       problems.push_back(problem_of(rubric, c.metric_at, msg("'{}' measures nothing in this exam: {}", c.metric, what),
-                                    msg("take the criterion out, or choose a measure of what there is")));
+                                    msg("take the criterion out, or choose a measure of what there is"), Mistake::unknown_name));
   }
   return problems;
 }
@@ -82,7 +83,7 @@ std::vector<Problem> turned_round(const RubricSpec& rubric) {
         better == Better::more
             ? msg("the criterion gives full marks at {} and none at {}, but more of '{}' is better", as_number(c.full), as_number(c.zero), c.metric)
             : msg("the criterion gives full marks at {} and none at {}, but less of '{}' is better", as_number(c.full), as_number(c.zero), c.metric),
-        msg("exchange 'full' and 'zero'")));
+        msg("exchange 'full' and 'zero'"), Mistake::contradictory));
     problems.back().warning = true;
   }
   return problems;
@@ -102,7 +103,7 @@ std::vector<Problem> charged_twice(const RubricSpec& rubric) {
       problems.push_back(problem_of(
           rubric, second.metric_at,
           msg("'{}' charges what '{}' charges, too: {} and {} both count {}", second.id, first.id, second.metric, first.metric, counts_text(both)),
-          msg("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id)));
+          msg("take one of them out, or say that it is meant: shares_with = [\"{}\"]", first.id), Mistake::contradictory));
       problems.back().warning = true;
     }
   return problems;

@@ -51,7 +51,7 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string& place) {
     if (!shape.file.ends_with(".stl") && !shape.file.ends_with(".STL")) return;  // a mistake of the text, named already
     const auto wrong = [&](const Message& what, const Message& what_to_do) {
-      problems.push_back(problem_at(scenario, place, msg("'{}': {}", shape.file, what), what_to_do));
+      problems.push_back(problem_at(scenario, place, msg("'{}': {}", shape.file, what), what_to_do, Mistake::surface));
     };
     const fs::path path = fs::path(scenario.path).parent_path() / shape.file;
     std::error_code none;
@@ -73,7 +73,8 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
 void use_surfaces(Scenario& scenario, const SurfaceFiles& files) {
   for_each_surface(scenario, [&](ShapeSpec& shape, const std::string&) {
     const Bytes* bytes = find(files, shape.file);
-    if (bytes == nullptr) throw Error(scenario.path, msg("the session does not hold the surface '{}'", shape.file), msg("use an intact copy"));
+    if (bytes == nullptr)
+      throw Error(Mistake::missing, Name{scenario.path}, msg("the session does not hold the surface '{}'", shape.file), msg("use an intact copy"));
     take(shape, *bytes, fmt::format("{}: {}", scenario.path, shape.file));
   });
 }
@@ -87,7 +88,7 @@ void require_same_surfaces(const Scenario& scenario, const Scenario& recorded) {
                                    msg("'{}' is not the surface that the session ran with (SHA-256 {}... instead of {}...)", now.file,
                                        begin(now.file_sha256), begin(then.file_sha256)),
                                    msg("put the old one back, or give the corrected surface a name of its own"));
-      throw Error(p.where, p.what, p.what_to_do);
+      throw Error(Mistake::surface, p.where, p.what, p.what_to_do);
     });
   });
 }

@@ -62,8 +62,8 @@ class Adviser {
 
  private:
   static bool among(const std::vector<std::string>& list, const std::string& name) { return std::find(list.begin(), list.end(), name) != list.end(); }
-  void warn(const std::string& place, const Message& what, const Message& what_to_do) {
-    problems_.push_back(problem_at(s_, place, what, what_to_do));
+  void warn(const std::string& place, const Message& what, const Message& what_to_do, Mistake mistake = Mistake::other) {
+    problems_.push_back(problem_at(s_, place, what, what_to_do, mistake));
     problems_.back().warning = true;
   }
   [[nodiscard]] Number mm3(std::uint64_t leaves) const { return as_mm3(static_cast<double>(leaves) * zones_.leaf_volume_mm3(), 2); }
@@ -105,16 +105,16 @@ void Adviser::target() {
       warn("zones/target/0",
            fault ? msg("the target holds {} of {}, which must not be opened", mm3(inside[t.id]), t.name)
                  : msg("the target holds {} of {}, which is neither an aim nor a fault", mm3(inside[t.id]), t.name),
-           remedy);
+           remedy, Mistake::trespass);
     else if (beside[t.id] > 0)
       warn("zones/target/0",
            fault ? msg("the target touches the {}, which must not be opened", t.name)
                  : msg("the target touches the {}, which is neither an aim nor a fault", t.name),
-           remedy);
+           remedy, Mistake::trespass);
   }
   if (zones_.guarded_in_target() > 0)
     warn("zones/target/0", msg("the target reaches {} of what is protected, and the protection counts there", mm3(zones_.guarded_in_target())),
-         msg("make the target smaller, or protect less"));
+         msg("make the target smaller, or protect less"), Mistake::trespass);
 }
 
 void Adviser::leeway() {
@@ -133,10 +133,10 @@ void Adviser::leeway() {
   for (const auto& t : tooth_.tissues)
     if (role_[t.id] == 2 && reached[t.id] > 0)
       warn("zones/leeway", msg("the leeway reaches {} of {}, which must not be opened: it is wider than the wall", mm3(reached[t.id]), t.name),
-           msg("make the leeway narrower, or the target smaller"));
+           msg("make the leeway narrower, or the target smaller"), Mistake::trespass);
   if (guarded > 0)
     warn("zones/leeway", msg("the leeway reaches {} of what is protected, and the protection counts there", mm3(guarded)),
-         msg("make the leeway narrower, or protect less"));
+         msg("make the leeway narrower, or protect less"), Mistake::trespass);
 }
 
 /// Walls that end in the air before the leeway does.
@@ -186,7 +186,7 @@ void Adviser::walls() {
     const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
     if (mm2 < k_thin_wall_mm2) continue;
     warn("zones/leeway", msg("the leeway is wider than {} of the tooth over {}: it leads out into the air", wall_text(w, facing), as_mm2(mm2, 1)),
-         msg("make the leeway narrower, or move the target inwards"));
+         msg("make the leeway narrower, or move the target inwards"), Mistake::trespass);
   }
 }
 
@@ -197,7 +197,7 @@ void Adviser::time(ExpertsPart& expert) {
          msg("make the tooth with leaves of 0.05 mm"));
   if (!zones_.target_is_open()) {
     warn("zones/target/0", msg("the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere"),
-         msg("let the target reach up to the surface, for example by a shape \"column\" over it"));
+         msg("let the target reach up to the surface, for example by a shape \"column\" over it"), Mistake::unreachable);
     return;
   }
   std::vector<ContactTool> tray;
@@ -219,15 +219,16 @@ void Adviser::time(ExpertsPart& expert) {
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
       warn(fmt::format("points/{}", i), msg("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
-           msg("take it out, or make the target wider"));
+           msg("take it out, or make the target wider"), Mistake::unreachable);
   if (best < k_poor_share)
-    warn("points", msg("no allowed point removes more than {} of the target", percent(best)), msg("allow one that fits, or make the target wider"));
+    warn("points", msg("no allowed point removes more than {} of the target", percent(best)), msg("allow one that fits, or make the target wider"),
+         Mistake::unreachable);
   if (chosen.index == tray.size()) return;
   const auto way = plan_work(chosen, tooth_, tray, s_.perforation.aims);
   expert.time_s = expert_time_s(way, chosen.map.tool, tooth_, tray[chosen.index], make_skill("expert", 1));
   if (*expert.time_s > limit_s_)
     warn("time_limit_s", msg("the built-in expert needs about {}, and the limit is {}", as_s(*expert.time_s, 0), as_s(limit_s_, k_as_needed)),
-         msg("allow more time, or see what `cavum scenario solve` reaches"));
+         msg("allow more time, or see what `cavum scenario solve` reaches"), Mistake::unreachable);
 }
 
 /// What can happen in this tooth.
@@ -274,7 +275,7 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
   Ranges with_missing = ranges;
   for (const auto& name : names_in_expression(text)) {
     if (name.rfind("touched_", 0) != 0 || ranges.count(name) > 0) continue;
-    warn(place, msg("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known));
+    warn(place, msg("this tooth has no tissue '{}', so '{}' stays 0", name.substr(8), name), suggestion(name, known), Mistake::unknown_name);
     with_missing[name] = {0, 0};
   }
   const Outlook outlook = judge_condition(text, with_missing);
@@ -282,9 +283,11 @@ void Adviser::step_condition(std::size_t step, const char* key, const std::strin
   if (outlook == Outlook::never)
     warn(place, msg("'{}' can never come true", key),
          completes ? msg("ask for something that can be reached, or the step ends by its time limit only")
-                   : msg("ask for something that can happen, or take it out"));
+                   : msg("ask for something that can happen, or take it out"),
+         Mistake::unreachable);
   if (outlook == Outlook::always)
-    warn(place, msg("'{}' is true from the first tick", key), completes ? msg("ask for something that is still to be done") : msg("take it out"));
+    warn(place, msg("'{}' is true from the first tick", key), completes ? msg("ask for something that is still to be done") : msg("take it out"),
+         Mistake::idle);
 }
 
 void Adviser::steps() {
@@ -296,7 +299,8 @@ void Adviser::steps() {
     step_condition(i, "complete_when", step.complete_when, ranges);
     step_condition(i, "fail_when", step.fail_when, ranges);
     if (step.time_limit_s && *step.time_limit_s > s_.time_limit_s)
-      warn(fmt::format("steps/{}/time_limit_s", i), msg("the step's time limit is longer than the exam's"), msg("make it shorter, or take it out"));
+      warn(fmt::format("steps/{}/time_limit_s", i), msg("the step's time limit is longer than the exam's"), msg("make it shorter, or take it out"),
+           Mistake::idle);
   }
 }
 
@@ -308,29 +312,31 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
                        : range.low == range.high ? msg("'{}' is always {} here", c.metric, as_number(range.low))
                                                  : msg("'{}' runs from {} to {} here", c.metric, as_number(range.low), as_number(range.high));
   if (c.points > 0 && best <= 0)
-    warn(place + "/zero", msg("nobody can win these points: {}", runs), msg("set 'full' and 'zero' within that"));
+    warn(place + "/zero", msg("nobody can win these points: {}", runs), msg("set 'full' and 'zero' within that"), Mistake::unreachable);
   else if (c.points > 0 && worst >= 1)
-    warn(place + "/full", msg("nobody can lose these points: {}", runs), msg("set 'full' and 'zero' within that, or take the criterion out"));
+    warn(place + "/full", msg("nobody can lose these points: {}", runs), msg("set 'full' and 'zero' within that, or take the criterion out"),
+         Mistake::idle);
   else if (c.points > 0 && best < 1)
-    warn(place + "/full", msg("nobody can win all of these points: {}", runs), msg("set 'full' within that"));
+    warn(place + "/full", msg("nobody can win all of these points: {}", runs), msg("set 'full' within that"), Mistake::unreachable);
   if (c.critical_below && c.critical_above && *c.critical_below > *c.critical_above)
     warn(place + "/critical_below",
          msg("everybody fails: every value is below {} or above {}", as_number(*c.critical_below), as_number(*c.critical_above)),
-         msg("make critical_below the smaller of the two"));
+         msg("make critical_below the smaller of the two"), Mistake::contradictory);
   else if ((c.critical_below && c.full < *c.critical_below) || (c.critical_above && c.full > *c.critical_above))
     warn(place + (c.critical_below && c.full < *c.critical_below ? "/critical_below" : "/critical_above"),
-         msg("who has full marks at {} fails by it all the same", as_number(c.full)), msg("let the critical limit lie beyond 'full'"));
+         msg("who has full marks at {} fails by it all the same", as_number(c.full)), msg("let the critical limit lie beyond 'full'"),
+         Mistake::contradictory);
   if (measure.needs == Needs::aim && s_.perforation.aims.empty())
     warn(place + "/metric",
          msg("'{}' measures the access to a tissue that is the aim, and this scenario names none: nobody can win these points", c.metric),
-         msg("name the aim in [perforation], or take the criterion out"));
+         msg("name the aim in [perforation], or take the criterion out"), Mistake::unreachable);
   if ((c.critical_above && *c.critical_above < range.low) || (c.critical_below && *c.critical_below > range.high))
     warn(place + (c.critical_above && *c.critical_above < range.low ? "/critical_above" : "/critical_below"),
-         msg("everybody fails by this: {}", runs), msg("set it within that"));
+         msg("everybody fails by this: {}", runs), msg("set it within that"), Mistake::contradictory);
   else if (c.critical_above && *c.critical_above >= range.high)
-    warn(place + "/critical_above", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"));
+    warn(place + "/critical_above", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"), Mistake::idle);
   else if (c.critical_below && *c.critical_below <= range.low)
-    warn(place + "/critical_below", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"));
+    warn(place + "/critical_below", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"), Mistake::idle);
 }
 
 /// Hard tissue that stands beside the target, by wall.
@@ -352,7 +358,7 @@ void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::a
   warn(fmt::format("rubric/criteria/{}/metric", i),
        measure.figure == WallFigure::max_over ? msg("in this tooth the cavity does not have {}: nobody can lose these points", wall)
                                               : msg("in this tooth the cavity does not have {}: nobody can win these points", wall),
-       msg("take the criterion out, or measure a wall that stays"));
+       msg("take the criterion out, or measure a wall that stays"), measure.figure == WallFigure::max_over ? Mistake::idle : Mistake::unreachable);
 }
 
 void Adviser::criteria() {
@@ -362,7 +368,8 @@ void Adviser::criteria() {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = fmt::format("rubric/criteria/{}", i);
     if (!(c.points > 0) && !c.critical_above && !c.critical_below && c.band_limits.empty())
-      warn(place + "/points", msg("the criterion gives no points and decides nothing"), msg("give it points or a critical limit, or take it out"));
+      warn(place + "/points", msg("the criterion gives no points and decides nothing"), msg("give it points or a critical limit, or take it out"),
+           Mistake::idle);
     const Measure measure = known_measure(c.metric);
     if (const auto high = most_of(measure, exam)) criterion(i, c, measure, {0, *high});
     wall_criterion(i, measure, walls_mm2);
@@ -373,14 +380,14 @@ void Adviser::criteria() {
   });
   if (!guard_judged && !s_.zones.protected_shapes.empty())
     warn("zones/protected/0", msg("what is protected can be removed for nothing: no criterion measures it"),
-         msg("add one on {}, or take [[zones.protected]] out", measures_of_protection()));
+         msg("add one on {}, or take [[zones.protected]] out", measures_of_protection()), Mistake::idle);
   const bool fault_judged =
       std::any_of(s_.rubric.criteria.begin(), s_.rubric.criteria.end(), [](const CriterionSpec& c) { return known_measure(c.metric).counts_faults; });
   if (!fault_judged && !s_.perforation.faults.empty())
     warn("rubric/criteria/0/metric", msg("who opens what must not be opened ([perforation] faults) loses nothing by it: no criterion asks for it"),
-         msg("add one on perforated, with critical_above = 0.5"));
+         msg("add one on perforated, with critical_above = 0.5"), Mistake::idle);
   if (!(s_.rubric.pass_percent > 0) && s_.rubric.bands.empty())
-    warn("rubric", msg("everybody passes: the pass mark is 0 %"), msg("set 'pass_percent' above 0"));
+    warn("rubric", msg("everybody passes: the pass mark is 0 %"), msg("set 'pass_percent' above 0"), Mistake::idle);
 }
 
 }  // namespace

@@ -19,6 +19,8 @@ namespace {
 /// An Error as a problem at `place`; where it names a line of the scenario itself, at that.
 Problem problem_of(const Error& e, const Scenario& s, const std::string& place) {
   Problem p = problem_at(s, place, e.problem(), e.advice());
+  for (int m = 0; m <= static_cast<int>(Mistake::wrong_work); ++m)
+    if (e.code() == static_cast<Mistake>(m)) p.mistake = static_cast<Mistake>(m);
   if (const FilePlace* at = e.file_place(); at != nullptr && at->file == s.path && at->line > 0) p.where = *at;
   return p;
 }
@@ -38,7 +40,8 @@ std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& p
     } catch (const Error&) {
       const auto known = data_names("points", s.path);
       problems.push_back(problem_at(s, place, msg("there is no diamond point '{}'", s.points[i]),
-                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.points[i], known)));
+                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.points[i], known),
+                                    Mistake::unknown_name));
     }
   }
   return points;
@@ -51,7 +54,7 @@ Tooth other_tooth(const Scenario& s, const std::string& tooth_file, std::vector<
   if (!s.tooth_file.empty() && name_of(tooth_file) != name_of(s.tooth_file)) {
     problems.push_back(problem_at(s, "tooth",
                                   msg("the scenario was written for {}, and is checked on {}", name_of(s.tooth_file), name_of(tooth_file)),
-                                  msg("see where its zones lie: `cavum scenario show --tooth`")));
+                                  msg("see where its zones lie: `cavum scenario show --tooth`"), Mistake::contradictory));
     problems.back().warning = true;
   }
   return tooth;

@@ -455,7 +455,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
         msg("in '{}' its floor would lie {} from the pulp; {} are asked for", tooth.name, as_mm(spares_mm, 1), as_mm(k_planned_over_pulp_mm, 1)),
         msg("choose another task or tooth"));
   if (reaches > 0)
-    throw Error(option,
+    throw Error(Mistake::unreachable, option,
                 msg("in '{}' no point of its tray reaches more than {} of the cavity, which is too narrow for them", tooth.name,
                     as_percent(100 * reaches, 0)),
                 msg("choose another task or tooth"));

@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/error.h"
+#include "scenarios/file/mistake.h"
 
 namespace cavum::scenarios {
 
@@ -40,7 +41,7 @@ class ZoneWork {
 
  private:
   void require(std::uint64_t count, std::uint64_t most, const Message& what, const Message& what_to_do) const {
-    if (count > most) throw Error(where_, msg("{}, more than the limit of {}", what, most), what_to_do);
+    if (count > most) throw Error(Mistake::too_large, Name{where_}, msg("{}, more than the limit of {}", what, most), what_to_do);
   }
   std::string where_;
   std::uint64_t body_leaves_ = 0, steps_ = 0;

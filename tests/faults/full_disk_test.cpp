@@ -27,8 +27,8 @@ class FullDiskTest : public testing::Test {
     try {
       recorder_.append(input, record, simulation_.state.removed, state_hash(simulation_.state));
       return false;
-    } catch (const Error& e) {
-      complaint_ = e.what();
+    } catch (const DatabaseError& e) {
+      complaint_ = e.code();
       return true;
     }
   }
@@ -39,7 +39,7 @@ class FullDiskTest : public testing::Test {
   SessionSetup setup_ = test::block_setup();
   Simulation simulation_ = make_simulation(setup_, "test");
   Recorder recorder_ = Recorder::create(path_, setup_);
-  std::string complaint_;
+  int complaint_ = SQLITE_OK;
 };
 
 TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
@@ -50,7 +50,7 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
     for (std::int64_t tick = 1500; tick < 4600; ++tick) complaints += drill_tick(tick);
   }
   EXPECT_EQ(complaints, 3) << "once for each second that could not be written";
-  EXPECT_NE(complaint_.find("room on the disk"), std::string::npos) << complaint_;
+  EXPECT_TRUE(complaint_ == SQLITE_FULL || complaint_ == SQLITE_IOERR) << complaint_;
   EXPECT_EQ(recorder_.ticks(), 4600);
   EXPECT_EQ(recorder_.ticks_on_disk(), 1000);
   EXPECT_EQ(SessionReader(path_).ticks(), 1000);

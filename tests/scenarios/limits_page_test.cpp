@@ -83,10 +83,8 @@ TEST(MeshLimits, TooManyTrianglesAtOneCornerAreRefusedWithTheLimitNamed) {
   };
   for (int i = 0; i < 2001; ++i) facet(i, i + 1, 5);
   stl += "endsolid fan\n";
-  EXPECT_NE(testing_basics::error_of([&] {
-              static_cast<void>(read_closed_stl(Bytes(stl.begin(), stl.end()), "fan.stl"));
-            }).find("more than 2000 triangles meet at one corner"),
-            std::string::npos);
+  const auto refused = testing_basics::thrown_by([&] { static_cast<void>(read_closed_stl(Bytes(stl.begin(), stl.end()), "fan.stl")); });
+  EXPECT_TRUE(testing_basics::tells(refused, 2000));
 }
 
 }  // namespace

@@ -144,7 +144,7 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
 /// As it is explained: on a common scale where its sessions are different specimens. With its notes, and its faults.
 Explanation opened(const Recording& given, const ExplainOptions& options) {
   Explanation e;
-  e.data_faults = data_faults(given);
+  e.data_faults = texts_of(data_faults(given));
   const std::optional<Recording> even = e.data_faults.empty() && !given.exact_motion ? with_even_stamps(given) : std::nullopt;
   const Recording& stamped = even ? *even : given;
   const std::optional<Recording> cut = e.data_faults.empty() && !given.exact_motion ? in_stretches(stamped) : std::nullopt;

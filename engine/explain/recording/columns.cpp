@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum::explain {
@@ -61,10 +62,10 @@ std::string nearest_column(const Header& header, std::string_view wanted) {
   std::vector<std::string> names;
   for (const HeaderName& h : header) names.insert(names.end(), {h.whole, h.name});
   const auto nearest = nearest_name(names, wanted);
-  if (!nearest) return "";
+  if (!nearest) return {};
   for (const HeaderName& h : header)
     if (h.whole == *nearest || h.name == *nearest) return h.whole;
-  return "";
+  return {};
 }
 
 /// The column that an option names: as it stands there, without its unit, or in plain letters.
@@ -86,7 +87,7 @@ std::size_t require_column(const Header& header, const std::string& wanted, cons
   if (const auto found = column_named(header, wanted)) return *found;
   const std::string near = nearest_column(header, wanted);
   throw Error(
-      at,
+      FileError::missing, Name{at},
       near.empty() ? msg("there is no column '{}'", one_line(wanted)) : msg("there is no column '{}' (did you mean '{}'?)", one_line(wanted), near),
       msg("{} names a column of the header: {}", option, list_of_names(all_names(header))));
 }
@@ -136,7 +137,7 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
     if (found.size() > 1) {
       std::vector<std::string> names;
       for (const std::size_t i : found) names.push_back(header[i].whole);
-      throw Error(at, msg("several columns could be the {}: {}", word_of(role), list_of_names(names)),
+      throw Error(FileError::inconsistent, Name{at}, msg("several columns could be the {}: {}", word_of(role), list_of_names(names)),
                   msg("say which with --column {}=NAME", std::string_view(contract_name(role)).substr(0, 1)));
     }
     if (!found.empty()) return found.front();
@@ -149,7 +150,7 @@ std::optional<std::size_t> find_column(const Header& header, const std::vector<b
   std::string near = nearest_column(header, contract);
   for (const std::string_view name : {"force", "load", "time", "position", "displacement"})
     if (near.empty() && names_of(role).find(fmt::format(" {} ", name)) != std::string_view::npos) near = nearest_column(header, name);
-  throw Error(at,
+  throw Error(FileError::missing, Name{at},
               near.empty() ? msg("there is no column '{}', and none that is known to be the {}", contract, word_of(role))
                            : msg("there is no column '{}', and none that is known to be the {} (did you mean '{}'?)", contract, word_of(role), near),
               msg("name it with --column {}=NAME; the header has {}", contract.substr(0, 1), list_of_names(all_names(header))));
@@ -169,7 +170,8 @@ void set_unit(ColumnReading& column, const ReadingOptions& options, const std::s
     if (contract_of(of) == contract || of == column.header.whole || of == column.header.name) name = unit;
   const auto unit = name.empty() ? std::nullopt : find_unit(name, column.role);
   if (!name.empty() && !unit)
-    throw Error(at, msg("unit '{}' of column '{}' is none that is known for a {}", one_line(name), column.header.whole, word_of(column.role)),
+    throw Error(FileError::unknown, Name{at},
+                msg("unit '{}' of column '{}' is none that is known for a {}", one_line(name), column.header.whole, word_of(column.role)),
                 msg("give --unit {}=UNIT with one of {}", contract.substr(0, 1), known_units(column.role)));
   column.declared = unit.has_value();
   column.unit = unit.value_or(Unit{column.role == Role::time       ? "s"
@@ -194,7 +196,8 @@ void check_options(const Header& header, const ReadingOptions& options, const Co
     const bool is_header =
         std::any_of(plan.motion.begin(), plan.motion.end(), [&](const auto& c) { return c.header.whole == of || c.header.name == of; });
     if (!there(of) && !is_header)
-      throw Error(at, msg("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(given.second)),
+      throw Error(FileError::unknown, Name{at},
+                  msg("--unit {}={}: there is no such column among time, position, speed and force", one_line(of), one_line(given.second)),
                   msg("name t, x, v or f; the header has {}", list_of_names(all_names(header))));
   }
   for (const std::string& name : options.negate) {

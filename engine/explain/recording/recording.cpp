@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
 #include "engine/explain/recording/date_time.h"
@@ -45,9 +46,10 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Ro
   const Eigen::Index row = sessions.empty() ? 0 : sessions.back().end;
   if (sessions.empty() || sessions.back().name != name) {
     if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
-      in.fail(msg("session '{}' is in two places", one_line(name)), msg("sort the rows by session, then by time"));
+      in.fail(FileError::inconsistent, msg("session '{}' is in two places", one_line(name)), msg("sort the rows by session, then by time"));
     if (sessions.size() == k_most_sessions)
-      in.fail(msg("has more than {} sessions", k_most_sessions), msg("give column 'session' a name for each run, not for each row"));
+      in.fail(FileError::too_large, msg("has more than {} sessions", k_most_sessions),
+              msg("give column 'session' a name for each run, not for each row"));
     sessions.push_back({std::string(name), row, row});
   }
   sessions.back().end = row + 1;
@@ -74,7 +76,8 @@ double motion_value(std::string_view cell, const ColumnReading& column, const Re
   const double sign = column.negated ? -1.0 : 1.0;
   const double value = number ? *number * column.unit.factor : 0.0;
   if (!number || !std::isfinite(value))
-    in.fail(msg("'{}' in column {} is no finite number", one_line(cell), contract_name(column.role)), msg("correct or remove the row"));
+    in.fail(FileError::malformed, msg("'{}' in column {} is no finite number", one_line(cell), contract_name(column.role)),
+            msg("correct or remove the row"));
   return sign * (column.role == Role::position ? value - reading.surface_mm.value_or(0.0) : value);
 }
 
@@ -85,9 +88,10 @@ double stamp_s(const RowReader& in, const ColumnReading& column, const ColumnPla
   const auto seconds = joined ? stamps.seconds(fmt::format("{} {}", in.cells()[*plan.date], cell)) : stamps.seconds(cell);
   if (seconds && std::isfinite(*seconds)) return *seconds;
   if (stamps.ambiguous())
-    in.fail(msg("'{}' in column {} may mean two days: the day first, or the month first", one_line(cell), column.header.whole),
+    in.fail(FileError::inconsistent,
+            msg("'{}' in column {} may mean two days: the day first, or the month first", one_line(cell), column.header.whole),
             msg("write the date as 2026-11-24, which is the same everywhere"));
-  in.fail(msg("'{}' in column t_s is no finite number and no time stamp", one_line(cell)), msg("correct or remove the row"));
+  in.fail(FileError::malformed, msg("'{}' in column t_s is no finite number and no time stamp", one_line(cell)), msg("correct or remove the row"));
 }
 
 /// What was taken for granted, in words.

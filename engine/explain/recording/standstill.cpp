@@ -78,7 +78,7 @@ Message where_words(const Recording& r, const Still& s) {
   return msg("in session {} from {} to {}", r.sessions[s.session].name, as_number(r.t_s[s.begin]), as_s(r.t_s[s.end - 1], k_as_needed));
 }
 
-void stuck_force(const Recording& r, std::vector<Message>& faults) {
+void stuck_force(const Recording& r, std::vector<DataFault>& faults) {
   const std::vector<Still> runs = long_runs(r, r.f_n);
   if (runs.empty()) return;
   const ForceOver over = force_over_position(r, runs);
@@ -92,15 +92,16 @@ void stuck_force(const Recording& r, std::vector<Message>& faults) {
     if (first == nullptr) first = &run;
   }
   if (first != nullptr)
-    faults.push_back(stuck > 1
-                         ? msg("stuck force: f_n stands still at {} {}, and {} times more, while x_mm moves to where it differs; leave those rows "
-                               "out, or record anew",
-                               as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first), stuck - 1)
-                         : msg("stuck force: f_n stands still at {} {} while x_mm moves to where it differs; leave those rows out, or record anew",
-                               as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first)));
+    faults.push_back({DataFault::Kind::stuck_force,
+                      stuck > 1
+                          ? msg("stuck force: f_n stands still at {} {}, and {} times more, while x_mm moves to where it differs; leave those rows "
+                                "out, or record anew",
+                                as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first), stuck - 1)
+                          : msg("stuck force: f_n stands still at {} {} while x_mm moves to where it differs; leave those rows out, or record anew",
+                                as_n(r.f_n[first->begin], k_as_needed), where_words(r, *first))});
 }
 
-void stuck_position(const Recording& r, std::vector<Message>& faults) {
+void stuck_position(const Recording& r, std::vector<DataFault>& faults) {
   if (r.v_mm_s.size() != r.rows()) return;
   const double range = r.x_mm.maxCoeff() - r.x_mm.minCoeff(), usual = std::sqrt(r.v_mm_s.square().mean());
   const double quantum = std::max(r.rig.position_quantum_mm, seen_quantum_mm(r));
@@ -120,12 +121,12 @@ void stuck_position(const Recording& r, std::vector<Message>& faults) {
     if (!first) first = run, gone = high - low;
   }
   if (first)
-    faults.push_back(
-        stuck > 1
-            ? msg("stuck position: x_mm stands still at {} {}, and {} times more, while v_mm_s goes on over {}; leave those rows out, or record anew",
-                  as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), stuck - 1, as_mm(gone, k_as_needed))
-            : msg("stuck position: x_mm stands still at {} {} while v_mm_s goes on over {}; leave those rows out, or record anew",
-                  as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), as_mm(gone, k_as_needed)));
+    faults.push_back({DataFault::Kind::stuck_position,
+                      stuck > 1 ? msg("stuck position: x_mm stands still at {} {}, and {} times more, while v_mm_s goes on over {}; leave those rows "
+                                      "out, or record anew",
+                                      as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), stuck - 1, as_mm(gone, k_as_needed))
+                                : msg("stuck position: x_mm stands still at {} {} while v_mm_s goes on over {}; leave those rows out, or record anew",
+                                      as_mm(r.x_mm[first->begin], k_as_needed), where_words(r, *first), as_mm(gone, k_as_needed))});
 }
 
 /// Fourth differences over the range: a motion has hardly any, a force has its noise.
@@ -162,15 +163,15 @@ bool goes_on(const Recording& r, Eigen::Index i, const Stride& usual) {
 
 }  // namespace
 
-std::vector<Message> standstill_faults(const Recording& r) {
+std::vector<DataFault> standstill_faults(const Recording& r) {
   if (!std::isfinite(r.x_mm.maxCoeff() - r.x_mm.minCoeff())) return {};
-  std::vector<Message> faults;
+  std::vector<DataFault> faults;
   stuck_force(r, faults);
   stuck_position(r, faults);
   return faults;
 }
 
-std::vector<Message> jump_faults(const Recording& r) {
+std::vector<DataFault> jump_faults(const Recording& r) {
   std::vector<double> intervals;
   for (const SessionRows& s : r.sessions)
     for (Eigen::Index i = s.begin + 1; i < s.end; ++i) intervals.push_back(r.t_s[i] - r.t_s[i - 1]);
@@ -186,24 +187,25 @@ std::vector<Message> jump_faults(const Recording& r) {
         first = msg("{} pass in session {} after {}", as_s(r.t_s[i] - r.t_s[i - 1], k_as_needed), s.name, as_s(r.t_s[i - 1], k_as_needed));
     }
   if (jumps == 0) return {};
-  return {jumps > 1
-              ? msg("time stamps: {}, while the motion goes on as if from one row to the next, and {} times more; the clock jumped: take that "
-                    "time off, or give what follows a session of its own",
-                    first, jumps - 1)
-              : msg("time stamps: {}, while the motion goes on as if from one row to the next; the clock jumped: take that time off, or give what "
-                    "follows a session of its own",
-                    first)};
+  return {{DataFault::Kind::clock_jump,
+           jumps > 1
+               ? msg("time stamps: {}, while the motion goes on as if from one row to the next, and {} times more; the clock jumped: take that "
+                     "time off, or give what follows a session of its own",
+                     first, jumps - 1)
+               : msg("time stamps: {}, while the motion goes on as if from one row to the next; the clock jumped: take that time off, or give what "
+                     "follows a session of its own",
+                     first)}};
 }
 
-std::vector<Message> swap_faults(const Recording& r) {
+std::vector<DataFault> swap_faults(const Recording& r) {
   if (r.rows() < 50 || judge_conventions(r).contact) return {};
   Recording swapped = r;
   std::swap(swapped.x_mm, swapped.f_n);
   swapped.v_mm_s.resize(0);
   if (!judge_conventions(swapped).contact || roughness(r, r.x_mm) < k_smoother_by * roughness(r, r.f_n)) return {};
-  return {
-      msg("columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, "
-          "name them with --column")};
+  return {{DataFault::Kind::columns_swapped,
+           msg("columns: x_mm has the noise of a force and a flat stretch, f_n is smooth and goes both ways; they seem to be in each other's place, "
+               "name them with --column")}};
 }
 
 }  // namespace cavum::explain

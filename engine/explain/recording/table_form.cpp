@@ -8,6 +8,7 @@
 
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 #include "engine/explain/recording/date_time.h"
 #include "engine/explain/recording/units.h"
@@ -104,8 +105,8 @@ char most_frequent(std::string_view line) {
   return most > 0 ? best : without_blanks(line).find_first_of(" \t") != std::string_view::npos ? ' ' : ',';
 }
 
-[[noreturn]] void refuse(const std::string& where, const Line& line, const Message& what, const Message& what_to_do) {
-  throw Error(FilePlace{where, static_cast<int>(line.number)}, what, what_to_do);
+[[noreturn]] void refuse(FileError code, const std::string& where, const Line& line, const Message& what, const Message& what_to_do) {
+  throw Error(code, FilePlace{where, static_cast<int>(line.number)}, what, what_to_do);
 }
 
 Decimal decimal_of(const std::vector<Line>& lines, std::size_t first, char separator, const std::string& where) {
@@ -114,12 +115,13 @@ Decimal decimal_of(const std::vector<Line>& lines, std::size_t first, char separ
     for (const std::string_view cell : cells_of(lines[i], separator)) {
       const NumberSign sign = number_sign(cell);
       if (sign == NumberSign::thousands)
-        refuse(where, lines[i], msg("'{}' has separators of thousands", one_line(cell)), msg("save the table without them; they are not guessed"));
+        refuse(FileError::unsupported, where, lines[i], msg("'{}' has separators of thousands", one_line(cell)),
+               msg("save the table without them; they are not guessed"));
       if (sign == NumberSign::point && !point) point = i;
       if (sign == NumberSign::comma && !comma) comma = i;
     }
   if (point && comma)
-    refuse(where, lines[std::max(*point, *comma)],
+    refuse(FileError::inconsistent, where, lines[std::max(*point, *comma)],
            msg("numbers have a decimal point (line {}) and a decimal comma (line {})", lines[*point].number, lines[*comma].number),
            msg("save the table with one of them; if one parts the thousands, without it"));
   return comma ? Decimal::comma : Decimal::point;
@@ -146,7 +148,8 @@ void refuse_commas_twice(const std::vector<Line>& lines, const std::string& wher
     const Cells heading = cells_of(lines[i], ','), below = cells_of(lines[i + 1], ',');
     if (is_heading(heading) && below.size() > heading.size() + 1 && below.size() <= 2 * heading.size() &&
         std::all_of(below.begin(), below.end(), is_number))
-      refuse(where, lines[i + 1], msg("has {} cells for {} columns: commas part the cells and the decimals", below.size(), heading.size()),
+      refuse(FileError::unsupported, where, lines[i + 1],
+             msg("has {} cells for {} columns: commas part the cells and the decimals", below.size(), heading.size()),
              msg("save the table with semicolons or tabs between the cells"));
   }
 }
@@ -187,7 +190,7 @@ void split_line(std::string_view line, char separator, std::size_t most, Cells& 
 TableForm find_table_form(std::string_view text, const std::string& where) {
   refuse_utf16(text, where);
   const std::vector<Line> lines = first_lines(text);
-  if (lines.empty()) throw Error(where, msg("is empty"), msg("give a CSV with a header such as session,t_s,x_mm,f_n"));
+  if (lines.empty()) throw Error(FileError::missing, Name{where}, msg("is empty"), msg("give a CSV with a header such as session,t_s,x_mm,f_n"));
   TableForm out;
   Place place;
   bool found = false;
@@ -208,7 +211,8 @@ TableForm find_table_form(std::string_view text, const std::string& where) {
           out.decimal = decimal_of(lines, 0, separator, where);
           return out;
         }
-      refuse(where, lines.front(), msg("begins with numbers, without a header"), msg("write names above them, such as session,t_s,x_mm,f_n"));
+      refuse(FileError::missing, where, lines.front(), msg("begins with numbers, without a header"),
+             msg("write names above them, such as session,t_s,x_mm,f_n"));
     }
     refuse_commas_twice(lines, where);
   }

@@ -5,6 +5,7 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/error.h"
 #include "engine/explain/recording/table_form.h"
 
 namespace cavum::explain {
@@ -29,7 +30,7 @@ class RowReader {
   [[nodiscard]] const std::vector<std::string_view>& cells() const noexcept { return cells_; }
   /// "where:line".
   [[nodiscard]] std::string at() const;
-  [[noreturn]] void fail(const Message& what, const Message& what_to_do) const;
+  [[noreturn]] void fail(ErrorCode code, const Message& what, const Message& what_to_do) const;
 
  private:
   bool next_line();

@@ -7,12 +7,14 @@
 
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
+#include "engine/tooth/import/import_error.h"
 
 namespace cavum {
 namespace {
 
 Vec3 unit(Vec3 v, const char* name) {
-  if (!is_finite(v) || !(length(v) > 1e-9)) throw Error(name, msg("is not a direction"), msg("give three numbers, not all zero, such as 0,0,1"));
+  if (!is_finite(v) || !(length(v) > 1e-9))
+    throw Error(ImportError::bad_option, Name{name}, msg("is not a direction"), msg("give three numbers, not all zero, such as 0,0,1"));
   return normalized(v);
 }
 
@@ -34,7 +36,8 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
   const bool x_is_upright = std::fabs(z.x) > 0.9;
   const Vec3 wish = options.mesial_axis ? unit(*options.mesial_axis, "--mesial-axis") : x_is_upright ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   const Vec3 across = wish - z * dot(z, wish);
-  if (!(length(across) > 0.05)) throw Error("--mesial-axis", msg("runs along the occlusal axis"), msg("give a direction across the tooth"));
+  if (!(length(across) > 0.05))
+    throw Error(ImportError::bad_option, Name{"--mesial-axis"}, msg("runs along the occlusal axis"), msg("give a direction across the tooth"));
   Vec3 x = normalized(across);
   const auto turn = det_sincos(options.rotate_deg * k_pi / 180.0);
   if (!std::isfinite(options.rotate_deg) || std::fabs(options.rotate_deg) > 3600)

@@ -12,6 +12,7 @@
 #include "engine/tooth/distance.h"
 #include "engine/tooth/import/fill_mesh.h"
 #include "engine/tooth/import/hollows.h"
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/make/periodontium.h"
 #include "engine/tooth/mesh/read_mesh.h"
@@ -32,7 +33,8 @@ struct Box {
 };
 
 TissueGrid lattice_around(const Box& box, double leaf_mm, const std::string& where) {
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm)))
+    throw Error(ImportError::bad_option, Name{"--leaf-mm"}, msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
   const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor(v / leaf_mm), -1e8, 1e8)) - 4; };
   const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil(v / leaf_mm), -1e8, 1e8)) + 4; };
   const IVec3 first{low(box.low.x), low(box.low.y), low(box.low.z)};
@@ -132,10 +134,13 @@ std::uint64_t close_gaps(TissueGrid& grid, const Layers& f) {
 void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   const auto touched = pulp_faces(grid.size, grid.tissue);
   const auto all = touched[k_air] + touched[k_enamel] + touched[k_dentin];
-  if (all == 0) throw Error(paths.pulp, msg("the pulp is smaller than a leaf"), msg("check the unit (mm), or use a smaller --leaf-mm"));
+  if (all == 0)
+    throw Error(ImportError::no_tissue, Name{paths.pulp}, msg("the pulp is smaller than a leaf"),
+                msg("check the unit (mm), or use a smaller --leaf-mm"));
   require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin), "exchange --enamel and --dentin");
   if (touched[k_air] * 5 > all)
-    throw Error(paths.pulp, msg("the pulp is not enclosed by the dentin: {} % of its surface is bare", 100 * touched[k_air] / all),
+    throw Error(ImportError::layers_apart, Name{paths.pulp},
+                msg("the pulp is not enclosed by the dentin: {} % of its surface is bare", 100 * touched[k_air] / all),
                 msg("check which file is enamel, dentin and pulp, and that all share one frame"));
 }
 

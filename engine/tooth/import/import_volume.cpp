@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/distance.h"
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/import/read_volume.h"
 #include "engine/tooth/import/segment.h"
@@ -110,7 +111,8 @@ void for_voxels(const Segmentation& s, const Visit& visit) {
 
 TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axes, Vec3 origin, const Extent& box, double leaf_mm,
                     const std::string& where) {
-  if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error("--leaf-mm", msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
+  if (!(leaf_mm > 0 && std::isfinite(leaf_mm)))
+    throw Error(ImportError::bad_option, Name{"--leaf-mm"}, msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
   const double reach = std::max({volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]});
   const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor((v - reach) / leaf_mm), -1e8, 1e8)) - 4; };
   const auto high = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::ceil((v + reach) / leaf_mm), -1e8, 1e8)) + 4; };
@@ -195,7 +197,8 @@ Placement place_tooth(const Volume& volume, const Segmentation& s, const FrameOp
     if (t == k_dentin) dentin.add(volume.place_mm(v));
   });
   if ((enamel.n == 0 || dentin.n == 0) && !options.occlusal_axis)
-    throw Error(path, msg("holds no {}, so there is no occlusal direction", enamel.n == 0 ? msg("enamel") : msg("dentin")),
+    throw Error(ImportError::no_tissue, Name{path},
+                msg("holds no {}, so there is no occlusal direction", enamel.n == 0 ? msg("enamel") : msg("dentin")),
                 msg("give --occlusal-axis x,y,z"));
   Placement out{.frame = tooth_axes(dentin.centroid(), enamel.centroid(), options),
                 .origin = {},

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/make/neck_by_sector.h"
 
 namespace cavum {
@@ -77,7 +78,7 @@ std::array<std::uint64_t, 256> pulp_faces(IVec3 size, const std::vector<std::uin
 
 void require_layer_order(const std::array<std::uint64_t, 256>& faces, const std::string& where, const Message& what_to_do) {
   if (faces[k_enamel] > faces[k_dentin] && faces[k_enamel] >= faces[k_air])
-    throw Error(where, msg("enamel and dentin look exchanged: the pulp lies in the enamel"), what_to_do);
+    throw Error(ImportError::layers_exchanged, Name{where}, msg("enamel and dentin look exchanged: the pulp lies in the enamel"), what_to_do);
 }
 
 LayersApart layers_apart(const TissueGrid& grid) {
@@ -212,7 +213,7 @@ double pulp_below_dentin_mm(const TissueGrid& grid) {
 void require_pulp_in_root(double below_mm, const std::string& where) {
   constexpr double k_most_mm = 0.5;
   if (below_mm > k_most_mm)
-    throw Error(where, msg("pulp and dentin do not fit: the pulp hangs {} out of the root", as_mm(below_mm, 1)),
+    throw Error(ImportError::layers_apart, Name{where}, msg("pulp and dentin do not fit: the pulp hangs {} out of the root", as_mm(below_mm, 1)),
                 msg("check that both surfaces are of one tooth and in one frame"));
 }
 
@@ -223,20 +224,22 @@ void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps,
       "check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown";
   if (apart.facing < k_least_facing)
     throw Error(
-        where, msg("enamel and dentin do not fit: along {} of the ways through the enamel no dentin is met", as_percent(100 * (1 - apart.facing), 0)),
+        ImportError::layers_apart, Name{where},
+        msg("enamel and dentin do not fit: along {} of the ways through the enamel no dentin is met", as_percent(100 * (1 - apart.facing), 0)),
         msg(k_what_to_do));
   if (apart.share > k_most_apart)
-    throw Error(where,
+    throw Error(ImportError::layers_apart, Name{where},
                 msg("enamel and dentin do not fit: at {} of the places where they face each other there is a void between them, half of them {} wide "
                     "or more along the lattice",
                     as_percent(100 * apart.share, 0), as_mm(apart.usual_mm, 1)),
                 msg(k_what_to_do));
   if (overlaps.of_the_enamel > k_most_overlap)
-    throw Error(where, msg("enamel and dentin do not fit: {} of the enamel lie in the dentin, too", as_percent(100 * overlaps.of_the_enamel, 0)),
+    throw Error(ImportError::layers_apart, Name{where},
+                msg("enamel and dentin do not fit: {} of the enamel lie in the dentin, too", as_percent(100 * overlaps.of_the_enamel, 0)),
                 msg(k_what_to_do));
   const bool has_chamber = overlaps.chamber > k_chamber;
   if (has_chamber ? overlaps.of_the_pulp > k_most_overlap : overlaps.of_the_pulp > k_most_overlap && overlaps.of_the_pulp < k_pulp_in)
-    throw Error(where,
+    throw Error(ImportError::layers_apart, Name{where},
                 msg("pulp and dentin do not fit: {} of the pulp lie in the dentin, {}", as_percent(100 * overlaps.of_the_pulp, 0),
                     has_chamber ? msg("which has a chamber of its own for it") : msg("where all of it should, or none")),
                 msg("check that both surfaces are of one tooth and in one frame"));
@@ -259,7 +262,7 @@ EnamelPieces enamel_pieces(const TissueGrid& grid) {
 
 void require_no_floating_enamel(const EnamelPieces& pieces, const std::string& where) {
   if (pieces.floating_mm3 > 0)
-    throw Error(where,
+    throw Error(ImportError::layers_apart, Name{where},
                 msg("{} of the enamel touch neither the crown nor any dentin, about ({} {} {}) mm", as_mm3(pieces.floating_mm3, 2),
                     as_number(pieces.floating_mm.x, 1), as_number(pieces.floating_mm.y, 1), as_number(pieces.floating_mm.z, 1)),
                 msg("take what is not of this tooth out of the mesh"));

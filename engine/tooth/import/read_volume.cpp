@@ -16,6 +16,7 @@
 #include <sstream>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/shipped.h"
 #include "engine/tooth/volume/volume_limits.h"
 #include "engine/tooth/volume/volume_wire.h"
@@ -62,13 +63,13 @@ class Reader {
 
   [[nodiscard]] int from() const noexcept { return from_; }
   /// How it ended; to be asked when nothing more is to come. One that sent all and then broke did its work.
-  [[nodiscard]] std::string end() {
+  [[nodiscard]] Message end() {
     const int status = wait();
     process_ = 0;
     if (WIFSIGNALED(status) && (WTERMSIG(status) == SIGXCPU || WTERMSIG(status) == SIGKILL))
-      return "took more of the processor's time than its limit";
-    if (WIFSIGNALED(status)) return fmt::format("was ended by {}", ::strsignal(WTERMSIG(status)));
-    return fmt::format("ended with status {}", WEXITSTATUS(status));
+      return msg("took more of the processor's time than its limit");
+    if (WIFSIGNALED(status)) return msg("was ended by {}", ::strsignal(WTERMSIG(status)));
+    return msg("ended with status {}", WEXITSTATUS(status));
   }
 
  private:
@@ -105,16 +106,17 @@ std::string read_volume_program() {
   } else {
     program = (program_folder() / "cavum-read-volume").string();
   }
-  if (::access(program.c_str(), X_OK) != 0) throw Error(program, msg("is not there, and volumes are read by it"), msg("install it beside cavum"));
+  if (::access(program.c_str(), X_OK) != 0)
+    throw Error(FileError::missing, Name{program}, msg("is not there, and volumes are read by it"), msg("install it beside cavum"));
   return program;
 }
 
 Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_mm) {
   Volume v = read_elsewhere(path);
   if (v.size.x < 4 || v.size.y < 4 || v.size.z < 4)
-    throw Error(path, msg("not a volume: fewer than 4 voxels along an axis"), msg("give all slices of the volume"));
+    throw Error(FileError::malformed, Name{path}, msg("not a volume: fewer than 4 voxels along an axis"), msg("give all slices of the volume"));
   for (std::size_t i = 0; i < v.gray.size(); ++i)
-    if (!std::isfinite(v.gray[i])) throw Error(path, msg("voxel {} is not a number", i), msg("export the volume again"));
+    if (!std::isfinite(v.gray[i])) throw Error(FileError::malformed, Name{path}, msg("voxel {} is not a number", i), msg("export the volume again"));
 
   std::ostringstream note;
   const auto& s = v.spacing_mm;

@@ -10,6 +10,7 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/distance_transform.h"
+#include "engine/tooth/import/import_error.h"
 
 namespace cavum {
 namespace {
@@ -160,7 +161,7 @@ HardBodies find_tooth(const Volume& volume, double hard_gray, const std::string&
   for (std::size_t i = 0; i < hard.size(); ++i) hard[i] = volume.gray[i] > hard_gray;
   found.bodies = bodies_of(volume.size, hard);
   if (found.bodies.voxels.size() < 2 || found.bodies.voxels[found.bodies.largest()] < 100)
-    throw Error(where, msg("no tooth found: nothing larger than 100 voxels is brighter than {}", as_number(hard_gray)),
+    throw Error(ImportError::no_tooth, Name{where}, msg("no tooth found: nothing larger than 100 voxels is brighter than {}", as_number(hard_gray)),
                 msg("check the volume or --dentin-threshold"));
   found.tooth = found.bodies.largest();
   found.in_tooth.resize(hard.size());
@@ -185,7 +186,8 @@ Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const st
   for (std::size_t i = 0; i < hard.size(); ++i) enclosed[i] = !hard[i] && !outside[i];
   found.bodies = bodies_of(size, enclosed);
   const std::size_t count = found.bodies.voxels.size();
-  if (count < 2) throw Error(where, msg("no pulp found: no hollow is enclosed by hard tissue"), msg("check --dentin-threshold"));
+  if (count < 2)
+    throw Error(ImportError::no_tissue, Name{where}, msg("no pulp found: no hollow is enclosed by hard tissue"), msg("check --dentin-threshold"));
   found.outer_faces.assign(count, 0);
   found.hard_faces.assign(count, 0);
   for (std::size_t i = 0; i < hard.size(); ++i)
@@ -199,7 +201,7 @@ Hollows find_hollows(IVec3 size, const Mask& hard, const Mask& outside, const st
       found.pulp = b;
   if (found.pulp == 0)
     throw Error(
-        where, msg("no pulp found: every hollow is open to the outside"),
+        ImportError::no_tissue, Name{where}, msg("no pulp found: every hollow is open to the outside"),
         msg("check --dentin-threshold; of a scan that ends above the roots' tips the canals are open below: bring more of the root, or mark the "
             "pulp in a label map (--map)"));
   return found;
@@ -230,7 +232,8 @@ Mask voxels_of(const Segmentation& s, std::uint8_t tissue) {
 /// Bright specks, smaller than a fiftieth of the crown, are dentin.
 void drop_specks_of_enamel(Segmentation& s, double enamel_gray, const std::string& where) {
   const Bodies caps = bodies_of(s.size, voxels_of(s, k_enamel));
-  if (caps.voxels.size() < 2) throw Error(where, msg("no enamel found above gray {}", as_number(enamel_gray)), msg("check --enamel-threshold"));
+  if (caps.voxels.size() < 2)
+    throw Error(ImportError::no_tissue, Name{where}, msg("no enamel found above gray {}", as_number(enamel_gray)), msg("check --enamel-threshold"));
   const auto crown = caps.voxels[caps.largest()];
   for (std::size_t i = 0; i < s.tissue.size(); ++i)
     if (caps.number[i] != 0 && caps.voxels[caps.number[i]] * 50 < crown) s.tissue[i] = k_dentin;
@@ -321,7 +324,8 @@ Segmentation from_labels(const Volume& labels, const std::map<int, std::uint8_t>
     for (const int u : unknown)
       if (first.items.size() < 20) first.items.push_back(msg("{}", u));
     if (unknown.size() > first.items.size()) first.items.push_back(msg("..."));
-    throw Error(where, msg("labels without a meaning: {}", first), msg("name them in --map, as N=enamel, N=dentin, N=pulp or N=air"));
+    throw Error(ImportError::unknown_labels, Name{where}, msg("labels without a meaning: {}", first),
+                msg("name them in --map, as N=enamel, N=dentin, N=pulp or N=air"));
   }
   count(s);
   if (s.voxels[k_enamel] + s.voxels[k_dentin] == 0) throw Error(where, msg("no voxel is enamel or dentin"), msg("check --map"));
@@ -348,10 +352,12 @@ std::map<int, std::uint8_t> parse_label_map(const std::string& text) {
     for (const auto& t : standard_tissues())
       if (t.name == name) id = t.id;
     if (read.ec != std::errc{} || equal == std::string::npos || read.ptr != part.data() + equal || id == 255)
-      throw Error("--map", msg("cannot read '{}'", part), msg("write 1=enamel,2=dentin,3=pulp (also air and periodontium)"));
-    if (!map.emplace(label, id).second) throw Error("--map", msg("label {} is given twice", label), msg("give each label once"));
+      throw Error(ImportError::bad_option, Name{"--map"}, msg("cannot read '{}'", part),
+                  msg("write 1=enamel,2=dentin,3=pulp (also air and periodontium)"));
+    if (!map.emplace(label, id).second)
+      throw Error(ImportError::bad_option, Name{"--map"}, msg("label {} is given twice", label), msg("give each label once"));
   }
-  if (map.empty()) throw Error("--map", msg("is empty"), msg("write 1=enamel,2=dentin,3=pulp"));
+  if (map.empty()) throw Error(ImportError::bad_option, Name{"--map"}, msg("is empty"), msg("write 1=enamel,2=dentin,3=pulp"));
   return map;
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/import/orientation.h"
 #include "engine/tooth/octree_edit.h"
 
@@ -27,7 +28,7 @@ constexpr int k_directions = 72;
 void object(const SenseOptions& options, std::string_view name, const std::string& where, const Message& what, const Message& what_to_do,
             ToothSense& sense) {
   if (std::find(options.confirmed.begin(), options.confirmed.end(), name) == options.confirmed.end())
-    throw Error(where, what, msg("{}; where you know better, --confirm {} takes it as it is", what_to_do, name));
+    throw Error(ImportError::contradicted, Name{where}, what, msg("{}; where you know better, --confirm {} takes it as it is", what_to_do, name));
   sense.warnings.push_back(msg("confirmed against what was measured ({}): {}", name, what));
 }
 
@@ -147,7 +148,7 @@ FrameOptions settled_frame(const FrameOptions& frame, const SenseOptions& option
   FrameOptions settled = frame;
   if (!options.number) return settled;
   if (frame.mirror && options.number->y_is_buccal())
-    throw Error("--mirror", msg("would make +y lingual on tooth {}", options.number->text()),
+    throw Error(ImportError::contradicted, Name{"--mirror"}, msg("would make +y lingual on tooth {}", options.number->text()),
                 msg("leave it out, or give the number of the other side"));
   settled.mirror = !options.number->y_is_buccal();
   return settled;

@@ -9,6 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/statistics/order.h"
+#include "engine/tooth/import/import_error.h"
 
 namespace cavum {
 namespace {
@@ -89,7 +90,7 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
   GrayLevels out;
   if (options.dentin && options.enamel) {
     if (!(*options.dentin < *options.enamel))
-      throw Error("--enamel-threshold", msg("is not above --dentin-threshold"), msg("enamel is the brighter tissue"));
+      throw Error(ImportError::bad_option, Name{"--enamel-threshold"}, msg("is not above --dentin-threshold"), msg("enamel is the brighter tissue"));
     out.hard = out.enamel_surface = out.pulp_surface = *options.dentin;
     out.enamel = *options.enamel;
     note << "thresholds given: dentin from " << out.hard << ", enamel from " << out.enamel;
@@ -97,7 +98,7 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
     return out;
   }
   const double low = quantile(volume.gray, 0.0005), high = quantile(volume.gray, 0.9995);
-  if (!(high > low)) throw Error(where, msg("every voxel has the same gray"), msg("give a volume that shows a tooth"));
+  if (!(high > low)) throw Error(ImportError::no_tooth, Name{where}, msg("every voxel has the same gray"), msg("give a volume that shows a tooth"));
   // Never narrower than one step of whole-numbered gray, or the histogram would be a comb.
   const bool whole_gray = std::all_of(volume.gray.begin(), volume.gray.end(), [](float g) { return g == std::floor(g); });
   const double bin_width = std::max((high - low) / k_bins, whole_gray ? 1.0 : 0.0), alike = 0.12 * (high - low);
@@ -120,7 +121,8 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
                                        [&](const Peak& a, const Peak& b) { return std::fabs(gray(a) - border) < std::fabs(gray(b) - border); });
   const auto hard_peaks = peaks.end() - medium - 1;
   if (peaks.empty() || hard_peaks < 2)
-    throw Error(where, msg("no tooth found: fewer than two tissues stand out brighter than the medium (gray {})", static_cast<int>(border)),
+    throw Error(ImportError::no_tooth, Name{where},
+                msg("no tooth found: fewer than two tissues stand out brighter than the medium (gray {})", static_cast<int>(border)),
                 msg("check the volume, or give --dentin-threshold and --enamel-threshold"));
   const Peak& enamel = peaks.back();
   const auto dentin = std::max_element(medium + 1, peaks.end() - 1, [](const Peak& a, const Peak& b) { return a.mass < b.mass; });
@@ -131,7 +133,8 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
   out.hard = options.dentin.value_or((gray(*medium) + gray(*dentin)) / 2);
   out.enamel = options.enamel.value_or((gray(*dentin) + gray(enamel)) / 2);
   if (!(out.hard < out.enamel))
-    throw Error("--enamel-threshold", msg("is not above the dentin threshold {}", as_number(out.hard)), msg("enamel is the brighter tissue"));
+    throw Error(ImportError::bad_option, Name{"--enamel-threshold"}, msg("is not above the dentin threshold {}", as_number(out.hard)),
+                msg("enamel is the brighter tissue"));
   out.enamel_surface = options.dentin ? out.hard : (gray(*medium) + gray(enamel)) / 2;
   out.pulp_surface = options.dentin ? out.hard : (pulp + gray(*dentin)) / 2;
   if (medium != peaks.begin()) out.dark = (pulp + gray(*medium)) / 2;

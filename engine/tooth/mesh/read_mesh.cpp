@@ -15,6 +15,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/tooth/mesh/polygon_files.h"
 
 namespace cavum {
@@ -62,15 +63,17 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
       whole = whole || word == "endsolid";
     }
     if (begun != ended)
-      throw Error(name, msg("is cut off: it begins {} facets and ends {}", begun, ended), msg("copy or export the whole file again"));
-    if (begun > 0 && solid && !whole) throw Error(name, msg("is cut off: its 'endsolid' is missing"), msg("copy or export the whole file again"));
+      throw Error(FileError::truncated, Name{name}, msg("is cut off: it begins {} facets and ends {}", begun, ended),
+                  msg("copy or export the whole file again"));
+    if (begun > 0 && solid && !whole)
+      throw Error(FileError::truncated, Name{name}, msg("is cut off: its 'endsolid' is missing"), msg("copy or export the whole file again"));
     return;
   }
   if (file.size() < k_stl_head)
-    throw Error(name, msg("is cut off: it has {} bytes, and the head of a binary STL alone has 84", file.size()),
+    throw Error(FileError::truncated, Name{name}, msg("is cut off: it has {} bytes, and the head of a binary STL alone has 84", file.size()),
                 msg("copy or export the whole file again"));
   const std::size_t held = (file.size() - k_stl_head) / k_stl_facet, said = stl_facets(file);
-  throw Error(name,
+  throw Error(FileError::inconsistent, Name{name},
               held < said ? msg("is cut off: it says that it holds {} triangles, and its length is that of {}", said, held)
                           : msg("says that it holds {} triangles, and its length is that of {}: the count is wrong", said, held),
               msg("copy or export the whole file again, as STL"));
@@ -80,7 +83,8 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
 constexpr std::size_t k_most_at_corner = 2000;
 
 [[noreturn]] void fail_crowded(const std::string& name) {
-  throw Error(name, msg("more than {} triangles meet at one corner", k_most_at_corner), msg("remesh the surface in a mesh editor"));
+  throw Error(FileError::too_large, Name{name}, msg("more than {} triangles meet at one corner", k_most_at_corner),
+              msg("remesh the surface in a mesh editor"));
 }
 
 using Corner = std::array<float, 3>;
@@ -104,7 +108,7 @@ void require_few_at_each(const Polygons& polygons, const std::string& name) {
 std::vector<Corner> stl_corners(const Bytes& file, const std::string& name) {
   require_whole_stl(file, name);
   const auto fail = [&](const Message& where) {
-    throw Error(name, msg("{} has a corner that is no number", where), msg("export the mesh again, in mm"));
+    throw Error(FileError::malformed, Name{name}, msg("{} has a corner that is no number", where), msg("export the mesh again, in mm"));
   };
   constexpr std::size_t k_normal = 12;
   std::vector<Corner> corners;
@@ -166,7 +170,7 @@ Surface surface_of_stl(const Bytes& file, const std::string& name) {
   OpenMesh::IO::Options options = is_binary_stl(file) ? OpenMesh::IO::Options::Binary : OpenMesh::IO::Options::Default;
   Surface surface;
   if (!OpenMesh::IO::read_mesh(surface, bytes, ".stl", options) || surface.n_faces() == 0)
-    throw Error(name, msg("holds no triangle of an STL surface"), msg("export the surface again as STL, text or binary"));
+    throw Error(FileError::malformed, Name{name}, msg("holds no triangle of an STL surface"), msg("export the surface again as STL, text or binary"));
   return surface;
 }
 
@@ -202,13 +206,14 @@ Surface load(const std::string& path) {
     surface = surface_of(read_obj(file, path), path);
   else if (extension == ".off")
     surface = surface_of(read_off(file, path), path);
-  if (surface.n_faces() == 0) throw Error(path, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
+  if (surface.n_faces() == 0)
+    throw Error(FileError::malformed, Name{path}, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
   return surface;
 }
 
 constexpr double k_farthest_place = 1e6;
 [[noreturn]] void fail_place(const std::string& path, std::size_t number, Vec3 p) {
-  throw Error(path, msg("vertex {} is not a place: {}", number, place(p)), msg("export the mesh again, in mm"));
+  throw Error(FileError::malformed, Name{path}, msg("vertex {} is not a place: {}", number, place(p)), msg("export the mesh again, in mm"));
 }
 
 /// Facets whose equal corners are one; those that have a corner twice are left out.
@@ -280,8 +285,9 @@ ReadMesh closed(const Surface& surface, const std::string& path);
 
 void require_mesh_file(const std::string& path) {
   std::error_code none;
-  if (std::filesystem::is_directory(path, none)) throw Error(path, msg("is a folder, not a mesh"), msg("name an STL, PLY, OBJ or OFF file"));
-  if (!std::filesystem::is_regular_file(path, none)) throw Error(path, msg("no such mesh file"), msg("check the path"));
+  if (std::filesystem::is_directory(path, none))
+    throw Error(FileError::not_a_file, Name{path}, msg("is a folder, not a mesh"), msg("name an STL, PLY, OBJ or OFF file"));
+  if (!std::filesystem::is_regular_file(path, none)) throw Error(FileError::missing, Name{path}, msg("no such mesh file"), msg("check the path"));
 }
 
 std::vector<TriangleMesh> connected_parts(const TriangleMesh& mesh) {
@@ -330,9 +336,10 @@ TriangleMesh read_open_mesh(const std::string& path) {
     mesh = fans_of(read_obj(file, path));
   else if (extension == ".off")
     mesh = fans_of(read_off(file, path));
-  if (mesh.triangles.empty()) throw Error(path, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
+  if (mesh.triangles.empty())
+    throw Error(FileError::malformed, Name{path}, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
   if (mesh.triangles.size() > k_most_scan_triangles)
-    throw Error(path, msg("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
+    throw Error(FileError::too_large, Name{path}, msg("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
                 msg("reduce the mesh, or cut out the one tooth"));
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
     if (const Vec3 p = mesh.vertices_mm[i]; !is_finite(p) || length(p) > k_farthest_place) fail_place(path, i, p);
@@ -355,7 +362,8 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
     if (open_edges++ == 0) open_at = (point(surface, surface.from_vertex_handle(h)) + point(surface, surface.to_vertex_handle(h))) * 0.5;
   }
   if (open_edges > 0)
-    throw Error(path, msg("the surface is not closed: {} open or non-manifold edges, one at {}", open_edges, place(open_at)),
+    throw Error(FileError::inconsistent, Name{path},
+                msg("the surface is not closed: {} open or non-manifold edges, one at {}", open_edges, place(open_at)),
                 msg("close the holes in a mesh editor and export again"));
 
   ReadMesh out;
@@ -364,9 +372,12 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
                                      [&](const auto v) { return !surface.is_isolated(v) && !surface.is_manifold(v); });
   const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
   if (isolated > 0) out.notes.push_back(msg("{}: {} unused vertices deleted", path, isolated));
-  if (pinched > 0) throw Error(path, msg("{} non-manifold vertices", pinched), msg("repair the mesh in a mesh editor and export again"));
+  if (pinched > 0)
+    throw Error(FileError::inconsistent, Name{path}, msg("{} non-manifold vertices", pinched),
+                msg("repair the mesh in a mesh editor and export again"));
   out.volume_mm3 = signed_volume_mm3(out.mesh);
-  if (!(std::fabs(out.volume_mm3) > 1e-12)) throw Error(path, msg("the surface encloses no volume"), msg("check the file"));
+  if (!(std::fabs(out.volume_mm3) > 1e-12))
+    throw Error(FileError::inconsistent, Name{path}, msg("the surface encloses no volume"), msg("check the file"));
   if (out.volume_mm3 < 0) {
     for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
     out.volume_mm3 = -out.volume_mm3;

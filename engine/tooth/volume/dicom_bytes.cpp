@@ -9,6 +9,7 @@
 #include <string_view>
 
 #include "engine/base/error.h"
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -60,9 +61,9 @@ class Walk {
     if (syntax == "1.2.840.10008.1.2") explicit_ = false;
     if (syntax == "1.2.840.10008.1.2.2") big_ = true;
     if (syntax == "1.2.840.10008.1.2.1.99")
-      throw Error(where_, msg("is deflated DICOM"), msg("export it uncompressed: whether it is whole cannot be seen"));
+      throw Error(FileError::unsupported, Name{where_}, msg("is deflated DICOM"), msg("export it uncompressed: whether it is whole cannot be seen"));
     for (;;) {
-      if (at_ >= file_.size()) fail(msg("holds no picture"));
+      if (at_ >= file_.size()) fail(FileError::truncated, msg("holds no picture"));
       const Element e = element();
       if (e.tag == k_picture) return picture(e);
       if (e.length == k_undefined)
@@ -73,10 +74,13 @@ class Walk {
   }
 
  private:
-  [[noreturn]] void fail(const Message& what) const { throw Error(where_, what, msg("use a complete copy of the slice")); }
+  [[noreturn]] void fail(FileError code, const Message& what) const {
+    throw Error(code, Name{where_}, what, msg("use a complete copy of the slice"));
+  }
 
   std::span<const std::uint8_t> take(std::uint64_t n) {
-    if (n > file_.size() - at_) fail(msg("truncated: an element at byte {} has {} bytes, {} are there", at_, n, file_.size() - at_));
+    if (n > file_.size() - at_)
+      fail(FileError::truncated, msg("truncated: an element at byte {} has {} bytes, {} are there", at_, n, file_.size() - at_));
     const auto value = file_.subspan(at_, static_cast<std::size_t>(n));
     at_ += static_cast<std::size_t>(n);
     return value;
@@ -103,7 +107,8 @@ class Walk {
       static_cast<void>(take(2));
       e.length = number(4);
     } else {
-      if (e.vr[0] < 'A' || e.vr[0] > 'Z' || e.vr[1] < 'A' || e.vr[1] > 'Z') fail(msg("damaged: no element begins at byte {}", at_ - 6));
+      if (e.vr[0] < 'A' || e.vr[0] > 'Z' || e.vr[1] < 'A' || e.vr[1] > 'Z')
+        fail(FileError::damaged, msg("damaged: no element begins at byte {}", at_ - 6));
       e.length = number(2);
     }
     return e;
@@ -111,11 +116,11 @@ class Walk {
 
   /// Items up to the mark of their end.
   void skip_sequence(const Element& of, int depth) {
-    if (depth > k_deepest) fail(msg("damaged: sequences are nested deeper than {}", k_deepest));
+    if (depth > k_deepest) fail(FileError::damaged, msg("damaged: sequences are nested deeper than {}", k_deepest));
     const bool was_explicit = explicit_;
     if (of.is("UN")) explicit_ = false;
     for (Element e = element(); e.tag != k_sequence_end; e = element()) {
-      if (e.tag != k_item) fail(msg("damaged: a sequence holds something else than items, at byte {}", at_));
+      if (e.tag != k_item) fail(FileError::damaged, msg("damaged: a sequence holds something else than items, at byte {}", at_));
       if (e.length != k_undefined) {
         static_cast<void>(take(e.length));
         continue;
@@ -140,7 +145,7 @@ class Walk {
     if (tag == k_frames) {
       const std::string text = text_of(value);
       if (!text.empty() && std::from_chars(text.data(), text.data() + text.size(), slice_.frames).ec != std::errc{})
-        fail(msg("damaged: its number of frames is none"));
+        fail(FileError::damaged, msg("damaged: its number of frames is none"));
     }
   }
   [[nodiscard]] std::uint64_t small(std::span<const std::uint8_t> v) const { return v.size() < 2 ? 0 : big_ ? v[0] << 8 | v[1] : v[0] | v[1] << 8; }
@@ -154,20 +159,20 @@ class Walk {
 
   DicomSlice picture(const Element& e) {
     if (slice_.rows == 0 || slice_.columns == 0 || samples_ == 0 || bits_ == 0 || bits_ > 64 || slice_.frames == 0 || slice_.frames > 1U << 20)
-      fail(msg("damaged: its picture has no size"));
+      fail(FileError::damaged, msg("damaged: its picture has no size"));
     if (e.length == k_undefined) {
       std::size_t pieces = 0;
       for (Element piece = element(); piece.tag != k_sequence_end; piece = element(), ++pieces) {
-        if (piece.tag != k_item || piece.length == k_undefined) fail(msg("damaged: its compressed picture is no list of pieces"));
+        if (piece.tag != k_item || piece.length == k_undefined) fail(FileError::damaged, msg("damaged: its compressed picture is no list of pieces"));
         static_cast<void>(take(piece.length));
       }
-      if (pieces < 2) fail(msg("holds no picture"));  // the first is the table of where the others begin
+      if (pieces < 2) fail(FileError::truncated, msg("holds no picture"));  // the first is the table of where the others begin
       return slice_;
     }
     const std::uint64_t needed = (slice_.rows * slice_.columns * samples_ * slice_.frames * bits_ + 7) / 8, there = file_.size() - at_;
     if (there < e.length || e.length < needed)
-      fail(msg("truncated: its picture needs {} bytes, {} are there", std::max<std::uint64_t>(needed, e.length),
-               std::min<std::uint64_t>(there, e.length)));
+      fail(FileError::truncated, msg("truncated: its picture needs {} bytes, {} are there", std::max<std::uint64_t>(needed, e.length),
+                                     std::min<std::uint64_t>(there, e.length)));
     return slice_;
   }
 

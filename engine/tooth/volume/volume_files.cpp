@@ -17,6 +17,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/tooth/volume/tiff_bytes.h"
 
 namespace cavum {
@@ -65,9 +66,11 @@ std::uint64_t product(const std::string& numbers, const std::string& where) {
   std::istringstream in(numbers);
   std::uint64_t all = 1;
   for (double n = 0; in >> n;) {
-    if (!(n >= 1 && n < 1e6)) throw Error(where, msg("impossible size '{}' in the header", numbers), msg("use an intact file"));
+    if (!(n >= 1 && n < 1e6))
+      throw Error(FileError::malformed, Name{where}, msg("impossible size '{}' in the header", numbers), msg("use an intact file"));
     all *= static_cast<std::uint64_t>(n);
-    if (all > 1ULL << 40) throw Error(where, msg("impossible size '{}' in the header", numbers), msg("use an intact file"));
+    if (all > 1ULL << 40)
+      throw Error(FileError::malformed, Name{where}, msg("impossible size '{}' in the header", numbers), msg("use an intact file"));
   }
   return all;
 }
@@ -87,10 +90,11 @@ std::uint64_t bytes_of_type(std::string type) {
 
 void compare(const std::string& header, const std::string& data, std::uint64_t skip, std::uint64_t needed) {
   if (!fs::is_regular_file(data))
-    throw Error(header, msg("its data file '{}' is missing, or no ordinary file", data), msg("put it beside the header"));
+    throw Error(FileError::missing, Name{header}, msg("its data file '{}' is missing, or no ordinary file", data), msg("put it beside the header"));
   const auto held = static_cast<std::uint64_t>(fs::file_size(data));
   if (held < skip + needed)
-    throw Error(data, msg("truncated: {} promises {} bytes of data, {} are there", header, needed, held > skip ? held - skip : 0),
+    throw Error(FileError::truncated, Name{data},
+                msg("truncated: {} promises {} bytes of data, {} are there", header, needed, held > skip ? held - skip : 0),
                 msg("use a complete copy"));
 }
 
@@ -135,12 +139,12 @@ class Inflated {
       const auto n = take(std::min(k_portion, needed - held)).size();
       held += n;
       if (n == 0)
-        throw Error(file_, msg("truncated or damaged: {} promises {} bytes of data, {} can be unpacked", header, needed, held),
-                    msg("use a complete copy"));
+        throw Error(FileError::truncated, Name{file_},
+                    msg("truncated or damaged: {} promises {} bytes of data, {} can be unpacked", header, needed, held), msg("use a complete copy"));
     }
     static_cast<void>(take(k_portion));
     if (ended_ ? !whole_ : stream_.avail_out > 0)
-      throw Error(file_, msg("truncated or damaged: its checksum is missing or wrong"), msg("use a complete copy"));
+      throw Error(FileError::damaged, Name{file_}, msg("truncated or damaged: its checksum is missing or wrong"), msg("use a complete copy"));
     return stream_.total_in;
   }
 
@@ -160,7 +164,7 @@ std::string or_empty(const Header& h, const char* name) {
 /// The file with the voxels: the header itself, or another that it names.
 std::string data_file(const std::string& path, const std::string& named) {
   if (lower(named).starts_with("list") || named.find('%') != std::string::npos)
-    throw Error(path, msg("spreads its data over several files"), msg("save the volume with its data in one file"));
+    throw Error(FileError::unsupported, Name{path}, msg("spreads its data over several files"), msg("save the volume with its data in one file"));
   const std::string data = named.empty() || lower(named) == "local" ? path : beside(path, named);
   compare(path, data, 0, 0);
   return data;
@@ -168,12 +172,13 @@ std::string data_file(const std::string& path, const std::string& named) {
 
 std::string data_of_meta(const std::string& path, const Header& h) {
   if (or_empty(h, "dimsize").empty() || or_empty(h, "elementtype").empty() || or_empty(h, "elementdatafile").empty())
-    throw Error(path, msg("not a MetaImage header"), msg("use an intact file"));
+    throw Error(FileError::malformed, Name{path}, msg("not a MetaImage header"), msg("use an intact file"));
   return data_file(path, or_empty(h, "elementdatafile"));
 }
 
 std::string data_of_nrrd(const std::string& path, const Header& h) {
-  if (or_empty(h, "sizes").empty() || or_empty(h, "type").empty()) throw Error(path, msg("not a NRRD header"), msg("use an intact file"));
+  if (or_empty(h, "sizes").empty() || or_empty(h, "type").empty())
+    throw Error(FileError::malformed, Name{path}, msg("not a NRRD header"), msg("use an intact file"));
   const auto file = or_empty(h, "data file");
   return data_file(path, file.empty() ? or_empty(h, "datafile") : file);
 }
@@ -196,7 +201,8 @@ void check_meta(const std::string& path) {
   const auto said = or_empty(h, "compresseddatasize");
   if (said.empty() && data != path) return;
   if (const std::uint64_t size = std::strtoull(said.c_str(), nullptr, 10); said.empty() || size < packed || size > fs::file_size(data) - skip)
-    throw Error(path, msg("its CompressedDataSize is {}, the data have {} bytes", said.empty() ? "missing" : std::to_string(size), packed),
+    throw Error(FileError::inconsistent, Name{path},
+                msg("its CompressedDataSize is {}, the data have {} bytes", said.empty() ? "missing" : std::to_string(size), packed),
                 msg("use an intact file"));
 }
 
@@ -214,11 +220,11 @@ constexpr std::size_t k_nifti_head = 544;
 
 /// Bytes of a NIfTI file from its beginning, as its head (k_nifti_head bytes at most) has them: version 1 or 2, either byte order.
 std::uint64_t nifti_bytes(const std::string& path, const std::vector<std::uint8_t>& head) {
-  const auto fail = [&path](const Message& what) { throw Error(path, what, msg("use an intact file")); };
+  const auto fail = [&path](FileError code, const Message& what) { throw Error(code, Name{path}, what, msg("use an intact file")); };
   bool swapped = false;
   const auto get = [&]<class T>(std::size_t at, T value) {
     std::array<std::uint8_t, sizeof(T)> b{};
-    if (at + sizeof(T) > head.size()) fail(msg("truncated inside the NIfTI header"));
+    if (at + sizeof(T) > head.size()) fail(FileError::truncated, msg("truncated inside the NIfTI header"));
     std::copy_n(head.begin() + static_cast<std::ptrdiff_t>(at), sizeof(T), b.begin());
     if (swapped) std::reverse(b.begin(), b.end());
     std::memcpy(&value, b.data(), sizeof(T));
@@ -227,18 +233,19 @@ std::uint64_t nifti_bytes(const std::string& path, const std::vector<std::uint8_
   const auto is_head = [&] { return get(0, std::int32_t{}) == 348 || get(0, std::int32_t{}) == 540; };
   if (!is_head()) {
     swapped = true;
-    if (!is_head()) fail(msg("not a NIfTI header"));
+    if (!is_head()) fail(FileError::malformed, msg("not a NIfTI header"));
   }
   const bool second = get(0, std::int32_t{}) == 540;
-  if (!second && head.size() < 348) fail(msg("truncated inside the NIfTI header"));
+  if (!second && head.size() < 348) fail(FileError::truncated, msg("truncated inside the NIfTI header"));
   const auto dim = [&](std::size_t i) { return second ? get(16 + 8 * i, std::int64_t{}) : get(40 + 2 * i, std::int16_t{}); };
   const std::int64_t bits = get(second ? 14 : 72, std::int16_t{});
   const double offset = second ? static_cast<double>(get(168, std::int64_t{})) : static_cast<double>(get(108, float{}));
-  if (dim(0) < 1 || dim(0) > 7 || bits < 1 || !(offset >= 0 && offset < 1e9)) fail(msg("impossible values in the NIfTI header"));
+  if (dim(0) < 1 || dim(0) > 7 || bits < 1 || !(offset >= 0 && offset < 1e9))
+    fail(FileError::malformed, msg("impossible values in the NIfTI header"));
   std::uint64_t needed = static_cast<std::uint64_t>(bits);
   for (std::size_t i = 1; i <= static_cast<std::size_t>(dim(0)); ++i) {
     const auto n = static_cast<std::uint64_t>(std::max<std::int64_t>(dim(i), 1));
-    if (n > 1U << 20 || (needed *= n) > 1ULL << 46) fail(msg("impossible values in the NIfTI header"));
+    if (n > 1U << 20 || (needed *= n) > 1ULL << 46) fail(FileError::malformed, msg("impossible values in the NIfTI header"));
   }
   return static_cast<std::uint64_t>(offset) + needed / 8;
 }
@@ -280,7 +287,8 @@ void require_no_neighbour(const std::string& path) {
   if (!lower_path(path).ends_with(".nii.gz")) return;
   const std::string beside = path.substr(0, path.size() - 3);
   if (std::error_code none; std::filesystem::exists(beside, none))
-    throw Error(path, msg("lies beside {}, and ITK would read that instead", beside), msg("move one of the two into another folder"));
+    throw Error(FileError::inconsistent, Name{path}, msg("lies beside {}, and ITK would read that instead", beside),
+                msg("move one of the two into another folder"));
 }
 
 }  // namespace cavum

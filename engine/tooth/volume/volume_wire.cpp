@@ -9,6 +9,7 @@
 #include <chrono>
 
 #include "engine/base/bytes.h"
+#include "engine/base/file_error.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/message_json.h"
 #include "engine/base/text.h"
@@ -17,7 +18,7 @@ namespace cavum {
 namespace {
 
 constexpr std::string_view k_magic = "CVVOLUME";
-constexpr std::uint32_t k_error = 0, k_volume = 1, k_longest_text = 4096;
+constexpr std::uint32_t k_error = 0, k_volume = 1, k_file_error = 2 /* and its code above it */, k_longest_text = 4096;
 constexpr const char* k_intact = "give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series";
 constexpr std::size_t k_head_bytes = 3 * 4 + 15 * 8;
 
@@ -47,7 +48,7 @@ class Incoming {
   void fill(std::span<std::uint8_t> to) {
     while (!to.empty()) {
       const auto n = some(to);
-      if (n == 0) throw VolumeCutOff(path_, "cannot be read as a volume: the reading ended early", k_intact);
+      if (n == 0) throw VolumeCutOff(FileError::truncated, Name{path_}, msg("cannot be read as a volume: the reading ended early"), msg(k_intact));
       to = to.subspan(n);
     }
   }
@@ -55,7 +56,9 @@ class Incoming {
     std::array<std::uint8_t, 1> more{};
     if (some(more) != 0) fail(msg("gave more than a volume"));
   }
-  [[noreturn]] void fail(const Message& what) const { throw Error(path_, msg("cannot be read as a volume: the reading {}", what), msg(k_intact)); }
+  [[noreturn]] void fail(const Message& what, FileError code = FileError::malformed) const {
+    throw Error(code, Name{path_}, msg("cannot be read as a volume: the reading {}", what), msg(k_intact));
+  }
 
  private:
   /// 0 at the end.
@@ -65,7 +68,7 @@ class Incoming {
       pollfd ready{fd_, POLLIN, 0};
       const int events = left > 0 ? ::poll(&ready, 1, static_cast<int>(left)) : 0;
       if (events < 0 && errno == EINTR) continue;
-      if (events == 0) fail(msg("took longer than the limit of {} s", seconds_));
+      if (events == 0) fail(msg("took longer than the limit of {} s", seconds_), FileError::unsupported);
       const auto n = ::read(fd_, to.data(), to.size());
       if (n >= 0) return static_cast<std::size_t>(n);
       if (errno != EINTR && errno != EAGAIN) fail(msg("broke off"));
@@ -81,7 +84,10 @@ class Incoming {
 }  // namespace
 
 bool send_volume_error(int fd, const Error& error) {
-  ByteWriter out = begun(k_error);
+  std::uint32_t kind = k_error;
+  for (std::uint32_t code = 0; code < k_file_errors; ++code)
+    if (error.code() == static_cast<FileError>(code)) kind = k_file_error + code;
+  ByteWriter out = begun(kind);
   for (const Message* part : {&error.where(), &error.problem(), &error.advice()})
     out.put_string(encode(*part).dump(-1, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
   return send(fd, out.bytes());
@@ -105,7 +111,7 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
   const auto magic = first.get_bytes(k_magic.size());
   if (!std::equal(magic.begin(), magic.end(), k_magic.begin())) in.fail(msg("gave no volume"));
   const auto kind = first.get<std::uint32_t>();
-  if (kind == k_error) {
+  if (kind == k_error || (kind >= k_file_error && kind < k_file_error + k_file_errors)) {
     std::array<Message, 3> parts;
     std::uint32_t length = first.get<std::uint32_t>();
     for (std::size_t i = 0; i < parts.size(); ++i) {
@@ -118,7 +124,7 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
         in.fail(msg("gave no volume"));
       }
     }
-    throw Error(parts[0], parts[1], parts[2]);
+    throw Error(kind == k_error ? ErrorCode(General::error) : static_cast<FileError>(kind - k_file_error), parts[0], parts[1], parts[2]);
   }
   if (kind != k_volume) in.fail(msg("gave no volume"));
   std::copy_n(head.begin() + k_magic.size() + 4, 4, head.begin());  // of the size, which has come already
@@ -129,7 +135,7 @@ Volume receive_volume(int fd, const std::string& path, std::uint64_t most, int s
     *n = rest.get<std::int32_t>();
     if (*n < 1 || *n > 1 << 16) in.fail(msg("gave an impossible size"));
   }
-  if (v.voxels() > most) in.fail(msg("gave {} voxels, more than the limit of {}", v.voxels(), most));
+  if (v.voxels() > most) in.fail(msg("gave {} voxels, more than the limit of {}", v.voxels(), most), FileError::too_large);
   for (double& s : v.spacing_mm) s = rest.get<double>();
   for (Vec3* p : {&v.axis[0], &v.axis[1], &v.axis[2], &v.origin_mm}) {
     for (double* x : {&p->x, &p->y, &p->z}) *x = rest.get<double>();

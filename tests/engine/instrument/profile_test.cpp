@@ -121,7 +121,7 @@ TEST(Profile, WalkStaysOnTheOutlineWithOutwardNormals) {
 TEST(Profile, ImpossibleOutlinesAreRefused) {
   const auto line = [](double r, double z) { return ProfileSegment{{r, z}, false, {}}; };
   const auto arc = [](double r, double z, double centre_r, double centre_z) { return ProfileSegment{{r, z}, true, {centre_r, centre_z}}; };
-  const auto refused = [](std::vector<ProfileSegment> s) { return !error_of([&] { Profile p(std::move(s)); }).empty(); };
+  const auto refused = [](std::vector<ProfileSegment> s) { return thrown_by([&] { Profile p(std::move(s)); }).has_value(); };
   EXPECT_TRUE(refused({}));
   EXPECT_TRUE(refused({line(0.5, 2), line(0.5, 1)})) << "heights fall";
   EXPECT_TRUE(refused({line(-0.5, 1)})) << "negative radius";

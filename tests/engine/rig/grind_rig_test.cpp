@@ -4,6 +4,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/det_math.h"
+#include "engine/rig/rig_error.h"
 #include "engine/rig/testing_machine.h"
 #include "tests/engine/support/engine_testing.h"
 
@@ -52,7 +53,7 @@ TEST(GrindRig, ThePapersSetCutsBothAlikeAndManyTimesFaster) {
 }
 
 TEST(GrindRig, RigsOfThePaperRefuseASetWithoutTau) {
-  EXPECT_NE(error_of([] { require_penetration(shipped_model("clinical")); }).find("cuts by pressure"), std::string::npos);
+  EXPECT_EQ(code_of([] { require_penetration(shipped_model("clinical")); }), RigError::by_pressure);
   require_penetration(shipped_model("paper"));
 }
 

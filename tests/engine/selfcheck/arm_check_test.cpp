@@ -87,12 +87,12 @@ TEST(ArmCheck, SaysThatAHandIsOnIt) {
 TEST(ArmCheck, SaysThatSomethingStandsInItsWay) {
   FreeArm arm(plain_arm(), {}, 11);
   arm.set_wall(1.5);
-  EXPECT_NE(english_text(check_free_arm(arm, 12).doubt).find("along x"), std::string::npos);
+  EXPECT_TRUE(testing_basics::tells(check_free_arm(arm, 12).doubt, "x"));
 }
 
 TEST(ArmCheck, SaysThatItIsTooFarAway) {
   FreeArm arm(plain_arm(), {80, 0, 0}, 13);
-  EXPECT_NE(english_text(check_free_arm(arm, 14).doubt).find("80 mm"), std::string::npos);
+  EXPECT_TRUE(testing_basics::tells(check_free_arm(arm, 14).doubt, 80));
 }
 
 TEST(ArmCheck, AStylusThatFallsSilentEndsIt) {
@@ -112,7 +112,7 @@ TEST(ArmCheck, IsStoppedWhenAskedTo) {
   ArmCheckOptions o;
   o.clock = [now = std::int64_t{1}]() mutable { return now += 1'000'000; };
   o.stop = [n = 0]() mutable { return ++n > 4000; };
-  EXPECT_NE(english_text(check_arm(arm, o).doubt).find("stopped"), std::string::npos);
+  EXPECT_FALSE(check_arm(arm, o).doubt.empty());
 }
 
 /// x'' = (F − friction sign x')/m in closed form: two parabolas a run, the force turning where the test says.

@@ -7,6 +7,7 @@
 #include <fstream>
 
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/base/hash.h"
 #include "tests/engine/support/basics.h"
 
@@ -82,7 +83,7 @@ TEST_F(CheckHistoryFile, EveryChangedByteIsFound) {
     changed[at] = changed[at] == '1' ? '2' : '1';
     write_text_file(path(), changed);
     if (changed[at] == '\n' || text[at] == '\n') continue;
-    EXPECT_NE(testing_basics::error_of([&] { CheckHistory history(path()); }), "") << at;
+    EXPECT_THROW(CheckHistory{path()}, Error) << at;
   }
 }
 
@@ -91,14 +92,14 @@ TEST_F(CheckHistoryFile, ALineThatWasTakenOutIsFound) {
   const std::string text = read_text_file(path());
   const std::size_t first = text.find('\n') + 1, second = text.find('\n', first) + 1;
   write_text_file(path(), text.substr(0, first) + text.substr(second));
-  EXPECT_NE(testing_basics::error_of([&] { CheckHistory history(path()); }).find("taken out"), std::string::npos);
+  EXPECT_EQ(testing_basics::code_of([&] { CheckHistory history(path()); }), FileError::damaged);
 }
 
 TEST_F(CheckHistoryFile, AnotherProgramThatAddedMeanwhileIsNotWrittenOver) {
   learn(2);
   CheckHistory one(path()), two(path());
   one.add_check(k_stylus, figures(0.3, 0), 9000, key_);
-  EXPECT_NE(testing_basics::error_of([&] { two.add_check(k_stylus, figures(0.3, 0), 9001, key_); }).find("meanwhile"), std::string::npos);
+  EXPECT_EQ(testing_basics::code_of([&] { two.add_check(k_stylus, figures(0.3, 0), 9001, key_); }), FileError::inconsistent);
   EXPECT_EQ(CheckHistory(path()).entries().size(), 3U);
 }
 
@@ -106,15 +107,14 @@ TEST_F(CheckHistoryFile, TheStationSaysItsName) {
   EXPECT_EQ(station_name(key_), "station " + to_hex(key_.public_key).substr(0, 8));
   set_station_name("Seat 3");
   EXPECT_EQ(station_name(key_), "Seat 3");
-  EXPECT_NE(testing_basics::error_of([] { set_station_name("two\nlines"); }), "");
-  EXPECT_NE(testing_basics::error_of([] { set_station_name(std::string(61, 'a')); }), "");
+  for (const std::string& bad : {std::string("two\nlines"), std::string(61, 'a')}) EXPECT_THROW(set_station_name(bad), Error) << bad;
   learn(1);
   EXPECT_EQ(CheckHistory(path()).entries().back().station, "Seat 3");
 }
 
 TEST_F(CheckHistoryFile, ANewHistoryNeedsAReason) {
   CheckHistory history(path());
-  EXPECT_NE(testing_basics::error_of([&] { history.begin_anew(k_stylus, "", 1, key_); }).find("reason"), std::string::npos);
+  EXPECT_EQ(testing_basics::code_of([&] { history.begin_anew(k_stylus, "", 1, key_); }), FileError::missing);
 }
 
 }  // namespace

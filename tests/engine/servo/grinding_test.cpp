@@ -211,8 +211,7 @@ TEST(Grinding, TheSameInputGivesTheSameStateAndTheLoadIsInItsHash) {
 TEST(Grinding, ASolidTissueWithoutAWearRateIsRefusedByName) {
   ForceModel force = clinical();
   force.materials.find("enamel")->second.wear_mm3_per_n_m = 0;
-  EXPECT_NE(error_of([&] { (void)make_servo_model(block_of("enamel"), {diamond_point("round-1.0")}, force, {}); }).find("wear_mm3_per_n_m"),
-            std::string::npos);
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(block_of("enamel"), {diamond_point("round-1.0")}, force, {}); }), "wear_mm3_per_n_m"));
 }
 
 }  // namespace

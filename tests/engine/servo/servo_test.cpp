@@ -308,7 +308,7 @@ TEST(Servo, ConfigSurvivesItsTomlAndRefusesOddValues) {
                                  {"tick_s = ", "tick_s = -"}}) {
     std::string bad = text;
     bad.replace(bad.find(from), from.size(), to);
-    EXPECT_EQ(error_of([&] { (void)parse_servo_config(bad, "c.toml"); }).rfind("c.toml:", 0), 0u) << to;
+    EXPECT_TRUE(place_of(thrown_by([&] { (void)parse_servo_config(bad, "c.toml"); })).starts_with("c.toml:")) << to;
   }
 }
 
@@ -316,10 +316,10 @@ TEST(Servo, AModelWithoutAMaterialForASolidTissueIsRefused) {
   ForceModel force = shipped_model("paper");
   force.materials.erase("dentin");
   const Tooth tooth = four_layers();
-  EXPECT_NE(error_of([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }).find("dentin"), std::string::npos);
-  EXPECT_NE(error_of([&] { (void)make_servo_model(tooth, {}, shipped_model("paper"), {}); }), "");
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }), "dentin"));
+  EXPECT_THROW((void)make_servo_model(tooth, {}, shipped_model("paper"), {}), Error);
   force = hard_model(0.8, 0, 0);
-  EXPECT_NE(error_of([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }).find("tau_s"), std::string::npos);
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }), "tau_s"));
 }
 
 }  // namespace

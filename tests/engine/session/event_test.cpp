@@ -7,6 +7,7 @@
 #include <set>
 
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
@@ -65,26 +66,27 @@ TEST(SessionEvents, TextsAreKeptOnOneLine) {
 
 TEST(SessionEvents, WhatIsWrongInADamagedOneIsNamed) {
   const auto wrong = [](const std::string& kind, const std::string& detail) {
-    return testing_basics::error_of([&] { static_cast<void>(decode({kind, detail}, "row 3")); });
+    return testing_basics::thrown_by([&] { static_cast<void>(decode({kind, detail}, "row 3")); });
   };
-  EXPECT_NE(wrong("examiner_excused", "{}").find("'examiner_excused'"), std::string::npos);
-  EXPECT_NE(wrong("step_started", "{}").find("'step'"), std::string::npos);
+  using testing_basics::tells;
+  EXPECT_EQ(testing_basics::code_of(wrong("examiner_excused", "{}")), FileError::unknown);
+  EXPECT_TRUE(tells(wrong("step_started", "{}"), "step"));
   for (const char* step : {"-1", "2147483648", "18446744073709551616", "1.5", "\"0\"", "null", "[0]"})
-    EXPECT_NE(wrong("step_started", std::string("{\"step\":") + step + "}").find("'step'"), std::string::npos) << step;
-  EXPECT_NE(wrong("finished", R"({"how":"won"})").find("'how'"), std::string::npos);
-  EXPECT_NE(wrong("perforation", R"({"site_mm":[0.0,1.0],"tissue":1})").find("'site_mm'"), std::string::npos);
-  EXPECT_NE(wrong("perforation", R"({"site_mm":[0.0,1.0,2.0],"tissue":256})").find("'tissue'"), std::string::npos);
+    EXPECT_TRUE(tells(wrong("step_started", std::string("{\"step\":") + step + "}"), "step")) << step;
+  EXPECT_TRUE(tells(wrong("finished", R"({"how":"won"})"), "how"));
+  EXPECT_TRUE(tells(wrong("perforation", R"({"site_mm":[0.0,1.0],"tissue":1})"), "site_mm"));
+  EXPECT_TRUE(tells(wrong("perforation", R"({"site_mm":[0.0,1.0,2.0],"tissue":256})"), "tissue"));
   EventText gap = encode(RecordingGap{});
   gap.detail_json.replace(gap.detail_json.find("\"device\":\"\""), 11, "\"device\":0");
-  EXPECT_NE(wrong(gap.kind, gap.detail_json).find("'by.device'"), std::string::npos);
+  EXPECT_TRUE(tells(wrong(gap.kind, gap.detail_json), "by.device"));
   EventText lateness = encode(ServoLateness{});
   lateness.detail_json.replace(lateness.detail_json.find("[0,"), 3, "[1e300,");
-  EXPECT_NE(wrong(lateness.kind, lateness.detail_json).find("'servo.lateness.counts[0]'"), std::string::npos);
+  EXPECT_TRUE(tells(wrong(lateness.kind, lateness.detail_json), "servo.lateness.counts[0]"));
   for (const char* detail : {R"({"step": 0})", R"({"more":1,"step":0})", R"({"step":1,"step":0})", R"({"step":0} )", "", "null", "{\"step\":0"})
-    EXPECT_NE(wrong("step_started", detail), "") << detail;
+    EXPECT_TRUE(wrong("step_started", detail)) << detail;
   std::string deep;
   for (int i = 0; i < 100000; ++i) deep += "{\"step\":";
-  EXPECT_NE(wrong("step_started", deep), "");
+  EXPECT_TRUE(wrong("step_started", deep));
 }
 
 }  // namespace

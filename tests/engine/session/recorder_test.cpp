@@ -10,7 +10,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/session/resume.h"
+#include "engine/session/session_error.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
 #include "tests/engine/session/fixture.h"
@@ -19,7 +21,7 @@ namespace cavum {
 namespace {
 
 using test::Folder;
-using testing_basics::error_of;
+using testing_basics::code_of;
 
 TEST(Session, ReadsBackEverythingThatWasRecorded) {
   const Folder folder;
@@ -144,20 +146,20 @@ TEST(Session, NeverOverwritesAnExistingFile) {
   const Folder folder;
   const std::string path = folder.file("exam.cavum");
   write_text_file(path, "mine");
-  EXPECT_NE(error_of([&] { (void)Recorder::create(path, test::block_setup()); }).find("exists already"), std::string::npos);
+  EXPECT_EQ(code_of([&] { (void)Recorder::create(path, test::block_setup()); }), FileError::exists);
   EXPECT_EQ(read_text_file(path), "mine");
 }
 
 TEST(Session, RefusesWhatItCannotRecord) {
   const Folder folder;
-  EXPECT_NE(error_of([&] { (void)Recorder::create(folder.file("no/such/folder.cavum"), test::block_setup()); }), "");
+  EXPECT_THROW((void)Recorder::create(folder.file("no/such/folder.cavum"), test::block_setup()), Error);
   SessionSetup setup = test::block_setup();
   setup.tooth.clear();
-  EXPECT_NE(error_of([&] { (void)Recorder::create(folder.file("a.cavum"), setup); }).find("a tooth"), std::string::npos);
+  EXPECT_EQ(code_of([&] { (void)Recorder::create(folder.file("a.cavum"), setup); }), FileError::missing);
   Recorder recorder = Recorder::create(folder.file("b.cavum"), test::block_setup());
   TickRecord record;
   record.removed = 2;
-  EXPECT_NE(error_of([&] { recorder.append({}, record, {}, 0); }).find("removed leaves"), std::string::npos);
+  EXPECT_EQ(code_of([&] { recorder.append({}, record, {}, 0); }), FileError::inconsistent);
   EXPECT_EQ(recorder.ticks(), 0);
 }
 
@@ -177,7 +179,7 @@ TEST(Session, EndedWithoutClosingResumesAndVerifies) {
   });
   EXPECT_EQ(visited, 2300);
   EXPECT_EQ(exam.ticks, 2300);
-  EXPECT_NE(error_of([&] { (void)resume_session(path); }).find("is held by "), std::string::npos);
+  EXPECT_THROW((void)resume_session(path), DatabaseError) << "it is held";
   test::drill(exam.simulation, exam.recorder, exam.ticks, 1900);
   exam.recorder.close(save_tooth(drilled_tooth(exam.simulation)), "{}");
 
@@ -189,7 +191,7 @@ TEST(Session, EndedWithoutClosingResumesAndVerifies) {
   EXPECT_EQ(events[0].tick, 2300);
   ASSERT_NE(events[0].as<RecordingGap>(), nullptr);
   EXPECT_GE(events[0].as<RecordingGap>()->boot_s.value(), 0.0);
-  EXPECT_NE(error_of([&] { (void)resume_session(path); }).find("is closed"), std::string::npos);
+  EXPECT_EQ(code_of([&] { (void)resume_session(path); }), SessionError::closed);
 }
 
 TEST(Session, ResumedBeforeItsFirstSecondStillVerifies) {
@@ -215,7 +217,7 @@ TEST(Session, FilesThatAreNoSessionAreErrorsNotReports) {
     Database other = Database::open(folder.file("other.cavum"), true);
     other.run("CREATE TABLE music (title TEXT); INSERT INTO music VALUES ('x')");
   }
-  EXPECT_NE(error_of([&] { (void)verify_session(folder.file("other.cavum")); }).find("not a Cavum session"), std::string::npos);
+  EXPECT_EQ(code_of([&] { (void)verify_session(folder.file("other.cavum")); }), SessionError::not_a_session);
 }
 
 TEST(StationKey, IsMadeOnceForItsUserAlone) {

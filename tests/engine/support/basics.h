@@ -17,6 +17,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/lines.h"
 #include "engine/base/random.h"
 
 namespace cavum {
@@ -75,6 +76,7 @@ inline bool tells(const Message& message, const Value& wanted) {
     if (v == wanted) return true;
     if (const auto* place = std::get_if<FilePlace>(&v)) return wanted == Value(Name{place->file});
     if (const auto* term = std::get_if<Term>(&v)) return wanted == Value(Name{term->english});
+    if (const auto* authored = std::get_if<Authored>(&v)) return wanted == Value(Name{authored->english});
     if (const auto* number = std::get_if<Number>(&v)) return wanted == Value(as_number(number->value));
     if (const auto* inner = std::get_if<Message>(&v)) return tells(*inner, wanted);
     const auto* list = std::get_if<List>(&v);
@@ -84,6 +86,9 @@ inline bool tells(const Message& message, const Value& wanted) {
 }
 inline bool tells(const Message& message, const char* name) { return tells(message, Value(Name{name})); }
 inline bool tells(const Message& message, const std::string& name) { return tells(message, Value(Name{name})); }
+inline bool tells(const Message& message, int whole) { return tells(message, Value(std::int64_t{whole})); }
+inline bool tells(const Message& message, double number) { return tells(message, Value(as_number(number))); }
+inline bool tells(const Message& message, const Message& part) { return message == part || tells(message, Value(part)); }
 template <class Wanted>
 bool tells(const std::vector<Message>& messages, const Wanted& wanted) {
   return std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return tells(m, wanted); });
@@ -91,6 +96,34 @@ bool tells(const std::vector<Message>& messages, const Wanted& wanted) {
 template <class Wanted>
 bool tells(const std::optional<Error>& error, const Wanted& wanted) {
   return error && tells(error->message(), wanted);
+}
+/// The figures in a message, in their order, at any depth.
+inline std::vector<double> figures_in(const Message& message) {
+  std::vector<double> all;
+  for (const Value& v : message.values()) {
+    if (const auto* whole = std::get_if<std::int64_t>(&v)) all.push_back(static_cast<double>(*whole));
+    if (const auto* number = std::get_if<Number>(&v)) all.push_back(number->value);
+    std::vector<Message> inner;
+    if (const auto* m = std::get_if<Message>(&v)) inner = {*m};
+    if (const auto* list = std::get_if<List>(&v)) inner = list->items;
+    for (const Message& m : inner)
+      for (const double figure : figures_in(m)) all.push_back(figure);
+  }
+  return all;
+}
+/// All cells of several lines.
+inline std::vector<Message> cells_of(const Lines& lines) {
+  std::vector<Message> all;
+  for (const Lines::Line& line : lines.all()) all.insert(all.end(), line.cells.begin(), line.cells.end());
+  return all;
+}
+template <class Wanted>
+bool tells(const Lines& lines, const Wanted& wanted) {
+  return tells(cells_of(lines), wanted);
+}
+template <class Wanted>
+bool tells(const List& list, const Wanted& wanted) {
+  return tells(list.items, wanted);
 }
 /// The Error that `action` throws; none.
 template <class Action>
@@ -102,6 +135,11 @@ std::optional<Error> thrown_by(const Action& action) {
   }
   return {};
 }
+/// The file, line and column, or the name, that an error or a finding is about; empty for other places and for none.
+inline std::string place_of(const Message& where) {
+  return where.values().size() == 1 && std::string_view(where.english()) == "{}" ? english_text(where) : "";
+}
+inline std::string place_of(const std::optional<Error>& error) { return error ? place_of(error->where()) : ""; }
 inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) { return problem ? std::optional(problem->code()) : std::nullopt; }
 inline std::string text_of(const std::optional<Error>& problem) { return problem ? problem->what() : ""; }
 inline std::string text_of(const Message& message) { return english_text(message); }

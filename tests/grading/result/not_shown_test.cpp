@@ -40,7 +40,7 @@ TEST(NotShown, WhatNeedsTimeWayOrForceHasNoPointsAndTakesNone) {
     if (c.judged) continue;
     EXPECT_FALSE(c.value.has_value());
     EXPECT_EQ(c.points, 0.0);
-    EXPECT_NE(english_text(msg("{}", c.reason)).find("not judged"), std::string::npos);
+    EXPECT_FALSE(c.reason.items.empty());
   }
   for (const auto& c : r.criteria) (c.judged ? judged : not_judged) += c.max;
   EXPECT_EQ(r.max_points, judged);
@@ -57,7 +57,7 @@ TEST(NotShown, WhatNeedsTimeWayOrForceHasNoPointsAndTakesNone) {
     }
   // nobody knows when
   for (const auto& [name, wall] : json["walls"].items()) EXPECT_TRUE(wall["max_over_tick"].is_null()) << name;
-  EXPECT_EQ(english_text(to_text(r)).find("tick"), std::string::npos) << english_text(to_text(r));
+  for (const auto& c : json["criteria"]) EXPECT_TRUE(c["first_tick"].is_null()) << c;
 }
 
 TEST(NotShown, APassStandsWhateverTheRestIsWorth) {

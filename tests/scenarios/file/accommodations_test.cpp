@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -33,9 +34,12 @@ TEST(Accommodations, RefusesNotesAndGrantsThatAreNone) {
 }
 
 TEST(Accommodations, AreSaidInWords) {
-  EXPECT_EQ(english_text(accommodations_text({})), "");
-  EXPECT_EQ(english_text(accommodations_text({25, 60, true, true})), "25 % and 60 s extra time, left-handed, high-contrast colours");
-  EXPECT_EQ(english_text(accommodations_text({0, 90.5, false, false})), "90.5 s extra time");
+  using testing_basics::figures_in;
+  EXPECT_TRUE(accommodations_text({}).empty());
+  const Message all = accommodations_text({25, 60, true, true});
+  EXPECT_EQ(figures_in(all), (std::vector<double>{25, 60}));
+  EXPECT_EQ(std::get<List>(all.values().at(0)).items.size(), 3u) << "the time, the hand and the colours";
+  EXPECT_EQ(figures_in(accommodations_text({0, 90.5, false, false})), (std::vector<double>{90.5}));
 }
 
 }  // namespace

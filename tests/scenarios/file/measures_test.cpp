@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "scenarios/file/names.h"
 #include "scenarios/file/parse.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -106,7 +107,9 @@ TEST(Measures, ATissueWithoutItsUnitIsNoMeasureButWasTakenOnce) {
     static_cast<void>(parse_rubric(rubric, "r.toml"));
     FAIL() << "taken";
   } catch (const ProblemsError& e) {
-    EXPECT_EQ(std::string(e.what()), "r.toml:5:10: there is no measure 'touched_pulp'; did you mean 'touched_pulp_mm3'?");
+    EXPECT_EQ(e.code(), Mistake::unknown_name);
+    EXPECT_EQ(e.where(), Message(FilePlace{"r.toml", 5, 10}));
+    EXPECT_TRUE(testing_basics::tells(e.problem(), "touched_pulp") && testing_basics::tells(e.advice(), "touched_pulp_mm3"));
   }
 }
 

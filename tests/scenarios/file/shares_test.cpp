@@ -4,6 +4,7 @@
 
 #include "scenarios/file/measures.h"
 #include "scenarios/file/rubric_check.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -19,10 +20,10 @@ TEST(Shares, TwoThatCountTheSameAreWarnedOfUnlessOneNamesTheOther) {
   const auto problems = twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3"));
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_TRUE(problems[0].warning);
-  EXPECT_EQ(
-      english_text(problems[0].message()),
-      "r.toml:12:10: warning: 'guarded' charges what 'elsewhere' charges, too: protected_mm3 and outside_mm3 both count protected tissue; take one "
-      "of them out, or say that it is meant: shares_with = [\"elsewhere\"]");
+  EXPECT_EQ(problems[0].where, (FilePlace{"r.toml", 12, 10}));
+  for (const char* name : {"guarded", "elsewhere", "protected_mm3", "outside_mm3"})
+    EXPECT_TRUE(testing_basics::tells(problems[0].what, name)) << name;
+  EXPECT_TRUE(testing_basics::tells(problems[0].what_to_do, "elsewhere"));
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "shares_with = [\"elsewhere\"]")).empty());
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3", "shares_with = [\"guarded\"]") + criterion("guarded", "protected_mm3")).empty());
   EXPECT_TRUE(twice(criterion("elsewhere", "outside_mm3") + criterion("guarded", "protected_mm3", "critical_above = 0.5", 0)).empty())
@@ -39,13 +40,12 @@ TEST(Shares, WallsFloorAndVolumesAreToldApart) {
 
 TEST(Shares, IdThatIsNoOtherCriterionIsAMistake) {
   for (const char* wrong : {"walls", "itself"}) {
-    try {
+    const auto refused = testing_basics::thrown_by([&] {
       static_cast<void>(
           twice(criterion("wall", "container_sides_mm3") + criterion("itself", "outside_mm3", fmt::format("shares_with = [\"{}\"]", wrong))));
-      ADD_FAILURE() << wrong;
-    } catch (const ProblemsError& e) {
-      EXPECT_NE(std::string(e.what()).find("'itself' shares with"), std::string::npos) << e.what();
-    }
+    });
+    EXPECT_EQ(testing_basics::code_of(refused), Mistake::unknown_name) << wrong;
+    EXPECT_TRUE(testing_basics::tells(refused, "itself") && testing_basics::tells(refused, wrong));
   }
 }
 

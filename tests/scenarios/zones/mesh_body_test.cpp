@@ -168,11 +168,14 @@ TEST_F(MeshZone, WhatASessionHoldsIsUsedAndAnotherFileOfTheNameRefused) {
   EXPECT_NO_THROW(require_same_surfaces(scenario(), recorded));
 
   write_mesh_file(box_mesh({-1, -1, -1}, {1, 1, 1.01}), stl());
-  const std::string refused = testing_basics::error_of([&] { require_same_surfaces(scenario(), recorded); });
-  EXPECT_NE(refused.find("s.toml:22:8: 'zones/body.stl' is not the surface that the session ran with"), std::string::npos) << refused;
+  const auto refused = testing_basics::thrown_by([&] { require_same_surfaces(scenario(), recorded); });
+  EXPECT_EQ(testing_basics::code_of(refused), Mistake::surface);
+  EXPECT_TRUE(testing_basics::place_of(refused).ends_with("s.toml:22:8"));
+  EXPECT_TRUE(testing_basics::tells(refused, "zones/body.stl"));
   Scenario none = parse_scenario(scenario_text(k_stl_zone), "session: scenario");
-  const std::string missing = testing_basics::error_of([&] { use_surfaces(none, {}); });
-  EXPECT_NE(missing.find("does not hold the surface 'zones/body.stl'"), std::string::npos) << missing;
+  const auto missing = testing_basics::thrown_by([&] { use_surfaces(none, {}); });
+  EXPECT_EQ(testing_basics::code_of(missing), Mistake::missing);
+  EXPECT_TRUE(testing_basics::tells(missing, "zones/body.stl"));
 }
 
 }  // namespace

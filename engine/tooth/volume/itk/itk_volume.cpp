@@ -28,6 +28,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/file_error.h"
 #include "engine/statistics/order.h"
 #include "engine/tooth/volume/dicom_bytes.h"
 #include "engine/tooth/volume/volume_files.h"
@@ -82,7 +83,7 @@ bool natural_less(const std::string& a, const std::string& b) {
 
 void require_voxels(std::uint64_t voxels, std::uint64_t bytes, const std::string& path) {
   if (voxels > most_voxels(bytes))
-    throw Error(path, msg("claims more than {} voxels, the most for {} bytes of files", most_voxels(bytes), bytes),
+    throw Error(FileError::too_large, Name{path}, msg("claims more than {} voxels, the most for {} bytes of files", most_voxels(bytes), bytes),
                 msg("crop the volume to the tooth, or save it uncompressed"));
 }
 
@@ -135,7 +136,7 @@ double slice_spacing_mm(const std::vector<std::string>& files, const std::string
   const double usual = median(gaps);
   for (std::size_t i = 0; i < gaps.size(); ++i)
     if (!(std::fabs(gaps[i] - usual) <= 0.02 * usual + 1e-4)) {
-      throw Error(folder,
+      throw Error(FileError::inconsistent, Name{folder},
                   msg("the DICOM series has a hole or uneven slices: {} between {} and {}, {} elsewhere", as_mm(gaps[i], k_as_needed), slices[i].file,
                       slices[i + 1].file, as_mm(usual, k_as_needed)),
                   msg("export the complete series again"));
@@ -149,9 +150,11 @@ void require_alike(const DicomSlice& first, const std::string& first_file, const
   for (const auto& [name, value] : first.common) {
     const auto found = other.common.find(name);
     if (found == other.common.end() || found->second != value)
-      throw Error(file, msg("has another {} than {} of the same series", name, first_file), msg("export the complete series again"));
+      throw Error(FileError::inconsistent, Name{file}, msg("has another {} than {} of the same series", name, first_file),
+                  msg("export the complete series again"));
   }
-  throw Error(file, msg("has fields that {} of the same series does not have", first_file), msg("export the complete series again"));
+  throw Error(FileError::inconsistent, Name{file}, msg("has fields that {} of the same series does not have", first_file),
+              msg("export the complete series again"));
 }
 
 bool is_dicom_file(const std::string& file) {
@@ -192,7 +195,8 @@ Read read_dicom(const std::string& folder, const std::string& series, const std:
   reader->Update();
   double deviation = 0.0;
   if (itk::ExposeMetaData<double>(reader->GetOutput()->GetMetaDataDictionary(), "ITK_non_uniform_sampling_deviation", deviation) && deviation > 1e-3)
-    throw Error(folder, msg("the slices of DICOM series {} are not evenly spaced (off by up to {})", series, as_mm(deviation, k_as_needed)),
+    throw Error(FileError::inconsistent, Name{folder},
+                msg("the slices of DICOM series {} are not evenly spaced (off by up to {})", series, as_mm(deviation, k_as_needed)),
                 msg("export the complete series again"));
   out.image = reader->GetOutput();
   return out;
@@ -204,11 +208,13 @@ std::vector<std::string> files_of(const std::string& folder, std::uint64_t& byte
   for (const auto& entry : fs::directory_iterator(folder)) {
     if (entry.is_directory()) continue;
     if (!entry.is_regular_file())
-      throw Error(entry.path().string(), msg("is no ordinary file"), msg("give a folder with nothing but the slices of one volume"));
+      throw Error(FileError::not_a_file, Name{entry.path().string()}, msg("is no ordinary file"),
+                  msg("give a folder with nothing but the slices of one volume"));
     bytes += entry.file_size();
     files.push_back(entry.path().string());
     if (files.size() > k_most_slice_files)
-      throw Error(folder, msg("holds more than {} files", k_most_slice_files), msg("give a folder with nothing but the slices of one volume"));
+      throw Error(FileError::too_large, Name{folder}, msg("holds more than {} files", k_most_slice_files),
+                  msg("give a folder with nothing but the slices of one volume"));
   }
   std::sort(files.begin(), files.end(), natural_less);
   return files;
@@ -226,24 +232,28 @@ Read read_folder(const std::string& folder, std::uint64_t bytes, const std::vect
   names->SetDirectory(folder);
   const auto series = names->GetSeriesUIDs();
   if (series.size() > 1)
-    throw Error(folder, msg("{} DICOM series in one folder", series.size()), msg("put the one to import into a folder of its own"));
+    throw Error(FileError::inconsistent, Name{folder}, msg("{} DICOM series in one folder", series.size()),
+                msg("put the one to import into a folder of its own"));
   const std::vector<std::string> slices = series.empty() ? std::vector<std::string>() : names->GetFileNames(series[0]);
   const std::set<std::string> known(slices.begin(), slices.end());
   const auto named_as_slice = [&](const std::string& file) { return !slices.empty() && lower_extension(file) == lower_extension(slices[0]); };
   for (const auto& file : files)
     if (!known.contains(file) && (is_dicom_file(file) || named_as_slice(file)) && fs::path(file).filename() != "DICOMDIR") {
       if (!whole.contains(file)) static_cast<void>(whole_slice(file));
-      throw Error(file, msg("is DICOM and belongs to no series: its header is damaged"), msg("export the complete series again"));
+      throw Error(FileError::inconsistent, Name{file}, msg("is DICOM and belongs to no series: its header is damaged"),
+                  msg("export the complete series again"));
     }
   if (!slices.empty()) return read_dicom(folder, series[0], slices, std::move(whole), bytes);
   std::vector<std::string> pictures;
   for (const auto& file : files)
     if (const auto e = lower_extension(file); e == ".tif" || e == ".tiff" || e == ".png") pictures.push_back(file);
   if (pictures.size() < 2)
-    throw Error(folder, msg("neither a DICOM series nor a stack of TIFF slices"), msg("give a folder with the slices of one volume"));
+    throw Error(FileError::malformed, Name{folder}, msg("neither a DICOM series nor a stack of TIFF slices"),
+                msg("give a folder with the slices of one volume"));
   for (const auto& file : pictures)
     if ((lower_extension(file) == ".png") != (lower_extension(pictures[0]) == ".png"))
-      throw Error(folder, msg("holds slices as PNG and as TIFF"), msg("put the slices of one volume into a folder of their own"));
+      throw Error(FileError::inconsistent, Name{folder}, msg("holds slices as PNG and as TIFF"),
+                  msg("put the slices of one volume into a folder of their own"));
   Read out;
   const auto io = slice_reader(lower_extension(pictures[0]));
   for (const auto& file : pictures) {
@@ -267,7 +277,8 @@ itk::ImageIOBase::Pointer reader_of(const std::string& path, std::uint64_t bytes
   if (e == ".nii" || (e == ".gz" && lower_extension(fs::path(path).stem()) == ".nii")) return itk::NiftiImageIO::New().GetPointer();
   if (e == ".tif" || e == ".tiff") return itk::TIFFImageIO::New().GetPointer();
   if (!is_dicom_file(path))
-    throw Error(path, msg("is no volume by its name, nor DICOM"), msg("name a .mhd, .mha, .nrrd, .nhdr, .nii, .nii.gz, .tif or DICOM file"));
+    throw Error(FileError::malformed, Name{path}, msg("is no volume by its name, nor DICOM"),
+                msg("name a .mhd, .mha, .nrrd, .nhdr, .nii, .nii.gz, .tif or DICOM file"));
   require_voxels(whole_slice(path), 1, bytes, path);
   return itk::GDCMImageIO::New().GetPointer();
 }
@@ -324,7 +335,7 @@ int send(const std::string& path, int fd, const Limit& set_limits) {
   std::optional<Error> error;
   try {
     const bool folder = fs::is_directory(path);
-    if (!folder && !fs::is_regular_file(path)) throw Error(path, msg("no such volume"), msg("check the path"));
+    if (!folder && !fs::is_regular_file(path)) throw Error(FileError::missing, Name{path}, msg("no such volume"), msg("check the path"));
     std::vector<std::string> files;
     if (folder)
       files = files_of(path, bytes);

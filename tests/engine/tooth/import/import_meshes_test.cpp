@@ -5,6 +5,8 @@
 #include <cstring>
 #include <limits>
 
+#include "engine/base/file_error.h"
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/mesh/read_mesh.h"
 #include "tests/engine/tooth/import/import_testing.h"
@@ -102,10 +104,10 @@ TEST(ImportMeshes, AnOpenMeshIsAnErrorThatNamesFileAndPlace) {
   blocks.dentin = ball({0, 0, -3}, 3, 20);
   blocks.dentin.triangles.erase(blocks.dentin.triangles.begin() + 700);
   const auto paths = blocks.write(folder);
-  const auto error = error_of([&] { (void)import_meshes(paths, options(0.2)); });
-  EXPECT_NE(error.find("d.obj"), std::string::npos) << error;
-  EXPECT_NE(error.find("3 open"), std::string::npos) << error;
-  EXPECT_NE(error.find("one at ("), std::string::npos) << error;
+  const auto error = thrown_by([&] { (void)import_meshes(paths, options(0.2)); });
+  EXPECT_EQ(code_of(error), FileError::inconsistent);
+  EXPECT_EQ(place_of(error), paths.dentin);
+  EXPECT_TRUE(tells(error, 3)) << "open edges";
 }
 
 TEST(ImportMeshes, ACornerThatIsNoNumberIsNamedAndNotTakenForAHole) {
@@ -117,23 +119,27 @@ TEST(ImportMeshes, ACornerThatIsNoNumberIsNamedAndNotTakenForAHole) {
   const float nan = std::numeric_limits<float>::quiet_NaN();
   std::memcpy(binary.data() + 84 + 2 * 50 + 12 + 4, &nan, sizeof nan);  // of the third facet
   write_file(name("binary.stl"), binary);
-  const std::string in_binary = error_of([&] { (void)read_closed_mesh(name("binary.stl")); });
-  EXPECT_EQ(in_binary.rfind(name("binary.stl") + ": facet 3 has a corner that is no number", 0), 0u) << in_binary;
+  const auto expect_malformed = [&](const char* file, int at) {
+    const auto error = thrown_by([&] { (void)read_closed_mesh(name(file)); });
+    EXPECT_EQ(code_of(error), FileError::malformed);
+    EXPECT_EQ(place_of(error), name(file));
+    EXPECT_TRUE(tells(error, at)) << at;
+  };
+  expect_malformed("binary.stl", 3);
   for (const char* value : {"nan", "inf", "-NaN", "x", ""}) {
     write_text_file(name("text.stl"), "solid t\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 " + std::string(value) +
                                           "\nendloop\nendfacet\nendsolid t\n");
-    const std::string in_text = error_of([&] { (void)read_closed_mesh(name("text.stl")); });
-    EXPECT_EQ(in_text.rfind(name("text.stl") + ": line 6 has a corner that is no number", 0), 0u) << in_text;
+    expect_malformed("text.stl", 6);
   }
 }
 
 TEST(ImportMeshes, ExchangedLayersAreAnError) {
   const auto right = Blocks().write(fresh_folder());
-  const auto swapped = error_of([&] { (void)import_meshes({right.dentin, right.enamel, right.pulp}, options(0.2)); });
-  EXPECT_NE(swapped.find("exchange"), std::string::npos) << swapped;
-  EXPECT_NE(swapped.find("e.obj"), std::string::npos) << swapped;
-  EXPECT_NE(error_of([&] { (void)import_meshes({right.enamel, right.pulp, right.dentin}, options(0.2)); }), "");
-  EXPECT_NE(error_of([&] { (void)import_meshes({right.pulp, right.dentin, right.enamel}, options(0.2)); }), "");
+  const auto swapped = thrown_by([&] { (void)import_meshes({right.dentin, right.enamel, right.pulp}, options(0.2)); });
+  EXPECT_EQ(code_of(swapped), ImportError::layers_exchanged);
+  EXPECT_NE(place_of(swapped).find("e.obj"), std::string::npos);
+  EXPECT_THROW((void)import_meshes({right.enamel, right.pulp, right.dentin}, options(0.2)), Error);
+  EXPECT_THROW((void)import_meshes({right.pulp, right.dentin, right.enamel}, options(0.2)), Error);
 }
 
 TEST(ImportMeshes, InwardFacesAreTurnedAndUnusedVerticesDeleted) {
@@ -153,15 +159,11 @@ TEST(ImportMeshes, UnusableFilesAreErrors) {
   std::ofstream(folder / "text.stl") << "this is no mesh";
   std::ofstream(folder / "nan.obj") << "v nan 0 0\nv 1 0 0\nv 0 1 0\nv 0 0 1\nf 1 3 2\nf 1 2 4\nf 2 3 4\nf 1 4 3\n";
   for (const auto& bad : {folder / "missing.stl", folder / "text.stl", folder / "nan.obj"})
-    EXPECT_NE(error_of([&] {
-                (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2));
-              }).find(bad.filename().string()),
-              std::string::npos)
-        << bad;
-  EXPECT_NE(error_of([&] { (void)import_meshes(paths, options(0.001)); }).find("1024"), std::string::npos);
+    EXPECT_EQ(place_of(thrown_by([&] { (void)import_meshes({bad.string(), paths.dentin, paths.pulp}, options(0.2)); })), bad.string());
+  EXPECT_EQ(code_of([&] { (void)import_meshes(paths, options(0.001)); }), FileError::too_large);
   MeshImportOptions parallel = options(0.2);
   parallel.frame.mesial_axis = Vec3{0, 0, 1};
-  EXPECT_NE(error_of([&] { (void)import_meshes(paths, parallel); }).find("--mesial-axis"), std::string::npos);
+  EXPECT_EQ(place_of(thrown_by([&] { (void)import_meshes(paths, parallel); })), "--mesial-axis");
 }
 
 TEST(ImportMeshes, AxesAndRotationAreObeyed) {

@@ -29,7 +29,7 @@ inline fs::path fresh_folder() {
   return folder;
 }
 
-using testing_basics::error_of;
+using namespace testing_basics;
 
 /// The folder `shared/` beside the repository, or an empty path.
 inline fs::path shared_folder() {

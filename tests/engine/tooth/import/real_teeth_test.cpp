@@ -1,6 +1,7 @@
 // Human teeth, where the folder `shared/` lies beside the repository (they are not ours to ship).
 #include <gtest/gtest.h>
 
+#include "engine/tooth/import/import_error.h"
 #include "engine/tooth/import/import_meshes.h"
 #include "engine/tooth/import/import_volume.h"
 #include "tests/engine/tooth/import/import_testing.h"
@@ -51,7 +52,7 @@ TEST(RealTeeth, ExchangedEnamelAndDentinAreFound) {
   o.leaf_mm = 0.2;
   for (const char* tooth : {"L1", "L4", "L6"}) {
     const auto p = layers(tooth);
-    EXPECT_NE(error_of([&] { (void)import_meshes({p.dentin, p.enamel, p.pulp}, o); }).find("exchanged"), std::string::npos) << tooth;
+    EXPECT_EQ(code_of([&] { (void)import_meshes({p.dentin, p.enamel, p.pulp}, o); }), ImportError::layers_exchanged) << tooth;
   }
 }
 

@@ -85,9 +85,9 @@ TEST(MakeBlock, RefusesNamesThatCannotBeShown) {
 }
 
 TEST(MakeBlock, ErrorsNameTheOptionToChange) {
-  const auto error_of_cube = [](double edge_mm) { return testing_basics::error_of([&] { (void)make_cube(edge_mm, "dentin", 0.05); }); };
-  EXPECT_NE(error_of_cube(0).find("--edge-mm"), std::string::npos) << error_of_cube(0);
-  EXPECT_NE(error_of_cube(0.01).find("--leaf-mm"), std::string::npos) << error_of_cube(0.01);
+  const auto refused = [](double edge_mm) { return testing_basics::thrown_by([&] { (void)make_cube(edge_mm, "dentin", 0.05); }); };
+  EXPECT_TRUE(testing_basics::tells(refused(0), "--edge-mm"));
+  EXPECT_EQ(testing_basics::figures_in(refused(0.01)->problem()), (std::vector<double>{0.01, 0.05})) << "the edge and the leaf";
 }
 
 TEST(MakeBlock, RefusesWhatCannotBeBuilt) {

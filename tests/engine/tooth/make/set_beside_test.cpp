@@ -185,9 +185,9 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
     EXPECT_FALSE(row_of(numbered(tooth), k_any, numbered(from_fdi(beside, "x").other_side().fdi), k_any, side).why_not.empty())
         << "of the other half";
   }
-  EXPECT_NE(english_text(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not).find("distal of tooth 37 stands tooth 38"), std::string::npos);
-  EXPECT_NE(english_text(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not).find("no tooth stands distal"), std::string::npos);
-  EXPECT_NE(english_text(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not).find("mesial surfaces"), std::string::npos);
+  EXPECT_EQ(figures_in(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not), (std::vector<double>{37, 38, 34}));
+  EXPECT_EQ(figures_in(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not), (std::vector<double>{38})) << "the last one";
+  EXPECT_EQ(figures_in(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not), (std::vector<double>{11, 21})) << "over the midline";
 }
 
 TEST(InARow, WithoutNumbersClassAndJawDecide) {
@@ -199,8 +199,7 @@ TEST(InARow, WithoutNumbersClassAndJawDecide) {
   EXPECT_FALSE(row_of(numbered(37), k_molar, "scan", k_premolar, -1).why_not.empty()) << "a premolar distal of a second molar";
   EXPECT_FALSE(row_of(numbered(37), k_molar, "scan", k_premolar, 1).why_not.empty()) << "nor mesial: a first molar stands there";
   EXPECT_TRUE(row_of("scan", k_premolar, "scan", k_molar, -1).why_not.empty());
-  EXPECT_NE(english_text(row_of("lower first molar (seed 3)", k_molar, "upper second premolar (seed 4)", k_premolar, 1).why_not).find("upper"),
-            std::string::npos);
+  EXPECT_FALSE(row_of("lower first molar (seed 3)", k_molar, "upper second premolar (seed 4)", k_premolar, 1).why_not.empty());
   EXPECT_TRUE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).why_not.empty());
   EXPECT_NE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).unchecked, "");
 }

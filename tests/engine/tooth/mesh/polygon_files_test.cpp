@@ -5,12 +5,11 @@
 
 #include <algorithm>
 
+#include "engine/base/file_error.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum {
 namespace {
-
-using testing_basics::error_of;
 
 Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
 
@@ -102,23 +101,31 @@ TEST(PolygonFiles, OffWithNormalsColoursAndComments) {
 }
 
 TEST(PolygonFiles, WhatIsNoneIsNamedWithItsPlace) {
-  const auto ply = [](const std::string& text) { return error_of([&] { static_cast<void>(read_ply(bytes_of(text), "a.ply")); }); };
-  const auto obj = [](const std::string& text) { return error_of([&] { static_cast<void>(read_obj(bytes_of(text), "a.obj")); }); };
-  const auto off = [](const std::string& text) { return error_of([&] { static_cast<void>(read_off(bytes_of(text), "a.off")); }); };
-  EXPECT_NE(ply("ply\nformat ascii 1.0\nproperty float x\nend_header\n").find("a.ply:3: has a property of no element"), std::string::npos);
-  EXPECT_NE(ply("ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n").find("without a property"), std::string::npos);
-  EXPECT_NE(ply("ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n").find("without x, y or z"), std::string::npos);
-  EXPECT_NE(ply("ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty double x\nend_header\n1").find("cut off"), std::string::npos);
-  EXPECT_NE(ply("ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nend_header\n3 0 1 2\n")
-                .find("names a corner that is not there"),
-            std::string::npos);
-  EXPECT_NE(ply("ply\nelement vertex 0\n").find("within its head"), std::string::npos);
-  EXPECT_NE(obj("v 0 0 0\nf 1 -2 1\n").find("a.obj:2: '-2' is no corner"), std::string::npos);
-  EXPECT_NE(obj("v 0 zero 0\n").find("'zero' is no coordinate"), std::string::npos);
-  EXPECT_NE(obj("v 0 0 0\nf 1 1 5000000\n").find("names a corner that is not there"), std::string::npos);
-  EXPECT_NE(off("OFF\n4000000000 4000000000 0\n0 0 0\n").find("cut off"), std::string::npos);
-  EXPECT_NE(off("4OFF\n1 1 1\n").find("another kind"), std::string::npos);
-  EXPECT_NE(off("OFF BINARY\n").find("another kind"), std::string::npos);
+  using enum FileError;
+  const struct {
+    Polygons (*read)(const Bytes&, const std::string&);
+    const char* text;
+    FileError code;
+    const char* place;
+  } cases[] = {
+      {read_ply, "ply\nformat ascii 1.0\nproperty float x\nend_header\n", inconsistent, "a:3"},
+      {read_ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nend_header\n", inconsistent, "a"},
+      {read_ply, "ply\nformat ascii 1.0\nelement vertex 4000000000\nproperty float x\nend_header\n1\n", inconsistent, "a"},
+      {read_ply, "ply\nformat binary_little_endian 1.0\nelement vertex 9\nproperty double x\nend_header\n1", truncated, "a"},
+      {read_ply, "ply\nformat ascii 1.0\nelement face 1\nproperty list uchar int vertex_index\nend_header\n3 0 1 2\n", inconsistent, "a"},
+      {read_ply, "ply\nelement vertex 0\n", truncated, "a"},
+      {read_obj, "v 0 0 0\nf 1 -2 1\n", malformed, "a:2"},
+      {read_obj, "v 0 zero 0\n", malformed, "a:1"},
+      {read_obj, "v 0 0 0\nf 1 1 5000000\n", inconsistent, "a"},
+      {read_off, "OFF\n4000000000 4000000000 0\n0 0 0\n", truncated, "a"},
+      {read_off, "4OFF\n1 1 1\n", unsupported, "a"},
+      {read_off, "OFF BINARY\n", unsupported, "a"},
+  };
+  for (const auto& c : cases) {
+    const auto error = testing_basics::thrown_by([&] { static_cast<void>(c.read(bytes_of(c.text), "a")); });
+    EXPECT_EQ(testing_basics::code_of(error), c.code) << c.text;
+    EXPECT_EQ(testing_basics::place_of(error), c.place) << c.text;
+  }
 }
 
 }  // namespace
