@@ -6,8 +6,8 @@
 namespace cavum::ledger {
 
 enum class LedgerError : std::uint8_t {
-  lost,       ///< was here, and has to be restored
-  malformed,  ///< cannot be read as what it should be
+  lost,        ///< was here, and has to be restored
+  malformed,   ///< cannot be read as what it should be
   unknown,     ///< nothing here bears this name, number or key
   twice,       ///< stands there, or is asked for, a second time
   used,        ///< good once
