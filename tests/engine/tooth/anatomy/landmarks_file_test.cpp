@@ -54,10 +54,10 @@ TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
     auto less = good;
     less.erase(key);
     const bool may_be_missing = key.ends_with("lowest_mm") || key.ends_with("pit_mm");
-    EXPECT_TRUE(may_be_missing || refused(less).find("'" + key + "' is missing") != std::string::npos) << key;
+    EXPECT_TRUE(may_be_missing || refused(less).find("'" + key + "': is missing") != std::string::npos) << key;
     auto other = good;
     other[key] = true;
-    EXPECT_NE(refused(other).find("'" + key + "' is no"), std::string::npos) << key;
+    EXPECT_NE(refused(other).find("'" + key + "': is no"), std::string::npos) << key;
   }
   auto far = good;
   far["neck_mm"][0][2] = 1000.5;
@@ -66,7 +66,7 @@ TEST(LandmarksFile, WhatIsAnythingElseIsRefusedByItsKey) {
   EXPECT_NE(refused(far).find("more than 20000"), std::string::npos) << refused(far);
   auto cusp = good;
   cusp["cusps"][0].erase("tip_mm");
-  EXPECT_NE(refused(cusp).find("'cusps[0].tip_mm' is missing"), std::string::npos);
+  EXPECT_NE(refused(cusp).find("'cusps[0].tip_mm': is missing"), std::string::npos);
   for (const char* text : {"", "[]", "7", "{", "{\"neck_mm\":1e999}"}) EXPECT_THROW(static_cast<void>(parse_landmarks(text, "kept")), Error) << text;
 }
 
