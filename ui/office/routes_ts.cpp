@@ -27,7 +27,8 @@ std::string type_text() {
     std::string fields;
     T none;
     each_field(none, [&]<class Member>(const char* name, Member&, JsonField field = JsonField::always) {
-      fields += fmt::format(" {}{}: {};", name, (asked && field == JsonField::optional) || k_is_optional<Member> ? "?" : "", type_text<Member, asked>());
+      fields +=
+          fmt::format(" {}{}: {};", name, (asked && field == JsonField::optional) || k_is_optional<Member> ? "?" : "", type_text<Member, asked>());
     });
     const std::string body = "{" + fields + " }", name = struct_name<T>();
     if (name == "Only") return body;

@@ -120,9 +120,7 @@ TEST(AnnouncedTo, AStationOfBeforeSaysNotSinceWhenItsCandidateIsThere) {
   board.report("aa", r, 100'000'000'000);
   EXPECT_EQ(board.since_utc_ns("aa"), 40'000'000'000) << "the station knows it better";
   EXPECT_EQ(board.stations().at("aa").since_utc_ns, 40'000'000'000);
-  const auto here_s = [](const json& said) {
-    return static_cast<std::int64_t>(json_value_of<StationReport>(said, asked_json()).here_s);
-  };
+  const auto here_s = [](const json& said) { return static_cast<std::int64_t>(json_value_of<StationReport>(said, asked_json()).here_s); };
   EXPECT_THROW(static_cast<void>(here_s({{"state", "exam"}, {"here_s", -2}})), Error);
   EXPECT_EQ(here_s({{"state", "exam"}}), -1);
   EXPECT_EQ(here_s({{"state", "exam"}, {"here_s", 12}}), 12);
