@@ -80,7 +80,7 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
     EXPECT_EQ(recorder_.path(), path_);
     EXPECT_FALSE(std::filesystem::exists(elsewhere));
   }
-  recorder_.move_to(elsewhere, complaint_);  // where there is room
+  recorder_.move_to(elsewhere, "full");  // where there is room
   EXPECT_EQ(recorder_.path(), elsewhere);
   EXPECT_EQ(recorder_.ticks_on_disk(), 8300);
   for (std::int64_t tick = 8300; tick < 8600; ++tick) ASSERT_FALSE(drill_tick(tick));

@@ -4,9 +4,12 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "scenarios/file/parse.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
 namespace {
+
+using testing_basics::tells;
 
 std::string slot() { return read_text_file(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/slot.toml"); }
 

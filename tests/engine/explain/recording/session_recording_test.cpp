@@ -9,6 +9,7 @@
 #include "engine/explain/inference/explain.h"
 #include "engine/force/force_model.h"
 #include "tests/engine/session/fixture.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::explain {
 namespace {
@@ -54,7 +55,7 @@ TEST(SessionRecording, AMeasuredForceIsReadFromTheSessionAndItsFrictionIsNamed) 
   const std::string path = folder.file("measured.cavum");
   const std::string csv = make_session(path, true);
   const Recording r = read_session_recording(path);
-  EXPECT_TRUE(figures_in(first_note(r)).empty()) << "a measured force, not that of its law";
+  EXPECT_TRUE(testing_basics::figures_in(first_note(r)).empty()) << "a measured force, not that of its law";
   EXPECT_GT(r.rows(), 600);
   EXPECT_LE(r.relative_k.maxCoeff(), 1.0 + 1e-12);
   EXPECT_LT(r.relative_k.minCoeff(), 0.9) << "the pulp resists nothing, and the motion reaches it";
@@ -70,7 +71,7 @@ TEST(SessionRecording, AForceBesideTheSessionCountsInsteadOfItsLaw) {
   const std::string path = folder.file("plain.cavum"), force = folder.file("force.csv");
   write_text_file(force, make_session(path, false));
   const Recording own = read_session_recording(path), measured = read_session_recording(path, force);
-  EXPECT_EQ(figures_in(first_note(own)).size(), 1u) << "its own law, and what was rendered otherwise";
+  EXPECT_EQ(testing_basics::figures_in(first_note(own)).size(), 1u) << "its own law, and what was rendered otherwise";
   EXPECT_NE(english_text(first_note(measured)).find(force), std::string::npos);
   ASSERT_EQ(own.rows(), measured.rows());
   EXPECT_EQ((own.x_mm - measured.x_mm).abs().maxCoeff(), 0.0);

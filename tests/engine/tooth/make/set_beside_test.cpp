@@ -14,6 +14,7 @@
 #include "engine/tooth/make/make_molar.h"
 #include "engine/tooth/make/make_premolar.h"
 #include "engine/tooth/octree_edit.h"
+#include "tests/engine/support/basics.h"
 #include "tests/scenarios/test_teeth.h"
 
 namespace cavum {
@@ -185,9 +186,9 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
     EXPECT_FALSE(row_of(numbered(tooth), k_any, numbered(from_fdi(beside, "x").other_side().fdi), k_any, side).why_not.empty())
         << "of the other half";
   }
-  EXPECT_EQ(figures_in(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not), (std::vector<double>{37, 38, 34}));
-  EXPECT_EQ(figures_in(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not), (std::vector<double>{38})) << "the last one";
-  EXPECT_EQ(figures_in(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not), (std::vector<double>{11, 21})) << "over the midline";
+  EXPECT_EQ(testing_basics::figures_in(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not), (std::vector<double>{37, 38, 34}));
+  EXPECT_EQ(testing_basics::figures_in(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not), (std::vector<double>{38})) << "the last one";
+  EXPECT_EQ(testing_basics::figures_in(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not), (std::vector<double>{11, 21})) << "over the midline";
 }
 
 TEST(InARow, WithoutNumbersClassAndJawDecide) {
