@@ -25,6 +25,7 @@
 namespace cavum::station {
 namespace {
 
+using testing_basics::tells;
 using namespace std::chrono_literals;
 using State = CheckItem::State;
 
