@@ -183,7 +183,7 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   EXPECT_EQ(solved["steps"]["completed"], 0);
   EXPECT_EQ(run("replay " + path("hasty.cavum") + " --verify").exit_code, 0);
   expect_refused("scenario solve " + path("none.toml"), {"none.toml"});
-  expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png", ".svg"});
+  expect_refused("scenario show " + k_block + " --out " + path("zones.png"), {"zones.png"});
   expect_refused("scenario new --tooth canine --task access --out " + path("i.toml"), {"--tooth canine", "molar, premolar"});
 }
 
@@ -255,7 +255,7 @@ TEST_F(CommandLine, LimitPauseAndExtraTimeAreExactToTheTickAndRecorded) {
   EXPECT_EQ(with["pauses"]["list"][0]["from_tick"], 8000);
   EXPECT_EQ(with["accommodations"]["left_handed"], true);
   EXPECT_EQ(with["accommodations"]["extra_time_s"], 0.501);
-  EXPECT_NE(read_text_file(path("longer.html")).find("left-handed"), std::string::npos);
+  EXPECT_NE(read_text_file(path("longer.html")).find("11.5 s"), std::string::npos) << "its limit";
   EXPECT_EQ(SessionReader(path("plain.cavum")).inputs().size(), 11500u);
   EXPECT_EQ(SessionReader(path("longer.cavum")).inputs().size(), 13001u);
   EXPECT_EQ(run("replay " + path("longer.cavum") + " --verify").exit_code, 0);
