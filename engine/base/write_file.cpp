@@ -52,15 +52,15 @@ void require_no_node(const std::string& path) {
 }
 
 /// 0, or the errno of what failed; `what` then says it.
-int write_all(int fd, std::span<const std::uint8_t> bytes, const char*& what) {
-  what = "cannot be written";
+int write_all(int fd, std::span<const std::uint8_t> bytes, Message& what) {
+  what = msg("cannot be written");
   for (std::size_t done = 0; done < bytes.size();) {
     const auto n = ::write(fd, bytes.data() + done, bytes.size() - done);
     if (n < 0 && errno == EINTR) continue;
     if (n <= 0) return n == 0 ? EIO : errno;
     done += static_cast<std::size_t>(n);
   }
-  what = "cannot be written to disk";
+  what = msg("cannot be written to disk");
   return ::fsync(fd) == 0 ? 0 : errno;
 }
 
@@ -107,18 +107,18 @@ std::string temporary_name_beside(const std::string& path) {
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes, const Writing& how) {
   require_no_node(path);
   const std::string temporary = temporary_name_beside(path);
-  const auto fail = [&](const std::string& what, int error) {
+  const auto fail = [&](const Message& what, int error) {
     ::unlink(temporary.c_str());
     throw Error(error == EEXIST ? FileError::exists : FileError::not_written, Name{path}, msg("{} ({})", what, words_of(error)), msg(k_try_again));
   };
   {
     const Descriptor file(::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, how.is_private ? 0600 : 0666));
     if (file.get() < 0) throw Error(FileError::not_written, Name{path}, msg("cannot be created ({})", words_of(errno)), msg(k_try_again));
-    const char* what = nullptr;
+    Message what;
     if (const int error = write_all(file.get(), bytes, what); error != 0) fail(what, error);
   }
   if (how.may_replace ? ::rename(temporary.c_str(), path.c_str()) != 0 : !rename_new(temporary, path))
-    fail(errno == EEXIST ? "is there already" : "cannot be put in place", errno);
+    fail(errno == EEXIST ? msg("is there already") : msg("cannot be put in place"), errno);
   sync_folder_of(path);
 }
 

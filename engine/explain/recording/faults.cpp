@@ -68,18 +68,18 @@ void speed_against_position(const Recording& r, std::vector<DataFault>& faults) 
 }
 
 /// The unit that would make a force over penetration of `ratio` times the rig's right.
-std::string unit_words(double ratio) {
+Message unit_words(double ratio) {
   constexpr double k_near = 1.35;  // k of rig.toml is about right
   constexpr std::array<std::pair<const char*, double>, 4> k_forces{{{"mN", 1000.0}, {"gf", 101.97}, {"kN", 1e-3}, {"kgf", 0.10197}}};
   constexpr std::array<std::pair<const char*, double>, 3> k_lengths{{{"m", 1000.0}, {"um", 1e-3}, {"in", 25.4}}};
-  std::string out;
+  List options;
   const auto propose = [&](char column, const auto& units) {
     for (const auto& [name, factor] : units)
-      if (ratio < k_near * factor && ratio > factor / k_near) out += fmt::format("{}--unit {}={}", out.empty() ? "try " : ", or ", column, name);
+      if (ratio < k_near * factor && ratio > factor / k_near) options.items.push_back(msg("{}", fmt::format("--unit {}={}", column, name)));
   };
   propose('f', k_forces);
   propose('x', k_lengths);
-  return out.empty() ? "is x in metres or micrometres, or f in grams? Say so with --unit" : out;
+  return options.items.empty() ? msg("is x in metres or micrometres, or f in grams? Say so with --unit") : msg("try one of: {}", options);
 }
 
 void units(const Recording& r, std::vector<DataFault>& faults) {
