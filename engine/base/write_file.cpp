@@ -14,13 +14,14 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
+#include "engine/base/text.h"
 
 namespace cavum {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char k_try_again[] = "check that the folder exists, is writable and has room, then try again";
+constexpr const char* k_try_again = said("check that the folder exists, is writable and has room, then try again");
 
 /// Closes on every way out.
 class Descriptor {

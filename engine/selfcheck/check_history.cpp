@@ -20,7 +20,7 @@
 namespace cavum {
 namespace {
 
-constexpr char k_put_away[] = "put the file away and keep it; the next check begins a new one";
+constexpr const char* k_put_away = said("put the file away and keep it; the next check begins a new one");
 
 /// A line is no larger.
 constexpr std::size_t k_longest_line = 16384;

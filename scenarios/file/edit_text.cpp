@@ -16,7 +16,7 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr const char* k_elsewhere = "change it in a text editor";
+constexpr const char* k_elsewhere = said("change it in a text editor");
 
 /// Past a text in quotes that begins at `i`.
 std::size_t after_quotes(const std::string& text, std::size_t i) {

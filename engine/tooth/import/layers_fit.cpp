@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/error.h"
+#include "engine/base/text.h"
 #include "engine/tooth/import/import_error.h"
 #include "engine/tooth/make/neck_by_sector.h"
 
@@ -221,7 +222,7 @@ void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps,
   // thirteen human teeth: see docs/anatomy.md
   constexpr double k_least_facing = 0.5, k_most_apart = 0.03, k_most_overlap = 0.1, k_pulp_in = 0.8, k_chamber = 0.3;
   constexpr const char* k_what_to_do =
-      "check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown";
+      said("check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown");
   if (apart.facing < k_least_facing)
     throw Error(
         ImportError::layers_apart, Name{where},

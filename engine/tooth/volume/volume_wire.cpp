@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::string_view k_magic = "CVVOLUME";
 constexpr std::uint32_t k_error = 0, k_volume = 1, k_file_error = 2 /* and its code above it */, k_longest_text = 4096;
-constexpr const char* k_intact = "give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series";
+constexpr const char* k_intact = said("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series");
 constexpr std::size_t k_head_bytes = 3 * 4 + 15 * 8;
 
 bool send(int fd, std::span<const std::uint8_t> bytes) {

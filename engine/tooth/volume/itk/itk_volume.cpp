@@ -29,6 +29,7 @@
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/file_error.h"
+#include "engine/base/text.h"
 #include "engine/statistics/order.h"
 #include "engine/tooth/volume/dicom_bytes.h"
 #include "engine/tooth/volume/volume_files.h"
@@ -41,7 +42,7 @@ namespace {
 namespace fs = std::filesystem;
 using Image = itk::Image<float, 3>;
 
-constexpr const char* k_intact = "give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series";
+constexpr const char* k_intact = said("give an intact MetaImage, NRRD, NIfTI, TIFF or DICOM series");
 
 /// What was read, and which of its spacings the format has no place for.
 struct Read {
