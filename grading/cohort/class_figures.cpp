@@ -297,7 +297,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       return v;
     };
     HumanMark m{f[0], f[1], number_in(f[2], msg("column 3 (points)"), msg("'{}' is no number of points", f[2])), {}};
-    if (m.judge.empty()) throw Error(FileError::missing, Name{at(rows[i])}, msg("names no judge"), msg("give each judge a name or number"));
+    if (m.judge.empty()) throw Error(FileError::missing, at(rows[i]), msg("names no judge"), msg("give each judge a name or number"));
     if (m.points < 0 || m.points > max_points)
       throw Error(FileError::out_of_range, msg("{}: {}", at(rows[i]), msg("column 3 (points)")),
                   m.points < 0 ? msg("{} is less than no points", m.points) : msg("{} is more than the exam's {} points", m.points, max_points),
@@ -307,7 +307,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
       if (e.exam == exam || e.exam.empty()) m.candidate = e.pseudonym;
     if (f.size() == 4 && !f[3].empty()) m.rating = number_in(f[3], msg("column 4 (rating)"), msg("'{}' is no number of a rating", f[3]));
     if (!given.emplace(m.candidate, m.judge).second)
-      throw Error(FileError::duplicate, Name{at(rows[i])}, msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
+      throw Error(FileError::duplicate, at(rows[i]), msg("is a second mark by judge {} for one candidate", m.judge), msg("leave one of them"));
     judges.insert(m.judge);
     out.push_back(std::move(m));
   }

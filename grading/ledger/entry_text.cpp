@@ -43,13 +43,13 @@ json write_json(const AsUtc<const std::int64_t>& t) { return utc_text(t.ns); }
 void read_json(const json& from, const JsonPlace& at, const AsUtc<std::int64_t>& t) {
   std::string text;
   read_json_value(from, at, text);
-  t.ns = parse_utc(text, at.text());
+  t.ns = parse_utc(text, english_text(at.text()));
 }
 json write_json(const AsHex<const Sha256>& hash) { return to_hex(hash.bytes); }
 void read_json(const json& from, const JsonPlace& at, const AsHex<Sha256>& hash) {
   std::string text;
   read_json_value(from, at, text);
-  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, at.text());
+  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, english_text(at.text()));
 }
 json write_json(const Opening& o) { return o.sha256; }
 void read_json(const json& from, const JsonPlace& at, Opening& o) {

@@ -137,7 +137,7 @@ void check_layers(const TissueGrid& grid, const MeshPaths& paths) {
   if (all == 0)
     throw Error(ImportError::no_tissue, Name{paths.pulp}, msg("the pulp is smaller than a leaf"),
                 msg("check the unit (mm), or use a smaller --leaf-mm"));
-  require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin), "exchange --enamel and --dentin");
+  require_layer_order(touched, fmt::format("{}, {}", paths.enamel, paths.dentin), msg("exchange --enamel and --dentin"));
   if (touched[k_air] * 5 > all)
     throw Error(ImportError::layers_apart, Name{paths.pulp},
                 msg("the pulp is not enclosed by the dentin: {} % of its surface is bare", 100 * touched[k_air] / all),

@@ -178,7 +178,7 @@ Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, c
   }
   Segmentation s = from_labels(volume, options.labels, path);
   if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
-    require_layer_order(pulp_faces(s.size, s.tissue), path, "exchange enamel and dentin in --map");
+    require_layer_order(pulp_faces(s.size, s.tissue), path, msg("exchange enamel and dentin in --map"));
   return {std::move(s), "label map"};
 }
 
