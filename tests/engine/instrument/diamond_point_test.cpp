@@ -84,7 +84,12 @@ TEST(DiamondPoint, BrokenFilesAreErrorsWithLineAndColumn) {
                                        {"piece that is no table", "{ r_mm = 0.3, z_mm = 1.2 }", "3"},
                                        {"negative radius", "r_mm = 0.4, z_mm = 11", "r_mm = -0.4, z_mm = 11"},
                                        {"NaN", "r_mm = 0.4, z_mm = 11", "r_mm = nan, z_mm = 11"},
-                                       {"centre with one number", "centre = [0, 0.5]", "centre = [0]"}}) {
+                                       {"centre with one number", "centre = [0, 0.5]", "centre = [0]"},
+                                       {"heights fall", "z_mm = 11 }", "z_mm = 1.0 }"},
+                                       {"arc that does not fit", "centre = [0, 0.5]", "centre = [0, 0.4]"},
+                                       {"arc about NaN", "centre = [0, 0.5]", "centre = [nan, 0.5]"},
+                                       {"hollow head", "cutting_length_mm = 0.9", "cutting_length_mm = 11.5"},
+                                       {"empty profile", "profile = [", "profile = []\nrest = ["}}) {
     std::string text = point_text("round-1.0");
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
@@ -99,21 +104,6 @@ TEST(DiamondPoint, MorePiecesThanTheLimitAreRefusedByIt) {
   for (int i = 0; i < 65; ++i) text += "{ r_mm = 0.3, z_mm = 1.2 }, ";
   const auto error = thrown_by([&] { static_cast<void>(parse_diamond_point(text + "]\n", "p.toml")); });
   EXPECT_TRUE(tells(error, 65) && tells(error, 64));
-}
-
-TEST(DiamondPoint, ImpossibleOutlinesAreErrorsWithLineAndColumn) {
-  for (const Broken& b : {Broken{"heights fall", "z_mm = 11 }", "z_mm = 1.0 }"},
-                          {"arc that does not fit", "centre = [0, 0.5]", "centre = [0, 0.4]"},
-                          {"arc about NaN", "centre = [0, 0.5]", "centre = [nan, 0.5]"},
-                          {"hollow head", "cutting_length_mm = 0.9", "cutting_length_mm = 11.5"},
-                          {"empty profile", "profile = [", "profile = []\nrest = ["}}) {
-    std::string text = point_text("round-1.0");
-    const auto at = text.find(from);
-    ASSERT_NE(at, std::string::npos) << from;
-    text.replace(at, std::string(from).size(), to);
-    const std::string place = place_of(thrown_by([&] { (void)parse_diamond_point(text, "p.toml"); }));
-    EXPECT_TRUE(std::regex_match(place, std::regex("p\\.toml:[0-9]+:[0-9]+"))) << what << ": '" << place << "'";
-  }
 }
 
 TEST(DiamondPoint, APieceWithoutLengthIsRefusedOrHarmless) {

@@ -47,7 +47,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
       if (const auto* overruns = e.as<Overruns>()) told += overruns->count;
     EXPECT_EQ(told, r.servo.overruns);
     const VerifyReport report = verify_session(path);
-    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+    EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
     EXPECT_EQ(report.ticks, periods);
   }
 }
