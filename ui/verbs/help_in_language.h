@@ -31,4 +31,10 @@ inline void help_in_language(CLI::App& app) {
   app.set_help_flag("-h,--help", tr("Print this help message and exit"));
 }
 
+/// After all verbs are added: CLI11 gives the help flag of each the English group.
+inline void group_help_flags(CLI::App& app) {
+  app.get_help_ptr()->group(tr("Options"));
+  for (CLI::App* verb : app.get_subcommands([](CLI::App*) { return true; })) group_help_flags(*verb);
+}
+
 }  // namespace cavum::ui

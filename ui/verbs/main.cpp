@@ -71,6 +71,7 @@ int main(int argc, char** argv) {
   cavum::ui::add_station_verbs(app, exit_code);
   cavum::ui::add_serve_verbs(app, exit_code);
   cavum::ui::add_manual_verbs(app, exit_code);
+  cavum::ui::group_help_flags(app);
   const auto verbs = app.get_subcommands([](CLI::App*) { return true; });
   if (!arguments.empty() && !arguments[0].starts_with('-') &&
       std::none_of(verbs.begin(), verbs.end(), [&](const CLI::App* v) { return v->get_name() == arguments[0]; })) {
