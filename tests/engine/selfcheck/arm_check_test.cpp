@@ -31,7 +31,7 @@ ArmModel plain_arm() {
 TEST(ArmCheck, FindsFrictionMassAndWeightOfEachAxis) {
   FreeArm arm(plain_arm(), k_left_at, 1);
   const ArmFigures f = check_free_arm(arm, 2);
-  ASSERT_EQ(f.doubt, "");
+  ASSERT_EQ(f.doubt, Message());
   const ArmModel m = plain_arm();
   for (std::size_t i = 0; i < 3; ++i) {
     EXPECT_NEAR(f.axes[i].friction_n, m.coulomb_n[i], 0.01) << i;
@@ -79,7 +79,7 @@ TEST(ArmCheck, SaysThatAHandIsOnIt) {
   for (const ArmHand& hand : {ArmHand{0.1, 0.5, 0.005, 0.5}, ArmHand{0.1, 1.0, 0.02, 1.0}, ArmHand{0.2, 2.0, 0.1, 0.4}}) {
     FreeArm arm(plain_arm(), {}, 9);
     arm.set_hand(hand);
-    EXPECT_NE(check_free_arm(arm, 10).doubt, "") << hand.stiffness_n_per_mm;
+    EXPECT_NE(check_free_arm(arm, 10).doubt, Message()) << hand.stiffness_n_per_mm;
     EXPECT_EQ(length(arm.commanded_n()), 0.0);
   }
 }

@@ -130,7 +130,7 @@ TEST(CheckRule, DoubtIsNoVerdict) {
   std::mt19937_64 random(8);
   const auto history = history_of(random, {}, 20);
   ArmFigures f = drawn(random, {}, 0.9);
-  f.doubt = "a hand is on it; take it off";
+  f.doubt = msg("a hand is on it");
   const CheckVerdict v = judge_check(f, history);
   EXPECT_EQ(v.outcome, CheckOutcome::doubtful);
   EXPECT_TRUE(v.changes.empty());

@@ -172,7 +172,7 @@ TEST(SetBeside, WhatCannotStandTogetherIsRefused) {
 
 /// A tooth that is known by its name and the class of its shape alone.
 RowVerdict row_of(const std::string& tooth, ToothClass kind, const std::string& beside, ToothClass other, int side) {
-  const ClassGuess a{kind, 0.9, ""}, b{other, 0.9, ""};
+  const ClassGuess a{kind, 0.9, {}}, b{other, 0.9, {}};
   return stand_in_a_row({tooth, a}, {beside, b}, side);
 }
 std::string numbered(int fdi) { return name_with(from_fdi(fdi, "x")) + "; tooth from a scan"; }
@@ -181,7 +181,7 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
   constexpr auto k_any = ToothClass::unknown;
   for (const auto& [tooth, beside, side] : {std::tuple(36, 35, 1), {36, 37, -1}, {11, 12, -1}, {13, 12, 1}, {47, 46, 1}, {25, 26, -1}}) {
     EXPECT_TRUE(row_of(numbered(tooth), k_any, numbered(beside), k_any, side).why_not.empty()) << tooth << ' ' << beside;
-    EXPECT_EQ(row_of(numbered(tooth), k_any, numbered(beside), k_any, side).unchecked, "");
+    EXPECT_EQ(row_of(numbered(tooth), k_any, numbered(beside), k_any, side).unchecked, Message());
     EXPECT_FALSE(row_of(numbered(tooth), k_any, numbered(beside), k_any, -side).why_not.empty()) << "on the other side";
     EXPECT_FALSE(row_of(numbered(tooth), k_any, numbered(from_fdi(beside, "x").other_side().fdi), k_any, side).why_not.empty())
         << "of the other half";
@@ -194,7 +194,7 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
 TEST(InARow, WithoutNumbersClassAndJawDecide) {
   constexpr auto k_molar = ToothClass::molar, k_premolar = ToothClass::premolar, k_incisor = ToothClass::incisor;
   EXPECT_TRUE(row_of("scan", k_molar, "scan", k_premolar, 1).why_not.empty());
-  EXPECT_NE(row_of("scan", k_molar, "scan", k_premolar, 1).unchecked, "") << "their numbers were not said";
+  EXPECT_NE(row_of("scan", k_molar, "scan", k_premolar, 1).unchecked, Message()) << "their numbers were not said";
   EXPECT_FALSE(row_of("scan", k_molar, "scan", k_premolar, -1).why_not.empty());
   EXPECT_FALSE(row_of("scan", k_molar, "scan", k_incisor, 1).why_not.empty());
   EXPECT_FALSE(row_of(numbered(37), k_molar, "scan", k_premolar, -1).why_not.empty()) << "a premolar distal of a second molar";
@@ -202,7 +202,7 @@ TEST(InARow, WithoutNumbersClassAndJawDecide) {
   EXPECT_TRUE(row_of("scan", k_premolar, "scan", k_molar, -1).why_not.empty());
   EXPECT_FALSE(row_of("lower first molar (seed 3)", k_molar, "upper second premolar (seed 4)", k_premolar, 1).why_not.empty());
   EXPECT_TRUE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).why_not.empty());
-  EXPECT_NE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).unchecked, "");
+  EXPECT_NE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).unchecked, Message());
 }
 
 TEST(SetBeside, TeethThatAreNoNeighboursAreRefusedUnlessConfirmedAndThatIsKept) {
