@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
+#include "engine/tooth/tooth.h"
 #include "scenarios/zones/placed.h"
 
 namespace cavum::grading {
@@ -28,6 +29,7 @@ std::string content_of(const SessionSetup& session) {
 ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it)
     : tooth(std::move(tooth_before)),
       fits(std::move(fits_of_it)),
+      hash(tooth_hash(tooth)),
       zones(std::move(zones_of_it)),
       apart(take_apart(tooth)),
       known(tooth, apart ? apart->own : tooth) {}

@@ -60,7 +60,7 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
   recorder_.close(tooth(), "{}");
 
   const VerifyReport report = verify_session(path_);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   const auto inputs = SessionReader(path_).inputs();
   ASSERT_EQ(inputs.size(), 5200u);
   for (std::size_t i = 0; i < inputs.size(); ++i) ASSERT_EQ(inputs[i], test::motion_at(static_cast<std::int64_t>(i)));
@@ -86,7 +86,7 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
   for (std::int64_t tick = 8300; tick < 8600; ++tick) ASSERT_FALSE(drill_tick(tick));
   recorder_.close(tooth(), "{}");
   const VerifyReport report = verify_session(elsewhere);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks_replayed, 8600);
   const SessionReader moved(elsewhere);
   const auto inputs = moved.inputs();
@@ -136,7 +136,7 @@ TEST(FullDisk, AnExamIsResumedOnItAndSavedElsewhere) {
   EXPECT_EQ(resumed->recorder.ticks_on_disk(), 3100);
   resumed->recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
   const VerifyReport report = verify_session(elsewhere);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks, 3100);
   const auto events = SessionReader(elsewhere).events();
   ASSERT_EQ(events.size(), 2u);
@@ -156,7 +156,7 @@ TEST_F(FullDiskTest, ASealThatDoesNotFitIsSetElsewhere) {
   recorder_.move_to(elsewhere, "full");
   recorder_.close(last, R"({"verdict":"pass"})");
   const VerifyReport report = verify_session(elsewhere);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks, 5200);
   EXPECT_EQ(SessionReader(elsewhere).result_json(), R"({"verdict":"pass"})");
 }
@@ -183,7 +183,7 @@ TEST_F(FullDiskTest, WhileClosingCanBeRepeated) {
   EXPECT_GT(failed, 3);
   EXPECT_FALSE(std::filesystem::exists(path_ + "-wal"));
   const VerifyReport report = verify_session(path_);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks, 1300);
 }
 

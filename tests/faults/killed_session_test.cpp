@@ -73,7 +73,7 @@ TEST(KilledSession, LosesAtMostASecondAndResumesAt20RandomMoments) {
     test::drill(exam.simulation, exam.recorder, kept, 600);
     exam.recorder.close(save_tooth(drilled_tooth(exam.simulation)), "{}");
     const VerifyReport report = verify_session(path);
-    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+    EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
     EXPECT_EQ(report.ticks, kept + 600);
     EXPECT_NE(SessionReader(path).events().back().as<RecordingGap>(), nullptr);
   }

@@ -101,7 +101,7 @@ TEST(Session, ReplaysBitForBit) {
   const std::string path = folder.file("exam.cavum");
   test::make_closed_session(path, 4200);
   const VerifyReport report = verify_session(path);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_TRUE(report.closed);
   EXPECT_TRUE(report.findings.empty());
   EXPECT_EQ(report.ticks, 4200);
@@ -184,7 +184,7 @@ TEST(Session, EndedWithoutClosingResumesAndVerifies) {
   exam.recorder.close(save_tooth(drilled_tooth(exam.simulation)), "{}");
 
   const VerifyReport report = verify_session(path);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks, 4200);
   const auto events = SessionReader(path).events();
   ASSERT_EQ(events.size(), 1u);

@@ -37,7 +37,7 @@ ServoState replays_and_resumes(const SessionSetup& setup, std::size_t terms) {
   test::drill(resumed.simulation, resumed.recorder, 2500, 1200);
   resumed.recorder.close(save_tooth(drilled_tooth(resumed.simulation)), "{}");
   const VerifyReport report = verify_session(path);
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   EXPECT_EQ(report.ticks_replayed, 3700);
   return cut_off;
 }

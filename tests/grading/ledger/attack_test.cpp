@@ -88,7 +88,7 @@ class Attack : public testing::Test {
 
 TEST_F(Attack, NoneIsFiledAndHolds) {
   const Filing f = file(session_);
-  ASSERT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
+  ASSERT_TRUE(f.seq) << testing_basics::text_of(f.findings);
   EXPECT_TRUE(f.findings.empty());
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
   const auto registry = read_registry(read_ledger(school_.places()));
@@ -338,7 +338,7 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   EXPECT_TRUE(open.interrupted);
   close_again(cut);
   const Filing f = file(cut);
-  EXPECT_TRUE(f.seq) << (f.findings.empty() ? "" : f.findings[0]);
+  EXPECT_TRUE(f.seq) << testing_basics::text_of(f.findings);
   EXPECT_TRUE(f.findings.empty());
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_TRUE(told.holds);

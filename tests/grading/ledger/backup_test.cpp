@@ -43,7 +43,7 @@ class BackedUp : public testing::Test {
   json file_later() const {
     Ledger ledger = school_.ledger();
     const auto filed = file_session(ledger, school_.file(*shared_later_));
-    EXPECT_TRUE(filed.seq) << (filed.findings.empty() ? "" : filed.findings[0]);
+    EXPECT_TRUE(filed.seq) << testing_basics::text_of(filed.findings);
     return ledger.receipt(*filed.seq);
   }
   std::string later() const { return school_.file(*shared_later_); }

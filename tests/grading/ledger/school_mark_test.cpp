@@ -91,7 +91,7 @@ TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
   const std::string again = forged(school_, session_, {});
   grading::ExamGrounds grounds;
   const grading::SchoolMark mark = grading::mark_again(SessionReader(again), grounds);
-  EXPECT_TRUE(mark.holds()) << (mark.findings.empty() ? "" : mark.findings[0]);
+  EXPECT_TRUE(mark.holds()) << testing_basics::text_of(mark.findings);
   EXPECT_EQ(mark.result, json::parse(SessionReader(session_).result_json()));
   EXPECT_TRUE(mark.sealed_otherwise.is_null());
   EXPECT_TRUE(file(again).seq);

@@ -27,7 +27,7 @@ using testing::scenario_text;
 /// A moment in which something was removed: it tells at which wall the most of it.
 bool is_removal(const WhyItem& i) {
   for (std::size_t wall = 0; wall < scenarios::k_walls; ++wall)
-    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what, wall_text(wall, {}))) return true;
+    if (i.unit == "mm3" && i.tick >= 0 && tells(i.what, scenarios::wall_text(wall, {}))) return true;
   return false;
 }
 
@@ -88,7 +88,7 @@ TEST(Why, AMomentThatReachesSeveralZonesNamesEachWithItsVolume) {
   for (const scenarios::Zone zone : {scenarios::Zone::leeway_sides, scenarios::Zone::container_sides})
     EXPECT_TRUE(tells(cut.what, std::string(scenarios::zone_name(zone)))) << cut.what;
   EXPECT_GE(figures_in(cut.what).size(), 3u) << "a volume for each zone, and one outside all";
-  EXPECT_TRUE(tells(cut.what, wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {}))) << cut.what;
+  EXPECT_TRUE(tells(cut.what, scenarios::wall_text(static_cast<std::size_t>(scenarios::Wall::mesial), {}))) << cut.what;
 }
 
 TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {

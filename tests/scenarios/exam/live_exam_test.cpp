@@ -87,7 +87,7 @@ TEST_F(LiveExamTest, ServoAndTwinAgreeAndTheSessionVerifies) {
   ASSERT_TRUE(live.exam().over());
   live.exam().close("{}");
   const VerifyReport verified = verify_session(session());
-  EXPECT_TRUE(verified.verified) << (verified.findings.empty() ? "" : verified.findings[0]);
+  EXPECT_TRUE(verified.verified) << testing_basics::text_of(verified.findings);
   EXPECT_EQ(verified.ticks, report.writer.ticks - report.late_ticks);
   EXPECT_GT(live.exam().state().tooth.edit_hash(), 0u);
   std::printf("%lld ticks, %lld overruns, %lld made up, %lld taken after the end\n", static_cast<long long>(verified.ticks),

@@ -16,7 +16,7 @@ ZoneMap zones_of(const std::string& shapes, const Tooth& tooth) { return build_z
 
 TEST(CanalCone, MouthsLieWhereTheCanalsLeaveTheChamber) {
   const Tooth tooth = chambered_block(0.1);
-  const auto mouths = canal_mouths(tooth, "pulp", "here");  // two canals of 0.4 x 0.6 mm under a floor at -4.5
+  const auto mouths = canal_mouths(tooth, "pulp", Name{"here"});  // two canals of 0.4 x 0.6 mm under a floor at -4.5
   ASSERT_EQ(mouths.size(), 2u);
   for (const auto& m : mouths) {
     EXPECT_NEAR(std::fabs(m.at_mm.x), 1.0, 0.05);
@@ -39,7 +39,7 @@ TEST(CanalCone, TheTeethThatShipHaveTheCanalsTheyWereMadeWith) {
 TEST(CanalCone, IsTheConeOfTheSameNumbers) {
   const Tooth tooth = chambered_block(0.1);
   const Vec3 mouth = [&] {
-    for (const auto& m : canal_mouths(tooth, "pulp", "here"))
+    for (const auto& m : canal_mouths(tooth, "pulp", Name{"here"}))
       if (m.at_mm.x > 0) return m.at_mm;
     return Vec3{};
   }();
@@ -67,7 +67,7 @@ TEST(CanalCone, OnTheMolarOneMayBeNamedByItsSide) {
     const ZoneMap z = zones_of("[[zones.target]]\nshape = \"canal_cone\"\ntaper_deg = 0\ncanals = \"" + side + "\"\n", molar);
     return (z.target_low_mm() + z.target_high_mm()) * 0.5;
   };
-  for (const auto& m : canal_mouths(molar, "pulp", "here")) {
+  for (const auto& m : canal_mouths(molar, "pulp", Name{"here"})) {
     const Vec3 found = middle_of(m.at_mm.x < 0 ? "distal" : m.at_mm.y > 0 ? "mesiobuccal" : "mesiolingual");
     EXPECT_NEAR(found.x, m.at_mm.x, 0.1);
     EXPECT_NEAR(found.y, m.at_mm.y, 0.1);
@@ -83,8 +83,8 @@ TEST(CanalCone, SaysWhereTheMouthsAreWhenNoneLiesOnTheSideAskedFor) {
   EXPECT_EQ(testing_basics::place_of(enamel), "s.toml:20:1");
   EXPECT_TRUE(testing_basics::tells(enamel, "enamel") && testing_basics::tells(enamel, "test tooth"));
   const Tooth incisor = load_tooth_file(testing_basics::data_path("teeth/upper_incisor.cvt"));
-  const auto mouth = canal_mouths(incisor, "pulp", "here").at(0);
-  const double middle = tissue_relief(incisor, "pulp", TissuePart::chamber, "here").middle_mm.y;
+  const auto mouth = canal_mouths(incisor, "pulp", Name{"here"}).at(0);
+  const double middle = tissue_relief(incisor, "pulp", TissuePart::chamber, Name{"here"}).middle_mm.y;
   const std::string side = mouth.at_mm.y > middle ? "lingual" : "buccal", other = mouth.at_mm.y > middle ? "buccal" : "lingual";
   const auto zone = [&](const std::string& which) {
     return testing_basics::thrown_by(

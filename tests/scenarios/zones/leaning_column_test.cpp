@@ -29,13 +29,13 @@ TEST(ReliefAlong, ASlabIsAsThickAlongTheWayAsItsSlantSays) {
       },
       [](Vec3 p) { return p.z; });
   const double sine = 0.5, cosine = std::sqrt(0.75);
-  const TissueRelief relief = relief_along(tooth, leaning(cosine, sine, {0, 0, -3}), "pulp", TissuePart::all, "here");
+  const TissueRelief relief = relief_along(tooth, leaning(cosine, sine, {0, 0, -3}), "pulp", TissuePart::all, Name{"here"});
   for (const double x : {-1.2, 0.0, 1.2})
     for (const double y : {-1.5, 0.0, 1.5}) EXPECT_NEAR(relief.roof_mm.at(x, y) - relief.floor_mm.at(x, y), 1 / cosine, 0.06) << x << " " << y;
   EXPECT_NEAR(relief.middle_mm.z, -2.5, 0.02);
   // the floor's plane z = -3 in the frame's lengths: -3 + sine y + cosine h = -3
   EXPECT_NEAR(relief.floor_mm.at(0, 1.0), -sine / cosine, 0.06);
-  EXPECT_THROW(static_cast<void>(relief_along(tooth, leaning(cosine, sine, {0, 0, 0}), "pulp", TissuePart::chamber, "here")), Error);
+  EXPECT_THROW(static_cast<void>(relief_along(tooth, leaning(cosine, sine, {0, 0, 0}), "pulp", TissuePart::chamber, Name{"here"})), Error);
 }
 
 TEST(LeaningColumn, OpensTheIncisorThatShipsFromLingual) {
@@ -86,7 +86,7 @@ TEST(LeaningColumn, OpensTheIncisorThatShipsFromLingual) {
 
 TEST(LeaningColumn, IsRefusedWhereNoEdgeIs) {
   const Tooth molar = load_tooth_file(testing_basics::data_path("teeth/lower_molar.cvt"));
-  EXPECT_THROW(static_cast<void>(lingual_way(molar, find_landmarks(molar), "here")), Error);
+  EXPECT_THROW(static_cast<void>(lingual_way(molar, find_landmarks(molar), Name{"here"})), Error);
 }
 
 }  // namespace

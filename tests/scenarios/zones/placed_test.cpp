@@ -38,7 +38,7 @@ Landmarks bent() {
 }
 
 TEST(PlacedFissure, FollowsTheLineAndKeepsTheRidges) {
-  const OutlineSpec o = place_fissure(along(1.2, 1.0), bent(), "here");
+  const OutlineSpec o = place_fissure(along(1.2, 1.0), bent(), Name{"here"});
   ASSERT_EQ(o.paths_mm.size(), 1u);
   const auto outline = make_outline(o, {}, nullptr);
   // the mesial end lies 1.6 mm from the ridge already less 0.6 of width: the distal one is cut back to it
@@ -49,13 +49,13 @@ TEST(PlacedFissure, FollowsTheLineAndKeepsTheRidges) {
 TEST(PlacedFissure, ThroughARidgeGoesOnBeyondIt) {
   OutlineSpec spec = along(1.2, 1.0);
   spec.through = 1;
-  const auto outline = make_outline(place_fissure(spec, bent(), "here"), {}, nullptr);
+  const auto outline = make_outline(place_fissure(spec, bent(), Name{"here"}), {}, nullptr);
   for (double x = 2.0; x < 5.0; x += 0.1) EXPECT_NEAR(outline->distance_mm(x, 0), -0.6, 0.05) << x;
   EXPECT_GT(outline->distance_mm(-2.4, 0), 0);
 }
 TEST(PlacedFissure, IsRefusedWhereNothingIsLeftOrNoneIsFound) {
-  EXPECT_THROW(static_cast<void>(place_fissure(along(1.2, 4.0), bent(), "here")), Error);
-  EXPECT_THROW(static_cast<void>(place_fissure(along(1.2, 1.0), {}, "here")), Error);
+  EXPECT_THROW(static_cast<void>(place_fissure(along(1.2, 4.0), bent(), Name{"here"})), Error);
+  EXPECT_THROW(static_cast<void>(place_fissure(along(1.2, 1.0), {}, Name{"here"})), Error);
 }
 
 TEST(PlacedBox, HasItsAxialWallInsideTheSurfaceAndItsFloorAboveTheNeck) {
@@ -70,7 +70,7 @@ TEST(PlacedBox, HasItsAxialWallInsideTheSurfaceAndItsFloorAboveTheNeck) {
   spec.depth_mm = 1.5;
   spec.above_neck_mm = 1.0;
   spec.side = -1;
-  const ShapeSpec box = place_proximal_box(spec, block, l, "here");
+  const ShapeSpec box = place_proximal_box(spec, block, l, Name{"here"});
   EXPECT_EQ(box.kind, ShapeSpec::Kind::box);
   EXPECT_NEAR(box.at_mm.x + 0.5 * box.size_mm.x, -1.5, 0.03);  // axial wall
   EXPECT_NEAR(box.at_mm.z - 0.5 * box.size_mm.z, -3.0, 1e-9);  // floor
@@ -78,8 +78,8 @@ TEST(PlacedBox, HasItsAxialWallInsideTheSurfaceAndItsFloorAboveTheNeck) {
   EXPECT_NEAR(box.size_mm.y, 2.0, 1e-9);
   EXPECT_LT(box.at_mm.x - 0.5 * box.size_mm.x, -3.5);
   spec.above_neck_mm = 5.0;
-  EXPECT_THROW(static_cast<void>(place_proximal_box(spec, block, l, "here")), Error);
-  EXPECT_THROW(static_cast<void>(place_proximal_box(spec, block, {}, "here")), Error);
+  EXPECT_THROW(static_cast<void>(place_proximal_box(spec, block, l, Name{"here"})), Error);
+  EXPECT_THROW(static_cast<void>(place_proximal_box(spec, block, {}, Name{"here"})), Error);
 }
 
 /// On a tooth that ships: the target lies along the fissure's line, and its floor below enamel as asked.

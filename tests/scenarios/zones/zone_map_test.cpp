@@ -135,12 +135,12 @@ TEST(ZoneMap, ShapesAreAddedSubtractedAndIntersectedInOrder) {
 
 TEST(Relief, FindsTheChamberAboveTheCanals) {
   const Tooth tooth = chambered_block(0.05);
-  const auto chamber = tissue_relief(tooth, "pulp", TissuePart::chamber, "test");
+  const auto chamber = tissue_relief(tooth, "pulp", TissuePart::chamber, Name{"test"});
   EXPECT_NEAR(chamber.lowest_mm, -4.5, 0.051);
   EXPECT_NEAR(chamber.highest_mm, -2.5, 1e-9);
   EXPECT_NEAR(chamber.middle_mm.x, 0, 0.01);
-  EXPECT_NEAR(tissue_relief(tooth, "pulp", TissuePart::all, "test").lowest_mm, -6.5, 1e-9);
-  EXPECT_THROW(static_cast<void>(tissue_relief(dentin_block(1, 1, 0.1), "pulp", TissuePart::all, "test")), Error);
+  EXPECT_NEAR(tissue_relief(tooth, "pulp", TissuePart::all, Name{"test"}).lowest_mm, -6.5, 1e-9);
+  EXPECT_THROW(static_cast<void>(tissue_relief(dentin_block(1, 1, 0.1), "pulp", TissuePart::all, Name{"test"})), Error);
 }
 
 TEST(ZoneMap, ColumnOverTheChamberFollowsItsShadowDownToItsFloor) {

@@ -101,7 +101,7 @@ TEST_F(LockedExam, AnotherWindowAndASecondStartAreRecordedAndEndNothing) {
   EXPECT_FALSE(read_text_file(second).empty());
   EXPECT_EQ(wait(child), 0) << said();
   const VerifyReport report = verify_session(session());
-  EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings[0]);
+  EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
   const auto all = attempts();
   EXPECT_TRUE(holds(all, LockTry::focus_lost));
   EXPECT_TRUE(holds(all, LockTry::focus_back)) << "it takes the keyboard back";

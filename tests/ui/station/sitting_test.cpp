@@ -96,7 +96,7 @@ class FullDiskSitting : public SittingTest {
   void expect_whole() {
     ASSERT_TRUE(goes_on(sitting_, [&] { return sitting_.stage() == Stage::done; }));
     const VerifyReport report = verify_session(sitting_.path());
-    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings.front());
+    EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
     EXPECT_EQ(report.ticks, sitting_.live().view().ticks);
   }
   Sitting sitting_{(SetUp(), options_), "K1"};

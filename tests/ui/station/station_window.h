@@ -63,7 +63,7 @@ class StationWindow : public ::testing::Test {
   /// What was recorded is whole, the exam goes on from there, and closed it verifies.
   void expect_resumable(std::int64_t least_ticks) const {
     const VerifyReport open = verify_session(session());
-    EXPECT_TRUE(open.intact) << (open.findings.empty() ? "" : open.findings[0]);
+    EXPECT_TRUE(open.intact) << testing_basics::text_of(open.findings);
     EXPECT_FALSE(open.closed);
     EXPECT_GE(open.ticks, least_ticks);
     const int status =

@@ -58,7 +58,7 @@ key enter
   size_.clear();  // as on a desk: people look at these pictures
   EXPECT_EQ(run(script), 0) << said();
   const VerifyReport verified = verify_session(session());
-  EXPECT_TRUE(verified.verified) << (verified.findings.empty() ? "" : verified.findings[0]);
+  EXPECT_TRUE(verified.verified) << testing_basics::text_of(verified.findings);
   EXPECT_EQ(verified.first_divergence, std::nullopt);
   const SessionReader reader(session());
   EXPECT_EQ(reader.setup().candidate, "A17");
@@ -120,7 +120,7 @@ class StationOnAFullDisk : public StationWindow {
     ASSERT_TRUE(std::filesystem::exists(saved)) << said();
     EXPECT_NE(said().find(saved), std::string::npos) << said();
     const VerifyReport report = verify_session(saved);
-    EXPECT_TRUE(report.verified) << (report.findings.empty() ? "" : report.findings[0]);
+    EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);
     EXPECT_GE(static_cast<double>(report.ticks), 1000.0 * least_s);
     EXPECT_EQ(SessionReader(saved).setup().candidate, "T5");
   }
