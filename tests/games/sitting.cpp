@@ -64,7 +64,7 @@ void Sitting::cut(const Body& body, double seconds, const Hand& hand) {
   std::vector<RemovedLeaf> leaves;
   leaves.reserve(3000000);
   const Vec3 wide{4, 4, 4};
-  if (!after_.carve(task_.low_mm - wide, task_.high_mm + wide, body, leaves)) throw Error("games", "a carve found no room", "reserve more");
+  if (!after_.carve(task_.low_mm - wide, task_.high_mm + wide, body, leaves)) throw Error("games", msg("a carve found no room"), msg("reserve more"));
   tick(hand, leaves);
   pass(seconds - k_tick_s, hand);
 }

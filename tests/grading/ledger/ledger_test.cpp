@@ -63,7 +63,7 @@ TEST(Ledger, TwoProgramsAddToOneLedger) {
 TEST(Ledger, WhatThrowsWhileEnteringLeavesNothing) {
   const School school;
   Ledger ledger = school.ledger();
-  EXPECT_THROW(ledger.append([](const LedgerContent&) -> Entry { throw Error("a", "b", "c"); }), Error);
+  EXPECT_THROW(ledger.append([](const LedgerContent&) -> Entry { throw Error("a", msg("b"), msg("c")); }), Error);
   ledger.append([](const LedgerContent&) { return ForgetEntry{"a", {}}; });
   EXPECT_EQ(read_ledger(school.places()).entries.size(), 1u + k_first_entries);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());

@@ -37,7 +37,7 @@ TEST_F(StationTicket, IsRefusedASecondTimeAndNamesTheFirst) {
 
 TEST_F(StationTicket, StaysGoodWhenTheExamCouldNotBegin) {
   const HeldTicket mine = held("4711");
-  const auto fails = []() -> int { throw Error("disk", "is full", "make room"); };
+  const auto fails = []() -> int { throw Error("disk", msg("is full"), msg("make room")); };
   EXPECT_THROW(static_cast<void>(begin_with_ticket(&mine, "a.cavum", fails)), Error);
   EXPECT_NO_THROW(require_unused(mine));
   EXPECT_EQ(begin_with_ticket(&mine, "b.cavum", [] { return 1; }), 1);

@@ -29,7 +29,7 @@ TEST(CanalCone, MouthsLieWhereTheCanalsLeaveTheChamber) {
 
 TEST(CanalCone, TheTeethThatShipHaveTheCanalsTheyWereMadeWith) {
   const auto count = [](const char* file) {
-    return canal_mouths(load_tooth_file(testing_basics::data_path(std::string("teeth/") + file)), "pulp", file).size();
+    return canal_mouths(load_tooth_file(testing_basics::data_path(std::string("teeth/") + file)), "pulp", Name{file}).size();
   };
   EXPECT_EQ(count("lower_molar.cvt"), 3u);
   EXPECT_EQ(count("upper_premolar.cvt"), 1u);
