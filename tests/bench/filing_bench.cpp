@@ -55,9 +55,9 @@ int main(int argc, char** argv) {
     grading::ExamGrounds grounds;
     for (const auto& file : files) {  // in turns: a machine that slows down slows both
       const double a = cpu_seconds();
-      if (!verify_session(file).verified) throw Error(file, "is not verified", "this is a defect");
+      if (!verify_session(file).verified) throw Error(file, msg("is not verified"), msg("this is a defect"));
       const double b = cpu_seconds();
-      if (!ledger::file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, "was not filed", "this is a defect");
+      if (!ledger::file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, msg("was not filed"), msg("this is a defect"));
       replay += b - a;
       filing += cpu_seconds() - b;
     }

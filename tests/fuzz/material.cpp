@@ -21,7 +21,7 @@ class WorkFolder {
   WorkFolder() {
     const auto base = std::filesystem::is_directory("/dev/shm") ? std::filesystem::path("/dev/shm") : std::filesystem::temp_directory_path();
     std::string name = (base / "cavum-fuzz-XXXXXX").string();
-    if (::mkdtemp(name.data()) == nullptr) throw Error(name, "cannot be made", "make room there");
+    if (::mkdtemp(name.data()) == nullptr) throw Error(name, msg("cannot be made"), msg("make room there"));
     path_ = name;
     ::setenv("CAVUM_HOME", name.c_str(), 1);
   }

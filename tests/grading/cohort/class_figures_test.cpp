@@ -59,7 +59,7 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
   ledger::Registry r = four();
   r.sessions.push_back(session(5, "C-4", 60, 40));
   r.sessions.push_back(session(6, "C-5", 0, 0, "fail"));
-  r.sessions.back().findings = {"changed"};
+  r.sessions.back().findings = {msg("changed")};
   r.sessions.push_back(session(7, "C-6", 60, 40));
   r.sessions.back().scenario_id = "another";
   const ClassFigures f = class_figures(r, "exam", {}, 3);

@@ -59,7 +59,7 @@ TEST_F(SelfCheckVerb, AStationAsksForOneWhenTheLastIsOldOrUndecided) {
   EXPECT_TRUE(needs_check(kept, stylus, 12, 113 * hour));
   EXPECT_TRUE(needs_check(kept, stylus, 12, 99 * hour)) << "it comes from the future: the clock was set";
   EXPECT_TRUE(needs_check(kept, {"falcon", "B2"}, 12, 101 * hour)) << "another stylus";
-  f.doubt = "a hand is on it; take it off";
+  f.doubt = msg("a hand is on it");
   kept.add_check(stylus, f, 102 * hour, key);
   EXPECT_TRUE(needs_check(kept, stylus, 12, 102 * hour));
   kept.add_decision(stylus, false, "supervisor", "", 102 * hour, key);
