@@ -47,7 +47,7 @@ std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, c
   for (const Seat& seat : seats) {
     const auto outcome = StationLink::outcome(seat.recording);
     if (!outcome) continue;
-    EXPECT_TRUE(outcome->filed) << when << ": " << testing_basics::text_of(outcome->findings);
+    EXPECT_TRUE(outcome->filed) << when << ": " << (outcome->findings.empty() ? "" : outcome->findings.front());
     if (!outcome->filed) continue;
     EXPECT_LT(outcome->entry, content.entries.size()) << when;
     if (outcome->entry < content.entries.size()) {

@@ -79,10 +79,10 @@ TEST(HeardRequests, ForgetNothingThatCountsOverARestart) {
   constexpr std::int64_t k_second_ns = 1'000'000'000;
   HeardRequests first(0);
   const StationRequest r{"l", "GET", "/", "", std::string(32, '1'), std::string(64, '2'), 100 * k_second_ns};
-  EXPECT_EQ(first.hear(r, 100 * k_second_ns), "");
-  EXPECT_NE(first.hear(r, (100 + k_clock_leeway_s) * k_second_ns), "") << "to the last moment of its time";
+  EXPECT_EQ(first.hear(r, 100 * k_second_ns), Message());
+  EXPECT_NE(first.hear(r, (100 + k_clock_leeway_s) * k_second_ns), Message()) << "to the last moment of its time";
   HeardRequests after(101 * k_second_ns);
-  EXPECT_NE(after.hear(r, 102 * k_second_ns), "") << "from before the restart";
+  EXPECT_NE(after.hear(r, 102 * k_second_ns), Message()) << "from before the restart";
 }
 
 TEST_F(OverTheNetwork, AKeyThatWasRevokedIsShutOutAtOnce) {
