@@ -50,7 +50,7 @@ WayToFault way_to_fault(const Task& t) {
         best = d;
         way.to_mm = tree.centre_mm({x, y, z});
       }
-  if (best > 1e8) throw Error(t.name, "no tissue under faults", "name one");
+  if (best > 1e8) throw Error(t.name, msg("no tissue under faults"), msg("name one"));
   best = 1e9;
   for (const Vec3 p : t.leaves) {
     if (length(p - way.to_mm) >= best) continue;
