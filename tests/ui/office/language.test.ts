@@ -17,7 +17,7 @@ before(async () => {
 after(close_office);
 
 /** What people typed here, and names of files and fields that are the same in every language. */
-const typed = ["School of Dentistry", "Anna Officer", "Eva Examiner", "Anna A.", "Bert B.", "Seat 1", "Seat 9", "Hall 1", "Matrikel", "much", "class of this year", "was ill", "the lamp is broken", "it smells",
+const typed = ["School of Dentistry", "Anna Officer", "Eva Examiner", "Anna A.", "Bert B.", "Seat 1", "Seat 9", "Hall 1", "Matrikel", "much", "class of this year", "was ill", "the lamp is broken", "it smells", "the pedal was unplugged",
   "looked at it", "the wall is thick enough", "1/1 cavity", "Round cavity in a layered block", "UTF-8", "border_cavity", "extra_time_percent", "extra_time_s", "left_handed", "high_contrast", "custom.number", "Cavum", "UTC"];
 /** Fields and headings of the lists. */
 const fields = ["id", "name", "station", "yes", "yes; much"], columns = "id, name, station, extra_time_percent, extra_time_s, left_handed, high_contrast";
@@ -37,7 +37,7 @@ function english_in(text: string): string {
   if (fields.includes(text)) return "";
   let rest = text.replace(columns, " ").replace(/ id;/g, ";").replace(/⟨[^⟩]*⟩/g, " ").replace(new RegExp(`(?<= )(${fields.join("|")})(?=⟧$|: )`, "g"), " ");
   for (const data of [...typed].sort((a, b) => b.length - a.length)) rest = rest.replaceAll(data, " ");
-  rest = rest.replace(/\b[CS](-\w{4}){3,}\b|\b[0-9a-f]{16,64}\b|\b[-\d]+T[:\d]+Z|https:\/\/127\.0\.0\.1[:\w/.-]*/g, " ")
+  rest = rest.replace(/\b[CS](-\w{4}){3,}\b|\b[0-9a-f]{16,64}\b|\b[-\d]+T[:\d]+Z|https:\/\/127\.0\.0\.1[:\w/.-]*/g, " ").replace(/(?<=\d) s\b/g, " ")  // a figure's unit
     .replace(/\b(Jan|Feb|Mar|Apr|May|Jun|Jul|Aug|Sep|Oct|Nov|Dec) \d+, \d{4}, \d+:\d\d\s[AP]M|\b\d+:\d\d\s[AP]M/g, " ");
   let depth = 0, found = "";
   for (const c of rest) {
