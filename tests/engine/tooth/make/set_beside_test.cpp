@@ -188,7 +188,8 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
   }
   EXPECT_EQ(testing_basics::figures_in(row_of(numbered(37), k_any, numbered(34), k_any, -1).why_not), (std::vector<double>{37, 38, 34}));
   EXPECT_EQ(testing_basics::figures_in(row_of(numbered(38), k_any, numbered(37), k_any, -1).why_not), (std::vector<double>{38})) << "the last one";
-  EXPECT_EQ(testing_basics::figures_in(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not), (std::vector<double>{11, 21})) << "over the midline";
+  EXPECT_EQ(testing_basics::figures_in(row_of(numbered(11), k_any, numbered(21), k_any, 1).why_not), (std::vector<double>{11, 21}))
+      << "over the midline";
 }
 
 TEST(InARow, WithoutNumbersClassAndJawDecide) {
