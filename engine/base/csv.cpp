@@ -105,7 +105,7 @@ void CsvReader::read_row() {
   for (;;) {
     fields_.push_back(read_field());
     if (fields_.size() > form_.most_fields)
-      fail(FileError::too_large, msg("has more than {} {}", form_.most_fields, form_.field_word), msg("leave out what is not asked for"));
+      fail(FileError::too_large, msg("has more than {} cells", form_.most_fields), msg("leave out what is not asked for"));
     if (at_ == text_.size() || text_[at_] != separator_) break;
     ++at_;
   }
@@ -158,7 +158,7 @@ void CsvReader::check_row() {
     return;
   }
   if (fields_.size() != columns_ && !form_.uneven)
-    fail(FileError::inconsistent, msg("has {} {} for {} columns", fields_.size(), form_.field_word, columns_), msg("complete the row"));
+    fail(FileError::inconsistent, msg("has {} cells for {} columns", fields_.size(), columns_), msg("complete the row"));
   if (rows_++ == form_.most_rows) fail(FileError::too_large, msg("is beyond the limit of {} rows", form_.most_rows), msg("split the table"));
 }
 

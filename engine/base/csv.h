@@ -15,13 +15,12 @@ namespace cavum {
 
 /// What a table may hold.
 struct CsvForm {
-  std::size_t most_fields = 100;      ///< of a row
-  std::size_t most_rows = 20'000;     ///< below the heading
-  const char* field_word = "fields";  ///< what messages call them
-  bool quotes = true;                 ///< false: a quote is a character like any other
-  bool plain_text = true;             ///< refuses fields that are no UTF-8, or hold a control character
-  bool bars = false;                  ///< a bar (|) may part the fields, too
-  bool uneven = false;                ///< gives rows with more or fewer fields than the heading has as they are
+  std::size_t most_fields = 100;   ///< of a row
+  std::size_t most_rows = 20'000;  ///< below the heading
+  bool quotes = true;              ///< false: a quote is a character like any other
+  bool plain_text = true;          ///< refuses fields that are no UTF-8, or hold a control character
+  bool bars = false;               ///< a bar (|) may part the fields, too
+  bool uneven = false;             ///< gives rows with more or fewer fields than the heading has as they are
 };
 
 /// Throws Error(where, ...) for a text that begins as UTF-16 does.

@@ -24,7 +24,6 @@ constexpr double k_longest_s = 86'400;  // a day
 constexpr double k_latest_s = 1e10;     // a clock in seconds since 1970 reaches it in 2286; one in milliseconds is far beyond
 
 constexpr CsvForm k_motion{.most_rows = 200'000'000,  // a day of ticks at 2 kHz
-                           .field_word = "values",
                            .quotes = false,
                            .plain_text = false};
 

@@ -17,16 +17,10 @@
 namespace cavum {
 namespace {
 
-std::string listed(const std::vector<std::string>& names) {
-  std::string out;
-  for (const auto& n : names) out += (out.empty() ? "" : ", ") + n;
-  return out;
-}
-
-std::string all_kinds() {
+List all_kinds() {
   std::vector<std::string> names;
   for (const auto* k : term_kinds()) names.emplace_back(k->name);
-  return listed(names);
+  return list_of(names);
 }
 
 }  // namespace
@@ -74,10 +68,11 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   }
   for (const auto& [key, node] : table)
     if (std::find(known.begin(), known.end(), key.str()) == known.end())
-      in.fail(FileError::unknown, key.str(), msg("is no parameter of {}", name), msg("it has: {}", listed({known.begin() + 1, known.end()})));
+      in.fail(FileError::unknown, key.str(), msg("is no parameter of {}", name),
+              msg("it has: {}", list_of(std::vector<std::string>(known.begin() + 1, known.end()))));
   if (table.size() < 2)
     in.fail(FileError::missing, "kind", msg("stands alone, so this term does nothing"),
-            msg("give one of: {}", listed({known.begin() + 1, known.end()})));
+            msg("give one of: {}", list_of(std::vector<std::string>(known.begin() + 1, known.end()))));
   return kind->make(values);
 }
 

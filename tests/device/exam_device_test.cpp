@@ -177,7 +177,7 @@ TEST_F(ExamDevice, WhatIsMissingIsSaidBeforeAnythingIsWritten) {
   };
   refuses({"--device", "phantom"}, "simulated, falcon, touch");
   refuses({"--device", "simulated"}, "");
-  refuses({"--device", "falcon", "--operator", "expert"}, "falcon");
+  refuses({"--device", "falcon", "--operator", "expert"}, "expert");
   refuses({"--device", "falcon"}, "");
   refuses({"--device", "touch"}, "touch");
   refuses({"--device", "simulated", "--operator", "nobody"}, "nobody");

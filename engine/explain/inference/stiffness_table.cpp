@@ -18,7 +18,6 @@ constexpr double k_95 = 1.96;
 
 constexpr CsvForm k_table{.most_fields = 200,
                           .most_rows = 5000,  // each is left out in turn, which takes the square of their number
-                          .field_word = "cells",
                           .plain_text = false};
 
 /// A column that each table has, and the least of its values; with `above` they are greater than that.

@@ -69,8 +69,8 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   expect_error(k_header + good + "90000,0,0,0,1,0,0,0,0\n", 4, MotionError::too_long);
   expect_error(k_header + good + "2,0,0,0,0,0,0,0,0\n", 4, MotionError::rotation);
   expect_error(k_header + good + "2,0,0,0,3,0,0,0,0\n", 4, MotionError::rotation);
-  expect_error(k_header + good + "2,0,0,0,1,0,0,0\n", 4, General::error);
-  expect_error(k_header + good + "2,0,0,0,1,0,0,0,0,0\n", 4, General::error);
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0\n", 4, FileError::inconsistent);
+  expect_error(k_header + good + "2,0,0,0,1,0,0,0,0,0\n", 4, FileError::inconsistent);
   expect_error(k_header + good + "2,0,0,zero,1,0,0,0,0\n", 4, MotionError::not_a_number);
   expect_error(k_header + good + "2,0,,0,1,0,0,0,0\n", 4, MotionError::not_a_number);
   expect_error(k_header + good + "2,\"0\",0,0,1,0,0,0,0\n", 4, MotionError::not_a_number);

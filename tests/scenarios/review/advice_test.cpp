@@ -82,7 +82,7 @@ TEST(Advice, SaysThatTheCavityHasNoSuchWall) {
     const Scenario s = parse_scenario(text, "s.toml");
     ExpertsPart expert;
     for (const auto& p : advise(s, block, build_zones(s, block), {}, expert))
-      if (testing_basics::tells(p.what, "mesial")) return std::optional(p.mistake);
+      if (testing_basics::tells(p.what, wall_text(static_cast<std::size_t>(Wall::mesial), {}))) return std::optional(p.mistake);
     return std::optional<Mistake>();
   };
   for (const char* metric : {"mesial_mean_mm", "mesial_p95_mm", "mesial_max_under_mm"}) EXPECT_EQ(said(metric), Mistake::unreachable) << metric;
