@@ -282,7 +282,7 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
   const bool known = !rows.empty() && rows[0].fields.size() >= 3 && rows[0].fields.size() <= 4 && rows[0].fields[0] == "candidate" &&
                      rows[0].fields[1] == "judge" && rows[0].fields[2] == "points" && (rows[0].fields.size() == 3 || rows[0].fields[3] == "rating");
   if (!known)
-    throw Error(FileError::malformed, Name{where + ":1"}, msg("is no heading of marks"),
+    throw Error(FileError::malformed, FilePlace{where, 1, 0}, msg("is no heading of marks"),
                 msg("begin with candidate,judge,points or candidate,judge,points,rating"));
   std::vector<HumanMark> out;
   std::set<std::string> judges;

@@ -231,18 +231,18 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   const struct {
     std::string text;
     FileError code;
-    const char* tells;
+    Value tells;
   } cases[] = {
-      {"name,points\n", FileError::malformed, "m.csv:1"},
-      {head + "\nC-1,x,12,5\n", FileError::inconsistent, "m.csv"},
-      {head + "\nC-1,x,\"12,5\"\n", FileError::wrong_type, "12,5"},
-      {head + "\nC-1,x,12\nC-1,x,13\n", FileError::duplicate, "m.csv:3"},
-      {head + "\nC-1,,12\n", FileError::missing, "m.csv:2"},
-      {head + "\nC-1,x,-1\n", FileError::out_of_range, "m.csv:2"},
-      {head + "\nC-1,x,20\nC-2,x,20.5\n", FileError::out_of_range, "m.csv:3"},
-      {head + ",rating\nC-1,x,20,?\n", FileError::wrong_type, "?"},
-      {head + "\nC-1,x,nan\n", FileError::wrong_type, "nan"},
-      {head + "\n", FileError::missing, "m.csv"},
+      {"name,points\n", FileError::malformed, FilePlace{"m.csv", 1, 0}},
+      {head + "\nC-1,x,12,5\n", FileError::inconsistent, Name{"m.csv"}},
+      {head + "\nC-1,x,\"12,5\"\n", FileError::wrong_type, Name{"12,5"}},
+      {head + "\nC-1,x,12\nC-1,x,13\n", FileError::duplicate, FilePlace{"m.csv", 3, 0}},
+      {head + "\nC-1,,12\n", FileError::missing, FilePlace{"m.csv", 2, 0}},
+      {head + "\nC-1,x,-1\n", FileError::out_of_range, FilePlace{"m.csv", 2, 0}},
+      {head + "\nC-1,x,20\nC-2,x,20.5\n", FileError::out_of_range, FilePlace{"m.csv", 3, 0}},
+      {head + ",rating\nC-1,x,20,?\n", FileError::wrong_type, Name{"?"}},
+      {head + "\nC-1,x,nan\n", FileError::wrong_type, Name{"nan"}},
+      {head + "\n", FileError::missing, Name{"m.csv"}},
   };
   for (const auto& c : cases) {
     const auto error = thrown_by([&] { static_cast<void>(parse_marks(c.text, identities, "exam", "m.csv", 20)); });
