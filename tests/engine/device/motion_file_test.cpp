@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/det_math.h"
+#include "engine/base/file_error.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {
