@@ -97,7 +97,7 @@ TEST(Csv, CommentsAreGivenWhereTheyStand) {
 }
 
 TEST(Csv, ARowOfAnotherLengthIsRefusedInTheTablesOwnWords) {
-  const auto longer = error_in("a,b\n\n1,2\n1,2,3\n"), shorter = error_in("a,b\n1\n", {.field_word = "cells"});
+  const auto longer = error_in("a,b\n\n1,2\n1,2,3\n"), shorter = error_in("a,b\n1\n");
   EXPECT_EQ(code_of(longer), FileError::inconsistent);
   EXPECT_EQ(place_of(longer), "c.csv:4");
   EXPECT_TRUE(tells(longer, 3) && tells(longer, 2));
