@@ -26,6 +26,7 @@ struct Actor {
 
 /// Entry 0 and no other.
 struct InitEntry {
+  static constexpr char k_kind[] = "init";
   std::string ledger;      ///< its id, 32 hexadecimal digits, drawn
   std::string public_key;  ///< the school's, hexadecimal
   std::string school;      ///< its name
@@ -42,12 +43,14 @@ struct MakesUp {
 };
 /// A ticket was issued. The ledger does not hold its accommodations.
 struct TicketEntry {
+  static constexpr char k_kind[] = "ticket";
   Ticket ticket;
   std::string signature;  ///< hexadecimal
   std::optional<MakesUp> makes_up;
 };
 /// The ticket of that entry does not count any more.
 struct CancelEntry {
+  static constexpr char k_kind[] = "cancel";
   std::uint64_t ticket = 0;
 };
 
@@ -59,6 +62,7 @@ struct Begin {
   std::string public_key;      ///< of the school, hexadecimal
 };
 struct BeginEntry {
+  static constexpr char k_kind[] = "begin";
   Begin begin;
   std::string signature;  ///< hexadecimal
   bool again = false;     ///< it was let begin before
@@ -66,6 +70,7 @@ struct BeginEntry {
 
 /// A recording was filed.
 struct SessionEntry {
+  static constexpr char k_kind[] = "session";
   std::string candidate, scenario_id;
   std::string file_sha256, chain_sha256, station_key;  ///< hexadecimal
   std::string nonce;                                   ///< of its ticket; empty without one
@@ -80,6 +85,7 @@ struct SessionEntry {
 };
 /// A result beside the others of that session: marked anew, or decided by a person.
 struct RegradeEntry {
+  static constexpr char k_kind[] = "regrade";
   std::uint64_t session = 0;
   Opening result;
   std::map<std::string, std::string> by;  ///< SHA-256 (hexadecimal) of documents by their names: `rubric.toml`, `scenario.toml`, `attachment/NAME`
@@ -87,18 +93,22 @@ struct RegradeEntry {
 };
 /// Results, by the entries that hold them, go out, or are taken back.
 struct ReleaseEntry {
+  static constexpr char k_kind[] = "release";
   std::vector<std::uint64_t> results;
 };
 struct RetractEntry {
+  static constexpr char k_kind[] = "retract";
   std::vector<std::uint64_t> results;
 };
 
 struct AppealEntry {
+  static constexpr char k_kind[] = "appeal";
   std::uint64_t session = 0;
 };
 /// How an appeal ends: the result is as it was, or another one was entered since.
 enum class Outcome { stands, changed };
 struct AnswerEntry {
+  static constexpr char k_kind[] = "answer";
   std::uint64_t session = 0, answers = 0;  ///< entries of the session and of the appeal
   Outcome outcome = Outcome::stands;
 };
@@ -110,18 +120,22 @@ struct Audience {
   [[nodiscard]] bool holds(const std::string& station) const;
 };
 struct AnnounceEntry {
+  static constexpr char k_kind[] = "announce";
   std::string text;
   Audience audience;
 };
 /// The exams of an audience stand still from now on.
 struct HoldEntry {
+  static constexpr char k_kind[] = "hold";
   Audience audience;
 };
 /// The pause of that entry is over.
 struct GoOnEntry {
+  static constexpr char k_kind[] = "go_on";
   std::uint64_t hold = 0;
 };
 struct IncidentEntry {
+  static constexpr char k_kind[] = "incident";
   std::string about_station, candidate;  ///< public key, pseudonym; each may be empty
   Opening words;
 };
@@ -131,11 +145,13 @@ struct Seat {
   std::string station;
 };
 struct SeatsEntry {
+  static constexpr char k_kind[] = "seats";
   std::vector<Seat> seats;
 };
 
 /// A score that a learning platform has answered. No points and no person.
 struct PassbackEntry {
+  static constexpr char k_kind[] = "passback";
   std::uint64_t session = 0, result = 0;  ///< entries; result 0: the platform was to clear its score
   std::string platform, line_item;        ///< issuer; address of the column
   int status = 0;                         ///< of HTTP
@@ -149,16 +165,19 @@ struct ErasedPart {
   Part what = Part::motion;
 };
 struct EraseEntry {
+  static constexpr char k_kind[] = "erase";
   std::vector<ErasedPart> erased;
 };
 /// The identity of a pseudonym was removed.
 struct ForgetEntry {
+  static constexpr char k_kind[] = "forget";
   std::string candidate;
   std::vector<ErasedPart> erased;
 };
 
 /// From this entry on another key of the school signs, or the same until another time.
 struct KeyEntry {
+  static constexpr char k_kind[] = "key";
   std::string public_key;         ///< hexadecimal
   std::int64_t until_utc_ns = 0;  ///< 0: without end
   std::string signature;          ///< by the key before it, hexadecimal
@@ -170,6 +189,7 @@ struct SizeAndRoot {
 };
 /// The ledger goes on from a backup here.
 struct RestoreEntry {
+  static constexpr char k_kind[] = "restore";
   SizeAndRoot backup;                         ///< of the entries before this one
   std::vector<SizeAndRoot> lost;              ///< what anything at hand had seen of later entries, by size
   std::vector<std::string> missing_sessions;  ///< filed, and not in the backup: SHA-256 of their files
@@ -177,6 +197,7 @@ struct RestoreEntry {
 
 /// A one-time code was given out for a station of this name.
 struct InviteEntry {
+  static constexpr char k_kind[] = "invite";
   std::string name;
   std::string code_key;  ///< hexadecimal: the public key of the code
   std::int64_t until_utc_ns = 0;
@@ -198,13 +219,16 @@ struct SignedRequest {
   std::string code_signature, old_signature;  ///< one of them: by the code's key, or by the key that is replaced
 };
 struct EnrolEntry {
+  static constexpr char k_kind[] = "enrol";
   SignedRequest asked;
   std::int64_t until_utc_ns = 0;  ///< 0: without end
 };
 struct RevokeEntry {
+  static constexpr char k_kind[] = "revoke";
   std::string public_key;
 };
 struct RoomEntry {
+  static constexpr char k_kind[] = "room";
   std::string public_key, room;
 };
 

@@ -127,12 +127,6 @@ void body_fields(Of& of, Said& e) {
 
 namespace {
 
-/// Of the kinds, in the order of Entry.
-constexpr std::array<const char*, std::variant_size_v<Entry>> k_kinds = {
-    "init",  "ticket",   "cancel", "begin",    "session", "regrade", "release", "retract", "appeal", "answer", "announce", "hold",
-    "go_on", "incident", "seats",  "passback", "erase",   "forget",  "key",     "restore", "invite", "enrol",  "revoke",   "room"};
-static_assert(k_kinds.back() != nullptr, "each kind has a name");
-
 JsonSource source_of(const std::string& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
 
 /// Notes where the openings are.
@@ -153,12 +147,11 @@ struct FindOpenings {
 /// Nothing is said in it yet.
 Entry entry_of_kind(const std::string& kind, const JsonSource& source) {
   Entry out;
-  const auto at = std::find(k_kinds.begin(), k_kinds.end(), kind);
-  if (at == k_kinds.end()) JsonPlace{source, "kind"}.refuse(msg("is a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
-  [&]<std::size_t... I>(std::index_sequence<I...>) {
-    ((I == static_cast<std::size_t>(at - k_kinds.begin()) ? static_cast<void>(out.emplace<I>()) : void()), ...);
-  }
-  (std::make_index_sequence<k_kinds.size()>());
+  const auto becomes = [&]<std::size_t... I>(std::index_sequence<I...>) {
+    return ((kind == std::variant_alternative_t<I, Entry>::k_kind && (out.emplace<I>(), true)) || ...);
+  };
+  if (!becomes(std::make_index_sequence<std::variant_size_v<Entry>>()))
+    JsonPlace{source, "kind"}.refuse(msg("is a kind that this version does not know: '{}'", one_line(kind.substr(0, 80))));
   return out;
 }
 
@@ -192,7 +185,9 @@ LedgerEntry read_entry_or_none(const std::string& text) noexcept {
   }
 }
 
-const char* kind_name(const Entry& entry) { return k_kinds[entry.index()]; }
+const char* kind_name(const Entry& entry) {
+  return std::visit([](const auto& e) -> const char* { return e.k_kind; }, entry);
+}
 
 std::map<Part, Opening*> openings_of(Entry& entry) {
   std::map<Part, Opening*> out;

@@ -47,17 +47,6 @@ std::vector<Member> some_of(std::vector<Member> list, std::size_t most, const ch
   return list;
 }
 
-/// The text of the Error that `action` throws; empty when it throws none.
-template <class Action>
-std::string error_of(const Action& action) {
-  try {
-    action();
-  } catch (const Error& e) {
-    return e.what();
-  }
-  return {};
-}
-
 /// Which Error `action` throws; none.
 template <class Action>
 std::optional<ErrorCode> code_of(const Action& action) {
