@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/entry_text.h"
@@ -17,33 +18,29 @@ using nlohmann::json;
 
 constexpr double k_rounding = 1e-6;  // of the JSON
 
-/// "80.8 of 100"
-std::string points_of(const json& points, const json& max) {
-  return fmt::format("{} of {}", fixed(points.get<double>(), 1), plain_number(max.get<double>()));
-}
-
 /// Criteria that fail the exam by themselves, whatever the sum.
-std::string critical_in(const json& result) {
-  std::string out;
+List critical_in(const json& result) {
+  List out;
   for (const auto& c : result.at("criteria"))
-    if (c.contains("critical_failed") && c["critical_failed"] == json(true)) out += (out.empty() ? "" : ", ") + c.value("id", "");
+    if (c.contains("critical_failed") && c["critical_failed"] == json(true)) out.items.emplace_back(Name{c.value("id", "")});
   return out;
 }
 
 /// What a person decided before this result was released, or has to decide.
-std::string doubts_of(const FiledSession& s) {
-  std::string out;
-  if (s.makes_up) out += fmt::format("Makeup sitting, for the first was {} (entry {}). ", word_of(s.makes_up->became), s.makes_up->ticket);
+void add_doubts(std::vector<Message>& out, const FiledSession& s) {
+  if (s.makes_up)
+    out.push_back(s.makes_up->became == FirstSitting::missed ? msg("A makeup sitting: the first (entry {}) was missed.", s.makes_up->ticket)
+                                                             : msg("A makeup sitting: the first (entry {}) was interrupted.", s.makes_up->ticket));
   if (!s.contested_by.empty()) {
-    std::string others;
-    for (const auto other : s.contested_by) others += (others.empty() ? "" : ", ") + std::to_string(other);
-    out += s.chosen ? fmt::format("Several endings of this exam were filed (also entry {}), and this one was chosen by a person. ", others)
-                    : fmt::format("Contested since its release by another ending of this exam (entry {}). ", others);
+    List others;
+    for (const auto other : s.contested_by) others.items.push_back(msg("{}", other));
+    out.push_back(s.chosen ? msg("Several endings of this exam were filed (also entry {}), and this one was chosen by a person.", others)
+                           : msg("Contested since its release by another ending of this exam (entry {}).", others));
   }
-  if (const Regrade* r = s.regrade(s.shown_seq); r != nullptr && !r->person.empty()) out += fmt::format("Decided by a person: {}. ", r->reason);
-  if (!s.findings.empty())
-    out += fmt::format("Filed with {}{}, and released by a person. ", s.findings.size(), s.findings.size() == 1 ? " finding" : " findings");
-  return out;
+  if (const Regrade* r = s.regrade(s.shown_seq); r != nullptr && !r->person.empty()) out.push_back(msg("Decided by a person: {}.", r->reason));
+  if (const auto n = s.findings.size(); n > 0)
+    out.push_back(msgn("Filed with {} finding, and released by a person.", "Filed with {} findings, and released by a person.",
+                       static_cast<std::int64_t>(n), n));
 }
 
 }  // namespace
@@ -61,43 +58,62 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   const json& result = *session.shown;
   const json &points = result.at("score").at("points"), &max = result.at("score").at("max");
   const ExamScale by = scale_in(result);
-  const std::string verdict = result.value("verdict", ""), critical = critical_in(result);
-  ExportedGrade g{points, points, max, false, verdict + (critical.empty() ? "" : fmt::format(" (critical: {})", critical)), {}};
+  const std::string verdict = result.value("verdict", "");
+  const List critical = critical_in(result);
+  std::string critical_ids;
+  for (const Message& id : critical.items) critical_ids += (critical_ids.empty() ? "" : ", ") + english_text(id);
+  ExportedGrade g{points, points, max, false, verdict + (critical_ids.empty() ? "" : fmt::format(" (critical: {})", critical_ids)), {}};
   if (own.max > 0 && by.max > 0 && std::fabs(own.max - by.max) > k_rounding) {
     g.by_another_rubric = true;
     g.points = std::round(points.get<double>() / by.max * own.max * 1e6) / 1e6;
     g.max = own.max;
   }
   g.grade = g.points;
-  g.feedback = fmt::format("{}Verdict: {}.", doubts_of(session), g.verdict);
+  std::vector<Message>& told = g.feedback;
+  const Number had = as_points(points), of = as_number(max);
+  add_doubts(told, session);
+  told.push_back(critical.items.empty() ? msg("Verdict: {}.", Term{verdict}) : msg("Verdict: {} (critical: {}).", Term{verdict}, critical));
   if (verdict == "review") {
     g.grade = nullptr;
-    g.feedback += fmt::format(" No grade before a person has decided: the {} points do not count yet.", points_of(points, max));
+    told.push_back(msg("No grade before a person has decided: the {} of {} points do not count yet.", had, of));
   }
-  if (g.by_another_rubric) g.feedback += fmt::format(" Marked by another rubric: {}.", points_of(points, max));
+  if (g.by_another_rubric) told.push_back(msg("Marked by another rubric: {} of {} points.", had, of));
 
   const auto reaches = [&](double percent) { return g.points.get<double>() >= 0.01 * percent * g.max.get<double>() - k_rounding; };
   const double own_percent = own.max > 0 ? own.pass_percent : by.pass_percent;
-  const std::string marks = fmt::format("({} %, the exam's own is {} %)", plain_number(by.pass_percent), plain_number(own_percent));
-  if (verdict == "fail" && (!critical.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
+  const bool by_person = result.contains("decision");
+  if (verdict == "fail" && (!critical.items.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
     g.grade = 0;
-    g.feedback += fmt::format(" Failed by {}: the {} points do not count.",
-                              !critical.empty()             ? "what is critical"
-                              : result.contains("decision") ? "a person's decision"
-                              : reaches(by.pass_percent)    ? "a criterion below the pass mark"
-                                                            : "another pass mark " + marks,
-                              points_of(points, max));
+    told.push_back(!critical.items.empty()    ? msg("Failed by what is critical: the {} of {} points do not count.", had, of)
+                   : by_person                ? msg("Failed by a person's decision: the {} of {} points do not count.", had, of)
+                   : reaches(by.pass_percent) ? msg("Failed by a criterion below the pass mark: the {} of {} points do not count.", had, of)
+                                              : msg("Failed by another pass mark ({}, the exam's own is {}): the {} of {} points do not count.",
+                                                    as_percent(by.pass_percent, k_as_needed), as_percent(own_percent, k_as_needed), had, of));
   } else if (verdict == "pass" && !reaches(own_percent)) {
     g.grade = std::round(0.01 * own_percent * g.max.get<double>() * 1e6) / 1e6;
-    g.feedback += fmt::format(" Passed by {}: the {} points count as the pass mark, {}.",
-                              result.contains("decision") ? "a person's decision" : "another pass mark " + marks, points_of(points, max),
-                              plain_number(g.grade.get<double>()));
+    const Number grade = as_number(g.grade.get<double>());
+    told.push_back(by_person ? msg("Passed by a person's decision: the {} of {} points count as the pass mark, {}.", had, of, grade)
+                             : msg("Passed by another pass mark ({}, the exam's own is {}): the {} of {} points count as the pass mark, {}.",
+                                   as_percent(by.pass_percent, k_as_needed), as_percent(own_percent, k_as_needed), had, of, grade));
   }
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())
-      g.feedback += fmt::format(" {} {}: {}.", c.value("id", ""), points_of(c.at("points"), c.at("max")), c.value("reason", ""));
-  g.feedback = one_line(g.feedback);
+      told.push_back(msg("{}, {} of {} points: {}.", c.value("id", ""), as_points(c.at("points")), as_number(c.at("max")), said_in(c)));
   return g;
+}
+
+std::string feedback_text(const ExportedGrade& grade, Wording say) {
+  std::string out;
+  for (const Message& sentence : grade.feedback) out += (out.empty() ? "" : " ") + say(sentence);
+  return one_line(out);
+}
+
+Message said_in(const json& fact) {
+  try {
+    return decode_message(member_of(fact, "said"));
+  } catch (const std::invalid_argument&) {
+    throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
+  }
 }
 
 }  // namespace cavum::ledger

@@ -2,6 +2,10 @@
 // pass there, nor a pass as a failure, and all of one exam must be on one scale. What was changed for that is said in the feedback.
 #pragma once
 
+#include <string>
+#include <vector>
+
+#include "engine/base/message.h"
 #include "grading/ledger/exam_scale.h"
 
 namespace cavum::ledger {
@@ -13,10 +17,18 @@ struct ExportedGrade {
   nlohmann::json max;              ///< the exam's own
   bool by_another_rubric = false;  ///< one with another maximum: points are scaled, and its criteria are others
   std::string verdict;             ///< "fail (critical: perforation)"
-  std::string feedback;            ///< one line
+  std::vector<Message> feedback;   ///< sentences
 };
 /// Of a released result (`shown` is an object).
 [[nodiscard]] ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales);
+
+/// How a gradebook's readers are spoken to: a face's `tr`, or english_text.
+using Wording = std::string (*)(const Message&);
+/// The feedback on one line.
+[[nodiscard]] std::string feedback_text(const ExportedGrade& grade, Wording say);
+
+/// A reason of a criterion or of the verdict, as a result in JSON keeps it (`said`). Throws Error when it is none.
+[[nodiscard]] Message said_in(const nlohmann::json& fact);
 
 /// "2026-11-21T09:00:00.250Z": milliseconds, as LTI wants: a platform keeps the score with the later time.
 [[nodiscard]] std::string utc_ms_text(std::int64_t utc_ns);

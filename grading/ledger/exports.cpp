@@ -11,7 +11,6 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
-#include "grading/ledger/exported_grade.h"
 #include "grading/ledger/history.h"
 
 namespace cavum::ledger {
@@ -43,7 +42,7 @@ Bytes results_message(const json& facts) {
 
 }  // namespace
 
-std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated) {
+std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, Wording say, bool with_simulated) {
   struct Columns {
     std::vector<std::string> criteria;
     std::map<std::string, const FiledSession*> by_number;
@@ -90,14 +89,14 @@ std::string moodle_csv(const Registry& registry, Identities& identities, int& le
         for (const auto& c : result.at("criteria"))
           if (!g.by_another_rubric && c.at("id") == wanted) out += number_in(c.at("points"));
       }
-      out += "," + csv_field(mark + g.feedback);
+      out += "," + csv_field(mark + feedback_text(g, say));
     }
     out += "\n";
   }
   return out;
 }
 
-json lti_scores(const Registry& registry, Identities& identities, bool with_simulated) {
+json lti_scores(const Registry& registry, Identities& identities, Wording say, bool with_simulated) {
   std::map<std::pair<std::string, std::string>, const FiledSession*> last;  // of several attempts the last one that is released, else the last
   for (const auto& s : registry.sessions) {
     if ((!s.simulated.empty() && !with_simulated) || s.made_up_by) continue;
@@ -126,7 +125,7 @@ json lti_scores(const Registry& registry, Identities& identities, bool with_simu
         score["scoreGiven"] = g.grade;
         score["scoreMaximum"] = g.max;
       }
-      score["comment"] = simulated_mark(*s) + g.feedback;
+      score["comment"] = simulated_mark(*s) + feedback_text(g, say);
     }
     out.push_back({{"resourceId", s->scenario_id}, {"score", std::move(score)}});
   }

@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "grading/ledger/exported_grade.h"
 #include "grading/ledger/filing.h"
 #include "grading/ledger/identities.h"
 
@@ -15,13 +16,13 @@ namespace cavum::ledger {
 /// are. A result on another scale has no points of criteria. One row for each candidate with a released result; of several attempts at one exam the
 /// last released one counts. `left_out` receives how many results had no known candidate. What a simulated operator sat is left out, whoever's ticket
 /// it used; `with_simulated` writes it in rows of its own, under no student's number, verdict and feedback beginning with SIMULATED.
-[[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, bool with_simulated = false);
+[[nodiscard]] std::string moodle_csv(const Registry& registry, Identities& identities, int& left_out, Wording say, bool with_simulated = false);
 
 /// Scores as the LTI Advantage Assignment and Grade Services 2.0 take them, one object for each candidate and exam: userId, timestamp,
 /// activityProgress, gradingProgress, and scoreGiven, scoreMaximum, comment once released, with the time of the release. The last released attempt
 /// stands until a newer one is released. Before that gradingProgress is `Pending`, and `PendingManual` while the verdict is `review`. Of simulated
 /// operators as in moodle_csv: userId is then `simulated:` and the pseudonym, which no platform knows.
-[[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities, bool with_simulated = false);
+[[nodiscard]] nlohmann::json lti_scores(const Registry& registry, Identities& identities, Wording say, bool with_simulated = false);
 
 /// How many released results were sat by simulated operators.
 [[nodiscard]] std::size_t released_simulated(const Registry& registry);

@@ -7,7 +7,6 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
-#include "grading/ledger/exported_grade.h"
 
 namespace cavum::ledger {
 namespace {
@@ -24,7 +23,7 @@ struct Candidate {
   const PassbackEntry* sent = nullptr;  // the last one to this column
 };
 
-json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales) {
+json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales, Wording say) {
   json score = {{"timestamp", utc_ms_text(c.changed_utc_ns)}, {"activityProgress", "Completed"}};
   if (c.counts == nullptr) {
     score["gradingProgress"] = "Pending";  // without scoreGiven: the platform clears what it has
@@ -34,7 +33,7 @@ json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales
     score["gradingProgress"] = "FullyGraded";
     score["scoreGiven"] = grade.grade;
     score["scoreMaximum"] = grade.max;
-    score["comment"] = grade.feedback;
+    score["comment"] = feedback_text(grade, say);
   }
   return score;
 }
@@ -42,7 +41,7 @@ json score_of(const Candidate& c, const std::map<std::string, ExamScale>& scales
 }  // namespace
 
 std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities, const std::string& exam,
-                                 const std::string& line_item, bool again) {
+                                 const std::string& line_item, Wording say, bool again) {
   std::map<std::string, Candidate> candidates;
   std::map<std::uint64_t, std::string> whose;
   for (const auto& s : registry.sessions) {
@@ -65,7 +64,7 @@ std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& r
     if (known || (result == 0 && (c.sent == nullptr || c.changed_utc_ns == 0))) continue;
     const auto identity = identities.of_pseudonym(pseudonym);
     if (!identity || identity->id.empty()) continue;  // forgotten
-    out.push_back({c.counts == nullptr ? c.last_session : c.counts->seq, result, identity->id, score_of(c, scales)});
+    out.push_back({c.counts == nullptr ? c.last_session : c.counts->seq, result, identity->id, score_of(c, scales, say)});
   }
   return out;
 }

@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "grading/ledger/exported_grade.h"
 #include "grading/ledger/identities.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/registry.h"
@@ -27,7 +28,7 @@ struct ScoreDue {
 /// before, with the same result, is left out, and with `again` only what was accepted. Simulated operators are left out. A result that waits for a
 /// person's decision has no points here, even where it was released as it is.
 [[nodiscard]] std::vector<ScoreDue> scores_due(const LedgerContent& content, const Registry& registry, Identities& identities,
-                                               const std::string& exam, const std::string& line_item, bool again = false);
+                                               const std::string& exam, const std::string& line_item, Wording say, bool again = false);
 
 /// Enters what a platform has answered: `status` of HTTP, and its words, one line.
 const LedgerEntry& enter_passback(Ledger& ledger, const ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,

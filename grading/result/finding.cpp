@@ -2,6 +2,7 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
@@ -32,7 +33,7 @@ nlohmann::ordered_json json_of_value(const Value& value) {
 nlohmann::ordered_json to_json(const Finding& f) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
   for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = json_of_value(f.values[i]);
-  return {{"kind", f.row().name}, {"values", values}, {"text", english_text(f.message())}};
+  return {{"kind", f.row().name}, {"values", values}, {"text", english_text(f.message())}, {"said", encode(f.message())}};
 }
 
 }  // namespace cavum::grading

@@ -108,7 +108,7 @@ template <FindingKind kind, class... A>
   return {kind, {message_detail::value_of(std::forward<A>(values))...}};
 }
 
-/// {"kind", "values": {by name}, "text": English}.
+/// {"kind", "values": {by name}, "text": English, "said": the sentence as our own files keep it (encode)}.
 [[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
 
 }  // namespace cavum::grading

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "grading/result/measure_marking.h"
@@ -102,6 +103,7 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"points_bound", rounded(c.points_bound)},
             {"critical_failed", c.critical_failed},
             {"reason", english_text(msg("{}", c.reason))},
+            {"said", encode(msg("{}", c.reason))},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
   if (c.band) j["band"] = r.bands[*c.band].name;
@@ -254,7 +256,7 @@ namespace {
 void erase_words(nlohmann::json& findings) {
   for (nlohmann::json& f : findings) {
     if (!f.is_object()) continue;
-    f.erase("text");
+    f.erase("text"), f.erase("said");
     if (!f.contains("values") || !f["values"].is_object()) continue;
     nlohmann::json figures = nlohmann::json::object();
     for (const auto& [name, value] : f["values"].items())
@@ -271,7 +273,7 @@ nlohmann::json without_words(nlohmann::json result) {
     if (result.contains(list) && result[list].is_array()) erase_words(result[list]);
   if (result.contains("criteria") && result["criteria"].is_array())
     for (nlohmann::json& c : result["criteria"])
-      if (c.is_object()) c.erase("reason");
+      if (c.is_object()) c.erase("reason"), c.erase("said");
   return result;
 }
 

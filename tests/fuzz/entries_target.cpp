@@ -54,8 +54,8 @@ void fuzz_entries(Data data) {
   try {
     const ledger::Registry registry = ledger::read_registry(content);
     int left_out = 0;
-    static_cast<void>(ledger::moodle_csv(registry, identities, left_out, true));
-    static_cast<void>(ledger::lti_scores(registry, identities, true).dump(-1, ' ', false, json::error_handler_t::replace));
+    static_cast<void>(ledger::moodle_csv(registry, identities, left_out, english_text, true));
+    static_cast<void>(ledger::lti_scores(registry, identities, english_text, true).dump(-1, ' ', false, json::error_handler_t::replace));
     static_cast<void>(ledger::tidy_csv(registry));
   } catch (const Error&) {
   }

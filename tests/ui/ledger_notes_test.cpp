@@ -169,8 +169,8 @@ TEST_F(LedgerNotes, SayWhatIsWrongAndWhere) {
   for (const auto& [command, parts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {"checkpoint " + L + " --out " + c, {c}},
            {"checkpoint " + L + " --since 99 --out " + path("d"), {"--since 99", "3"}},
-           {"cosign " + path("L/ledger.db") + " --out " + n, {path("L/ledger.db")}},
-           {"cosign " + c + " --name 'a b'" + known + " --out " + n, {"'a b'"}},
+           {"cosign " + path("L/ledger.db") + " --out " + path("n2"), {path("L/ledger.db")}},
+           {"cosign " + c + " --name 'a b'" + known + " --out " + path("n2"), {"'a b'"}},
            {"cosign " + c + known + " --out " + c + " --overwrite", {c}},
            {cosign + known + " --out " + path("n2"), {"3"}},
            {"add-cosignature " + L + " " + n, {"home/cosigners"}},

@@ -133,7 +133,7 @@ std::string Desk::gradebook(bool rehearsal) {
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
   int left_out = 0;
-  return ledger::moodle_csv(turn.book.registry(), identities, left_out, rehearsal);
+  return ledger::moodle_csv(turn.book.registry(), identities, left_out, in_words, rehearsal);
 }
 
 std::string Desk::criteria() {

@@ -33,7 +33,7 @@ std::set<std::string> Desk::numbers() {
 std::vector<ledger::ScoreDue> Desk::scores_due(const std::string& exam, const std::string& line_item, bool again) {
   Turn turn(*this);
   ledger::Identities identities = ledger::sound_identities(turn.book);
-  return ledger::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item, again);
+  return ledger::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item, in_words, again);
 }
 
 void Desk::enter_passback(const ledger::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,

@@ -24,6 +24,8 @@ std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) 
   return out;
 }
 
+std::string in_words(const Message& message) { return tr(message); }
+
 std::vector<std::string> shown_each(const std::vector<Message>& messages) {
   std::vector<std::string> texts;
   for (const Message& m : messages) texts.push_back(one_line(tr(m)));

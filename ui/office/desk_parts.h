@@ -32,6 +32,8 @@ void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
 }
 
 /// The same in the office's language.
+/// In the office's language.
+[[nodiscard]] std::string in_words(const Message& message);
 [[nodiscard]] std::vector<std::string> shown_each(const std::vector<Message>& messages);
 
 /// The list of a request. Throws Error when it is none.

@@ -234,10 +234,11 @@ void ledger_export(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
   ledger::Identities identities = sound_identities(ledger);
   const ledger::Registry registry = ledger::read_registry(ledger.content());
+  const ledger::Wording in_words = [](const Message& m) { return tr(m); };
   int left_out = 0;
   std::string text;
-  if (o.format == "moodle") text = ledger::moodle_csv(registry, identities, left_out, o.with_simulated);
-  if (o.format == "lti") text = ledger::lti_scores(registry, identities, o.with_simulated).dump(2) + "\n";
+  if (o.format == "moodle") text = ledger::moodle_csv(registry, identities, left_out, in_words, o.with_simulated);
+  if (o.format == "lti") text = ledger::lti_scores(registry, identities, in_words, o.with_simulated).dump(2) + "\n";
   if (o.format == "json") text = ledger::signed_results(registry, ledger) + "\n";
   if (o.format == "csv") text = ledger::tidy_csv(registry);
   require_own_places({{"--out " + o.out, o.out}}, {{"", ledger.places().database()}, {"", ledger.places().identities()}});

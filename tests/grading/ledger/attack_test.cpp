@@ -398,10 +398,10 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   EXPECT_TRUE(chosen.sessions[1].shown->is_null());
   Identities identities(school_.places().identities());
   int left_out = 0;
-  const std::string csv = moodle_csv(chosen, identities, left_out);
+  const std::string csv = moodle_csv(chosen, identities, left_out, english_text);
   EXPECT_NE(csv.find("\n4711," + chosen.sessions[0].filed->at("score")["points"].dump() + ","), std::string::npos) << csv;
   EXPECT_NE(csv.find(" 5"), std::string::npos) << "the ending that was not chosen: " << csv;
-  const auto scores = lti_scores(chosen, identities);
+  const auto scores = lti_scores(chosen, identities, english_text);
   ASSERT_EQ(scores.size(), 1u);
   EXPECT_EQ(scores[0]["score"]["scoreGiven"], chosen.sessions[0].filed->at("score")["points"]);
   EXPECT_NE(scores[0]["score"]["comment"].get<std::string>().find(" 5"), std::string::npos);

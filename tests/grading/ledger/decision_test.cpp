@@ -39,11 +39,11 @@ class LeftToAPerson : public testing::Test {
   std::string moodle() const {
     Identities identities(school_.places().identities());
     int left_out = 0;
-    return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out);
+    return moodle_csv(read_registry(read_ledger(school_.places())), identities, left_out, english_text);
   }
   json lti() const {
     Identities identities(school_.places().identities());
-    return lti_scores(read_registry(read_ledger(school_.places())), identities).at(0).at("score");
+    return lti_scores(read_registry(read_ledger(school_.places())), identities, english_text).at(0).at("score");
   }
   School school_{*shared_};
   std::uint64_t entry_ = 0;

@@ -177,7 +177,7 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
   EXPECT_TRUE(s.result_erased_by);
   Identities identities(school_.places().identities());
   int left_out = 0;
-  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out).find("Matr-4711"), std::string::npos);
+  EXPECT_EQ(moodle_csv(read_registry(content()), identities, left_out, english_text).find("Matr-4711"), std::string::npos);
 }
 
 TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {

@@ -151,7 +151,7 @@ class Released : public testing::Test {
 TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
   Identities identities(school_.places().identities());
   int left_out = -1;
-  const std::string csv = moodle_csv(registry_, identities, left_out);
+  const std::string csv = moodle_csv(registry_, identities, left_out, english_text);
   EXPECT_EQ(left_out, 0);
   EXPECT_NE(csv.find("\n4711,"), std::string::npos) << csv;
   EXPECT_EQ(csv.find("4712"), std::string::npos);
@@ -159,7 +159,7 @@ TEST_F(Released, OnlyWhatWasReleasedReachesTheGradebookByName) {
   const auto& released = registry_.sessions.at(0);
   EXPECT_NE(csv.find("4711," + released.result->at("score").at("points").dump() + ","), std::string::npos) << csv;
 
-  const json scores = lti_scores(registry_, identities);
+  const json scores = lti_scores(registry_, identities, english_text);
   ASSERT_EQ(scores.size(), 2u);
   for (const auto& s : scores) {
     EXPECT_EQ(s["resourceId"], "block_cavity");
@@ -183,8 +183,8 @@ TEST_F(Released, AFailureThatPointsDoNotDecideIsNoPassInAnyGradebook) {
     shown["score"] = {{"points", 86.0}, {"max", 100.0}, {"pass_percent", 60.0}};
     change(shown);
     int left_out = 0;
-    const std::string csv = moodle_csv(registry, identities, left_out);
-    const json scores = lti_scores(registry, identities);
+    const std::string csv = moodle_csv(registry, identities, left_out, english_text);
+    const json scores = lti_scores(registry, identities, english_text);
     const auto mine = std::find_if(scores.begin(), scores.end(), [](const json& s) { return s["score"]["userId"] == "4711"; });
     return std::pair(csv, (*mine)["score"]);
   };
@@ -223,11 +223,11 @@ struct Told {
 Told told_of(const Registry& registry, Identities& identities) {
   int left_out = 0;
   Told out;
-  const auto table = parse_csv(moodle_csv(registry, identities, left_out), "moodle.csv");
+  const auto table = parse_csv(moodle_csv(registry, identities, left_out, english_text), "moodle.csv");
   out.heading = table.at(0).fields;
   for (const auto& r : table)
     if (r.fields[0] == "4711") out.row = r.fields;
-  for (const auto& s : lti_scores(registry, identities))
+  for (const auto& s : lti_scores(registry, identities, english_text))
     if (s["score"]["userId"] == "4711") out.score = s["score"];
   return out;
 }
@@ -264,8 +264,9 @@ TEST_F(Released, AResultOutOfAnotherMaximumIsBroughtToTheExamsOwn) {
   FiledSession& s = registry.sessions.at(0);
   s.shown.change()["score"] = {{"points", 10.0}, {"max", 20.0}, {"pass_percent", 40.0}};
   s.shown.change()["verdict"] = "pass";
-  s.shown.change()["criteria"] = json::array(
-      {{{"id", "removed"}, {"points", 4.0}, {"max", 10.0}, {"reason", "short"}}, {{"id", "other"}, {"points", 6.0}, {"max", 10.0}, {"reason", "b"}}});
+  s.shown.change()["criteria"] =
+      json::array({{{"id", "removed"}, {"points", 4.0}, {"max", 10.0}, {"said", {{"say", "short"}, {"of", json::array()}}}},
+                   {{"id", "other"}, {"points", 6.0}, {"max", 10.0}, {"said", {{"say", "b"}, {"of", json::array()}}}}});
   const Told told = told_of(registry, identities);
   EXPECT_EQ(told.field("block_cavity"), "60.0") << "passed, so no less than the exam's own pass mark";
   EXPECT_EQ(told.field("block_cavity points"), "50.0");
@@ -315,16 +316,16 @@ TEST_F(Released, WhatASimulatedOperatorSatIsNobodysGrade) {
   Identities identities(school_.places().identities());
   int left_out = 0;
   const std::string own = registry_.sessions.at(0).shown->at("score").at("points").dump();
-  const std::string plain = moodle_csv(registry_, identities, left_out);
+  const std::string plain = moodle_csv(registry_, identities, left_out, english_text);
   EXPECT_NE(plain.find("\n4711," + own + ","), std::string::npos) << "the candidate's own attempt counts, though it is older: " << plain;
   EXPECT_EQ(plain.find("99.5"), std::string::npos);
-  EXPECT_EQ(lti_scores(registry_, identities).dump().find("99.5"), std::string::npos);
+  EXPECT_EQ(lti_scores(registry_, identities, english_text).dump().find("99.5"), std::string::npos);
 
-  const std::string marked = moodle_csv(registry_, identities, left_out, true);
+  const std::string marked = moodle_csv(registry_, identities, left_out, english_text, true);
   EXPECT_NE(marked.find("\n4711," + own + ","), std::string::npos) << marked;
   EXPECT_NE(marked.find("\nSIMULATED " + operated.candidate + ",99.5,\"SIMULATED (operator expert"), std::string::npos) << marked;
   int users = 0;
-  for (const auto& entry : lti_scores(registry_, identities, true)) {
+  for (const auto& entry : lti_scores(registry_, identities, english_text, true)) {
     const json& score = entry["score"];
     const bool student = score["userId"] == "4711" || score["userId"] == "4712";
     users += student ? 1 : 0;
@@ -348,8 +349,9 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   EXPECT_EQ(registry.sessions.at(0).shown, registry_.sessions.at(0).result) << "until then the old one stands";
   Identities identities(school_.places().identities());
   int left_out = 0;
-  EXPECT_NE(moodle_csv(registry, identities, left_out).find("\n4711," + registry_.sessions.at(0).result->at("score").at("points").dump()),
-            std::string::npos);
+  EXPECT_NE(
+      moodle_csv(registry, identities, left_out, english_text).find("\n4711," + registry_.sessions.at(0).result->at("score").at("points").dump()),
+      std::string::npos);
   EXPECT_EQ(ledger.content().entries.at(k_first_entries + 1).as<SessionEntry>()->result.value, registry_.sessions.at(0).result)
       << "the sealed result stays";
   ledger.append([&](const LedgerContent&) { return ReleaseEntry{{registry.sessions.at(0).result_seq}}; });

@@ -65,7 +65,7 @@ class MakeupSitting : public testing::Test {
   std::string gradebook() const {
     Identities identities(school_.places().identities());
     int left_out = 0;
-    return moodle_csv(registry(), identities, left_out);
+    return moodle_csv(registry(), identities, left_out, english_text);
   }
   School school_;
 };
@@ -116,7 +116,7 @@ TEST_F(MakeupSitting, OfAnInterruptedOneCountsAloneWhateverTheFirstWasWorth) {
   EXPECT_NE(csv.find("\n4711," + shown.sessions[1].result->at("score")["points"].dump() + ","), std::string::npos) << csv;
   EXPECT_NE(csv.find("interrupted"), std::string::npos) << csv;
   Identities identities(school_.places().identities());
-  EXPECT_EQ(lti_scores(registry(), identities).size(), 1u);
+  EXPECT_EQ(lti_scores(registry(), identities, english_text).size(), 1u);
   const json signed_ones = json::parse(signed_results(registry(), ledger))["results"];
   EXPECT_EQ(signed_ones[0]["made_up_by"], *ticket_of(entry).made_up_by);
   EXPECT_EQ(signed_ones[1]["makes_up"], entry);

@@ -24,7 +24,7 @@ class Passbacks : public testing::Test {
   std::vector<ScoreDue> due(const char* column = k_column, bool again = false) {
     Ledger ledger = school_.ledger();
     Identities identities(school_.places().identities());
-    return scores_due(ledger.content(), ledger.registry(), identities, "block_cavity", column, again);
+    return scores_due(ledger.content(), ledger.registry(), identities, "block_cavity", column, english_text, again);
   }
   void release() {
     Ledger ledger = school_.ledger();

@@ -24,9 +24,9 @@ using testing::k_chamber_target;
 using testing::opening_pulp;
 using testing::scenario_text;
 
-/// A moment in which something was removed: it tells at which wall the most of it.
+/// A moment in which something was removed: it tells at which wall, or at the opening, the most of it.
 bool is_removal(const WhyItem& i) {
-  for (std::size_t wall = 0; wall < scenarios::k_walls; ++wall)
+  for (std::size_t wall = 0; wall <= scenarios::k_walls; ++wall)
     if (i.unit == "mm3" && i.tick >= 0 && tells(i.what, scenarios::wall_text(wall, {}))) return true;
   return false;
 }
