@@ -2,7 +2,11 @@
 
 #include <fmt/core.h>
 
+#include <algorithm>
+#include <array>
 #include <nlohmann/json.hpp>
+#include <string_view>
+#include <type_traits>
 
 #include "engine/base/file_error.h"
 #include "engine/base/json_reader.h"
@@ -56,7 +60,7 @@ constexpr JsonLimits k_event_limits{.depth = 6};
 
 /// Kinds as people read them: the catalogue takes them from here.
 // clang-format off
-[[maybe_unused]] constexpr std::array k_kind_words{
+constexpr std::array<std::string_view, std::variant_size_v<Event>> k_kind_words{
     said("step started"), said("step completed"), said("step failed"), said("step time limit"), said("time limit"), said("over speed"),
     said("aim reached"), said("perforation"), said("pause started"), said("pause ended"), said("hold started"), said("hold ended"),
     said("stylus back"), said("pedal lost"), said("pedal back"), said("servo disagrees"), said("office hold"), said("office hold released"),
@@ -64,6 +68,15 @@ constexpr JsonLimits k_event_limits{.depth = 6};
     said("gap"), said("moved"), said("servo gap"), said("overruns"), said("stylus silent"), said("servo stopped"), said("servo lateness"),
     said("late work"), said("lock"), said("measured force")};
 // clang-format on
+template <class... Kinds>
+constexpr bool all_have_words(std::type_identity<std::variant<Kinds...>>) {
+  constexpr auto letter = [](char a, char b) { return a == b || (a == '_' && b == ' '); };
+  constexpr auto has_words = [=](std::string_view kind) {
+    return std::ranges::any_of(k_kind_words, [&](std::string_view words) { return std::ranges::equal(kind, words, letter); });
+  };
+  return (has_words(Kinds::k_kind) && ...);
+}
+static_assert(all_have_words(std::type_identity<Event>()));
 
 /// Texts and names on one line.
 json on_lines(const json& j) {

@@ -1,9 +1,13 @@
 // Writes the pages' side of the table of routes, a TypeScript module: for each route its method, its path, and the types of request and answer.
 #include <fmt/format.h>
 
+#include <array>
 #include <iostream>
 #include <map>
+#include <type_traits>
+#include <variant>
 
+#include "grading/ledger/entry.h"
 #include "ui/office/routes.h"
 
 namespace cavum::office {
@@ -63,6 +67,12 @@ std::string answer_text(const EventsOf<Event>*) {
   return type_text<Event, false>();
 }
 
+/// "init" | "ticket" | ...
+template <class... E>
+std::string kinds_text(std::type_identity<std::variant<E...>>) {
+  return fmt::format("\"{}\"", fmt::join(std::array<std::string_view, sizeof...(E)>{E::k_kind...}, "\" | \""));
+}
+
 }  // namespace
 
 void write_routes() {
@@ -74,6 +84,7 @@ void write_routes() {
   std::cout << "// Made from ui/office/routes.h.\nexport type Nothing = Record<string, never>;\n"
                "/** `asks` and `answers` are in no object: they carry the types of request and answer, or of each event. */\n"
                "export interface Route<Request, Answer> { method: string; path: string; asks?: Request; answers?: Answer }\n";
+  std::cout << "export type EntryKind = " << kinds_text(std::type_identity<ledger::Entry>()) << ";\n";
   for (const auto& [name, body] : interfaces) std::cout << "export interface " << name << " " << body << "\n";
   std::cout << "export const routes = {\n" << rows << "};\n";
 }

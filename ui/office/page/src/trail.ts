@@ -1,11 +1,13 @@
 // Every entry of the ledger in words, the newest first; of one candidate where that is asked.
-import { routes, type TrailEntry } from "../made/routes.ts";
+import { routes, type EntryKind, type TrailEntry } from "../made/routes.ts";
 import { make } from "../report_src/dom.ts";
 import { tr } from "../report_src/words.ts";
 import { post } from "./api.ts";
 import { act, form, input, local_time, table, time_zone, type View } from "./parts.ts";
 
-const whats = (): { [what: string]: string } => ({
+/** Where one kind does several things, which of them. */
+type What = EntryKind | "makeup" | "begin again" | "session with findings" | "decision";
+const whats = (): { [what in What]: string } => ({
   init: tr("Ledger begun"), ticket: tr("Ticket issued"), makeup: tr("Makeup sitting"), cancel: tr("Ticket cancelled"), begin: tr("Exam let begin"), "begin again": tr("Exam let begin again"),
   session: tr("Exam filed"), "session with findings": tr("Exam filed, with findings"), regrade: tr("Marked anew"), decision: tr("Decided"), release: tr("Released"), retract: tr("Taken back"),
   appeal: tr("Appeal entered"), answer: tr("Appeal answered"), announce: tr("Announcement"), hold: tr("Exams paused"), go_on: tr("Pause ended"), incident: tr("Incident noted"),
@@ -21,7 +23,7 @@ function who(e: TrailEntry): string {
 
 export async function trail(): Promise<View> {
   const list = make("div");
-  const words = whats();
+  const words: { [what: string]: string } = whats();
   let about = "";
   const show = async (before?: number): Promise<void> => {
     const { entries, earlier } = await post(routes.trail, { about, before });
