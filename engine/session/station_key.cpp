@@ -100,7 +100,7 @@ std::string parse_public_key(const std::string& text, const std::string& where) 
   for (char& c : key)
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
   if (key.size() != 64 || key.find_first_not_of("0123456789abcdef") != std::string::npos)
-    throw Error(where, msg("is not a station's public key: 64 hexadecimal digits"),
+    throw Error(where, msg("is no public key: 64 hexadecimal digits"),
                 msg("copy it from what `cavum replay --verify` says of a session of that station"));
   return key;
 }

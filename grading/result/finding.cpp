@@ -8,6 +8,9 @@
 namespace cavum::grading {
 namespace {
 
+/// A name or figure by itself as such; a sentence as our own files keep it.
+nlohmann::ordered_json json_of_message(const Message& message);
+
 nlohmann::ordered_json json_of_value(const Value& value) {
   struct Of {
     nlohmann::ordered_json operator()(std::int64_t whole) const { return whole; }
@@ -20,12 +23,16 @@ nlohmann::ordered_json json_of_value(const Value& value) {
     nlohmann::ordered_json operator()(const Authored& a) const { return a.english; }
     nlohmann::ordered_json operator()(const List& list) const {
       auto all = nlohmann::ordered_json::array();
-      for (const Message& m : list.items) all.push_back(english_text(m));
+      for (const Message& m : list.items) all.push_back(json_of_message(m));
       return all;
     }
-    nlohmann::ordered_json operator()(const Message& m) const { return english_text(m); }
+    nlohmann::ordered_json operator()(const Message& m) const { return json_of_message(m); }
   };
   return std::visit(Of(), static_cast<const Value::variant&>(value));
+}
+
+nlohmann::ordered_json json_of_message(const Message& message) {
+  return message.english() == std::string_view("{}") ? json_of_value(message.values().front()) : encode(message);
 }
 
 }  // namespace

@@ -258,10 +258,11 @@ void erase_words(nlohmann::json& findings) {
     if (!f.is_object()) continue;
     f.erase("text"), f.erase("said");
     if (!f.contains("values") || !f["values"].is_object()) continue;
-    nlohmann::json figures = nlohmann::json::object();
+    nlohmann::json facts = nlohmann::json::object();
     for (const auto& [name, value] : f["values"].items())
-      if (value.is_number() || (value.is_array() && !value.empty() && value[0].is_number())) figures[name] = value;
-    f["values"] = figures;
+      if (!value.is_object() && !(value.is_array() && std::any_of(value.begin(), value.end(), [](const auto& v) { return v.is_object(); })))
+        facts[name] = value;
+    f["values"] = facts;
   }
 }
 

@@ -178,7 +178,7 @@ void LossFinder::canals() {
   for (const auto& p : r_.access.canal_mouths) {
     if (!(p.part > 0)) continue;
     const Trace last = last_cut_near(in_, end_, p.middle_mm);
-    fact(msg("of a canal's mouth, its middle at {}, has hard tissue on the straight line out; {}", p.middle_mm, last_cut_text(last)),
+    fact(msg("so much of a canal's mouth is covered by hard tissue on the straight line out, its middle at {}; {}", p.middle_mm, last_cut_text(last)),
          100 * p.part / p.whole, "%", last);
     if (last.tick < 0) why_.items.back().site_mm = p.middle_mm;
     why_.items.back().points_lost = (spec_.points - why_.criterion.points) * p.part / covered;
@@ -365,7 +365,7 @@ void LossFinder::tissue() {
 
 void LossFinder::time() {
   fact(msg("time that counts, pauses taken off"), r_.motion.time_s, "s");
-  fact(msg("of it neither moving nor cutting"), r_.motion.idle_s, "s");
+  fact(msg("neither moving nor cutting"), r_.motion.idle_s, "s");
   steps();
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
@@ -376,7 +376,7 @@ void LossFinder::handpiece_time() {
 }
 
 void LossFinder::idle() {
-  fact(msg("of it neither moving nor cutting"), r_.motion.idle_s, "s");
+  fact(msg("neither moving nor cutting"), r_.motion.idle_s, "s");
   list_largest(idle_moments(in_, end_, r_.pauses));
 }
 

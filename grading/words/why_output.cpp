@@ -72,7 +72,7 @@ Lines to_text(const Why& w) {
              i.points_lost ? msg("{} points", as_points(*i.points_lost, 2)) : Message()},
             2);
   if (w.left_out == 0) return out;
-  const Number amount = as_number(w.left_out_amount, 3);
+  const Number amount{w.left_out_amount, unit_of(w.items.front().unit), 3};
   out.add(w.left_out_points > 0
               ? msgn("{} smaller moment, {} in all, {} points", "{} smaller moments, {} in all, {} points", static_cast<std::int64_t>(w.left_out),
                      w.left_out, amount, as_points(w.left_out_points, 2))

@@ -1,7 +1,9 @@
 // What can be wrong, or unwise, in a scenario or rubric file, for whoever has to tell one from another.
 #pragma once
 
+#include <array>
 #include <cstdint>
+#include <string_view>
 
 namespace cavum::scenarios {
 
@@ -25,5 +27,9 @@ enum class Mistake : std::uint8_t {
   idle,           ///< changes nothing: a condition that always holds, points that nobody can lose, a fault that costs nothing
   wrong_work,     ///< passes, or gains points where it grows
 };
+/// As JSON has them, by value.
+inline constexpr std::array<std::string_view, 18> k_mistake_names{
+    "other",     "not_toml",      "missing",   "wrong_type", "out_of_range", "too_large", "unknown_key", "unknown_name", "bad_name",
+    "duplicate", "contradictory", "condition", "outline",    "surface",      "trespass",  "unreachable", "idle",         "wrong_work"};
 
 }  // namespace cavum::scenarios

@@ -16,6 +16,7 @@
 #include "grading/ledger/makeup.h"
 #include "grading/ledger/regrade.h"
 #include "grading/ledger/release.h"
+#include "grading/ledger/ticket_state.h"
 #include "scenarios/file/parse.h"
 #include "ui/language/language.h"
 #include "ui/language/say.h"
@@ -190,21 +191,21 @@ Tickets Desk::tickets(bool grants, const std::set<std::string>& seen) {
   Tickets out;
   std::map<std::string, Grants> granted;  // by exam
   for (const auto& t : turn.book.registry().tickets) {
-    const TicketState state = state_of(t, now);
-    TicketRow row{.entry = t.seq, .candidate = t.ticket.candidate, .exam = t.ticket.exam, .state = state.word, .seat = t.seat, .why = t.why};
+    const ledger::TicketState state = ledger::state_of(t, now);
+    TicketRow row{.entry = t.seq, .candidate = t.ticket.candidate, .exam = t.ticket.exam, .state = tr(state.words), .seat = t.seat, .why = t.why};
     row.not_before = utc_text(t.ticket.not_before_utc_ns);
     row.not_after = utc_text(t.ticket.not_after_utc_ns);
-    row.live = state.live;
+    row.live = t.live(now);
     row.at_station = std::filesystem::exists(places_.ticket(t.ticket.nonce));
     row.grant_kept = keeps_grant(turn.book.registry(), t);
-    row.begun = state.group == "begun" || seen.contains(t.ticket.candidate);
+    row.begun = state.group == ledger::TicketGroup::begun || seen.contains(t.ticket.candidate);
     Message why_not;
     if (const auto* makeup = t.made_up_by ? turn.book.registry().ticket(*t.made_up_by) : nullptr)
       row.became = ledger::word_of(makeup->makes_up->became);
     for (const auto became : ledger::makeup_reasons(turn.book.registry(), t, now, why_not)) row.makeup.emplace_back(ledger::word_of(became));
     put_name(row, people);
     if (grants) row.accommodations = granted_on(t.ticket.nonce);
-    if (state.live) granted[t.ticket.exam].push_back(grant_on(t.ticket.nonce));
+    if (row.live) granted[t.ticket.exam].push_back(grant_on(t.ticket.nonce));
     out.tickets.push_back(std::move(row));
   }
   for (ExamFacts facts : offered.value) {  // those of which tickets are good, with how long they take
@@ -243,7 +244,7 @@ BoardShown Desk::board(const Board& board, const Inbox& inbox) {
     if (const auto found = said.find(s.public_key); found != said.end()) row.said = found->second;
     out.stations.push_back(std::move(row));
   }
-  for (const auto& t : registry.tickets) ++out.tickets[state_of(t, now).group];
+  for (const auto& t : registry.tickets) ++out.tickets[std::string(ledger::name_of(ledger::state_of(t, now).group))];
   for (const auto& [hash, exam] : inbox.refused()) {
     const auto is_it = [&sha256 = hash](const ledger::FiledSession& s) { return s.file_sha256 == sha256; };
     if (std::any_of(registry.sessions.begin(), registry.sessions.end(), is_it)) continue;  // and filed later
@@ -283,9 +284,8 @@ void Desk::remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) co
   std::optional<std::map<std::string, ledger::Identity>> people;
   for (const auto& t : book.registry().tickets) {
     const std::string file = places_.ticket(t.ticket.nonce);
-    const TicketState state = state_of(t, now_utc_ns);
-    if (state.live || comes_back(book.registry(), t, now_utc_ns) || !std::filesystem::exists(file)) continue;
-    if (state.group == "run out" && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
+    if (t.live(now_utc_ns) || comes_back(book.registry(), t, now_utc_ns) || !std::filesystem::exists(file)) continue;
+    if (ledger::state_of(t, now_utc_ns).group == ledger::TicketGroup::run_out && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
       if (!people) people = people_of(book);
       if (people->contains(t.ticket.candidate)) continue;  // not forgotten
     }
@@ -299,7 +299,7 @@ StationTickets Desk::station_tickets() {
   remove_dead_tickets(turn.book, now);
   StationTickets out;
   for (const auto& t : turn.book.registry().tickets)
-    if (const std::string file = places_.ticket(t.ticket.nonce); state_of(t, now).live && std::filesystem::exists(file))
+    if (const std::string file = places_.ticket(t.ticket.nonce); t.live(now) && std::filesystem::exists(file))
       out.value.push_back({t.ticket.candidate, t.ticket.nonce, read_text_file(file)});
   return out;
 }

@@ -22,7 +22,7 @@ std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std
   std::vector<ledger::Seat> seats;
   std::set<std::string> given;
   for (const auto& t : registry.tickets) {
-    if (!state_of(t, now).live || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until ||
+    if (!t.live(now) || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until ||
         !t.seat.empty())
       continue;
     for (const auto& s : registry.stations.stations) {
@@ -106,7 +106,7 @@ Seated Desk::seat(const SeatThem& asked, const Account& by) {
     seats = free_seats(registry, exam, from, until, asked.room, now);
     for (const auto& t : registry.tickets)
       left +=
-          t.ticket.exam == exam && t.ticket.not_before_utc_ns == from && t.ticket.not_after_utc_ns == until && t.seat.empty() && state_of(t, now).live
+          t.ticket.exam == exam && t.ticket.not_before_utc_ns == from && t.ticket.not_after_utc_ns == until && t.seat.empty() && t.live(now)
               ? 1
               : 0;
     left -= seats.size();
@@ -149,7 +149,7 @@ OfficeWord Desk::word_for(const std::string& station, std::uint64_t heard, std::
   OfficeWord word{now, registry.tickets.size(), {}, {}};
   for (const auto* a : announced_to(registry.day, station, since_utc_ns, now))
     if (a->seq > heard) word.announcements.push_back({a->seq, a->utc_ns, a->words});
-  for (const auto& t : registry.tickets) word.tickets += !state_of(t, now).live ? 1 : 0;
+  for (const auto& t : registry.tickets) word.tickets += !t.live(now) ? 1 : 0;
   if (const ledger::Hold* hold = registry.day.hold_of(station); hold != nullptr) word.hold = {hold->seq, hold->reason};
   return word;
 }

@@ -103,32 +103,6 @@ std::string station_name(const ledger::Registry& registry, const std::string& ke
   return s == nullptr ? "" : s->name;
 }
 
-namespace {
-
-/// Of the ticket alone.
-TicketState own_state(const ledger::IssuedTicket& t, std::int64_t now) {
-  if (t.used_by) return {tr("filed, entry {}", *t.used_by), "filed", false};
-  if (t.cancelled_by) return {tr("cancelled, entry {}", *t.cancelled_by), "cancelled", false};
-  if (!t.begins.empty()) return {tr("begun, entry {}", t.begins.back().seq), "begun", now <= t.ticket.not_after_utc_ns};
-  if (now > t.ticket.not_after_utc_ns) return {tr("run out"), "run out", false};
-  return {now < t.ticket.not_before_utc_ns ? tr("not yet") : tr("live"), "live", true};
-}
-
-}  // namespace
-
-TicketState state_of(const ledger::IssuedTicket& t, std::int64_t now) {
-  TicketState state = own_state(t, now);
-  if (t.makes_up)
-    state.word = t.makes_up->became == ledger::FirstSitting::missed
-                     ? tr("{}; makeup of entry {}, which was missed", as_is(state.word), t.makes_up->ticket)
-                     : tr("{}; makeup of entry {}, which was interrupted", as_is(state.word), t.makes_up->ticket);
-  if (t.made_up_by) {
-    const bool open = state.group == "live" || state.group == "run out";  // it is neither any more
-    state = {open ? tr("made up by entry {}", *t.made_up_by) : tr("{}; made up by entry {}", as_is(state.word), *t.made_up_by), "made up", false};
-  }
-  return state;
-}
-
 std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s, const std::set<std::uint64_t>& otherwise) {
   if (s.result_erased_by) return "erased";
   if (s.made_up_by) return "made up";

@@ -62,12 +62,6 @@ struct IssueWish {
 /// A station's name by its key; empty where the ledger knows none.
 [[nodiscard]] std::string station_name(const ledger::Registry& registry, const std::string& key);
 
-struct TicketState {
-  std::string word;   ///< for people
-  std::string group;  ///< live, begun, filed, cancelled, run out, made up
-  bool live = false;  ///< it may still be used
-};
-[[nodiscard]] TicketState state_of(const ledger::IssuedTicket& ticket, std::int64_t now_utc_ns);
 /// made up, released, to decide, questioned, taken back, marked otherwise (one of `otherwise`: Registry::marked_otherwise), not chosen, erased, or
 /// ready: it waits for its release.
 [[nodiscard]] std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& session, const std::set<std::uint64_t>& otherwise);

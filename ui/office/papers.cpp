@@ -63,7 +63,7 @@ std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
   const auto people = people_of(ledger);
   std::vector<Invited> out;
   for (const auto& t : registry.tickets) {
-    if (!state_of(t, now).live) continue;
+    if (!t.live(now)) continue;
     Invited i{.code = t.ticket.candidate,
               .nonce = t.ticket.nonce,
               .exam = t.ticket.exam,

@@ -125,7 +125,7 @@ CAVUM_JSON(ToRead, (std::uint64_t, entry), (std::int64_t, utc_ns), (std::string,
 CAVUM_JSON_MORE(Notice, ToRead, (std::string, room), (Texts, stations))
 CAVUM_JSON(RefusedExam, (std::string, sha256), (std::string, candidate), (std::string, station), (Texts, findings))
 CAVUM_JSON(InboxShown, (std::size_t, waiting), (std::string, trouble), (List<RefusedExam>, refused))
-/// `tickets`: how many, by TicketState::group.
+/// `tickets`: how many, by name of their ledger::TicketGroup.
 CAVUM_JSON(BoardShown, (std::int64_t, utc_ns), (List<StationShown>, stations), (ByName<std::size_t>, tickets), (List<Notice>, holds),
            (List<Notice>, announcements), (InboxShown, inbox))
 using Invite = Only<"name", Line>;

@@ -17,7 +17,10 @@ namespace cavum::report {
 std::string report_html(const ReportSource& source) { return html_of(report_document(source), report_data(source)); }
 std::string report_pdf(const ReportSource& source) { return pdf_of(report_document(source)); }
 
-void require_report_place(const std::string& path, bool overwrite) {
+void require_report_place(const std::string& path, bool overwrite, bool pictures) {
+  if (!path.ends_with(".html") && !path.ends_with(".pdf") && !(pictures && path.ends_with(".svg")))
+    throw Error(Name{path}, msg("the kind of report is not clear from its name"),
+                pictures ? msg("use a name ending in .html or .pdf, or in .svg for the sections alone") : msg("use a name ending in .html or .pdf"));
   require_writable(path);
   if (!std::filesystem::exists(path) || std::filesystem::file_size(path) == 0 || overwrite) return;
   const std::string text = read_text_file(path, k_largest_file), head = text.substr(0, 200);

@@ -12,8 +12,9 @@ namespace cavum::report {
 /// A4 pages. The same source gives the same bytes.
 [[nodiscard]] std::string report_pdf(const ReportSource& source);
 
-/// Throws Error when no report can be put at `path`: an earlier report may be written anew, any other file only with `overwrite`.
-void require_report_place(const std::string& path, bool overwrite = false);
+/// Throws Error when no report can be put at `path`: its name ends in .html or .pdf, with `pictures` in .svg, too; an earlier report may be written
+/// anew, any other file only with `overwrite`.
+void require_report_place(const std::string& path, bool overwrite = false, bool pictures = false);
 
 /// The report of an exam that has just been closed, without a replay, as `path` ends: .pdf or else HTML.
 void write_closing_report(const std::string& path, const std::string& session_path, const grading::Result& result,

@@ -16,10 +16,11 @@ namespace {
 
 constexpr std::int64_t k_week_ns = 7 * 86'400'000'000'000;
 
-Message state_of(const ledger::Station& s) {
-  if (!s.replaced_by.empty()) return msg("replaced by {}", s.replaced_by.substr(0, 16));
-  if (s.revoked_utc_ns) return msg("revoked on {}", utc_text(*s.revoked_utc_ns));
-  return s.until_utc_ns > 0 ? msg("until {}", utc_text(s.until_utc_ns)) : msg("enrolled");
+/// In JSON, and for people.
+std::pair<const char*, Message> state_of(const ledger::Station& s) {
+  if (!s.replaced_by.empty()) return {"replaced", msg("replaced by {}", s.replaced_by.substr(0, 16))};
+  if (s.revoked_utc_ns) return {"revoked", msg("revoked on {}", utc_text(*s.revoked_utc_ns))};
+  return {"enrolled", s.until_utc_ns > 0 ? msg("until {}", utc_text(s.until_utc_ns)) : msg("enrolled")};
 }
 
 void list_stations(const LedgerOptions& o) {
@@ -29,9 +30,14 @@ void list_stations(const LedgerOptions& o) {
   for (const auto& s : stations.stations) {
     json devices = json::array();
     for (const auto& d : s.devices) devices.push_back({{"name", d.name}, {"serial", d.serial}});
-    printed.push_back(
-        {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"state", english_text(state_of(s))}, {"styluses", devices}});
-    if (!o.as_json) say(msg("{}  {}, {}", s.public_key, s.name, state_of(s)));
+    const auto [state, words] = state_of(s);
+    printed.push_back({{"name", s.name},
+                       {"public_key", s.public_key},
+                       {"entry", s.seq},
+                       {"state", state},
+                       {"text", english_text(words)},
+                       {"styluses", devices}});
+    if (!o.as_json) say(msg("{}  {}, {}", s.public_key, s.name, words));
   }
   if (o.as_json)
     print_json(json{{"stations", printed}});

@@ -10,6 +10,7 @@
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/issue.h"
 #include "grading/ledger/registry.h"
+#include "grading/ledger/ticket_state.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/accommodations.h"
 #include "ui/parts/print_json.h"
@@ -81,20 +82,16 @@ void ledger_tickets(const LedgerOptions& o) {
   json printed = json::array();
   Lines rows;
   for (const auto& t : registry.tickets) {
-    const Message state = t.made_up_by                      ? msg("made up by entry {}", *t.made_up_by)
-                          : t.used_by                       ? msg("used by entry {}", *t.used_by)
-                          : t.cancelled_by                  ? msg("cancelled by entry {}", *t.cancelled_by)
-                          : now > t.ticket.not_after_utc_ns ? msg("run out")
-                          : !t.begins.empty()               ? msg("let begin by entry {}", t.begins.back().seq)
-                                                            : msg("live");
+    const ledger::TicketState state = ledger::state_of(t, now);
     printed.push_back({{"entry", t.seq},
                        {"candidate", t.ticket.candidate},
                        {"exam", t.ticket.exam},
                        {"not_before", utc_text(t.ticket.not_before_utc_ns)},
                        {"not_after", utc_text(t.ticket.not_after_utc_ns)},
-                       {"state", english_text(state)}});
+                       {"state", ledger::name_of(state.group)},
+                       {"text", english_text(state.words)}});
     rows.row({msg("{}", t.seq), Name{t.ticket.candidate}, Name{t.ticket.exam},
-              msg("{} to {}", utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns)), state},
+              msg("{} to {}", utc_text(t.ticket.not_before_utc_ns), utc_text(t.ticket.not_after_utc_ns)), state.words},
              2);
   }
   if (o.as_json)

@@ -163,13 +163,10 @@ void write_report(const std::string& session, const std::string& out, const Repo
 
 void run_report(const ReportArguments& o) {
   const bool picture = o.out.ends_with(".svg");
-  if (!picture && !o.out.ends_with(".html") && !o.out.ends_with(".pdf"))
-    throw Error(Name{o.out}, msg("the kind of report is not clear from its name"),
-                msg("use a name ending in .html or .pdf, or in .svg for the sections alone"));
   if (o.with_name && o.ledger.empty()) throw Error(Name{"--with-name"}, msg("names are known to a ledger only"), msg("add --ledger with its folder"));
   if (picture && !o.beside.empty())
     throw Error(Name{"--beside " + o.beside}, msg("is shown in a report, not in a picture of sections"), msg("use a name ending in .html or .pdf"));
-  report::require_report_place(o.out, o.overwrite);
+  report::require_report_place(o.out, o.overwrite, true);
   require_own_places({{"--out " + o.out, o.out}}, {{"session", o.session}, {"--beside", o.beside}});
   require_sound_marking(o.marking);
   grading::ExamGrounds grounds;

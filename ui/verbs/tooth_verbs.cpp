@@ -154,7 +154,7 @@ std::shared_ptr<std::optional<std::uint64_t>> add_seed(CLI::App* app, const std:
   auto* option =
       app->add_option("--seed", *seed,
                       tr("Draw an individual with measures of its own (docs/teeth.md); without it, the plain tooth of round measures"))
-          ->check([](const std::string& text) { return text.starts_with('-') ? tr("--seed is a whole number, 0 or more") : std::string(); });
+          ->check([](const std::string& text) { return text.starts_with('-') ? tr("a whole number is needed, 0 or more") : std::string(); });
   for (auto* other : drawn) option->excludes(other);
   return seed;
 }
