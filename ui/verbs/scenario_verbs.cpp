@@ -100,7 +100,7 @@ int show(const ScenarioArguments& o) {
   const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(s) : o.tooth);
   const scenarios::ZoneMap zones = scenarios::build_zones(s, tooth);
-  const std::string svg = scenarios::scenario_sheet_svg(s, tooth, zones);
+  const std::string svg = scenarios::scenario_sheet_svg(s, tooth, zones, tr);
   write_text_file(o.out, svg);
   const auto volumes = zone_volumes(tooth, zones);
   if (o.json) {
