@@ -32,10 +32,13 @@ std::string html(const Lines& lines) {
   bool in_table = false;
   for (const auto& line : lines.all()) {
     const bool row = line.cells.size() > 1;
-    if (row != in_table) out += row ? "<table>\n" : "</table>\n";
+    if (row != in_table) out += row ? "<table class=\"words\">\n" : "</table>\n";
     in_table = row;
     std::string cells;
-    for (const Message& cell : line.cells) cells += row ? fmt::format("<td>{}</td>", html(cell)) : fmt::format("<p>{}</p>", html(cell));
+    for (const Message& cell : line.cells)
+      cells += !row            ? fmt::format("<p>{}</p>", html(cell))
+               : cells.empty() ? fmt::format("<th scope=\"row\">{}</th>", html(cell))
+                               : fmt::format("<td>{}</td>", html(cell));
     out += row ? fmt::format("<tr>{}</tr>\n", cells) : cells + "\n";
   }
   return out + (in_table ? "</table>\n" : "");
@@ -205,7 +208,8 @@ std::string verdict_box(const explain::Explanation& e, const Message& words) {
                                        : msg("{}, or one that fits as well: {}", cause, as_percent(100.0 * c.set_probability)));
   }
   if (e.unexplained && !causes.empty()) causes.push_back(msg("something that no mechanism here describes"));
-  return fmt::format("<div class=\"verdict\"><b>{}</b><br>{}{}</div>\n", html(word_of(e.verdict)), html(words), causes.empty() ? "" : list(causes));
+  return fmt::format("<div class=\"verdict\" data-verdict=\"{}\"><b>{}</b><br>{}{}</div>\n", verdict_name(e.verdict), html(word_of(e.verdict)),
+                     html(words), causes.empty() ? "" : list(causes));
 }
 
 std::string next_box(const explain::Explanation& e) {
@@ -341,10 +345,12 @@ std::string page_html(const std::string& title, const std::string& content) {
          "svg{max-width:none;display:block}table{border-collapse:collapse}"
          "td,th{overflow-wrap:break-word;text-align:left;vertical-align:top;padding:.2em 1em .2em 0;border-bottom:1px solid "
          "#ddd}td.n,th.n{text-align:right;"
-         "font-variant-numeric:tabular-nums}td.n{white-space:nowrap}pre{white-space:pre-wrap;background:#f2f2f2;padding:1em}caption{text-align:left}."
+         "font-variant-numeric:tabular-nums}td.n{white-space:nowrap}pre{font-size:1em;white-space:pre-wrap;background:#f2f2f2;padding:1em}caption{"
+         "text-align:left}."
          "bars{width:100%;max-width:42em}.bars td,.bars "
-         "th{border:0}.bars th{font-weight:normal}.bars .wide{width:45%}.sessions "
-         "th{overflow-wrap:anywhere;min-width:3em}.bar{display:inline-block;height:1em}li{margin:.3em 0}summary{cursor:"
+         "th{border:0}.bars th{font-weight:normal}.bars .wide{width:45%}.words th{font-weight:normal;min-width:5em}.sessions th{min-width:3em}.words "
+         "th,.sessions "
+         "th{overflow-wrap:anywhere}.bar{display:inline-block;height:1em}li{margin:.3em 0}summary{cursor:"
          "pointer}</style></head><body><main>\n<h1>" +
          breakable(title) + "</h1>\n" + content + "</main></body></html>\n";
 }

@@ -120,8 +120,7 @@ std::string cube_svg(const CubeResult& r) {
                          r.options.runs, as_unit(m.speed_mm_s, Unit::mm_per_s), r.options.runs),
                      {force, rest},
                      {tr("Bars: sd over the runs. Joint friction of the simulated Omni {}; load cell noise {} and zero error {} a run (assumed). "
-                         "Mean of the last 2 s of a "
-                         "steady cut.",
+                         "Mean of the last 2 s of a steady cut.",
                          as_n(m.omni.coulomb_n, k_as_needed), as_n(m.noise_n, k_as_needed), as_n(m.zero_n, k_as_needed))});
 }
 
