@@ -306,7 +306,7 @@ std::string candidates_html(const explain::Explanation& e) {
   for (std::size_t i = 0; i < candidates.size(); ++i) {
     const auto& m = explain::mechanism_at(candidates[i].hypothesis.term.mechanism);
     (i < k_shown ? shown : rest) +=
-        fmt::format("<tr><td>{} (<code>{}</code>)</td><td class=\"n\">{}</td></tr>\n", html(msg("{}", cavum::Term{m.words})), m.name,
+        fmt::format("<tr><td>{}</td><td class=\"n\">{}</td></tr>\n", html(msg("{} ({})", cavum::Term{m.words}, m.name)),
                     html(candidates[i].testable ? msg("{}", as_number(std::max(0.0, candidates[i].gain), 0)) : msg("not testable")));
   }
   std::string out = heading(msg("What each mechanism would gain alone")) + shown + "</table>\n";

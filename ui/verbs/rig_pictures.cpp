@@ -60,7 +60,8 @@ std::vector<ChartPoint> root_beside_line(const Fit& root, const Fit& line, doubl
 /// The forces of one model, and what its straight line leaves over.
 void add_cube_set(const CubeSet& set, const std::string& colour, double largest_k, Chart& force, Chart& rest) {
   ChartSeries with{tr("{}, with friction", as_is(set.name)), colour, Style::dots, {}, 1.8},
-      without{tr("{}, without friction", as_is(set.name)), colour, Style::rings, {}, 1.8}, left{set.name, colour, Style::dots, {}, 1.8};
+      without{tr("{}, without friction", as_is(set.name)), colour, Style::rings, {}, 1.8},
+      left{tr("{}", as_is(set.name)), colour, Style::dots, {}, 1.8};
   const Fit& line = set.with.line;
   for (const auto& row : set.rows) {
     with.points.push_back({row.k_n_per_mm, row.with.mean, row.with.sd});
