@@ -98,16 +98,9 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
   ShapeMaker maker(tooth, scenario.path);
   const auto guard = scenario.zones.protected_shapes.empty() ? nullptr : maker.make(scenario.zones.protected_shapes);
   const PictureSpec specs[] = {
-      {View::mesio_distal, middle.y, 30, in_words(msg("section from mesial to distal, y = {}", as_mm(middle.y))), strong, guard.get(), {}, in_words},
-      {View::bucco_lingual,
-       middle.x,
-       30,
-       in_words(msg("section from buccal to lingual, x = {}", as_mm(middle.x))),
-       strong,
-       guard.get(),
-       {},
-       in_words},
-      {View::horizontal, low, 30, in_words(msg("section across, z = {}", as_mm(low))), strong, guard.get(), {}, in_words},
+      {View::mesio_distal, middle.y, 30, in_words(msg("mesial to distal, y = {}", as_mm(middle.y))), strong, guard.get(), {}, in_words},
+      {View::bucco_lingual, middle.x, 30, in_words(msg("buccal to lingual, x = {}", as_mm(middle.x))), strong, guard.get(), {}, in_words},
+      {View::horizontal, low, 30, in_words(msg("across, z = {}", as_mm(low))), strong, guard.get(), {}, in_words},
       {View::occlusal, 0, 30, in_words(msg("from above")), strong, guard.get(), {}, in_words}};
   const auto size_of = [](const std::string& svg, const char* key) {
     const auto at = svg.find(key);
