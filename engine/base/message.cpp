@@ -46,7 +46,8 @@ std::string rendered(const Number& n, const Locale& locale) {
   std::string text = (n.sign && n.value >= 0 ? "+" : "") + figure(n.value, n.digits, locale);
   if (n.bound > 0) text += " ± " + figure(n.bound, n.digits, locale);
   if (n.unit == Unit::none) return text;
-  return text + (n.unit == Unit::deg ? "" : " ") + std::string(unit_sign(n.unit));
+  const std::string sign(unit_sign(n.unit));
+  return text + (n.unit == Unit::deg ? "" : " ") + (n.unit == Unit::rpm ? locale.term(sign) : sign);  // the only one that is a word
 }
 
 std::string rendered(Vec3 p, const Locale& locale) {

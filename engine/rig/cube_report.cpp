@@ -1,9 +1,10 @@
 // The cube experiment in words, tables and files.
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/base/print.h"
 #include "engine/base/text.h"
 #include "engine/rig/cube_rig.h"
 
@@ -254,22 +255,23 @@ std::string recordings_csv(const CubeResult& r) {
     for (std::size_t i = 0; i < row.runs.size(); ++i) {
       if (!row.runs[i].steady) continue;
       for (const auto& s : row.runs[i].recording)
-        out += printed("k%.2f-run%02zu,%.3f,%.6f,%.6f,%.6f,%.0f,%.6f\n", row.k_n_per_mm, i + 1, s.t_s, s.x_mm, s.f_n, s.v_mm_s, s.spindle_rpm,
-                       s.removed_mm3);
+        out += fmt::format("k{:.2f}-run{:02},{:.3f},{:.6f},{:.6f},{:.6f},{:.0f},{:.6f}\n", row.k_n_per_mm, i + 1, s.t_s, s.x_mm, s.f_n, s.v_mm_s,
+                           s.spindle_rpm, s.removed_mm3);
     }
   return out.empty() ? out : "session,t_s,x_mm,f_n,v_mm_s,spindle_rpm,removed_mm3\n" + out;
 }
 
 std::string recordings_rig_toml(const CubeResult& r) {
   const MachineSettings& m = r.options.machine;
-  std::string out = printed(
-      "# Virtual testing machine, cubes cut at %.2f mm/s: model '%s' on a simulated Omni (joint friction %.2f N in f_n).\n"
+  std::string out = fmt::format(
+      "# Virtual testing machine, cubes cut at {:.2f} mm/s: model '{}' on a simulated Omni (joint friction {:.2f} N in f_n).\n"
       "# The surface recedes while it is cut: x_mm is the penetration into what is left, v_mm_s the way of the tip.\n",
-      m.speed_mm_s, one_line(r.sets.front().name).c_str(), m.omni.coulomb_n);
+      m.speed_mm_s, one_line(r.sets.front().name), m.omni.coulomb_n);
   for (const auto& row : r.sets.front().rows)
     if (!row.runs.empty() && !row.runs.front().recording.empty())
-      out += printed("k_n_per_mm = %.12g\nc_n_s_per_mm = %.12g\n", row.k_n_per_mm, row.c_n_s_per_mm);
-  return out + printed("position_quantum_mm = %.12g\nforce_quantum_n = 0.000001\nforce_limit_n = %.12g\n", m.omni.quantum_mm, m.omni.saturation_n);
+      out += fmt::format("k_n_per_mm = {:.12g}\nc_n_s_per_mm = {:.12g}\n", row.k_n_per_mm, row.c_n_s_per_mm);
+  return out +
+         fmt::format("position_quantum_mm = {:.12g}\nforce_quantum_n = 0.000001\nforce_limit_n = {:.12g}\n", m.omni.quantum_mm, m.omni.saturation_n);
 }
 
 }  // namespace cavum

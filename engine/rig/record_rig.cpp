@@ -6,7 +6,6 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/base/print.h"
 #include "engine/statistics/independent_runs.h"
 #include "engine/tooth/make/make_block.h"
 
@@ -88,15 +87,16 @@ RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const
 std::string record_csv(const RecordResult& r) {
   std::string out = "session,t_s,x_mm,f_n,v_mm_s,spindle_rpm,removed_mm3\n";
   for (const auto& row : r.rows)
-    out += printed("%d,%.3f,%.5f,%.4f,%.4f,%.0f,%.3f\n", row.session, row.t_s, row.x_mm, row.f_n, row.v_mm_s, row.rpm, row.removed_mm3);
+    out +=
+        fmt::format("{},{:.3f},{:.5f},{:.4f},{:.4f},{:.0f},{:.3f}\n", row.session, row.t_s, row.x_mm, row.f_n, row.v_mm_s, row.rpm, row.removed_mm3);
   return out;
 }
 
 std::string record_rig_toml(const RecordResult& r) {
-  return printed(
+  return fmt::format(
       "# Virtual testing machine (cavum rig record): cubes of dentin, load cell under the cube.\n"
       "# The surface recedes while it is cut: x_mm is the penetration into what is left, v_mm_s the way of the tip.\n"
-      "k_n_per_mm = %.12g\nc_n_s_per_mm = %.12g\nforce_quantum_n = 0.0001\nforce_limit_n = %.12g\n",
+      "k_n_per_mm = {:.12g}\nc_n_s_per_mm = {:.12g}\nforce_quantum_n = 0.0001\nforce_limit_n = {:.12g}\n",
       r.k_n_per_mm, r.c_n_s_per_mm, r.force_limit_n);
 }
 

@@ -91,17 +91,17 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   return svg;
 }
 
-std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones) {
+std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, InWords in_words) {
   const Vec3 middle = (zones.target_low_mm() + zones.target_high_mm()) * 0.5;
   const double low = zones.target_low_mm().z + 0.3 * (zones.target_high_mm().z - zones.target_low_mm().z);
   const bool strong = scenario.accommodations.high_contrast;
   ShapeMaker maker(tooth, scenario.path);
   const auto guard = scenario.zones.protected_shapes.empty() ? nullptr : maker.make(scenario.zones.protected_shapes);
   const PictureSpec specs[] = {
-      {View::mesio_distal, middle.y, 30, fmt::format("section mesial-distal, y = {} mm", svg_number(middle.y)), strong, guard.get()},
-      {View::bucco_lingual, middle.x, 30, fmt::format("section buccal-lingual, x = {} mm", svg_number(middle.x)), strong, guard.get()},
-      {View::horizontal, low, 30, fmt::format("section across, z = {} mm", svg_number(low)), strong, guard.get()},
-      {View::occlusal, 0, 30, "from above", strong, guard.get()}};
+      {View::mesio_distal, middle.y, 30, in_words(msg("mesial to distal, y = {}", as_mm(middle.y))), strong, guard.get(), {}, in_words},
+      {View::bucco_lingual, middle.x, 30, in_words(msg("buccal to lingual, x = {}", as_mm(middle.x))), strong, guard.get(), {}, in_words},
+      {View::horizontal, low, 30, in_words(msg("across, z = {}", as_mm(low))), strong, guard.get(), {}, in_words},
+      {View::occlusal, 0, 30, in_words(msg("from above")), strong, guard.get(), {}, in_words}};
   const auto size_of = [](const std::string& svg, const char* key) {
     const auto at = svg.find(key);
     return std::stod(svg.substr(at + std::string(key).size()));
@@ -120,16 +120,16 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
   }
-  const std::string legend = legend_svg(tooth, false, strong);
-  const double title_px = 9.0 * static_cast<double>(scenario.title.size() + tooth.name.size() + 2);
+  const std::string legend = legend_svg(tooth, false, strong, in_words);
+  const std::string title = in_words(msg("{}: {}", Authored{scenario.title}, tooth.name));
+  const double title_px = 9.0 * static_cast<double>(title.size());
   width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 18 + size_of(legend, "height='");
   return fmt::format(
       "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' font-family='sans-serif'>\n"
       "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>{}</text>\n{}<g transform='translate(10 "
       "{})'>{}</g>\n</svg>\n",
-      svg_number(width), svg_number(height), xml_text(fmt::format("{}: {}", scenario.title, tooth.name)), body,
-      svg_number(height - 8 - size_of(legend, "height='")), legend);
+      svg_number(width), svg_number(height), xml_text(title), body, svg_number(height - 8 - size_of(legend, "height='")), legend);
 }
 
 }  // namespace cavum::scenarios

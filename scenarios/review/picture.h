@@ -44,7 +44,7 @@ struct PictureSpec {
 [[nodiscard]] std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap& zones, const PictureSpec& spec);
 
 /// Three sections through the middle of the target and the view from above, on one sheet.
-[[nodiscard]] std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones);
+[[nodiscard]] std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, InWords in_words);
 
 /// The colour of a tissue in these pictures, "#rrggbb".
 [[nodiscard]] std::string tissue_colour(std::uint8_t tissue, bool high_contrast = false);

@@ -24,12 +24,10 @@ double round_step(double span, int wanted) {
 
 struct Axis {
   double low = 0, high = 1, step = 0.2, from_px = 0, to_px = 1;
-  bool english = false;
   [[nodiscard]] double px(double v) const { return from_px + (v - low) / (high - low) * (to_px - from_px); }
   [[nodiscard]] std::string label(double v) const {
     const int digits = std::clamp(static_cast<int>(std::ceil(-std::log10(step) - 1e-9)), 0, 6);
-    const Message figure = msg("{}", as_number(std::fabs(v) < 1e-9 * step ? 0.0 : v, digits));
-    return english ? english_text(figure) : tr(figure);
+    return tr("{}", as_number(std::fabs(v) < 1e-9 * step ? 0.0 : v, digits));
   }
 };
 
@@ -40,9 +38,8 @@ struct Frame {
   int across = 8, up = 7;
 };
 
-Axis make_axis(const Chart& chart, std::optional<std::pair<double, double>> range, double low, double high, int wanted) {
+Axis make_axis(std::optional<std::pair<double, double>> range, double low, double high, int wanted) {
   Axis a;
-  a.english = chart.english;
   if (!(high > low)) {
     low -= 0.5;
     high += 0.5;
@@ -67,7 +64,7 @@ Frame frame_of(const Chart& chart, double y_low, double y_high) {
   f.right = 1.2 * chart.text_px;
   f.spill = 5.0;
   f.up = std::clamp(static_cast<int>((chart.height_px - f.top - f.bottom) / (2.2 * chart.text_px)), 2, 7);
-  const Axis y = make_axis(chart, chart.y_range, y_low, y_high, f.up);
+  const Axis y = make_axis(chart.y_range, y_low, y_high, f.up);
   const std::size_t longest = std::max(y.label(y.low).size(), y.label(y.high).size());
   f.left = 2.4 * chart.text_px + digit_px * static_cast<double>(longest);
   f.across = std::clamp(static_cast<int>((chart.width_px - f.left - f.right) / (3.6 * chart.text_px)), 2, 8);
@@ -159,7 +156,7 @@ std::string chart_group(const Chart& chart, double x_px, double y_px) {
   if (x_low > x_high) x_low = y_low = 0, x_high = y_high = 1;
   const Frame f = frame_of(chart, y_low, y_high);
   const double text = chart.text_px, larger = text / k_text_px;
-  Axis x = make_axis(chart, chart.x_range, x_low, x_high, f.across), y = make_axis(chart, chart.y_range, y_low, y_high, f.up);
+  Axis x = make_axis(chart.x_range, x_low, x_high, f.across), y = make_axis(chart.y_range, y_low, y_high, f.up);
   x.from_px = f.left;
   x.to_px = chart.width_px - f.right;
   y.from_px = chart.height_px - f.bottom;

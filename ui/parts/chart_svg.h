@@ -43,8 +43,7 @@ struct Chart {
   std::optional<std::pair<double, double>> x_range, y_range;  ///< else what the series need
   bool legend_at_right = false;                               ///< inside, upper right; else upper left
   double width_px = 520, height_px = 400;
-  bool english = false;  ///< what stands on it, whatever the reader speaks: the figures then, too
-  double text_px = 11;   ///< of the numbers; larger ones have margins of their own, fewer ticks, and the legend beside the chart
+  double text_px = 11;  ///< of the numbers; larger ones have margins of their own, fewer ticks, and the legend beside the chart
 };
 
 /// A group of `chart.width_px` × `chart.height_px` with its corner at x, y.

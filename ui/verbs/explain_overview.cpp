@@ -10,8 +10,8 @@
 #include "engine/base/text.h"
 #include "engine/explain/report/overview_report.h"
 #include "ui/language/say.h"
-#include "ui/parts/chart_svg.h"
 #include "ui/parts/option_checks.h"
+#include "ui/verbs/explain_page.h"
 
 namespace cavum::ui {
 namespace {
@@ -37,19 +37,13 @@ std::vector<ChartPoint> thinned(const Series& x, const Series& y) {
   return out;
 }
 
-std::string chart_over(const std::string& title, const std::string& x_label, const std::string& y_label, std::vector<ChartPoint> points,
-                       ChartSeries::Style style, const std::optional<ChartMark>& mark) {
+std::string chart_over(const Message& title, const Message& x_label, const Message& y_label, std::vector<ChartPoint> points, ChartSeries::Style style,
+                       const std::optional<ChartMark>& mark) {
   Chart c;
-  c.title = title;
-  c.x_label = x_label;
-  c.y_label = y_label;
-  c.english = true;
   c.width_px = 700;
-  c.text_px = 16;  // a telephone shows it as it is, and scrolls
   c.series.push_back({"", "#0072b2", style, std::move(points), 1.0});
   if (mark) c.marks.push_back(*mark);
-  return fmt::format("<div class=\"scroll\" role=\"group\" tabindex=\"0\" aria-label=\"{}\">{}</div>\n", xml_text(title),
-                     svg_page(c.width_px, c.height_px, chart_group(c, 0, 0), "chart: " + title));
+  return figure(c, title, x_label, y_label);
 }
 
 /// Time of a recording whose sessions each begin anew, one behind the other.
@@ -100,27 +94,19 @@ explain::ReadingOptions reading_options(const ReadingArgs& args) {
 std::string overview_html(const Recording& r, const explain::Overview& overview, const std::string& title) {
   std::optional<ChartMark> surface, surface_beside;
   if (const auto& contact = overview.conventions.contact) {
-    surface = ChartMark{contact->at_mm, true, "contact begins"};
-    surface_beside = ChartMark{contact->at_mm, false, "contact begins"};
+    surface = ChartMark{contact->at_mm, true, tr("contact begins")};
+    surface_beside = ChartMark{contact->at_mm, false, tr("contact begins")};
   }
   const Series time = running_time_s(r);
-  std::string out = fmt::format(
-      "<!DOCTYPE html><html lang=\"en\"><head><meta charset=\"utf-8\"><meta name=\"viewport\" "
-      "content=\"width=device-width, initial-scale=1\"><title>{0}</title><style>"
-      ":root{{color-scheme:light}}body{{font:16px/1.5 sans-serif;color:#222;background:#fff;max-width:68em;margin:2em auto;padding:0 1em}}"
-      "h1{{font-size:1.5em;overflow-wrap:anywhere}}.scroll{{overflow-x:auto}}svg{{display:block}}"
-      "pre{{white-space:pre-wrap;overflow-wrap:anywhere;font-size:1em;background:#f2f2f2;padding:1em}}</style></head><body><main>\n<h1>{0}</h1>\n"
-      "<p>What was understood, before anything is explained.</p>\n",
-      xml_text(title));
+  const Message x = msg("penetration x, mm"), t = msg("time t, s; sessions one behind the other"), f = msg("force, N");
+  std::string out = fmt::format("<p>{}</p>\n", xml_text(tr("What was understood, before anything is explained.")));
   if (r.x_mm.size() > 0) {
-    out += chart_over("force over position", "penetration x, mm", "force f, N", thinned(r.x_mm, r.f_n), ChartSeries::Style::dots, surface);
-    out += chart_over("position over time", "time t, s; sessions one behind the other", "penetration x, mm", thinned(time, r.x_mm),
-                      ChartSeries::Style::line, surface_beside);
+    out += chart_over(msg("force over position"), x, f, thinned(r.x_mm, r.f_n), ChartSeries::Style::dots, surface);
+    out += chart_over(msg("position over time"), t, x, thinned(time, r.x_mm), ChartSeries::Style::line, surface_beside);
   }
-  out += chart_over("force over time", "time t, s; sessions one behind the other", "force f, N", thinned(time, r.f_n), ChartSeries::Style::line, {});
+  out += chart_over(msg("force over time"), t, f, thinned(time, r.f_n), ChartSeries::Style::line, {});
   // words may hold the control characters of a file's names: xml_text keeps line ends as references, which pre shows
-  out += fmt::format("<pre>{}</pre>\n</main></body></html>\n", xml_text(english_text(explain::to_text(overview))));
-  return out;
+  return page_html(title, out + fmt::format("<pre>{}</pre>\n", xml_text(tr(explain::to_text(overview)))));
 }
 
 }  // namespace cavum::ui

@@ -66,7 +66,7 @@ void write_protocol(const std::string& path) {
   if (csv == path) throw Error(Name{"--protocol " + path}, msg("is the name of the motion beside the page"), msg("use a name ending in .html"));
   require_own_places({{path, path}, {csv, csv}}, {});
   write_text_file(csv, explain::protocol_motion_csv());
-  write_text_file(path, explain::protocol_page());
+  write_text_file(path, protocol_html());
   say(msg("written: {} and {}", path, csv));
 }
 
@@ -96,7 +96,7 @@ void require_conventions(const ExplainArgs& a, explain::Recording& recording) {
     for (Message& doubt : explain::require_conventions(recording, a.data, a.reading.as_it_is)) recording.notes.push_back(std::move(doubt));
   } catch (const Error& refused) {
     explain::Explanation said;
-    said.verdict = "data_fault";
+    said.verdict = explain::Verdict::data_fault;
     said.recording = std::make_shared<const explain::Recording>(recording);
     said.notes = recording.notes;
     for (const explain::Doubt& d : explain::judge_conventions(recording).doubts)
@@ -176,7 +176,7 @@ void run_explain(const ExplainArgs& a) {
     options.fixed_n = &added;
   }
   const explain::Explanation result = explain::explain(recording, options);
-  const bool faulty = result.verdict == "data_fault", models = !a.model_out.empty() && !faulty;
+  const bool faulty = result.verdict == explain::Verdict::data_fault, models = !a.model_out.empty() && !faulty;
   if (models) write_text_file(a.model_out, explain::extended_model_toml(result, start));
   if (!a.out.empty()) write_text_file(a.out, explanation_html(result, a.data));
   if (a.json) {

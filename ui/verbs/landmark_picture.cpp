@@ -7,7 +7,9 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/text.h"
 #include "engine/tooth/octree_edit.h"
+#include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 
 namespace cavum::ui {
@@ -20,8 +22,9 @@ struct ViewAxes {
   int right, up;
   const char* title;
 };
-constexpr std::array<ViewAxes, 3> k_views{
-    {{0, 1, "from above: right mesial, up buccal (mm)"}, {0, 2, "from buccal: right mesial (mm)"}, {1, 2, "from distal: right buccal (mm)"}}};
+constexpr std::array<ViewAxes, 3> k_views{{{0, 1, said("from above: right mesial, up buccal (mm)")},
+                                           {0, 2, said("from buccal: right mesial (mm)")},
+                                           {1, 2, said("from distal: right buccal (mm)")}}};
 
 double part(Vec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
 int part(IVec3 v, int axis) { return axis == 0 ? v.x : axis == 1 ? v.y : v.z; }
@@ -159,7 +162,7 @@ std::string marks_svg(const Panel& panel, const Landmarks& l, bool above) {
 }
 
 std::string axes_svg(const Panel& panel) {
-  std::string out = svg_text(panel.px(panel.low().x), k_margin_px - 14, panel.axes().title, 13);
+  std::string out = svg_text(panel.px(panel.low().x), k_margin_px - 14, tr("{}", Term{panel.axes().title}), 13);
   for (int mm = static_cast<int>(std::ceil(panel.low().x)); mm <= panel.high().x; mm += 1)
     if (mm % 2 == 0) out += svg_text(panel.px(mm), panel.py(panel.low().y) + 14, std::to_string(mm), 10, "middle", "fill='#555555'");
   for (int mm = static_cast<int>(std::ceil(panel.low().y)); mm <= panel.high().y; mm += 1)
@@ -190,7 +193,7 @@ std::string landmark_picture(const Tooth& tooth, const Landmarks& landmarks) {
     left += panel.width_px() + 2 * k_margin_px;
     tallest = std::max(tallest, panel.height_px());
   }
-  return svg_page(left, tallest + 2 * k_margin_px, content, "landmarks of a tooth");
+  return svg_page(left, tallest + 2 * k_margin_px, content, tr("landmarks of a tooth"));
 }
 
 }  // namespace cavum::ui

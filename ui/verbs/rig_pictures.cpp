@@ -8,21 +8,16 @@
 #include <functional>
 
 #include "engine/base/text.h"
+#include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 
 namespace cavum::ui {
 namespace {
 
-std::string runs_text(int n) { return std::to_string(n) + (n == 1 ? " run" : " runs"); }
-
 using Style = ChartSeries::Style;
 
 constexpr std::array k_colours{"#c0392b", "#1f6fb2", "#2e8b57", "#8e44ad"};
 const std::string k_paper_colour = "#222222";
-
-std::string equation(const Fit& f) {
-  return fmt::format("F = {} k {}{}", fixed(f.value[0], 3), f.value[1] < 0 ? "- " : "+ ", fixed(std::fabs(f.value[1]), 3));
-}
 
 /// y = value at 0 … largest k, in steps fine enough for a root.
 std::vector<ChartPoint> curve(double largest_k, const std::function<double(double)>& force) {
@@ -64,8 +59,9 @@ std::vector<ChartPoint> root_beside_line(const Fit& root, const Fit& line, doubl
 
 /// The forces of one model, and what its straight line leaves over.
 void add_cube_set(const CubeSet& set, const std::string& colour, double largest_k, Chart& force, Chart& rest) {
-  ChartSeries with{set.name + ", with friction", colour, Style::dots, {}, 1.8},
-      without{set.name + ", without friction", colour, Style::rings, {}, 1.8}, left{set.name, colour, Style::dots, {}, 1.8};
+  ChartSeries with{tr("{}, with friction", as_is(set.name)), colour, Style::dots, {}, 1.8},
+      without{tr("{}, without friction", as_is(set.name)), colour, Style::rings, {}, 1.8},
+      left{tr("{}", as_is(set.name)), colour, Style::dots, {}, 1.8};
   const Fit& line = set.with.line;
   for (const auto& row : set.rows) {
     with.points.push_back({row.k_n_per_mm, row.with.mean, row.with.sd});
@@ -74,11 +70,13 @@ void add_cube_set(const CubeSet& set, const std::string& colour, double largest_
       left.points.push_back({row.k_n_per_mm, 1000 * (row.with.mean - line.value[0] * row.k_n_per_mm - line.value[1]), 1000 * row.with.sd});
   }
   if (line.solved) {
-    force.series.push_back({fmt::format("{}: {}", set.name, equation(line)), colour, Style::line, fitted_line(line, largest_k), 1.4});
+    force.series.push_back({tr("{}: F = {} k {}", as_is(set.name), as_number(line.value[0], 3), Number{line.value[1], Unit::none, 3, 0, true}),
+                            colour, Style::line, fitted_line(line, largest_k), 1.4});
     force.series.push_back({"", colour, Style::line, fitted_line(set.without.line, largest_k), 0.7});
   }
   if (set.with.with_root.solved && line.solved)
-    rest.series.push_back({set.name + ", fit with a root of k", colour, Style::dashed, root_beside_line(set.with.with_root, line, largest_k), 1.4});
+    rest.series.push_back(
+        {tr("{}, fit with a root of k", as_is(set.name)), colour, Style::dashed, root_beside_line(set.with.with_root, line, largest_k), 1.4});
   force.series.push_back(with);
   force.series.push_back(without);
   rest.series.push_back(left);
@@ -104,46 +102,44 @@ void scale_cube_charts(Chart& force, Chart& rest, double largest_k) {
 
 std::string cube_svg(const CubeResult& r) {
   Chart force;
-  force.english = true;
-  force.title = "Steady cutting force";
-  force.x_label = "spring coefficient k, N/mm";
-  force.y_label = "force, N";
+  force.title = tr("Steady cutting force");
+  force.x_label = tr("spring coefficient k, N/mm");
+  force.y_label = tr("force, N");
   Chart rest;
-  rest.english = true;
-  rest.title = "What a straight line leaves over (with friction)";
+  rest.title = tr("What a straight line leaves over (with friction)");
   rest.x_label = force.x_label;
-  rest.y_label = "mean force - fitted line, mN";
+  rest.y_label = tr("mean force - fitted line, mN");
   rest.width_px = 420;
   double largest = 0.1;
   for (const double k : r.options.k_n_per_mm) largest = std::max(largest, k);
-  force.series.push_back({fmt::format("paper, eq. 6: F = {} k + {}", fixed(k_paper_slope_mm, 3), fixed(k_paper_intercept_n, 3)), k_paper_colour,
+  force.series.push_back({tr("paper, eq. 6: F = {} k + {}", as_number(k_paper_slope_mm, 3), as_number(k_paper_intercept_n, 3)), k_paper_colour,
                           Style::line, curve(largest, paper_force_n), 2.4});
   for (std::size_t i = 0; i < r.sets.size(); ++i) add_cube_set(r.sets[i], k_colours[i % k_colours.size()], largest, force, rest);
   scale_cube_charts(force, rest, largest);
   const auto& m = r.options.machine;
-  return charts_page(fmt::format("Virtual cubes on the testing machine, {} mm/s, {} each", plain_number(m.speed_mm_s), runs_text(r.options.runs)),
+  return charts_page(trn("Virtual cubes on the testing machine, {}, {} run each", "Virtual cubes on the testing machine, {}, {} runs each",
+                         r.options.runs, as_unit(m.speed_mm_s, Unit::mm_per_s), r.options.runs),
                      {force, rest},
-                     {fmt::format("Bars: sd over the runs. Joint friction of the simulated Omni {} N; load cell noise {} N and zero error {} N a run "
-                                  "(assumed). Mean of the last 2 s of a steady cut.",
-                                  plain_number(m.omni.coulomb_n), plain_number(m.noise_n), plain_number(m.zero_n))});
+                     {tr("Bars: sd over the runs. Joint friction of the simulated Omni {}; load cell noise {} and zero error {} a run (assumed). "
+                         "Mean of the last 2 s of a steady cut.",
+                         as_n(m.omni.coulomb_n, k_as_needed), as_n(m.noise_n, k_as_needed), as_n(m.zero_n, k_as_needed))});
 }
 
 std::string tooth_svg(const ToothRigResult& r) {
   Chart whole;
-  whole.english = true;
-  whole.title = "From the first contact";
-  whole.x_label = "time since contact, s";
-  whole.y_label = "force on the load cell, N";
+  whole.title = tr("From the first contact");
+  whole.x_label = tr("time since contact, s");
+  whole.y_label = tr("force on the load cell, N");
   whole.width_px = 560;
   Chart fall;
-  fall.english = true;
-  fall.title = "Around the pulp's roof";
-  fall.x_label = "time since the pulp was reached, s";
+  fall.title = tr("Around the pulp's roof");
+  fall.x_label = tr("time since the pulp was reached, s");
   fall.y_label = whole.y_label;
   fall.width_px = 440;
   double top = 0.1, last_s = 0;
   const auto add = [&](Chart& chart, const std::vector<BandPoint>& band) {
-    ChartSeries shade{"mean ± sd of " + runs_text(r.counted), k_colours[1], Style::band, {}, 1}, mean{"mean", k_colours[1], Style::line, {}, 2.2};
+    ChartSeries shade{trn("mean ± sd of {} run", "mean ± sd of {} runs", r.counted, r.counted), k_colours[1], Style::band, {}, 1},
+        mean{tr("mean"), k_colours[1], Style::line, {}, 2.2};
     for (const auto& p : band) {
       shade.points.push_back({p.t_s, p.force_n.mean, p.force_n.sd});
       mean.points.push_back({p.t_s, p.force_n.mean, 0});
@@ -154,7 +150,7 @@ std::string tooth_svg(const ToothRigResult& r) {
   };
   const auto first = std::find_if(r.runs.begin(), r.runs.end(), [](const ToothRun& run) { return run.reached_pulp && !run.held; });
   if (first != r.runs.end()) {
-    ChartSeries one{"a single run", "#9a9a9a", Style::line, {}, 0.7};
+    ChartSeries one{tr("a single run"), "#9a9a9a", Style::line, {}, 0.7};
     for (const auto& s : first->samples) {
       one.points.push_back({s.t_s, s.f_n, 0});
       top = std::max(top, s.f_n);
@@ -166,26 +162,26 @@ std::string tooth_svg(const ToothRigResult& r) {
   if (!r.from_contact.empty()) last_s = r.from_contact.back().t_s;
   for (std::size_t i = 0; i < r.layers.size(); ++i) {
     const double to = i + 1 < r.layers.size() ? r.layers[i + 1].from_s.mean : last_s;
-    whole.spans.push_back({r.layers[i].from_s.mean, to, r.layers[i].tissue, span_colour(r.layers[i].tissue)});
+    whole.spans.push_back({r.layers[i].from_s.mean, to, tr("{}", Term{r.layers[i].tissue}), span_colour(r.layers[i].tissue)});
   }
   whole.x_range = {{0.0, std::max(1.0, last_s)}};
   if (r.counted > 0) {
     whole.marks.push_back({r.pulp_s.mean, true, ""});
     fall.marks.push_back({0.0, true, ""});
-    fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? r.layers[r.layers.size() - 2].tissue : "", span_colour("dentin")});
-    fall.spans.push_back({0, 1e9, "pulp", span_colour("pulp")});
-    fall.marks.push_back({r.before_n.mean, false, fmt::format("before {} N", fixed(r.before_n.mean, 2))});
-    fall.marks.push_back({r.after_n.mean, false, fmt::format("after {} N", fixed(r.after_n.mean, 2))});
+    fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? tr("{}", Term{r.layers[r.layers.size() - 2].tissue}) : "", span_colour("dentin")});
+    fall.spans.push_back({0, 1e9, tr("pulp"), span_colour("pulp")});
+    fall.marks.push_back({r.before_n.mean, false, tr("before {}", as_n(r.before_n.mean))});
+    fall.marks.push_back({r.after_n.mean, false, tr("after {}", as_n(r.after_n.mean))});
   }
   whole.y_range = fall.y_range = {{0.0, 1.3 * top}};
-  std::vector<std::string> words{fmt::format("Joint friction {} N included. Shaded spans: mean times at which a tissue lies before the tip.",
-                                             plain_number(r.options.machine.omni.coulomb_n))};
+  std::vector<std::string> words{tr("Joint friction {} included. Shaded spans: mean times at which a tissue lies before the tip.",
+                                    as_n(r.options.machine.omni.coulomb_n, k_as_needed))};
   if (r.counted > 0)
-    words.push_back(fmt::format("Pulp reached {} ± {} s after contact (dashed); fall from {} to {} N, 90 to 10 % within {} s.",
-                                fixed(r.pulp_s.mean, 1), fixed(r.pulp_s.sd, 1), fixed(r.before_n.mean, 3), fixed(r.after_n.mean, 3),
-                                fixed(r.fall_s.mean, 2)));
-  return charts_page(fmt::format("{}, model '{}', {}, {} mm/s", r.tooth, r.model, r.point, plain_number(r.options.machine.speed_mm_s)), {whole, fall},
-                     words);
+    words.push_back(tr("Pulp reached {} after contact (dashed); fall from {} to {}, 90 to 10 % within {}.", as_s(r.pulp_s.mean, 1, r.pulp_s.sd),
+                       as_n(r.before_n.mean, 3), as_n(r.after_n.mean, 3), as_s(r.fall_s.mean)));
+  return charts_page(tr("{}, force model '{}', {}, crosshead {}", as_is(r.tooth), as_is(r.model), Term{r.point},
+                        as_unit(r.options.machine.speed_mm_s, Unit::mm_per_s, 2)),
+                     {whole, fall}, words);
 }
 
 namespace {
@@ -206,23 +202,24 @@ struct PressTable {
 
 std::string press_heading(const PressTable& table, const PressOptions& o) {
   std::string body =
-      svg_text(16, 24, "Closed-loop press on the simulated Omni: sd of the force in the last half second, N", 15, "start", "font-weight='bold'");
-  const std::array titles{"ours", "explicit k X + c V"};
+      svg_text(16, 24, tr("Closed-loop press on the simulated Omni: sd of the force in the last half second, N"), 15, "start", "font-weight='bold'");
+  const std::array titles{tr("ours"), tr("explicit k X + c V")};
   for (std::size_t b = 0; b < 2; ++b) {
     body += svg_text(table.press_x[b], 52, titles[b], 13, "start", "font-weight='bold'");
     for (std::size_t h = 0; h < o.hand_n_per_mm.size(); ++h) {
       const double x = table.press_x[b] + static_cast<double>(h * o.press_n.size()) * PressTable::k_w;
-      body += svg_text(x + static_cast<double>(o.press_n.size()) * PressTable::k_w / 2, 74,
-                       fmt::format("hand {} N/m", plain_number(1000 * o.hand_n_per_mm[h])), 11, "middle");
+      body += svg_text(x + static_cast<double>(o.press_n.size()) * PressTable::k_w / 2, 74, tr("hand {} N/m", as_number(1000 * o.hand_n_per_mm[h])),
+                       11, "middle");
       for (std::size_t p = 0; p < o.press_n.size(); ++p)
-        body += svg_text(x + (static_cast<double>(p) + 0.5) * PressTable::k_w, 92, plain_number(o.press_n[p]) + " N", 10, "middle", "fill='#555555'");
+        body += svg_text(x + (static_cast<double>(p) + 0.5) * PressTable::k_w, 92, tr("{}", as_n(o.press_n[p], k_as_needed)), 10, "middle",
+                         "fill='#555555'");
     }
     if (o.contact_mm_s.empty()) continue;
-    body += svg_text(table.bounce_x[b], 52, "bounces", 13, "start", "font-weight='bold'") +
-            svg_text(table.bounce_x[b], 68, b == 0 ? "ours, at mm/s" : "explicit, at mm/s", 11, "start");
+    body += svg_text(table.bounce_x[b], 52, tr("bounces"), 13, "start", "font-weight='bold'") +
+            svg_text(table.bounce_x[b], 68, b == 0 ? tr("ours, at mm/s") : tr("explicit, at mm/s"), 11, "start");
     for (std::size_t v = 0; v < o.contact_mm_s.size(); ++v)
-      body += svg_text(table.bounce_x[b] + (static_cast<double>(v) + 0.5) * PressTable::k_bounce_w, 92, plain_number(o.contact_mm_s[v]), 10, "middle",
-                       "fill='#555555'");
+      body += svg_text(table.bounce_x[b] + (static_cast<double>(v) + 0.5) * PressTable::k_bounce_w, 92, tr("{}", as_number(o.contact_mm_s[v])), 10,
+                       "middle", "fill='#555555'");
   }
   return body;
 }
@@ -241,7 +238,7 @@ std::string press_cells(const PressTable& table, const PressResult& r, const Pre
       const PressOutcome& out = b == 0 ? row.ours : row.explicit_voigt;
       const double x = table.press_x[b] + static_cast<double>(column) * PressTable::k_w;
       body += field(x, y, PressTable::k_w, PressTable::k_h, heat_colour(out.sd_n, r.options.limit_sd_n),
-                    fixed(out.sd_n, 3) + (out.passive ? "" : "*"), !out.steady);
+                    tr("{}", as_number(out.sd_n, 3)) + (out.passive ? "" : "*"), !out.steady);
     }
     ++column;
   }
@@ -267,21 +264,25 @@ std::string bounce_cells(const PressTable& table, const PressResult& r, const Pr
 
 /// The colours at `y`, and below them what was held constant.
 std::string press_legend(const PressOptions& o, double y) {
-  const std::array<std::pair<double, const char*>, 5> scale{
-      {{0.1, "under a quarter of the limit"}, {0.9, "within the limit"}, {1.5, "over it"}, {10, "ten times"}, {100, "a hundred times"}}};
+  const std::array<std::pair<double, std::string>, 5> scale{{{0.1, tr("under a quarter of the limit")},
+                                                             {0.9, tr("within the limit")},
+                                                             {1.5, tr("over the limit")},
+                                                             {10, tr("ten times the limit")},
+                                                             {100, tr("a hundred times the limit")}}};
   std::string body;
   double x = 16;
   for (const auto& [times, words] : scale) {
     body += fmt::format("<rect x='{}' y='{}' width='16' height='12' fill='{}'/>{}", fixed(x, 1), fixed(y - 10, 1), heat_colour(times, 1.0),
                         svg_text(x + 21, y, words, 11));
-    x += 40 + 6.2 * static_cast<double>(std::string(words).size());
+    x += 40 + 6.2 * static_cast<double>(words.size());
   }
-  body += svg_text(16, y + 18,
-                   fmt::format("Limit {} N; * = the wall gave out energy (passivity observer, limit {} mJ). Hand {} g, damping ratio {} (assumed). "
-                               "Bounces: most of all hands at {} N.",
-                               plain_number(o.limit_sd_n), plain_number(o.limit_energy_mj), plain_number(1000 * o.hand_mass_kg),
-                               plain_number(o.hand_damping_ratio), plain_number(o.contact_press_n)),
-                   11, "start", "fill='#555555'");
+  body += svg_text(
+      16, y + 18,
+      tr("Limit {}; * = the wall gave out energy (passivity observer, limit {} mJ). Hand {} g, damping ratio {} (assumed). Bounces: most of all "
+         "hands at {}.",
+         as_n(o.limit_sd_n, k_as_needed), as_number(o.limit_energy_mj), as_number(1000 * o.hand_mass_kg), as_number(o.hand_damping_ratio),
+         as_n(o.contact_press_n, k_as_needed)),
+      11, "start", "fill='#555555'");
   return body;
 }
 
@@ -299,7 +300,7 @@ std::string press_svg(const PressResult& r) {
         if (last_k >= 0 && k != last_k) y += 6;
         last_k = k;
         const PressCell row{.k_n_per_mm = k, .damping = damping, .delay_ticks = delay};
-        body += svg_text(16, y + 13, fmt::format("k {},  c {},  delay {}", plain_number(k), damping_name(damping), delay), 11);
+        body += svg_text(16, y + 13, tr("k {},  c {},  delay {}", as_number(k), as_is(damping_name(damping)), delay), 11);
         body += fmt::format("{}{}\n", press_cells(table, r, row, y), bounce_cells(table, r, row, y));
         y += PressTable::k_h;
       }

@@ -23,6 +23,7 @@
 #include "ui/parts/option_checks.h"
 #include "ui/parts/print_json.h"
 #include "ui/parts/say.h"
+#include "ui/parts/scenario_words.h"
 #include "ui/verbs/scenario_new.h"
 #include "ui/verbs/solved_exam.h"
 #include "ui/verbs/verbs.h"
@@ -101,8 +102,8 @@ int show(const ScenarioArguments& o) {
   const scenarios::Scenario s = scenarios::load_scenario(o.scenario);
   const Tooth tooth = load_tooth_file(o.tooth.empty() ? scenarios::find_tooth_file(s) : o.tooth);
   const scenarios::ZoneMap zones = scenarios::build_zones(s, tooth);
-  const std::string svg = scenarios::scenario_sheet_svg(s, tooth, zones);
-  write_text_file(o.out, svg);
+  show_texts_of(s);
+  write_text_file(o.out, scenarios::scenario_sheet_svg(s, tooth, zones, tr));
   const auto volumes = zone_volumes(tooth, zones);
   if (o.json) {
     nlohmann::ordered_json j{{"out", o.out},

@@ -62,12 +62,13 @@ void conclude(Explanation& e, bool one_way) {
     if (is_offset(m)) offsets.push_back(&m);
   const bool aliased = std::any_of(e.causes.begin(), e.causes.end(), [](const Cause& c) { return !c.aliases.empty(); });
   if (!e.causes.empty())
-    e.verdict = aliased ? "alias" : "named";
+    e.verdict = aliased ? Verdict::alias : Verdict::named;
   else if (e.unexplained)
-    e.verdict = "unexplained";
+    e.verdict = Verdict::unexplained;
   else
-    e.verdict = one_way || std::all_of(offsets.begin(), offsets.end(), [&](const Mechanism* m) { return is_untestable(e, m->name); }) ? "not_testable"
-                                                                                                                                      : "clean";
+    e.verdict = one_way || std::all_of(offsets.begin(), offsets.end(), [&](const Mechanism* m) { return is_untestable(e, m->name); })
+                    ? Verdict::not_testable
+                    : Verdict::clean;
 
   const auto separate = [](const std::string& name) { return msg("{}", cavum::Term{mechanism_at(known_mechanism(name)).separate}); };
   List wanted{{}, true};
@@ -79,7 +80,7 @@ void conclude(Explanation& e, bool one_way) {
       want(separate(mechanism_at(c.term.mechanism).name));
       for (const auto& a : c.aliases) want(separate(a));
     }
-  if (e.verdict == "not_testable")
+  if (e.verdict == Verdict::not_testable)
     for (const auto* m : offsets) want(separate(m->name));
   if (wanted.items.empty() && e.unexplained)
     want(msg("vary {} alone, in steps, with everything else held, and record again", e.unexplained->variable));
@@ -96,9 +97,9 @@ void conclude(Explanation& e, bool one_way) {
 void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   constexpr double k_told = 0.1, k_known = 0.2;  // relative: said, and more than a rig is off by that was calibrated
   constexpr double k_absurd = 5.0;
-  if (e.verdict == "data_fault" || e.after->scene->touching.maxCoeff() < 0.5) return;
+  if (e.verdict == Verdict::data_fault || e.after->scene->touching.maxCoeff() < 0.5) return;
   if (e.base.k_n_per_mm < 0.0 && e.k.high < 0.0) {
-    e.verdict = "unexplained";
+    e.verdict = Verdict::unexplained;
     e.unexplained = Unexplained{"x_mm", msg("the force falls as the tool goes deeper"),
                                 -e.base.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
     return;
@@ -110,16 +111,16 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   };
   const bool k_off = off(k, e.k, *rig.k_n_per_mm), c_off = off(c, e.c, *rig.c_n_s_per_mm);
   const Message text = msg("fitted k is {} times, c is {} times that of rig.toml", as_number(k, 2), as_number(c, 2));
-  if (e.verdict != "clean" && (k < 1.0 / k_absurd || k > k_absurd)) {  // causes beside it would only say what it lacks
+  if (e.verdict != Verdict::clean && (k < 1.0 / k_absurd || k > k_absurd)) {  // causes beside it would only say what it lacks
     e.causes.clear();
-    e.verdict = "unexplained";
+    e.verdict = Verdict::unexplained;
     e.unexplained = Unexplained{"x_mm", msg("k is not that of rig.toml by far: does the file count x from the surface, and into the tooth?"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
   }
   if (std::fabs(k - 1.0) > k_told || std::fabs(c - 1.0) > k_told) e.notes.push_back(text);
-  if (e.verdict != "clean") return;
+  if (e.verdict != Verdict::clean) return;
   if (k_off) {
-    e.verdict = "unexplained";
+    e.verdict = Verdict::unexplained;
     e.unexplained = Unexplained{"x_mm", msg("k differs from that of rig.toml"),
                                 std::fabs(k - 1.0) * *rig.k_n_per_mm * std::sqrt(e.after->scene->spring_mm.square().mean())};
     e.next_experiment = msg("press a spring of known stiffness, and hang known weights on the load cell");
@@ -127,7 +128,7 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
   }
   if (!c_off || std::fabs(k - 1.0) > 0.5 * k_told) return;
   if (speed_known || c <= 0.0) {  // no clock does that
-    e.verdict = "unexplained";
+    e.verdict = Verdict::unexplained;
     e.unexplained = Unexplained{"v_mm_s", msg("c differs from that of rig.toml"),
                                 std::fabs(c - 1.0) * *rig.c_n_s_per_mm * std::sqrt(e.after->scene->damper_mm_s.square().mean())};
     if (c < 1.0)
@@ -135,7 +136,7 @@ void compare_with_rig(Explanation& e, const Rig& rig, bool speed_known) {
                             as_s((1.0 - c) * *rig.c_n_s_per_mm / e.base.k_n_per_mm, k_as_needed)));
     e.next_experiment = msg("press and stop suddenly, several times: a lag shows after each stop, a wrong c does not");
   } else {
-    e.verdict = "data_fault";
+    e.verdict = Verdict::data_fault;
     e.data_faults.push_back(msg("time base: {}, as when the clock is off by that factor; check the sampling rate, or c", text));
     e.next_experiment = msg("record the speed too, or check the sampling rate against a clock");
   }
@@ -153,7 +154,7 @@ Explanation opened(const Recording& given, const ExplainOptions& options) {
   if (options.surrogates == 0)
     e.notes.push_back(msg("without surrogates: judged as if independent noise were all that could mislead; causes may be false"));
   if (!e.data_faults.empty()) {
-    e.verdict = "data_fault";
+    e.verdict = Verdict::data_fault;
     e.next_experiment = msg("correct the recording: {}", e.data_faults.front());
   }
   return e;

@@ -57,8 +57,13 @@ struct Gain {
   std::vector<double> by_fold_percent;  ///< of each session (or stretch) left out
 };
 
+enum class Verdict : std::uint8_t { clean, named, alias, unexplained, not_testable, data_fault };
+/// As JSON has it.
+[[nodiscard]] const char* verdict_name(Verdict verdict) noexcept;
+[[nodiscard]] Message word_of(Verdict verdict);
+
 struct Explanation {
-  std::string verdict;  ///< clean named alias unexplained not_testable data_fault
+  Verdict verdict = Verdict::clean;
   std::vector<Cause> causes;
   std::optional<Unexplained> unexplained;
   std::vector<NotTestable> not_testable;
@@ -89,6 +94,12 @@ struct ExplainOptions {
 /// The names of docs/contracts.md (JSON).
 [[nodiscard]] nlohmann::json to_json(const Explanation& explanation);
 [[nodiscard]] Lines to_text(const Explanation& explanation);
+// The parts of it, which a page shows beside its pictures.
+[[nodiscard]] Message in_words(const Explanation& explanation);
+[[nodiscard]] Message unexplained_words(const Unexplained& unexplained);
+[[nodiscard]] Message heading_of(const Cause& cause);
+[[nodiscard]] Lines to_text(const Cause& cause);
+[[nodiscard]] Lines gain_words(const Explanation& explanation);
 /// What is left out together, one after the other: the name of a session, of the first and the last of several, or "part 1".
 [[nodiscard]] std::vector<Message> fold_names(const Explanation& explanation);
 /// A sentence about what is left when the recording is clean and the simulation still misses by half as much again as the noise: errors of the

@@ -7,7 +7,6 @@
 
 #include "engine/base/csv.h"
 #include "engine/base/error.h"
-#include "engine/base/print.h"
 #include "engine/base/text.h"
 
 namespace cavum::explain {
@@ -157,7 +156,7 @@ TableExplanation explain_table(const StiffnessTable& table) {
   e.table = table;
   Explanation& said = e.said;
   if (table.f_n.size() < 5 || std::set<double>(table.k_n_per_mm.begin(), table.k_n_per_mm.end()).size() < 4) {
-    said.verdict = "data_fault";
+    said.verdict = Verdict::data_fault;
     said.data_faults.push_back(msg("a line, a root and an intercept need five rows of four stiffnesses at least"));
     said.next_experiment = msg("measure at more stiffnesses");
     return e;
@@ -172,8 +171,8 @@ TableExplanation explain_table(const StiffnessTable& table) {
   e.exact = e.line.rms_n < k_exact_n;
 
   const double error = std::max(e.all.intercept_error_n, 1e-9), z = e.all.intercept_n / error;
-  said.verdict = z > 2.6 ? "alias" : "not_testable";
-  if (said.verdict == "alias") {
+  said.verdict = z > 2.6 ? Verdict::alias : Verdict::not_testable;
+  if (said.verdict == Verdict::alias) {
     Cause c;
     c.term.mechanism = known_mechanism("bias");
     for (const char* other : {"coulomb_friction", "edge_force", "stribeck_friction", "viscous_friction"}) c.aliases.emplace_back(other);
@@ -200,28 +199,41 @@ TableExplanation explain_table(const StiffnessTable& table) {
   return e;
 }
 
+Message in_words(const TableExplanation& e) {
+  if (e.said.verdict == Verdict::data_fault) return in_words(e.said);
+  return e.said.verdict == Verdict::alias
+             ? msg("A force of {} is missing that does not depend on k: friction, a bias of the load cell or an edge force; the table cannot tell "
+                   "which.",
+                   as_n(e.line.intercept_n, 3))
+             : msg("The table shows nothing beyond k X + c V, and could hardly show it.");
+}
+
+Lines law_rows(const TableExplanation& e) {
+  Lines out;
+  const auto fit = [&out](const Message& name, const TableFit& f) {
+    out.row({name,
+             msg("F = {} k {} √k {}", as_number(f.slope_mm, 3), Number{f.root, cavum::Unit::none, 3, 0, true},
+                 Number{f.intercept_n, cavum::Unit::newton, 3, 0, true}),
+             msg("rms {}, row left out {}", as_n(f.rms_n, 4), as_n(f.left_out_rms_n, 4))});
+  };
+  fit(msg("Voigt law, k X + c V"), e.voigt);
+  fit(msg("k X and an intercept"), e.line);
+  fit(msg("all three"), e.all);
+  return out;
+}
+
 Lines to_text(const TableExplanation& e) {
   const Explanation& said = e.said;
-  if (said.verdict == "data_fault") return to_text(said);
+  if (said.verdict == Verdict::data_fault) return to_text(said);
   Lines out;
-  out.add(said.verdict == "alias" ? msg("verdict: alias. A force is missing that does not depend on k; the table cannot tell which.")
-                                  : msg("verdict: not_testable. The table shows nothing beyond k X + c V, and could hardly show it."));
+  out.add(msg("verdict: {}. {}", word_of(said.verdict), in_words(e)));
   for (const auto& c : said.causes) {
     out.gap();
     out.add(msg("cause: one of bias coulomb_friction edge_force stribeck_friction viscous_friction, {} at every k", as_n(c.effect_n, 4)));
     out.add(msg("none of them alone: these data hold no reversal, no stroke in air, one speed, and no spindle at rest"), 2);
   }
   out.gap();
-  const auto fit = [&out](const Message& name, const TableFit& f) {
-    out.row({name,
-             msg("F = {} k {} √k {}", as_number(f.slope_mm, 3), Number{f.root, cavum::Unit::none, 3, 0, true},
-                 Number{f.intercept_n, cavum::Unit::newton, 3, 0, true}),
-             msg("rms {}, row left out {}", as_n(f.rms_n, 4), as_n(f.left_out_rms_n, 4))},
-            2);
-  };
-  fit(msg("Voigt law, k X + c V"), e.voigt);
-  fit(msg("k X and an intercept"), e.line);
-  fit(msg("all three"), e.all);
+  out.append(law_rows(e), 2);
   out.gap();
   for (const auto& s : said.notes) out.add(msg("- {}", s));
   out.gap();

@@ -46,6 +46,9 @@ struct TableExplanation {
 [[nodiscard]] TableExplanation explain_table(const StiffnessTable& table);
 
 [[nodiscard]] Lines to_text(const TableExplanation& explanation);
+// The parts of it, which a page shows beside its picture.
+[[nodiscard]] Message in_words(const TableExplanation& explanation);
+[[nodiscard]] Lines law_rows(const TableExplanation& explanation);
 /// The names of docs/contracts.md (JSON), and `table` beside it: the fits.
 [[nodiscard]] nlohmann::json to_json(const TableExplanation& explanation);
 

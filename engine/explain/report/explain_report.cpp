@@ -23,21 +23,43 @@ json own_gain(const Explanation& e, const Cause& c) {
   return out;
 }
 
-Message in_words(const Explanation& e) {
-  if (e.verdict == "clean") return msg("nothing that these data can show is missing from the simulation");
-  if (e.verdict == "not_testable") return msg("these data cannot show anything either way: every mechanism that matters can hide behind k and c");
-  if (e.verdict == "data_fault") return msg("the recording cannot be trusted, so nothing was explained");
-  if (e.verdict == "unexplained") return msg("the force depends on something that no mechanism here describes");
-  const Message found = e.verdict == "alias" ? msg("something is missing, but these data cannot tell which of several mechanisms it is")
-                                             : msg("the simulation lacks what is named below");
-  return e.unexplained ? msg("{}, and that is not all: something about {} stays unexplained", found, e.unexplained->variable) : found;
+struct VerdictWords {
+  const char* name;
+  Message word, sentence;
+};
+
+const VerdictWords& words_of(Verdict v) {
+  static const VerdictWords k_words[] = {
+      {"clean", msg("clean"), msg("Nothing that these data can show is missing from the simulation.")},
+      {"named", msg("named"), msg("The simulation lacks what is named below.")},
+      {"alias", msg("alias"), msg("Something is missing, but these data cannot tell which of several mechanisms it is.")},
+      {"unexplained", msg("unexplained"), msg("The force depends on something that no mechanism here describes.")},
+      {"not_testable", msg("not testable"), msg("These data cannot show anything either way: every mechanism that matters can hide behind k and c.")},
+      {"data_fault", msg("data fault"), msg("The recording cannot be trusted, so nothing was explained.")}};
+  return k_words[static_cast<std::size_t>(v)];
 }
 
 }  // namespace
 
+const char* verdict_name(Verdict v) noexcept { return words_of(v).name; }
+Message word_of(Verdict v) { return words_of(v).word; }
+
+Message in_words(const Explanation& e) {
+  if (e.unexplained && e.verdict == Verdict::alias)
+    return msg("Something is missing, but these data cannot tell which of several mechanisms it is; and something about {} stays unexplained.",
+               e.unexplained->variable);
+  if (e.unexplained && e.verdict == Verdict::named)
+    return msg("The simulation lacks what is named below, and something about {} stays unexplained.", e.unexplained->variable);
+  return words_of(e.verdict).sentence;
+}
+
+Message unexplained_words(const Unexplained& u) {
+  return msg("unexplained: the force depends on {} ({}), {} rms.", u.variable, u.form, as_n(u.effect_n, 4));
+}
+
 json to_json(const Explanation& e) {
   json j;
-  j["verdict"] = e.verdict;
+  j["verdict"] = verdict_name(e.verdict);
   j["causes"] = json::array();
   for (const auto& c : e.causes) {
     json parameters = json::object();
@@ -91,46 +113,59 @@ std::vector<Message> fold_names(const Explanation& e) {
 
 Message left_over_words(const Explanation& e) {
   constexpr double k_more_than_noise = 1.5;
-  if (e.verdict != "clean" || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return {};
+  if (e.verdict != Verdict::clean || e.gain.base_rmse_n < k_more_than_noise * e.gain.noise_floor_n) return {};
   return msg("The simulation misses by {} rms where the noise of the force is {}: as much as the errors of the position may make ({}).",
              as_n(e.gain.base_rmse_n, 4), as_n(e.gain.noise_floor_n, 4), as_n(e.position_error_n, 4));
 }
 
-Lines to_text(const Explanation& e) {
+Message heading_of(const Cause& c) {
+  return msg("cause: {} ({}), {} rms, p = {}", mechanism_of(c).name, cavum::Term{mechanism_of(c).words}, as_n(c.effect_n, 4),
+             as_number(c.p_value, c.p_value < 0.001 ? k_as_needed : 3));
+}
+
+Lines to_text(const Cause& c) {
   Lines out;
-  out.add(msg("verdict: {}. {}.", e.verdict, in_words(e)));
-  for (const auto& f : e.data_faults) out.add(msg("fault: {}", f));
-  if (e.verdict == "data_fault") return out;
-  for (const auto& c : e.causes) {
-    const Mechanism& m = mechanism_of(c);
-    out.gap();
-    out.add(msg("cause: {} ({}), {} rms, p = {}", m.name, cavum::Term{m.words}, as_n(c.effect_n, 4),
-                as_number(c.p_value, c.p_value < 0.001 ? k_as_needed : 3)));
-    out.add(msg("force {}", cavum::Term{m.equation}), 2);
-    const Number sure = as_percent(100.0 * c.probability);
-    out.add(c.aliases.empty() ? msg("{}: {}", probability_words(c.probability), sure)
-                              : msg("{}: {}; that it is this or one that fits as well: {}", probability_words(c.probability), sure,
-                                    as_percent(100.0 * c.set_probability)),
-            2);
-    const Interval& gain = c.gain_percent;
-    out.add(msg("alone it lowers the error on sessions not seen by {} ({} to {})", as_percent(gain.value, 1), as_number(gain.low, 1),
-                as_number(gain.high, 1)),
-            2);
-    for (const auto& [name, i] : c.parameters)
-      out.row({Name{name}, msg("{}", as_number(i.value)), msg("95 %: {} to {}", as_number(i.low), as_number(i.high))}, 2);
-    if (!c.aliases.empty()) out.add(msg("fits as well: {}", list_of(c.aliases)), 2);
-  }
-  if (e.unexplained)
-    out.add(
-        msg("unexplained: the force depends on {} ({}), {} rms.", e.unexplained->variable, e.unexplained->form, as_n(e.unexplained->effect_n, 4)));
-  if (Message left = left_over_words(e); !left.empty()) out.add(std::move(left));
-  out.gap();
+  out.add(msg("force {}", cavum::Term{mechanism_of(c).equation}));
+  const Number sure = as_percent(100.0 * c.probability);
+  out.add(c.aliases.empty() ? msg("{}: {}", probability_words(c.probability), sure)
+                            : msg("{}: {}; that it is this or one that fits as well: {}", probability_words(c.probability), sure,
+                                  as_percent(100.0 * c.set_probability)));
+  const Interval& gain = c.gain_percent;
+  out.add(msg("alone it lowers the error on sessions not seen by {} ({} to {})", as_percent(gain.value, 1), as_number(gain.low, 1),
+              as_number(gain.high, 1)));
+  for (const auto& [name, i] : c.parameters)
+    out.row({Name{name}, msg("{}", as_number(i.value)), msg("95 %: {} to {}", as_number(i.low), as_number(i.high))});
+  List same{{}, true};
+  for (const std::string& a : c.aliases) same.items.push_back(msg("{} ({})", a, cavum::Term{mechanism_at(known_mechanism(a)).words}));
+  if (!c.aliases.empty()) out.add(msg("fits as well: {}", same));
+  return out;
+}
+
+Lines gain_words(const Explanation& e) {
+  Lines out;
   out.add(msg("k = {} ({} to {}), c = {} N s/mm ({} to {})", as_unit(e.base.k_n_per_mm, cavum::Unit::n_per_mm), as_number(e.k.low),
               as_number(e.k.high), as_number(e.base.c_n_s_per_mm), as_number(e.c.low), as_number(e.c.high)));
   out.add(msg("on sessions not seen: base {}, extended {} rms; noise floor {}", as_n(e.gain.base_rmse_n, 4), as_n(e.gain.extended_rmse_n, 4),
               as_n(e.gain.noise_floor_n, 4)));
   out.add(msg("gain {} ({} to {}), {} of what could be explained", as_percent(e.gain.percent.value, 1), as_number(e.gain.percent.low, 1),
               as_number(e.gain.percent.high, 1), as_percent(e.gain.share_percent)));
+  return out;
+}
+
+Lines to_text(const Explanation& e) {
+  Lines out;
+  out.add(msg("verdict: {}. {}", word_of(e.verdict), in_words(e)));
+  for (const auto& f : e.data_faults) out.add(msg("fault: {}", f));
+  if (e.verdict == Verdict::data_fault) return out;
+  for (const auto& c : e.causes) {
+    out.gap();
+    out.add(heading_of(c));
+    out.append(to_text(c), 2);
+  }
+  if (e.unexplained) out.add(unexplained_words(*e.unexplained));
+  if (Message left = left_over_words(e); !left.empty()) out.add(std::move(left));
+  out.gap();
+  out.append(gain_words(e));
   if (!e.not_testable.empty()) {
     List names;
     for (const auto& n : e.not_testable) names.items.emplace_back(Name{n.mechanism});

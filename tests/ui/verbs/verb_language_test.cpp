@@ -59,6 +59,18 @@ TEST_F(VerbLanguage, NoWordOfAVerbOrAnErrorIsLeftOutOfTheCatalogue) {
   }
 }
 
+TEST_F(VerbLanguage, NoWordOfAPageOrAPictureIsLeftOutOfTheCatalogue) {
+  const std::pair<std::string, std::string> written[] = {{"explain " + k_data + "/measured/fig6/fig6.csv --out ", "table.html"},
+                                                         {"explain --protocol ", "protocol.html"},
+                                                         {"rig cube --runs 1 --k 0.4,0.8 --model consistent --out ", "cube.svg"},
+                                                         {"scenario show " + k_data + "/scenarios/slot.toml --out ", "sheet.svg"}};
+  for (const auto& [command, file] : written) {
+    const auto r = run("--language qps " + command + path(file));
+    ASSERT_EQ(r.exit_code, 0) << r.err;
+    EXPECT_EQ(testing_ui::untranslated(testing_ui::readable(read_text_file(path(file)))), std::vector<std::string>{}) << file;
+  }
+}
+
 TEST_F(VerbLanguage, InGermanNoEnglishSentenceIsLeft) {
   write_bad_files();
   const std::regex english("\\b(the|of|and|with|which|is|from|to|by|not|for|cut|left|points|cannot|use|give|choose|there|has)\\b");

@@ -33,7 +33,7 @@ TEST(Fig6, IsThePublishedLineAndLabelledAsSuch) {
 
 TEST(Fig6, IsAnAliasOfBiasFrictionAndEdgeForceNeverOneOfThem) {
   const TableExplanation e = fig6();
-  EXPECT_EQ(e.said.verdict, "alias");
+  EXPECT_EQ(e.said.verdict, Verdict::alias);
   ASSERT_EQ(e.said.causes.size(), 1u);
   const auto& others = e.said.causes[0].aliases;
   for (const char* name : {"coulomb_friction", "edge_force"}) EXPECT_NE(std::find(others.begin(), others.end(), name), others.end()) << name;
@@ -67,7 +67,7 @@ TEST(StiffnessTable, ALineThroughZeroIsNoReasonToName) {
     csv += std::to_string(k) + "," + std::to_string(0.5 * k + 0.5 * std::sqrt(k) + noise) + ",0.25\n";
   }
   const TableExplanation e = explain_table(parse_stiffness_table(csv, "t.csv"));
-  EXPECT_EQ(e.said.verdict, "not_testable");
+  EXPECT_EQ(e.said.verdict, Verdict::not_testable);
   EXPECT_TRUE(e.said.causes.empty());
   EXPECT_NEAR(e.voigt.root, 0.5, 0.05);
 }
@@ -88,7 +88,7 @@ TEST(StiffnessTable, MistakesAreNamedWithTheirLine) {
   EXPECT_EQ(testing_basics::place_of(error("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n-1,1,0.25\n")), "t.csv:3");
   EXPECT_TRUE(testing_basics::tells(error("k_n_per_mm,f_n,v_mm_s\n0,x,0.25\n"), "f_n"));
   EXPECT_FALSE(is_stiffness_table("session,t_s,x_mm,f_n,k_n_per_mm\n", "r.csv"));
-  EXPECT_EQ(explain_table(parse_stiffness_table("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n1,2,0.25\n", "t.csv")).said.verdict, "data_fault");
+  EXPECT_EQ(explain_table(parse_stiffness_table("k_n_per_mm,f_n,v_mm_s\n0,1,0.25\n1,2,0.25\n", "t.csv")).said.verdict, Verdict::data_fault);
 }
 
 TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
@@ -97,7 +97,7 @@ TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
   ASSERT_EQ(answer.term_values.size(), 1u);
   const Explanation e = explain(r);
   ASSERT_EQ(e.causes.size(), 1u) << english_text(to_text(e));
-  EXPECT_EQ(e.verdict, "named");
+  EXPECT_EQ(e.verdict, Verdict::named);
   EXPECT_EQ(mechanism_at(e.causes[0].term.mechanism).name, answer.term_values[0].kind);
   const auto& [name, hidden] = answer.term_values[0].parameters.at(0);
   ASSERT_EQ(e.causes[0].parameters.at(0).first, name);
@@ -111,7 +111,7 @@ TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
   const Series added = added_force_n(extended, "dentin", r, "found.toml");
   ExplainOptions on_top;
   on_top.fixed_n = &added;
-  EXPECT_EQ(explain(r, on_top).verdict, "clean");
+  EXPECT_EQ(explain(r, on_top).verdict, Verdict::clean);
 }
 
 TEST(Hunt, TheCommandOfItsReadmeMakesTheSameFile) {
@@ -134,7 +134,7 @@ TEST(RecordRig, WithNothingHiddenItsRecordingIsCleanAndItsKIsThatOfTheModel) {
   Recording r = parse_recording(record_csv(made), "recording.csv");
   r.rig = parse_rig(record_rig_toml(made), "rig.toml");
   const Explanation e = explain(r);
-  EXPECT_EQ(e.verdict, "clean") << english_text(to_text(e));
+  EXPECT_EQ(e.verdict, Verdict::clean) << english_text(to_text(e));
   EXPECT_NEAR(e.base.k_n_per_mm, 0.8, 0.01);
 }
 

@@ -31,7 +31,7 @@ TEST(Explain, ARecordingOfTheLawItselfIsClean) {
     made::Options o;
     o.quantum_mm = quantum;
     const Explanation e = explain(made::recording(o));
-    EXPECT_EQ(e.verdict, "clean") << quantum << "\n" << english_text(to_text(e));
+    EXPECT_EQ(e.verdict, Verdict::clean) << quantum << "\n" << english_text(to_text(e));
     EXPECT_NEAR(e.base.k_n_per_mm, made::k_k, 0.02);
     EXPECT_NEAR(e.gain.noise_floor_n, 0.02, 0.003);
   }
@@ -41,7 +41,7 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   made::Options o;
   const Recording r = made::recording(o, [](const made::Row& q) { return 0.03 * std::tanh(q.v_mm_s / 0.05); });
   const Explanation e = explain(r);
-  ASSERT_EQ(e.verdict, "named") << english_text(to_text(e));
+  ASSERT_EQ(e.verdict, Verdict::named) << english_text(to_text(e));
   EXPECT_EQ(first_cause(e), "coulomb_friction");
   EXPECT_NEAR(parameter(e, "fc_n").value, 0.03, 0.003);
   EXPECT_LT(parameter(e, "fc_n").low, 0.03);
@@ -54,7 +54,7 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");
   ExplainOptions on_top;
   on_top.fixed_n = &added;
-  EXPECT_EQ(explain(r, on_top).verdict, "clean");
+  EXPECT_EQ(explain(r, on_top).verdict, Verdict::clean);
 }
 
 TEST(Explain, ABiasStaysInTheMeasurementAndIsTakenOff) {
@@ -85,7 +85,7 @@ TEST(Explain, ASurfaceThatLiesElsewhereInEachSessionIsNamedWithEachOffset) {
     o.quantum_mm = quantum;
     const Explanation e = explain(made::recording(o, surface_off_by(delta)));
     ASSERT_EQ(first_cause(e), "contact_offset") << quantum << english_text(to_text(e));
-    EXPECT_EQ(e.verdict, "named") << english_text(to_text(e));
+    EXPECT_EQ(e.verdict, Verdict::named) << english_text(to_text(e));
     for (std::size_t s = 0; s < delta.size(); ++s) {
       const Interval& found = parameter(e, "delta_" + std::to_string(s + 1) + "_mm");
       EXPECT_NEAR(found.value, delta[s], 0.01) << s;
@@ -115,7 +115,7 @@ TEST(Explain, WhatNoMechanismDescribesIsLaidToItsVariable) {
   r.f_n += 0.02 * humidity;
   r.columns.emplace_back("humidity", humidity);
   const Explanation e = explain(r);
-  EXPECT_EQ(e.verdict, "unexplained") << english_text(to_text(e));
+  EXPECT_EQ(e.verdict, Verdict::unexplained) << english_text(to_text(e));
   ASSERT_TRUE(e.unexplained);
   EXPECT_EQ(e.unexplained->variable, "humidity");
 }
@@ -125,7 +125,7 @@ TEST(Explain, OneDirectionNeverNamesFrictionBiasOrEdgeForceAlone) {
   o.one_way = true;
   for (int kind = 0; kind < 3; ++kind) {
     const Explanation e = explain(made::recording(o, [&](const made::Row& q) { return kind == 2 && q.x_mm <= 0 ? 0.0 : 0.26; }));
-    EXPECT_TRUE(e.verdict == "alias" || e.verdict == "not_testable") << english_text(to_text(e));
+    EXPECT_TRUE(e.verdict == Verdict::alias || e.verdict == Verdict::not_testable) << english_text(to_text(e));
     EXPECT_FALSE(e.next_experiment.empty());
   }
 }

@@ -31,12 +31,12 @@ TEST(Layers, EachHasItsOwnStiffness) {
   EXPECT_NEAR(ratio, 0.5, 0.02);
   EXPECT_NEAR(r.relative_c.minCoeff() / r.relative_c.maxCoeff(), 0.5, 0.05);
   const Explanation e = explain(r);
-  EXPECT_EQ(e.verdict, "clean") << english_text(to_text(e));
+  EXPECT_EQ(e.verdict, Verdict::clean) << english_text(to_text(e));
 }
 
 TEST(Layers, WithoutThemTheSameRecordingIsNotClean) {
   const Explanation e = explain(two_layers());
-  EXPECT_NE(e.verdict, "clean") << english_text(to_text(e));
+  EXPECT_NE(e.verdict, Verdict::clean) << english_text(to_text(e));
 }
 
 TEST(Layers, AlikeLayersAndNoLayersChangeNothing) {

@@ -133,7 +133,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   ExplainOptions on_top;
   on_top.fixed_n = &added;
   const Explanation rest = explain(again, on_top);
-  EXPECT_EQ(rest.verdict, "clean") << toml << english_text(to_text(rest));
+  EXPECT_EQ(rest.verdict, Verdict::clean) << toml << english_text(to_text(rest));
 
   // written once more, nothing is lost
   const ForceModel twice = parse_force_model(extended_model_toml(rest, extended), "twice.toml");
