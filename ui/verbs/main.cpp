@@ -35,14 +35,14 @@ int main(int argc, char** argv) {
   cavum::ui::SafeTerminal terminal;
   std::vector<std::string> arguments(argv + (argc > 0 ? 1 : 0), argv + argc);
   try {
-    const std::string asked = cavum::take_language_option(arguments);
-    cavum::set_language(asked.empty() ? cavum::language_of_environment() : asked);
+    cavum::set_language(cavum::language_of_environment());  // of errors of the option itself
+    if (const std::string asked = cavum::take_language_option(arguments); !asked.empty()) cavum::set_language(asked);
   } catch (const cavum::Error& e) {
     cavum::ui::say_error(e.message());
     return 2;
   }
   if (!arguments.empty() && arguments[0] == "manual") cavum::set_language("en");  // packaged once, for all
-  CLI::App app{cavum::tr("Cavum examines cavity opening on virtual teeth: exams, grades, replays.")};
+  CLI::App app{cavum::tr("Cavum examines cavity opening on virtual teeth: exams, grades, replays."), "cavum"};
   cavum::ui::help_in_language(app);
   app.set_version_flag("--version", fmt::format("cavum {}, physics {}", cavum::version(), cavum::k_physics_version),
                        cavum::tr("Display program version information and exit"));
