@@ -78,7 +78,7 @@ std::string extended_model_toml(const Explanation& e, const ForceModel& start) {
     throw Error(msg("force model '{}'", start.name), msg("would have {} terms, {} are the most", terms, k_max_terms), msg("leave out the smallest"));
   std::ostringstream out;
   out.precision(17);
-  out << "# Written by `cavum explain`: verdict " << e.verdict
+  out << "# Written by `cavum explain`: verdict " << verdict_name(e.verdict)
       << ".\nname = " << quoted(start.name.ends_with("-extended") ? start.name : start.name + "-extended") << "\n\n[cutting]\n"
       << cutting_toml(start) << "\n[rendering]\nkvc_n_per_mm = " << start.rendering.kvc_n_per_mm
       << "\nfiltered_damping_n_s_per_mm = " << start.rendering.filtered_damping_n_s_per_mm << "\nspeed_filter_s = " << start.rendering.speed_filter_s

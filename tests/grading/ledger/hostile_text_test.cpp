@@ -39,7 +39,7 @@ json result_of(const std::string& text) {
              {"points", 80.0},
              {"max", 100.0},
              {"critical_failed", true},
-             {"reason", text}}}}};
+             {"said", {{"say", "{}"}, {"of", json::array({text})}}}}}}};
 }
 
 Registry registry_of(const std::string& text, const std::string& candidate) {

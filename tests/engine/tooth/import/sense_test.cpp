@@ -137,13 +137,13 @@ TEST(Sense, CrownsOfNoHumanAreRefusedUnlessConfirmed) {
 TEST(Sense, UpsideDownAndAcrossAreRefused) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.frame.occlusal_axis = Vec3{0, 0, -1};
-  for (const Surfaces* s : {&molar(), &incisor()}) EXPECT_TRUE(contradicts(refusal(*s, o), "occlusal"));
+  for (const Surfaces* s : {&molar(), &incisor()}) EXPECT_TRUE(contradicts(refusal(*s, o), "upright"));
   o.frame.occlusal_axis = Vec3{0, 1, 0};
-  EXPECT_TRUE(contradicts(refusal(molar(), o), "occlusal"));
+  EXPECT_TRUE(contradicts(refusal(molar(), o), "upright"));
   MeshImportOptions patient = upright(k_sensed_mm);
   patient.sense.number = from_fdi(16, "x");
   patient.sense.patient_frame = "lps";
-  EXPECT_TRUE(contradicts(refusal(molar(), patient), "jaw"));
+  EXPECT_TRUE(contradicts(refusal(molar(), patient), "upright"));
 }
 
 TEST(Sense, ExchangedLayersAreRefused) {
