@@ -7,6 +7,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
@@ -145,7 +146,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("scenario: {}", Name{e.what()}));
+    out.findings.push_back(msg("scenario: {}", said_by(e)));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -163,11 +164,11 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   try {
     const auto graded = load_for_grading(session, std::move(final_tooth), grounds);
     graded->events = events->events();
-    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), "result");
+    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), msg("result"));
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("cannot be marked: {}", Name{e.what()}));
+    out.findings.push_back(msg("cannot be marked: {}", said_by(e)));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);

@@ -12,6 +12,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/message_json.h"
+#include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
@@ -127,7 +128,7 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      out.findings.push_back(msg("{}: its file cannot be read: {}", name_of(s), e.what()));
+      out.findings.push_back(msg("{}: its file cannot be read: {}", name_of(s), said_by(e)));
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)

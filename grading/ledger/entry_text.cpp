@@ -43,13 +43,13 @@ json write_json(const AsUtc<const std::int64_t>& t) { return utc_text(t.ns); }
 void read_json(const json& from, const JsonPlace& at, const AsUtc<std::int64_t>& t) {
   std::string text;
   read_json_value(from, at, text);
-  t.ns = parse_utc(text, english_text(at.text()));
+  t.ns = parse_utc(text, at.text());
 }
 json write_json(const AsHex<const Sha256>& hash) { return to_hex(hash.bytes); }
 void read_json(const json& from, const JsonPlace& at, const AsHex<Sha256>& hash) {
   std::string text;
   read_json_value(from, at, text);
-  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, english_text(at.text()));
+  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, at.text());
 }
 json write_json(const Opening& o) { return o.sha256; }
 void read_json(const json& from, const JsonPlace& at, Opening& o) {
@@ -127,7 +127,7 @@ void body_fields(Of& of, Said& e) {
 
 namespace {
 
-JsonSource source_of(const std::string& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
+JsonSource source_of(const Where& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
 
 /// Notes where the openings are.
 struct FindOpenings {
@@ -162,7 +162,7 @@ std::string entry_text(const LedgerEntry& e) {
   return json{{"body", to_json_value(body)}, {"kind", kind_name(*e.what)}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
 }
 
-LedgerEntry read_entry(const std::string& text, const std::string& where) {
+LedgerEntry read_entry(const std::string& text, const Where& where) {
   LedgerEntry e;
   const JsonSource source = source_of(where);
   std::string kind;
@@ -179,7 +179,7 @@ LedgerEntry read_entry(const std::string& text, const std::string& where) {
 
 LedgerEntry read_entry_or_none(const std::string& text) noexcept {
   try {
-    return read_entry(text, "entry");
+    return read_entry(text, msg("entry"));
   } catch (const std::exception&) {
     return {};
   }
@@ -207,7 +207,7 @@ json json_of(const Value& value) {
 }
 
 template <class Value>
-Value value_in(const json& j, const std::string& where) {
+Value value_in(const json& j, const Where& where) {
   return json_value_of<Value>(j, source_of(where));
 }
 
@@ -217,7 +217,7 @@ const char* word_of(Enum value) {
 }
 
 template <class Enum>
-Enum of_word(const std::string& word, const std::string& where) {
+Enum of_word(const std::string& word, const Where& where) {
   return json_value_of<Enum>(word, {where, msg("say one of its words")});
 }
 

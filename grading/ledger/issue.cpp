@@ -122,7 +122,7 @@ std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const Lis
     one.candidate = identities.enrol(person.id, person.name, ticket.exam, ledger.key());
     try {
       const std::string text = issue(ledger, ticket, one.candidate, wish.another);
-      one.ticket = parse_ticket(text, "", "the ticket");
+      one.ticket = parse_ticket(text, "", msg("the ticket"));
       one.entry = ledger.content().entries.back().seq;
       keep(one, text);
       if (!stations[i].empty()) seats.push_back({*one.entry, stations[i]});

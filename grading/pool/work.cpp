@@ -57,13 +57,13 @@ std::string below(const std::string& folder, std::string words) {
 json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
   const auto graded = grading::load_for_grading(session, grounds);
   if (!work.scenario_toml.empty()) {
-    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario");
+    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario.toml");
     scenarios::use_surfaces(scenario, work.surfaces);
     grading::use_scenario(*graded, std::move(scenario), work.another_task);
     grading::use_rubric(*graded, graded->scenario.rubric);
   }
-  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric"));
-  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), "result");
+  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric.toml"));
+  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), msg("result"));
 }
 
 }  // namespace

@@ -121,7 +121,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
       list.push_back(std::move(one));
     } catch (const Error& e) {
       ++failed;
-      list.push_back({{"file", file}, {"error", e.what()}});
+      list.push_back({{"file", file}, {"error", e.message()}});
       changes.add(msg("cannot be graded: {}", e.message()), 2);
     }
   }
