@@ -27,7 +27,8 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Signed distances by patches, cells of 0.7 mm: the standard deviation of their means, by the median.
+constexpr double k_patch_mm = 0.7;
+/// Signed distances by patches, cells of that size: the standard deviation of their means, by the median.
 class Patches {
  public:
   void add(Vec3 p, double mm) {
@@ -44,7 +45,6 @@ class Patches {
   }
 
  private:
-  static constexpr double k_patch_mm = 0.7;
   static constexpr int k_fewest = 15;
   struct Sum {
     double mm = 0.0;

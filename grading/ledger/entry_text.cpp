@@ -225,13 +225,13 @@ template json json_of(const Ticket&);
 template json json_of(const Begin&);
 template json json_of(const StationRequest&);
 template json json_of(const SignedRequest&);
-template Ticket value_in(const json&, const std::string&);
-template Begin value_in(const json&, const std::string&);
-template SignedRequest value_in(const json&, const std::string&);
+template Ticket value_in(const json&, const Where&);
+template Begin value_in(const json&, const Where&);
+template SignedRequest value_in(const json&, const Where&);
 template const char* word_of(Part);
 template const char* word_of(FirstSitting);
 template const char* word_of(Outcome);
-template FirstSitting of_word(const std::string&, const std::string&);
-template Outcome of_word(const std::string&, const std::string&);
+template FirstSitting of_word(const std::string&, const Where&);
+template Outcome of_word(const std::string&, const Where&);
 
 }  // namespace cavum::ledger

@@ -241,13 +241,13 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
   if (options.number) {
     const ToothClass said = options.number->tooth_class();
     if (l.tooth_class.kind == ToothClass::unknown)
-      sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->text()));
+      sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->in_words()));
     else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
       object(options, "class", where,
-             msg("it is said to be tooth {}, but has the shape of {} ({})", options.number->text(), kind, l.tooth_class.reason),
+             msg("it is said to be tooth {}, but by its shape it is {} ({})", options.number->in_words(), kind, l.tooth_class.reason),
              msg("give another number"), sense);
     else if (l.tooth_class.kind != said)
-      sense.warnings.push_back(msg("tooth {} has rather the shape of {}", options.number->text(), kind));
+      sense.warnings.push_back(msg("tooth {}: by its shape rather {}", options.number->in_words(), kind));
   }
   if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
     object(options, "pulp", where,
