@@ -111,9 +111,10 @@ std::vector<Message> result_differences(const json& sealed_result, const json& m
   const json sealed = without_words(sealed_result), marked = without_words(marked_result);
   std::vector<Message> out;
   const auto compare = [&](const Message& name, const json& was, const json& is) {
-    if (was != is) out.push_back(msg("{} {}, marked {}", name, in_words(was), in_words(is)));
+    if (was != is) out.push_back(msg("{}: {}, marked {}", name, in_words(was), in_words(is)));
   };
-  compare(msg("verdict"), member_of(sealed, "verdict"), member_of(marked, "verdict"));
+  const auto verdict = [](const json& of) { return msg("{}", Term{text_in(of, "verdict")}); };
+  if (member_of(sealed, "verdict") != member_of(marked, "verdict")) out.push_back(msg("verdict: {}, marked {}", verdict(sealed), verdict(marked)));
   const json &then = member_of(sealed, "score"), &now = member_of(marked, "score");
   compare(msg("points"), member_of(then, "points"), member_of(now, "points"));
   compare(msg("greatest number of points"), member_of(then, "max"), member_of(now, "max"));

@@ -38,7 +38,7 @@ Roster roster_of(const ClassList& asked) {
   std::size_t size = 0;
   if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), packed.data(), packed.size(), nullptr, &size, nullptr,
                         sodium_base64_VARIANT_ORIGINAL) != 0)
-    throw Error(msg(msg("the list")), msg("did not arrive whole"), msg("send it again"));
+    throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
   bytes.resize(size);
   return read_roster(bytes, {asked.answers.begin(), asked.answers.end()});
 }
