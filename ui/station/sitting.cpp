@@ -270,7 +270,7 @@ void Sitting::end_running() {
   stage_ = Stage::unsaved;
 }
 
-Message Sitting::why_stopped() const { return report_.servo.error.empty() ? msg("the servo was stopped") : Message(Name{report_.servo.error}); }
+Message Sitting::why_stopped() const { return report_.servo.failure.empty() ? msg("the servo was stopped") : report_.servo.failure; }
 
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {

@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/message.h"
+
 namespace cavum::explain {
 
 /// What a column of the motion is: one of the four that a recording is made of.
