@@ -31,15 +31,16 @@ ToothClass ToothNumber::tooth_class() const noexcept {
   return place() <= 2 ? ToothClass::incisor : place() == 3 ? ToothClass::canine : place() <= 5 ? ToothClass::premolar : ToothClass::molar;
 }
 
-Message ToothNumber::in_words() const {
+Message ToothNumber::name() const {
   const std::array<Message, 8> kinds{msg("central incisor"), msg("lateral incisor"), msg("canine"),       msg("first premolar"),
                                      msg("second premolar"), msg("first molar"),     msg("second molar"), msg("third molar")};
   const Message& kind = kinds[static_cast<std::size_t>(place() - 1)];
-  const Message name = upper()  ? left() ? msg("upper left {}", kind) : msg("upper right {}", kind)
-                        : left() ? msg("lower left {}", kind)
-                                : msg("lower right {}", kind);
-  return msg("{} (universal {}), {}", fdi, universal(), name);
+  return upper()  ? left() ? msg("upper left {}", kind) : msg("upper right {}", kind)
+          : left() ? msg("lower left {}", kind)
+                  : msg("lower right {}", kind);
 }
+
+std::string ToothNumber::text() const { return fmt::format("{} (universal {}), {}", fdi, universal(), english_text(name())); }
 
 ToothNumber from_fdi(int number, const std::string& option) {
   const ToothNumber n{number};
@@ -54,7 +55,7 @@ ToothNumber from_universal(int number, const std::string& option) {
   return from_fdi(fdi, option);
 }
 
-std::string name_with(const ToothNumber& number) { return "tooth " + english_text(number.in_words()); }
+std::string name_with(const ToothNumber& number) { return "tooth " + number.text(); }
 
 std::optional<ToothNumber> number_in(const std::string& name) {
   for (int quadrant = 1; quadrant <= 4; ++quadrant)
