@@ -62,8 +62,8 @@ SignedTicket sign_ticket(Ticket t, const SigningKey& school) {
 void require_signed(const Ticket& t, const std::string& signature, const std::string& public_key, const Where& where) {
   if (!public_key.empty() && t.public_key != public_key)
     throw Error(where, msg("is the ticket of another school"), msg("ask for one of this school"));
-  if (!is_signed_by(fixed_from_hex<32>(t.public_key, msg("{}: public_key", where)), message_of(t),
-                    fixed_from_hex<64>(signature, msg("{}: signature", where))))
+  if (!is_signed_by(fixed_from_hex<32>(t.public_key, msg("{}: {}", where, "public_key")), message_of(t),
+                    fixed_from_hex<64>(signature, msg("{}: {}", where, "signature"))))
     throw Error(where, msg("was changed after the school signed it"), msg("ask for a new ticket"));
 }
 
@@ -71,7 +71,7 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
   const json j = parse_json_or_null(text);
   if (!member_of(j, "ticket").is_object()) throw Error(where, msg("is no ticket"), msg("name a file that `cavum ledger ticket` wrote"));
   auto t = value_in<Ticket>(j["ticket"], where);
-  const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, msg("{}: grant", where));
+  const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, msg("{}: {}", where, "grant"));
   if (!granted.is_object()) throw Error(where, msg("grants nothing that can be read"), msg("ask for a new ticket"));
   for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, text_in(granted, key.c_str()));
   std::sort(t.grant.begin(), t.grant.end());
