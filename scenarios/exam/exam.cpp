@@ -140,7 +140,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
 std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
   auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(session, "scenario.toml"), {}, {}});
   setup->tooth = load_tooth(session.tooth, "start_tooth.cvt");
-  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "session");
+  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "scenario.toml");
   return setup;
 }
 
