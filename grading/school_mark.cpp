@@ -1,14 +1,11 @@
 #include "grading/school_mark.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/said_by.h"
-#include "engine/base/text.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/exam/exam.h"

@@ -1,7 +1,5 @@
 #include "grading/session_input.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/error.h"
 #include "engine/session/chain_check.h"
 #include "scenarios/file/accommodations.h"

@@ -1,7 +1,5 @@
 #include "engine/base/json_reader.h"
 
-#include <fmt/core.h>
-
 #include <functional>
 
 #include "engine/base/error.h"

@@ -1,14 +1,11 @@
 #include "engine/scan/scan_fit.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 
 namespace cavum {
 namespace {

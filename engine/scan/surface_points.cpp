@@ -1,7 +1,5 @@
 #include "engine/scan/surface_points.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>

@@ -3,7 +3,6 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/session_reader.h"
 

@@ -1,7 +1,5 @@
 #include "engine/servo/real_time.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <exception>
 #include <string>

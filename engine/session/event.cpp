@@ -1,7 +1,5 @@
 #include "engine/session/event.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>

@@ -1,7 +1,5 @@
 #include "engine/tooth/distance.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,7 +1,5 @@
 #include "engine/tooth/octree.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>

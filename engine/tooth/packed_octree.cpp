@@ -10,8 +10,6 @@
 //               known on both sides when the leaves farther off follow: code minus what `fit_surface` expects
 #include "engine/tooth/packed_octree.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <bit>
 #include <optional>

@@ -1,7 +1,5 @@
 #include "grading/ledger/begin.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 

@@ -12,7 +12,6 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/said_by.h"
-#include "engine/base/text.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"

@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "grading/ledger/folder_lock.h"
 #include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"

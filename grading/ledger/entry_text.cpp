@@ -1,11 +1,8 @@
 #include "grading/ledger/entry_text.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 
-#include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"

@@ -1,7 +1,5 @@
 #include "grading/ledger/exam_day.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/text.h"

@@ -1,11 +1,8 @@
 #include "grading/ledger/explain_session.h"
 
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "engine/selfcheck/check_note.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"

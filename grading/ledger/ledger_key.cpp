@@ -1,6 +1,5 @@
 #include "grading/ledger/ledger_key.h"
 
-#include <fmt/core.h>
 #include <sodium.h>
 
 #include <filesystem>

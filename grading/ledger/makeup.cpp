@@ -1,7 +1,5 @@
 #include "grading/ledger/makeup.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "grading/ledger/issue.h"

@@ -1,7 +1,5 @@
 #include "grading/ledger/registry.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <set>

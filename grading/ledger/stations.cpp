@@ -1,6 +1,5 @@
 #include "grading/ledger/stations.h"
 
-#include <fmt/core.h>
 #include <sodium.h>
 
 #include <algorithm>

@@ -1,7 +1,5 @@
 #include "grading/ledger/ticket.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstdio>
 

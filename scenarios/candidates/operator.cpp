@@ -1,7 +1,5 @@
 #include "scenarios/candidates/operator.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>

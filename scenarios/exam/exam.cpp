@@ -8,7 +8,6 @@
 
 #include "engine/base/file.h"
 #include "engine/base/shipped.h"
-#include "engine/base/text.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/zones/placed.h"

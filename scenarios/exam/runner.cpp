@@ -1,7 +1,5 @@
 #include "scenarios/exam/runner.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/error.h"

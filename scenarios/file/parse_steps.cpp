@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <stdexcept>
 
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"

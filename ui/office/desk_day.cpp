@@ -1,10 +1,7 @@
 // The desk on an exam day: announcements, pauses, incidents, who is not here, rooms and seats.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <set>
 
-#include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/issue.h"
 #include "ui/office/day_parts.h"

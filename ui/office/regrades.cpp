@@ -12,7 +12,6 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/pool/makers.h"
 #include "scenarios/file/parse.h"

@@ -1,5 +1,7 @@
 #include "ui/report/report_data.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>

@@ -1,5 +1,7 @@
 #include "ui/report/report_source.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/instrument/diamond_point.h"

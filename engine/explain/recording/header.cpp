@@ -1,7 +1,5 @@
 #include "engine/explain/recording/header.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "ui/language/say.h"
 #include "ui/report/print/pdf_sheet.h"
 #include "ui/report/print/pdf_tags.h"
