@@ -1,13 +1,11 @@
 #include "grading/school_mark.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
+#include "engine/base/said_by.h"
 #include "grading/result/result_json.h"
 #include "grading/session_input.h"
 #include "scenarios/exam/exam.h"
@@ -110,9 +108,10 @@ std::vector<Message> result_differences(const json& sealed_result, const json& m
   const json sealed = without_words(sealed_result), marked = without_words(marked_result);
   std::vector<Message> out;
   const auto compare = [&](const Message& name, const json& was, const json& is) {
-    if (was != is) out.push_back(msg("{} {}, marked {}", name, in_words(was), in_words(is)));
+    if (was != is) out.push_back(msg("{}: {}, marked {}", name, in_words(was), in_words(is)));
   };
-  compare(msg("verdict"), member_of(sealed, "verdict"), member_of(marked, "verdict"));
+  const auto verdict = [](const json& of) { return msg("{}", Term{text_in(of, "verdict")}); };
+  if (member_of(sealed, "verdict") != member_of(marked, "verdict")) out.push_back(msg("verdict: {}, marked {}", verdict(sealed), verdict(marked)));
   const json &then = member_of(sealed, "score"), &now = member_of(marked, "score");
   compare(msg("points"), member_of(then, "points"), member_of(now, "points"));
   compare(msg("greatest number of points"), member_of(then, "max"), member_of(now, "max"));
@@ -145,7 +144,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("scenario: {}", Name{e.what()}));
+    out.findings.push_back(msg("scenario: {}", said_by(e)));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
@@ -163,11 +162,11 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   try {
     const auto graded = load_for_grading(session, std::move(final_tooth), grounds);
     graded->events = events->events();
-    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), "result");
+    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), msg("result"));
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("cannot be marked: {}", Name{e.what()}));
+    out.findings.push_back(msg("cannot be marked: {}", said_by(e)));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);

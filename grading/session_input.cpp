@@ -1,7 +1,5 @@
 #include "grading/session_input.h"
 
-#include <fmt/core.h>
-
 #include "engine/base/error.h"
 #include "engine/session/chain_check.h"
 #include "scenarios/file/accommodations.h"
@@ -80,7 +78,7 @@ void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool ano
                 msg("name its corrected scenario, or add --another-task to mark the work by this one all the same"));
   scenarios::require_tissues(scenario, *session.before);
   scenarios::require_same_surfaces(scenario, session.scenario);
-  scenario.accommodations = scenarios::granted(scenario.accommodations, session.session.notes, session.facts.session_file + ": accommodations");
+  scenario.accommodations = scenarios::granted(scenario.accommodations, session.session.notes, msg("{}: accommodations", session.facts.session_file));
   session.zones = std::make_shared<const scenarios::ZoneMap>(
       scenarios::build_zones_of_exam(scenario, *session.before, session.session.landmarks_json, session.facts.session_file));
   session.rubric = scenario.rubric;

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/where.h"
 
 namespace cavum {
 
@@ -52,7 +53,7 @@ class ByteWriter {
 /// Reads what ByteWriter wrote. Throws Error(`where`, ...) at the end of the data.
 class ByteReader {
  public:
-  ByteReader(std::span<const std::uint8_t> bytes, std::string where) : bytes_(bytes), where_(std::move(where)) {}
+  ByteReader(std::span<const std::uint8_t> bytes, Where where) : bytes_(bytes), where_(std::move(where)) {}
 
   template <class T>
   [[nodiscard]] T get() {
@@ -93,7 +94,7 @@ class ByteReader {
  private:
   std::span<const std::uint8_t> bytes_;
   std::size_t at_ = 0;
-  std::string where_;
+  Where where_;
 };
 
 }  // namespace cavum

@@ -10,6 +10,7 @@
 #include <type_traits>
 
 #include "engine/base/error.h"
+#include "engine/base/where.h"
 
 namespace cavum {
 
@@ -27,7 +28,7 @@ namespace cavum {
 }
 /// A whole number of a member that is one: a fraction, or a number beyond its type's range, is refused instead of being cut to something else.
 template <class Whole>
-[[nodiscard]] Whole require_whole(const nlohmann::json& j, const char* key, const std::string& where) {
+[[nodiscard]] Whole require_whole(const nlohmann::json& j, const char* key, const Where& where) {
   const auto& m = member_of(j, key);
   const bool beyond = m.is_number_unsigned() && m.get<std::uint64_t>() > INT64_MAX,
              negative = !m.is_number_unsigned() && m.is_number_integer() && m.get<std::int64_t>() < 0;

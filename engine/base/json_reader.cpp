@@ -1,7 +1,5 @@
 #include "engine/base/json_reader.h"
 
-#include <fmt/core.h>
-
 #include <functional>
 
 #include "engine/base/error.h"
@@ -62,9 +60,9 @@ class Count {
 
 }  // namespace
 
-json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits) {
+json parse_json(std::string_view text, const Where& where, const JsonLimits& limits) {
   const auto refuse = [&where](const Message& what) {
-    throw Error(FileError::too_large, Name{where}, what, msg("use an intact file: nothing that Cavum writes is like that"));
+    throw Error(FileError::too_large, where, what, msg("use an intact file: nothing that Cavum writes is like that"));
   };
   if (text.size() > limits.bytes) refuse(msg("holds JSON of {} bytes, more than {}", text.size(), limits.bytes));
   Count counted(limits, refuse);
@@ -72,7 +70,7 @@ json parse_json(std::string_view text, const std::string& where, const JsonLimit
   try {
     return json::parse(text);
   } catch (const json::exception& e) {
-    throw Error(FileError::malformed, Name{where}, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
+    throw Error(FileError::malformed, where, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
   }
 }
 

@@ -7,6 +7,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/where.h"
+
 namespace cavum {
 
 /// How much one JSON text may be.
@@ -19,7 +21,7 @@ struct JsonLimits {
 inline constexpr JsonLimits k_json_part{64U << 20, 1'000'000, 48};
 
 /// The value of the whole text. Throws Error at `where` when it is no JSON, with the line and column, or when it is beyond a limit, which it names.
-[[nodiscard]] nlohmann::json parse_json(std::string_view text, const std::string& where, const JsonLimits& limits = {});
+[[nodiscard]] nlohmann::json parse_json(std::string_view text, const Where& where, const JsonLimits& limits = {});
 /// The same, but null for what parse_json refuses.
 [[nodiscard]] nlohmann::json parse_json_or_null(std::string_view text, const JsonLimits& limits = {});
 /// True when parse_json would take it.

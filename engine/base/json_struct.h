@@ -25,6 +25,7 @@
 #include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
+#include "engine/base/where.h"
 
 // MACRO ITEM for each item, in their order.
 #define CAVUM_AGAIN ()
@@ -251,7 +252,7 @@ template <class T>
 
 /// Where JSON comes from, and how strictly it is read.
 struct JsonSource {
-  std::string where;  ///< begins what a refusal says; may be empty
+  Where where;  ///< begins what a refusal says; may be empty
   Message advice;
   bool strict = true;                                           ///< what has no field, and null for a field, is refused
   std::size_t most_bytes = SIZE_MAX, most_elements = SIZE_MAX;  ///< of a text or list that has no limit of its own
@@ -263,7 +264,7 @@ struct JsonPlace {
   std::string field = {};
   [[nodiscard]] JsonPlace member(std::string_view name) const { return {source, fmt::format("{}{}{}", field, field.empty() ? "" : ".", name)}; }
   [[nodiscard]] Message text() const {
-    if (field.empty()) return Name{source.where};
+    if (field.empty()) return source.where;
     const std::string short_field = one_line(field.substr(0, 200));
     return source.where.empty() ? msg("'{}'", short_field) : msg("{}: '{}'", source.where, short_field);
   }

@@ -201,13 +201,12 @@ std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, do
                                 position_quantum_mm, first_tip_mm.x, first_tip_mm.y, first_tip_mm.z);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const TickInput& in = inputs[i];
-    const auto at = fmt::format("tick {}: ", i);
     if ((in.flags & (k_stylus_fresh | k_pedal_fresh)) != (k_stylus_fresh | k_pedal_fresh) || (in.flags & k_stylus_fault) != 0)
-      throw Error(MotionError::no_reading, Name{where}, msg("{}stylus or pedal gave nothing, which no motion file can say", at),
+      throw Error(MotionError::no_reading, Name{where}, msg("tick {}: stylus or pedal gave nothing, which no motion file can say", i),
                   msg("replay the session itself: `cavum replay`"));
     const std::optional<Quat> q = read_back_as(in);
     if (!q)
-      throw Error(MotionError::rotation, Name{where}, msg("{}its rotation is none of unit length", at),
+      throw Error(MotionError::rotation, Name{where}, msg("tick {}: its rotation is none of unit length", i),
                   msg("replay the session itself: `cavum replay`"));
     const auto mm = [](std::int32_t nm) { return fmt::format("{}{}.{:06}", nm < 0 ? "-" : "", std::abs(nm) / 1'000'000, std::abs(nm) % 1'000'000); };
     out += fmt::format("{}.{:03},{},{},{},{},{},{},{},{},{},{},{}\n", i / 1000, i % 1000, mm(in.tip_nm[0]), mm(in.tip_nm[1]), mm(in.tip_nm[2]), q->w,

@@ -15,7 +15,7 @@ OuterSurface::OuterSurface(const Tooth& tooth) : tooth_(tooth) {
   outside_ = tissues_around_tooth(tooth);
   const TriangleMesh mesh = outer_surface(tooth, outside_);
   outside_[k_air] = true;
-  points_ = surface_points(mesh, k_tooth_point_mm, "tooth");
+  points_ = surface_points(mesh, k_tooth_point_mm, msg("tooth"));
   index_ = SurfaceIndex(points_, k_index_cell_mm, k_index_margin_mm);
   const double in_mm = 0.75 * tooth.octree.leaf_mm();
   for (const auto& p : points_)

@@ -1,14 +1,11 @@
 #include "engine/scan/scan_fit.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <map>
 
 #include "engine/base/error.h"
-#include "engine/base/text.h"
 
 namespace cavum {
 namespace {
@@ -27,7 +24,8 @@ double median_of(std::vector<double> values) {
   return values[values.size() / 2];
 }
 
-/// Signed distances by patches, cells of 0.7 mm: the standard deviation of their means, by the median.
+constexpr double k_patch_mm = 0.7;
+/// Signed distances by patches, cells of that size: the standard deviation of their means, by the median.
 class Patches {
  public:
   void add(Vec3 p, double mm) {
@@ -44,7 +42,6 @@ class Patches {
   }
 
  private:
-  static constexpr double k_patch_mm = 0.7;
   static constexpr int k_fewest = 15;
   struct Sum {
     double mm = 0.0;
@@ -119,12 +116,12 @@ bool fits_tooth(const ScanFit& f) noexcept {
 
 void require_same_tooth(const ScanFit& f, const std::string& where) {
   constexpr double k_least_crown = 0.45;
-  const auto percent = [](double share) { return fixed(100 * share, 1) + " %"; };
-  const std::string found = fmt::format(
-      "where it fits best, {} of its surface lies within {} mm of the tooth (RMS {} mm, patches of 0.7 mm {} mm), {} outside it and {} just below "
-      "it; {} "
-      "of the crown is seen",
-      percent(f.fits), fixed(f.within_mm, 3), fixed(f.rms_mm, 3), fixed(f.form_mm, 3), percent(f.beyond), percent(f.shallow), percent(f.crown_seen));
+  const auto percent = [](double share) { return as_percent(100 * share, 1); };
+  const Message found = msg(
+      "where it fits best, {} of its surface lies within {} of the tooth (RMS {}, patches of {} {}), {} outside it and {} just below it; {} of the "
+      "crown is seen",
+      percent(f.fits), as_mm(f.within_mm, 3), as_mm(f.rms_mm, 3), as_mm(k_patch_mm, 1), as_mm(f.form_mm, 3), percent(f.beyond), percent(f.shallow),
+      percent(f.crown_seen));
   if (!fits_tooth(f))
     throw Error(ScanError::another_tooth, Name{where}, msg("is not the tooth of this exam: {}", found),
                 msg("give the scan of this very tooth, without its neighbours, or name its tooth with --tooth; if it is this tooth, too much of its "

@@ -1,7 +1,5 @@
 #include "engine/scan/surface_points.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
@@ -37,7 +35,7 @@ void halved(const Corners& whole, double longest_mm, const Visit& visit) {
 
 }  // namespace
 
-std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const std::string& where) {
+std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const Where& where) {
   std::vector<SurfacePoint> points;
   points.reserve(mesh.triangles.size());
   for (const auto& t : mesh.triangles) {

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "engine/base/random.h"
+#include "engine/base/where.h"
 #include "engine/tooth/surface_mesh.h"
 
 namespace cavum {
@@ -18,7 +19,7 @@ inline constexpr std::size_t k_most_scan_points = 6'000'000;
 
 /// Each triangle in parts with edges of at most `longest_mm`, by halving its longest edge: their middles. Triangles without area give none. Throws
 /// Error(`where`, ...) where that would be more than those.
-[[nodiscard]] std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const std::string& where);
+[[nodiscard]] std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longest_mm, const Where& where);
 
 /// `count` of them, drawn in proportion to their areas, evenly along the list: the same for the same list.
 [[nodiscard]] std::vector<SurfacePoint> drawn_by_area(const std::vector<SurfacePoint>& points, std::size_t count, Random& random);

@@ -61,7 +61,7 @@ nlohmann::json to_signed_json(const CheckEntry& e, const SigningKey& key) {
   return j;
 }
 
-CheckEntry read_check_entry(const nlohmann::json& j, const std::string& where) {
+CheckEntry read_check_entry(const nlohmann::json& j, const Where& where) {
   constexpr std::size_t k_most_changes = 16;
   Json said = j;
   if (said.is_object()) said.erase("signature");

@@ -6,6 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/base/where.h"
 #include "engine/selfcheck/check_rule.h"
 #include "engine/session/station_key.h"
 
@@ -38,7 +39,7 @@ struct CheckEntry {
 /// With its signature.
 [[nodiscard]] nlohmann::json to_signed_json(const CheckEntry& entry, const SigningKey& key);
 /// Throws Error at `where` when it is no entry, or its signature is not that of its `station_key`.
-[[nodiscard]] CheckEntry read_check_entry(const nlohmann::json& j, const std::string& where);
+[[nodiscard]] CheckEntry read_check_entry(const nlohmann::json& j, const Where& where);
 
 /// Largest length of a station's name and of a reason, bytes.
 inline constexpr std::size_t k_longest_station_name = 60, k_longest_check_reason = 300;

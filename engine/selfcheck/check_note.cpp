@@ -3,13 +3,12 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/session_reader.h"
 
 namespace cavum {
 
-SessionCheck read_session_check(const std::string& note, const std::string& where) {
+SessionCheck read_session_check(const std::string& note, const Where& where) {
   const nlohmann::json j = parse_json(note, where, k_json_part);
   SessionCheck s;
   s.check = read_check_entry(member_of(j, "check"), where);
@@ -44,7 +43,7 @@ SessionCheckFindings check_of_session(const SessionReader& session) {
   if (note.empty()) return out;
   SessionCheck s;
   try {
-    s = read_session_check(note, "the station's self-check in the session");
+    s = read_session_check(note, msg("the station's self-check in the session"));
   } catch (const Error& e) {
     out.findings.push_back(e.message());
     return out;

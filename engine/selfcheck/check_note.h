@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/where.h"
 #include "engine/selfcheck/check_entry.h"
 
 namespace cavum {
@@ -19,7 +20,7 @@ struct SessionCheck {
 };
 
 /// Both entries signed by the station that they name. Throws Error when it is no such note.
-[[nodiscard]] SessionCheck read_session_check(const std::string& note, const std::string& where);
+[[nodiscard]] SessionCheck read_session_check(const std::string& note, const Where& where);
 
 struct SessionCheckFindings {
   std::vector<Message> findings;  ///< what does not hold

@@ -1,7 +1,5 @@
 #include "engine/servo/real_time.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
 #include <exception>
 #include <string>
@@ -9,6 +7,7 @@
 #include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/said_by.h"
 #include "engine/servo/scheduling.h"
 
 namespace cavum {
@@ -124,23 +123,24 @@ struct RealTimeServo::Loop {
     try {
       run_periods();
     } catch (const std::exception& e) {
-      fail(e.what());
+      fail(said_by(e));
     } catch (...) {
-      fail("something that is no std::exception");
+      fail(msg("something that is no std::exception"));
     }
     device.cut_force();
     try {
       device.send_force({});
     } catch (...) {  // it was cut already
-      if (report.why != ServoEnd::device_failed) fail("zero force could not be sent");
+      if (report.why != ServoEnd::device_failed) fail(msg("zero force could not be sent"));
     }
     stream.close(report.why, report.error.c_str());
     finished.store(true, std::memory_order_release);
   }
-  void fail(const char* what) {
+  void fail(const Message& what) {
     device.cut_force();  // before anything else
     report.why = ServoEnd::device_failed;
-    report.error = what;
+    report.error = english_text(what);
+    report.failure = what;
   }
 
   /// Takes the force away when the loop has been silent for nearly twice the watchdog's time.

@@ -7,6 +7,7 @@
 #include <memory>
 #include <string>
 
+#include "engine/base/message.h"
 #include "engine/servo/lateness.h"
 #include "engine/servo/servo.h"
 #include "engine/servo/servo_device.h"
@@ -36,6 +37,7 @@ struct RealTimeReport {
   std::string fifo_refused = "not asked for", memory_refused = "not asked for";  ///< the system's reason; empty when granted
   ServoEnd why = ServoEnd::asked;
   std::string error;  ///< what the device threw
+  Message failure;    ///< the same, to be told in any language
 };
 
 /// Late ticks: their input repeats the last one without k_stylus_fresh (and, past the watchdog's time, without

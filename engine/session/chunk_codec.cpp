@@ -19,7 +19,7 @@ constexpr std::uint64_t k_largest_removed = 1u << 24;  // bytes unpacked, 4 to 1
 using InputWords = std::array<std::uint32_t, 10>;
 using RecordWords = std::array<std::uint32_t, 11>;
 
-[[noreturn]] void damaged(const std::string& where, const Message& what) {
+[[noreturn]] void damaged(const Where& where, const Message& what) {
   throw Error(where, what, msg("the recording is damaged here: use an intact copy"));
 }
 
@@ -27,7 +27,7 @@ std::uint32_t word(std::int32_t v) { return static_cast<std::uint32_t>(v); }
 std::int32_t number(std::uint32_t v) { return static_cast<std::int32_t>(v); }
 
 template <class T>
-T narrow(std::uint32_t v, const std::string& where) {
+T narrow(std::uint32_t v, const Where& where) {
   if (v > std::numeric_limits<T>::max()) damaged(where, msg("a value is out of its range"));
   return static_cast<T>(v);
 }
@@ -45,7 +45,7 @@ InputWords to_words(const TickInput& in) {
           in.point};
 }
 
-TickInput from_words(const InputWords& w, const std::string& where) {
+TickInput from_words(const InputWords& w, const Where& where) {
   TickInput in;
   in.tip_nm = {number(w[0]), number(w[1]), number(w[2])};
   in.rotation_q30 = {number(w[3]), number(w[4]), number(w[5]), number(w[6])};
@@ -69,7 +69,7 @@ RecordWords to_words(const TickRecord& r) {
           r.notices};
 }
 
-TickRecord from_words(const RecordWords& w, const std::string& where) {
+TickRecord from_words(const RecordWords& w, const Where& where) {
   TickRecord r;
   r.rendered_un = {number(w[0]), number(w[1]), number(w[2])};
   r.model_un = number(w[3]);
@@ -93,7 +93,7 @@ Bytes compress(const Bytes& raw) {
   return packed;
 }
 
-Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most, const std::string& where) {
+Bytes decompress(std::span<const std::uint8_t> packed, std::uint64_t least, std::uint64_t most, const Where& where) {
   const auto size = ZSTD_getFrameContentSize(packed.data(), packed.size());
   if (size == ZSTD_CONTENTSIZE_ERROR || size == ZSTD_CONTENTSIZE_UNKNOWN) damaged(where, msg("the packed data have no valid beginning"));
   if (size < least || size > most) damaged(where, msg("the packed data claim {} bytes, which does not fit the ticks", size));
@@ -124,7 +124,7 @@ Bytes pack_columns(std::span<const T> ticks) {
 }
 
 template <class T, class Words>
-std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
+std::vector<T> unpack_columns(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
   constexpr std::size_t columns = std::tuple_size_v<Words>;
   if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const auto n = static_cast<std::size_t>(ticks);
@@ -168,14 +168,14 @@ Bytes pack_removed(const RemovedTicks& removed) {
   return compress(raw.bytes());
 }
 
-std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
+std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
   return unpack_columns<TickInput, InputWords>(packed, ticks, where);
 }
-std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
+std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
   return unpack_columns<TickRecord, RecordWords>(packed, ticks, where);
 }
 
-RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where) {
+RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where) {
   if (ticks < 0 || ticks > k_chunk_ticks) damaged(where, msg("{} ticks in one chunk", ticks));
   const Bytes raw = decompress(packed, static_cast<std::uint64_t>(ticks), k_largest_removed, where);
   ByteReader in(raw, where);

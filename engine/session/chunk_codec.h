@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "engine/base/bytes.h"
+#include "engine/base/where.h"
 #include "engine/servo/tick.h"
 
 namespace cavum {
@@ -33,9 +34,9 @@ struct ChunkMotion {
 
 /// Unpack `ticks` ticks (0..k_chunk_ticks). Throw Error(where, ...) on any bytes that the packers do not
 /// write for that many ticks; memory stays below 300 MB whatever the bytes.
-[[nodiscard]] std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where);
-[[nodiscard]] std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where);
-[[nodiscard]] RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const std::string& where);
+[[nodiscard]] std::vector<TickInput> unpack_inputs(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where);
+[[nodiscard]] std::vector<TickRecord> unpack_records(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where);
+[[nodiscard]] RemovedTicks unpack_removed(std::span<const std::uint8_t> packed, std::int64_t ticks, const Where& where);
 
 /// A chunk is ended early once it holds this many removed leaves, so that it always unpacks.
 inline constexpr std::size_t k_chunk_leaves = 1u << 20;

@@ -1,7 +1,5 @@
 #include "engine/session/event.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <nlohmann/json.hpp>
@@ -117,15 +115,15 @@ bool operator==(const TimedEvent& a, const TimedEvent& b) {
 
 EventText encode(const Event& event) { return {kind_of(event), detail_of(event).dump()}; }
 
-Event decode(const EventText& text, const std::string& where) {
-  const std::string at = fmt::format("{}, '{}'", where, one_line(text.kind));
+Event decode(const EventText& text, const Where& where) {
+  const Message at = msg("{}, '{}'", where, one_line(text.kind));
   const json was = parse_json(text.detail_json, at, k_event_limits);
   const JsonSource source{at, msg("use an intact copy")};
   Event event;
   if (!read_kind(text.kind, was, {source}, event))
-    throw Error(FileError::unknown, Name{at}, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
+    throw Error(FileError::unknown, at, msg("is no kind of event"), msg("use an intact copy, or the program that recorded it"));
   if (detail_of(event).dump() != text.detail_json)
-    throw Error(FileError::malformed, Name{at}, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
+    throw Error(FileError::malformed, at, msg("its detail is not written as docs/formats/session.md says"), msg("use an intact copy"));
   return event;
 }
 

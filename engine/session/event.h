@@ -14,6 +14,7 @@
 
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
+#include "engine/base/where.h"
 #include "engine/servo/real_time.h"
 #include "engine/session/motion_source.h"
 
@@ -176,7 +177,7 @@ struct EventText {
 [[nodiscard]] EventText encode(const Event& event);
 /// The same event; throws Error at `where` for a kind that there is not, naming what is missing or of another type, and for a text that `encode` does
 /// not write.
-[[nodiscard]] Event decode(const EventText& text, const std::string& where);
+[[nodiscard]] Event decode(const EventText& text, const Where& where);
 
 /// A function for each kind, for std::visit. Kinds with one answer are named in `AnyOf`: one that is left out does not compile.
 template <class... Answers>

@@ -28,7 +28,7 @@ constexpr char k_insert_chunk[] = "INSERT INTO chunk VALUES (?, ?, ?, ?, ?, ?, ?
 constexpr char k_insert_event[] = "INSERT INTO event VALUES (?, ?, ?, ?, ?)";
 
 std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Clocks& now) {
-  const std::string tick = fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo settings").tick_s);
+  const std::string tick = fmt::format("{:.17g}", parse_servo_config(setup.servo_toml, "servo.toml").tick_s);
   std::map<std::string, std::string> meta{
       {"format", std::to_string(k_session_format)},
       {"engine_version", version()},

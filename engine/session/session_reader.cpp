@@ -89,6 +89,16 @@ ChunkRow chunk_at(const Statement& row, std::int64_t expected) {
   return c;
 }
 
+std::vector<TickInput> inputs_in(const ChunkRow& c, const std::string& path) {
+  return unpack_inputs(c.inputs, c.ticks, msg("{}: chunk {}, inputs", path, c.seq));
+}
+std::vector<TickRecord> records_in(const ChunkRow& c, const std::string& path) {
+  return unpack_records(c.records, c.ticks, msg("{}: chunk {}, records", path, c.seq));
+}
+RemovedTicks removed_in(const ChunkRow& c, const std::string& path) {
+  return unpack_removed(c.removed, c.ticks, msg("{}: chunk {}, removed leaves", path, c.seq));
+}
+
 }  // namespace
 
 SessionReader::SessionReader(const std::string& path) : path_(path) { read(read_session_image(path, findings_)); }
@@ -118,7 +128,7 @@ void SessionReader::read(Bytes image) {
   read_table(database, "event", "seq, tick, chunk, kind, detail_json", findings_, [&](const Statement& row) {
     const auto seq = rising(row, next_event++, "event");
     try {
-      events_.push_back({{row.integer(1), decode({row.text(3), row.text(4)}, fmt::format("table event, row {}", seq))}, seq, row.integer(2)});
+      events_.push_back({{row.integer(1), decode({row.text(3), row.text(4)}, msg("table event, row {}", seq))}, seq, row.integer(2)});
     } catch (const DatabaseError&) {
       throw;
     } catch (const Error& e) {
@@ -149,7 +159,7 @@ void SessionReader::read_chunks(Database& database) {
       "removed_sha256, events_sha256, prev_sha256, sha256";
   read_table(database, "chunk", columns, findings_, [&](const Statement& row) {
     ChunkRow c = chunk_at(row, static_cast<std::int64_t>(chunks_.size()));
-    const std::string where = fmt::format("table chunk, {}", c.seq);
+    const Message where = msg("table chunk, row {}", c.seq);
     if (c.ticks < 0 || c.ticks > k_chunk_ticks) throw Error(where, msg("{} ticks", c.ticks), msg("use an intact copy"));
     if (c.first_tick != ticks()) throw Error(where, msg("begins at tick {} instead of {}", c.first_tick, ticks()), msg("use an intact copy"));
     chunks_.push_back(std::move(c));
@@ -227,12 +237,10 @@ Clocks SessionReader::created() const { return {number("created_monotonic_ns", 0
 
 ChunkMotion SessionReader::motion(std::size_t index) const {
   const ChunkRow& c = chunks_.at(index);
-  const std::string where = fmt::format("{}: chunk {}, ", path_, c.seq);
-  ChunkMotion m{unpack_inputs(c.inputs, c.ticks, where + "inputs"), unpack_records(c.records, c.ticks, where + "records"),
-                unpack_removed(c.removed, c.ticks, where + "removed")};
+  ChunkMotion m{inputs_in(c, path_), records_in(c, path_), removed_in(c, path_)};
   for (std::size_t i = 0; i < m.records.size(); ++i)
     if (m.records[i].removed != m.removed.counts[i])
-      throw Error(msg("{}tick {}", where, c.first_tick + static_cast<std::int64_t>(i)),
+      throw Error(msg("{}: chunk {}, tick {}", path_, c.seq, c.first_tick + static_cast<std::int64_t>(i)),
                   msg("{} leaves removed by the records, {} listed", m.records[i].removed, m.removed.counts[i]),
                   msg("the recording is damaged here: use an intact copy"));
   return m;
@@ -241,7 +249,7 @@ ChunkMotion SessionReader::motion(std::size_t index) const {
 std::vector<TickInput> SessionReader::inputs() const {
   std::vector<TickInput> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_inputs(c.inputs, c.ticks, fmt::format("{}: chunk {}, inputs", path_, c.seq));
+    const auto part = inputs_in(c, path_);
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -250,7 +258,7 @@ std::vector<TickInput> SessionReader::inputs() const {
 std::vector<TickRecord> SessionReader::records() const {
   std::vector<TickRecord> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_records(c.records, c.ticks, fmt::format("{}: chunk {}, records", path_, c.seq));
+    const auto part = records_in(c, path_);
     all.insert(all.end(), part.begin(), part.end());
   }
   return all;
@@ -259,7 +267,7 @@ std::vector<TickRecord> SessionReader::records() const {
 std::vector<RemovedAt> SessionReader::removed() const {
   std::vector<RemovedAt> all;
   for (const auto& c : chunks_) {
-    const auto part = unpack_removed(c.removed, c.ticks, fmt::format("{}: chunk {}, removed", path_, c.seq));
+    const auto part = removed_in(c, path_);
     std::size_t at = 0;
     if (all.size() + part.leaves.size() > k_most_removed_leaves)
       throw Error(path_, msg("says that more than {} leaves were removed", k_most_removed_leaves), msg("use an intact copy: no tooth has as many"));

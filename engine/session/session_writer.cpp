@@ -3,6 +3,8 @@
 #include <chrono>
 #include <cmath>
 
+#include "engine/base/said_by.h"
+
 namespace cavum {
 
 SessionWriter::SessionWriter(TickStream& stream, Recorder& recorder, double tick_s, Watch watch)
@@ -25,10 +27,8 @@ template <class Action>
 void SessionWriter::guarded(const Action& action) noexcept {
   try {
     action();
-  } catch (const Error& e) {
-    if (report_.error.empty()) report_.error = e.message();
   } catch (const std::exception& e) {
-    if (report_.error.empty()) report_.error = Name{e.what()};
+    if (report_.error.empty()) report_.error = said_by(e);
   } catch (...) {
     if (report_.error.empty()) report_.error = msg("something that is no std::exception");
   }

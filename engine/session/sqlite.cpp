@@ -89,7 +89,7 @@ void Statement::run() {
   if (code != SQLITE_DONE && code != SQLITE_ROW) fail(db_, where_, code);
 }
 
-void Statement::wrong_type(int column, const std::string& wanted) const {
+void Statement::wrong_type(int column, const Message& wanted) const {
   const char* name = sqlite3_column_name(statement_.get(), column);
   if (name == nullptr) throw std::bad_alloc();
   throw DatabaseError(where_, msg("column {} does not hold {}", name, wanted), msg("the file was damaged or edited: use an intact copy"),
@@ -97,17 +97,17 @@ void Statement::wrong_type(int column, const std::string& wanted) const {
 }
 
 std::int64_t Statement::integer(int column) const {
-  if (sqlite3_column_type(statement_.get(), column) != SQLITE_INTEGER) wrong_type(column, "a whole number");
+  if (sqlite3_column_type(statement_.get(), column) != SQLITE_INTEGER) wrong_type(column, msg("a whole number"));
   return sqlite3_column_int64(statement_.get(), column);
 }
 std::string Statement::text(int column) const {
-  if (sqlite3_column_type(statement_.get(), column) != SQLITE_TEXT) wrong_type(column, "text");
+  if (sqlite3_column_type(statement_.get(), column) != SQLITE_TEXT) wrong_type(column, msg("text"));
   const auto* p = reinterpret_cast<const char*>(sqlite3_column_text(statement_.get(), column));
   if (p == nullptr) throw std::bad_alloc();  // a text that is there and cannot be given
   return {p, static_cast<std::size_t>(sqlite3_column_bytes(statement_.get(), column))};
 }
 Bytes Statement::blob(int column) const {
-  if (sqlite3_column_type(statement_.get(), column) != SQLITE_BLOB) wrong_type(column, "bytes");
+  if (sqlite3_column_type(statement_.get(), column) != SQLITE_BLOB) wrong_type(column, msg("bytes"));
   const auto* p = static_cast<const std::uint8_t*>(sqlite3_column_blob(statement_.get(), column));
   if (p == nullptr && sqlite3_errcode(db_) == SQLITE_NOMEM) throw std::bad_alloc();
   return p == nullptr ? Bytes() : Bytes(p, p + sqlite3_column_bytes(statement_.get(), column));

@@ -50,7 +50,7 @@ class Statement {
   template <std::size_t N>
   [[nodiscard]] std::array<std::uint8_t, N> fixed_blob(int column) const {
     const Bytes b = blob(column);
-    if (b.size() != N) wrong_type(column, fmt::format("{} bytes", N));
+    if (b.size() != N) wrong_type(column, msg("{} bytes", N));
     std::array<std::uint8_t, N> out{};
     std::copy(b.begin(), b.end(), out.begin());
     return out;
@@ -59,7 +59,7 @@ class Statement {
  private:
   friend class Database;
   Statement(sqlite3* db, sqlite3_stmt* statement, std::string where);
-  [[noreturn]] void wrong_type(int column, const std::string& wanted) const;
+  [[noreturn]] void wrong_type(int column, const Message& wanted) const;
   void check(int code);
 
   sqlite3* db_;

@@ -95,7 +95,7 @@ void remember_enrolled(const std::string& path, const SigningKey& key) {
   write_private_text_file(enrolled_path(path), to_hex(key.public_key) + "\n");
 }
 
-std::string parse_public_key(const std::string& text, const std::string& where) {
+std::string parse_public_key(const std::string& text, const Where& where) {
   std::string key = text;
   for (char& c : key)
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');

@@ -7,6 +7,8 @@
 #include <span>
 #include <string>
 
+#include "engine/base/where.h"
+
 namespace cavum {
 
 /// Ed25519 key pair (libsodium).
@@ -31,7 +33,7 @@ void remember_enrolled(const std::string& path, const SigningKey& key);
 
 /// A station's public key as people write it: 64 hexadecimal digits, returned in lower case. Throws Error(`where`, ...)
 /// for anything else.
-[[nodiscard]] std::string parse_public_key(const std::string& text, const std::string& where);
+[[nodiscard]] std::string parse_public_key(const std::string& text, const Where& where);
 
 /// True when `signature` over `message` was made by the owner of `public_key`.
 [[nodiscard]] bool is_signed_by(const std::array<std::uint8_t, 32>& public_key, std::span<const std::uint8_t> message,

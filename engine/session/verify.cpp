@@ -4,6 +4,7 @@
 
 #include <chrono>
 
+#include "engine/base/said_by.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/simulation.h"
@@ -96,7 +97,7 @@ void compare_final_tooth(const SessionReader& session, const Simulation& simulat
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.emplace_back(Name{e.what()});
+    report.findings.push_back(said_by(e));
   }
 }
 
@@ -118,7 +119,7 @@ void simulate_and_compare(const SessionReader& session, const TickVisitor& visit
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    report.findings.push_back(msg("{} (not replayed)", e.what()));
+    report.findings.push_back(msg("{} (not replayed)", said_by(e)));
   }
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   if (seconds > 0) report.speed_x_realtime = static_cast<double>(report.ticks_replayed) * tick_s / seconds;

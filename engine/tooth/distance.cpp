@@ -1,7 +1,5 @@
 #include "engine/tooth/distance.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -66,16 +64,16 @@ Vec3 closest_on_triangle(Vec3 p, Vec3 a, Vec3 b, Vec3 c) noexcept {
   return a + ab * (vb / sum) + ac * (vc / sum);
 }
 
-void check_lattice(IVec3 size, double leaf_mm, const std::string& where, std::uint64_t most) {
+void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t most) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
   if (size.x < 1 || size.y < 1 || size.z < 1) throw Error(where, msg("nothing to build"), msg("check the size of the input"));
   const int widest = std::max({size.x, size.y, size.z});
   if (widest > Octree::k_max_edge_leaves)
-    throw Error(FileError::too_large, Name{where}, msg("{} leaves along one edge, 1024 is the most", widest),
+    throw Error(FileError::too_large, where, msg("{} leaves along one edge, 1024 is the most", widest),
                 msg("use a larger --leaf-mm, or check that the unit is mm"));
   const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
   if (leaves > most)
-    throw Error(FileError::too_large, Name{where}, msg("{} leaves, {} is the most", leaves, most),
+    throw Error(FileError::too_large, where, msg("{} leaves, {} is the most", leaves, most),
                 msg("use a larger --leaf-mm, or check that the unit is mm"));
 }
 

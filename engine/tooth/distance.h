@@ -9,6 +9,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/where.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/tissue_grid.h"
 
@@ -21,7 +22,7 @@ inline constexpr std::uint64_t k_most_row_leaves = 96'000'000;
 /// Leaves near the single triangles of a mesh, all together: each is asked for its distance. A tooth's layer scanned at 0.1 mm has 30 million.
 inline constexpr std::uint64_t k_most_near_triangles = 400'000'000;
 /// Throws Error(`where`, ...) unless the lattice has 1..1024 leaves along every axis, a leaf > 0, and no more leaves than `most`.
-void check_lattice(IVec3 size, double leaf_mm, const std::string& where, std::uint64_t most = k_most_lattice_leaves);
+void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t most = k_most_lattice_leaves);
 
 /// Throws Error(`where`, ...) when a mesh has more leaves near its triangles than above: many that are large and close together.
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where);

@@ -1,7 +1,5 @@
 #include "engine/tooth/octree.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
@@ -353,7 +351,7 @@ Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
     in.fail(msg("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and {} leaves a side", k_max_edge_leaves));
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
   while ((k_brick_edge << tree.levels_) < std::max({tree.size_.x, tree.size_.y, tree.size_.z})) ++tree.levels_;
-  const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), "tooth"); };
+  const auto part = [&in] { return ByteReader(in.get_bytes(in.get<std::uint64_t>()), msg("tooth")); };
   ByteReader shape = part(), tissue = part(), distance = part();
   tree.root_ = tree.read_ref(shape, tissue, distance, tree.levels_);
   if (shape.left() + tissue.left() + distance.left() != 0) in.fail(msg("data after the end of the octree"));

@@ -10,8 +10,6 @@
 //               known on both sides when the leaves farther off follow: code minus what `fit_surface` expects
 #include "engine/tooth/packed_octree.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <bit>
 #include <optional>
@@ -384,7 +382,7 @@ class Walk {
 int copy_head(ByteReader& in, ByteWriter& out) {
   const auto head = in.get_bytes(k_head_bytes);
   out.put_bytes(head);
-  ByteReader size(head.subspan(k_head_bytes - 3 * sizeof(std::int32_t)), "tooth");
+  ByteReader size(head.subspan(k_head_bytes - 3 * sizeof(std::int32_t)), msg("tooth"));
   std::int32_t widest = 0;
   for (int i = 0; i < 3; ++i) {
     const auto n = size.get<std::int32_t>();
@@ -429,7 +427,7 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const Pa
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
   if (bricks > k_most_bricks || full > bricks) in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_most_bricks));
-  ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), "tooth");
+  ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), msg("tooth"));
   RangeDecoder coder(bits);
   Streams streams;
   const Walk walk(coder, streams, tissues, levels, bricks, full, like, keep);

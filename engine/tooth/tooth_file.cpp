@@ -148,7 +148,7 @@ Bytes save_tooth(const Tooth& tooth) {
   write_tissues(tooth, out);
   ByteWriter canonical;
   tooth.octree.write(canonical);
-  ByteReader from(canonical.bytes(), "tooth");
+  ByteReader from(canonical.bytes(), msg("tooth"));
   pack_octree(from, tooth.tissues, out);
   write_landmarks(tooth, out);
   write_notes(tooth, out);

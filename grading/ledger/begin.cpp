@@ -1,7 +1,5 @@
 #include "grading/ledger/begin.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <filesystem>
 
@@ -26,13 +24,13 @@ Bytes message_of(const Begin& b) {
 
 std::string begin_text(const BeginEntry& e) { return json{{"begin", json_of(e.begin)}, {"signature", e.signature}}.dump(); }
 
-void require_signed(const Begin& b, const std::string& signature, const std::string& public_key, const std::string& where) {
+void require_signed(const Begin& b, const std::string& signature, const std::string& public_key, const Where& where) {
   if (!public_key.empty() && b.public_key != public_key) throw Error(where, msg("is of another school"), msg("ask this school's office"));
   if (!is_signed_by(b.public_key, message_of(b), signature))
     throw Error(where, msg("was changed after the school signed it"), msg("ask the office again"));
 }
 
-Begin parse_begin(const std::string& text, const std::string& public_key, const std::string& where) {
+Begin parse_begin(const std::string& text, const std::string& public_key, const Where& where) {
   const json j = parse_json_or_null(text);
   if (!member_of(j, "begin").is_object())
     throw Error(where, msg("is not the ledger's word to begin"), msg("name a file that `cavum ledger begin` wrote"));

@@ -5,6 +5,7 @@
 
 #include <string>
 
+#include "engine/base/where.h"
 #include "grading/ledger/ledger.h"
 #include "grading/ledger/ticket.h"
 
@@ -16,9 +17,9 @@ inline constexpr char k_begin_note[] = "begin";
 /// The word, one line of JSON {"begin","signature"}.
 [[nodiscard]] std::string begin_text(const BeginEntry& entry);
 /// Throws Error(`where`, ...) when the signature does not hold. `public_key`: as parse_ticket().
-void require_signed(const Begin& begin, const std::string& signature, const std::string& public_key, const std::string& where);
+void require_signed(const Begin& begin, const std::string& signature, const std::string& public_key, const Where& where);
 /// Throws Error(`where`, ...) when the text is none or its signature does not hold.
-[[nodiscard]] Begin parse_begin(const std::string& text, const std::string& public_key, const std::string& where);
+[[nodiscard]] Begin parse_begin(const std::string& text, const std::string& public_key, const Where& where);
 /// Enters that the exam of a ticket's number may begin, and returns the word. Throws Error when the ledger
 /// has not issued the ticket, it was cancelled or used, this is not its time, or it was begun before and `again` gives no reason.
 [[nodiscard]] std::string let_begin(Ledger& ledger, const std::string& ticket_nonce, const std::string& again);

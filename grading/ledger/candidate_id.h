@@ -7,6 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/base/where.h"
 
 namespace cavum::ledger {
 
@@ -30,9 +31,9 @@ inline std::string pseudonym_typed(const std::string& text) {
 }
 
 /// Throws Error(`where`, ...) unless `id` is one line of UTF-8 of at most k_longest_candidate bytes.
-inline void require_candidate_id(const std::string& where, const std::string& id) {
+inline void require_candidate_id(const Where& where, const std::string& id) {
   if (id.size() > k_longest_candidate)
-    throw Error(fmt::format("{} {}…", where, one_line(id.substr(0, 20))), msg("is longer than a candidate's number or address ({} bytes)", id.size()),
+    throw Error(msg("{} {}…", where, one_line(id.substr(0, 20))), msg("is longer than a candidate's number or address ({} bytes)", id.size()),
                 msg("use {} at most", k_longest_candidate));
   if (!is_plain_text(id)) throw Error(where, msg("holds a control character or bytes that are no UTF-8"), msg("use letters and digits"));
 }

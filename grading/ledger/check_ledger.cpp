@@ -11,8 +11,7 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/message_json.h"
-#include "engine/base/text.h"
+#include "engine/base/said_by.h"
 #include "grading/grade.h"
 #include "grading/ledger/erasure.h"
 #include "grading/ledger/history.h"
@@ -35,14 +34,14 @@ void compare_with_line(const FiledSession& s, const std::string& line, const Mes
     out.not_made.push_back(msg("{}: could not be simulated again; run the same command once more", name));
     return;
   }
-  if (const std::string error = text_in(again, "error"); !error.empty()) {
-    out.findings.push_back(msg("{}: its file cannot be read: {}", name, error));
+  const std::vector<Message> said = pool::said_in(again);
+  if (again.contains("error")) {
+    out.findings.push_back(msg("{}: its file cannot be read: {}", name, List{said, true}));
     return;
   }
   if (text_in(again, "sha256") != s.file_sha256)
     out.findings.push_back(msg("{}: its file was changed while it was checked, or a log lies beside it", name));
-  if (const json& said = member_of(again, "said"); !said.is_null())
-    for (const Message& f : decode_messages(said)) out.findings.push_back(msg("{}: {}", name, f));
+  for (const Message& f : said) out.findings.push_back(msg("{}: {}", name, f));
   const json& result = member_of(again, "result");
   const auto differ = s.filed->is_object() && result.is_object() ? grading::result_differences(*s.filed, result) : std::vector<Message>();
   if (differ.empty()) return;
@@ -127,7 +126,7 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {
-      out.findings.push_back(msg("{}: its file cannot be read: {}", name_of(s), e.what()));
+      out.findings.push_back(msg("{}: its file cannot be read: {}", name_of(s), said_by(e)));
     }
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)

@@ -9,6 +9,7 @@
 
 #include "engine/base/bytes.h"
 #include "engine/base/hash.h"
+#include "engine/base/where.h"
 #include "grading/ledger/signed_note.h"
 
 namespace cavum::ledger {
@@ -42,10 +43,9 @@ struct ReadCheckpoint {
   SignedNote note;
 };
 /// Throws Error(`where`, ...) when `note` is no checkpoint of a ledger. The signature is not checked.
-[[nodiscard]] ReadCheckpoint parse_checkpoint(const std::string& note, const std::string& public_key, const std::string& where);
+[[nodiscard]] ReadCheckpoint parse_checkpoint(const std::string& note, const std::string& public_key, const Where& where);
 
 /// The same of a ledger's own. Throws Error(`where`, ...) also when it is of another one.
-[[nodiscard]] Checkpoint checkpoint_in(const std::string& note, const std::string& ledger_id, const std::string& public_key,
-                                       const std::string& where);
+[[nodiscard]] Checkpoint checkpoint_in(const std::string& note, const std::string& ledger_id, const std::string& public_key, const Where& where);
 
 }  // namespace cavum::ledger

@@ -7,6 +7,7 @@
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/said_by.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/motion_source.h"
@@ -71,7 +72,7 @@ std::vector<Message> check_begin(const LedgerContent& content, const SessionRead
       findings.emplace_back(msg("its ticket asks for the ledger's word to begin, and nobody asked the ledger"));
     return findings;
   }
-  const Begin b = parse_begin(text, "", "the ledger's word to begin");
+  const Begin b = parse_begin(text, "", msg("the ledger's word to begin"));
   if (b.ledger != content.id || !content.has_key(b.public_key) || b.ticket != ticket.ticket.nonce)
     return {msg("the word to begin in it is of another ledger or ticket")};
   const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
@@ -149,7 +150,7 @@ Message other_ending(const SessionReader& session, std::uint64_t seq, const std:
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    return msg("the ticket was used before: entry {}, whose file cannot be compared: {}", seq, Name{e.what()});
+    return msg("the ticket was used before: entry {}, whose file cannot be compared: {}", seq, said_by(e));
   }
 }
 
@@ -205,7 +206,7 @@ std::vector<Message> check_claims(const LedgerContent& content, const Registry& 
     return findings;
   }
   try {
-    const Ticket ticket = parse_ticket(text, "", "the session's ticket");
+    const Ticket ticket = parse_ticket(text, "", msg("the session's ticket"));
     if (!content.has_key(ticket.public_key)) findings.emplace_back(msg("the session's ticket is the ticket of another school"));
     for (auto& f : check_ticket(ticket, setup, session.created().utc_ns)) findings.push_back(std::move(f));
     if (ticket.ledger != content.id) findings.emplace_back(msg("the ticket was issued by another ledger"));

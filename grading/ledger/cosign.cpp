@@ -8,7 +8,6 @@
 #include <sstream>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "grading/ledger/folder_lock.h"
 #include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"
@@ -188,8 +187,8 @@ std::vector<NoteKey> read_cosigners(const std::string& path) {
 CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<NoteKey>& known, const LedgerContent& ledger) {
   CosignedNoteCheck out;
   try {
-    const std::string key_then = ledger.key_of(parse_checkpoint(text, ledger.public_key, "cosigned note").checkpoint.size);
-    const ReadCheckpoint read = parse_checkpoint(text, key_then, "cosigned note");
+    const std::string key_then = ledger.key_of(parse_checkpoint(text, ledger.public_key, msg("cosigned note")).checkpoint.size);
+    const ReadCheckpoint read = parse_checkpoint(text, key_then, msg("cosigned note"));
     const auto school = check_note(read.note, checkpoint_key(read.ledger_id, key_then));
     if (school != NoteVerdict::holds)
       out.findings.emplace_back(school == NoteVerdict::absent ? msg("the ledger's school has not signed it")

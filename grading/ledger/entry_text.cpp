@@ -1,11 +1,8 @@
 #include "grading/ledger/entry_text.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 
-#include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"
@@ -43,13 +40,13 @@ json write_json(const AsUtc<const std::int64_t>& t) { return utc_text(t.ns); }
 void read_json(const json& from, const JsonPlace& at, const AsUtc<std::int64_t>& t) {
   std::string text;
   read_json_value(from, at, text);
-  t.ns = parse_utc(text, english_text(at.text()));
+  t.ns = parse_utc(text, at.text());
 }
 json write_json(const AsHex<const Sha256>& hash) { return to_hex(hash.bytes); }
 void read_json(const json& from, const JsonPlace& at, const AsHex<Sha256>& hash) {
   std::string text;
   read_json_value(from, at, text);
-  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, english_text(at.text()));
+  hash.bytes = fixed_from_hex<sizeof(Sha256)>(text, at.text());
 }
 json write_json(const Opening& o) { return o.sha256; }
 void read_json(const json& from, const JsonPlace& at, Opening& o) {
@@ -127,7 +124,7 @@ void body_fields(Of& of, Said& e) {
 
 namespace {
 
-JsonSource source_of(const std::string& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
+JsonSource source_of(const Where& where) { return {where, msg("use an intact copy"), true, 1U << 20, 1'000'000}; }
 
 /// Notes where the openings are.
 struct FindOpenings {
@@ -162,7 +159,7 @@ std::string entry_text(const LedgerEntry& e) {
   return json{{"body", to_json_value(body)}, {"kind", kind_name(*e.what)}, {"seq", e.seq}, {"utc_ns", e.utc_ns}}.dump();
 }
 
-LedgerEntry read_entry(const std::string& text, const std::string& where) {
+LedgerEntry read_entry(const std::string& text, const Where& where) {
   LedgerEntry e;
   const JsonSource source = source_of(where);
   std::string kind;
@@ -179,7 +176,7 @@ LedgerEntry read_entry(const std::string& text, const std::string& where) {
 
 LedgerEntry read_entry_or_none(const std::string& text) noexcept {
   try {
-    return read_entry(text, "entry");
+    return read_entry(text, msg("entry"));
   } catch (const std::exception&) {
     return {};
   }
@@ -207,7 +204,7 @@ json json_of(const Value& value) {
 }
 
 template <class Value>
-Value value_in(const json& j, const std::string& where) {
+Value value_in(const json& j, const Where& where) {
   return json_value_of<Value>(j, source_of(where));
 }
 
@@ -217,7 +214,7 @@ const char* word_of(Enum value) {
 }
 
 template <class Enum>
-Enum of_word(const std::string& word, const std::string& where) {
+Enum of_word(const std::string& word, const Where& where) {
   return json_value_of<Enum>(word, {where, msg("say one of its words")});
 }
 
@@ -225,13 +222,13 @@ template json json_of(const Ticket&);
 template json json_of(const Begin&);
 template json json_of(const StationRequest&);
 template json json_of(const SignedRequest&);
-template Ticket value_in(const json&, const std::string&);
-template Begin value_in(const json&, const std::string&);
-template SignedRequest value_in(const json&, const std::string&);
+template Ticket value_in(const json&, const Where&);
+template Begin value_in(const json&, const Where&);
+template SignedRequest value_in(const json&, const Where&);
 template const char* word_of(Part);
 template const char* word_of(FirstSitting);
 template const char* word_of(Outcome);
-template FirstSitting of_word(const std::string&, const std::string&);
-template Outcome of_word(const std::string&, const std::string&);
+template FirstSitting of_word(const std::string&, const Where&);
+template Outcome of_word(const std::string&, const Where&);
 
 }  // namespace cavum::ledger

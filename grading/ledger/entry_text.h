@@ -5,6 +5,7 @@
 #include <nlohmann/json.hpp>
 #include <string>
 
+#include "engine/base/where.h"
 #include "grading/ledger/entry.h"
 
 namespace cavum::ledger {
@@ -13,7 +14,7 @@ namespace cavum::ledger {
 [[nodiscard]] std::string entry_text(const LedgerEntry& entry);
 /// What a text says; openings have their hashes alone. Throws Error(`where`, ...), which names what is missing, too long, of another type, or more
 /// than its kind has.
-[[nodiscard]] LedgerEntry read_entry(const std::string& text, const std::string& where);
+[[nodiscard]] LedgerEntry read_entry(const std::string& text, const Where& where);
 /// The same of a text from elsewhere; an entry that says nothing where it cannot be read.
 [[nodiscard]] LedgerEntry read_entry_or_none(const std::string& text) noexcept;
 
@@ -28,12 +29,12 @@ template <class Value>
 [[nodiscard]] nlohmann::json json_of(const Value& value);
 /// Throws Error(`where`, ...) as read_entry() does.
 template <class Value>
-[[nodiscard]] Value value_in(const nlohmann::json& j, const std::string& where);
+[[nodiscard]] Value value_in(const nlohmann::json& j, const Where& where);
 
 /// Of Part, FirstSitting and Outcome: its word, and the value of a word. Throws Error(`where`, ...) for another.
 template <class Enum>
 [[nodiscard]] const char* word_of(Enum value);
 template <class Enum>
-[[nodiscard]] Enum of_word(const std::string& word, const std::string& where);
+[[nodiscard]] Enum of_word(const std::string& word, const Where& where);
 
 }  // namespace cavum::ledger

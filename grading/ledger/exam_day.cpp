@@ -1,17 +1,16 @@
 #include "grading/ledger/exam_day.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/text.h"
+#include "engine/base/where.h"
 #include "grading/ledger/candidate_id.h"
 #include "grading/ledger/ledger.h"
 
 namespace cavum::ledger {
 namespace {
 
-void require_words(const std::string& what, const std::string& text) {
+void require_words(const Where& what, const std::string& text) {
   if (text.size() > k_longest_words || !is_seen_text(text))
     throw Error(what, msg("is no line of text of at most {} bytes", k_longest_words), msg("say it in one line, without names: it is kept"));
 }
@@ -52,7 +51,7 @@ void take_go_on(ExamDay& day, const LedgerEntry& e, const GoOnEntry& what) {
 }
 
 const LedgerEntry& announce(Ledger& ledger, const std::string& words, const Audience& audience) {
-  require_words("the announcement", words);
+  require_words(msg("the announcement"), words);
   return ledger.append([&](const LedgerContent&) {
     require_audience(ledger.registry(), audience);
     return AnnounceEntry{words, audience};
@@ -60,7 +59,7 @@ const LedgerEntry& announce(Ledger& ledger, const std::string& words, const Audi
 }
 
 const LedgerEntry& hold_exams(Ledger& ledger, const std::string& reason, const Audience& audience) {
-  require_words("the reason", reason);
+  require_words(msg("the reason"), reason);
   return ledger.append(
       [&](const LedgerContent&) {
         require_audience(ledger.registry(), audience);
@@ -70,7 +69,7 @@ const LedgerEntry& hold_exams(Ledger& ledger, const std::string& reason, const A
 }
 
 const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::string& reason) {
-  require_words("the reason", reason);
+  require_words(msg("the reason"), reason);
   return ledger.append(
       [&](const LedgerContent&) {
         ExamDay day = ledger.registry().day;
@@ -81,7 +80,7 @@ const LedgerEntry& let_go_on(Ledger& ledger, std::uint64_t hold, const std::stri
 }
 
 const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, const std::string& candidate, const std::string& words) {
-  require_words("the incident", words);
+  require_words(msg("the incident"), words);
   if (!candidate.empty() && !is_pseudonym(candidate)) throw Error(msg("the candidate"), msg("is no pseudonym"), msg("choose one of the list"));
   return ledger.append([&](const LedgerContent&) {
     const Registry& registry = ledger.registry();

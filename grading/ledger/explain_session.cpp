@@ -1,11 +1,8 @@
 #include "grading/ledger/explain_session.h"
 
-#include <fmt/core.h>
-
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "engine/base/text.h"
 #include "engine/selfcheck/check_note.h"
 #include "engine/session/chain.h"
 #include "engine/session/clock_check.h"
@@ -61,10 +58,9 @@ void say_closing(SessionExplanation& e, const SessionReader& session, const Veri
 /// What the school promised, and whether this is it.
 void say_ticket(SessionExplanation& e, const SessionReader& session, const SessionSetup& setup, const std::string& ticket_text,
                 const std::string& school_key) {
-  const Ticket ticket = parse_ticket(ticket_text, school_key, "the session's ticket");
+  const Ticket ticket = parse_ticket(ticket_text, school_key, msg("the session's ticket"));
   auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
-  for (auto& f : scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario of the session").scenario))
-    wrong.push_back(std::move(f));
+  for (auto& f : scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario.toml").scenario)) wrong.push_back(std::move(f));
   e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
   if (wrong.empty())
     e.proved.push_back(

@@ -77,8 +77,8 @@ Identities::Identities(const std::string& path, bool may_make)
 }
 
 std::string Identities::enrol(const std::string& id, const std::string& name, const std::string& exam, const SigningKey& school) {
-  require_candidate_id("candidate", id);
-  require_candidate_id("name", name);
+  require_candidate_id(msg("candidate"), id);
+  require_candidate_id(msg("name"), name);
   if (is_pseudonym(id))
     throw Error(msg("candidate '{}'", id), msg("is what a pseudonym looks like, and would be taken for one"),
                 msg("give the school's own number or address"));

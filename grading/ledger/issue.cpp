@@ -34,13 +34,13 @@ std::string issue(Ledger& ledger, Ticket ticket, const std::string& candidate, A
     const IssuedTicket* live = registry.live_ticket(candidate, exam, read_clocks().utc_ns);
     if (live != nullptr && another == Another::refuse)
       throw AnotherTicket(
-          "candidate " + candidate,
+          msg("candidate {}", candidate),
           msg("has a ticket for {} that is good until {} (entry {})", one_line(exam), utc_text(live->ticket.not_after_utc_ns), live->seq),
           msg("cancel it with `cavum ledger cancel`, or add --another"));
     const auto sat = std::find_if(registry.sessions.begin(), registry.sessions.end(),
                                   [&](const FiledSession& s) { return s.candidate == candidate && s.scenario_id == exam; });
     if (sat != registry.sessions.end() && another == Another::refuse)
-      throw AnotherTicket("candidate " + candidate, msg("has sat {} (entry {})", one_line(exam), sat->seq),
+      throw AnotherTicket(msg("candidate {}", candidate), msg("has sat {} (entry {})", one_line(exam), sat->seq),
                           msg("give a makeup sitting for it, or add --another: of several attempts the last one that is released counts"));
     return TicketEntry{made.ticket, made.signature, {}};
   });
@@ -122,7 +122,7 @@ std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const Lis
     one.candidate = identities.enrol(person.id, person.name, ticket.exam, ledger.key());
     try {
       const std::string text = issue(ledger, ticket, one.candidate, wish.another);
-      one.ticket = parse_ticket(text, "", "the ticket");
+      one.ticket = parse_ticket(text, "", msg("the ticket"));
       one.entry = ledger.content().entries.back().seq;
       keep(one, text);
       if (!stations[i].empty()) seats.push_back({*one.entry, stations[i]});

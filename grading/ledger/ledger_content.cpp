@@ -22,7 +22,7 @@ namespace {
 
 /// What the row says, as far as it can be read; else a finding.
 LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, std::vector<Message>& findings) {
-  const std::string name = fmt::format("entry {}", seq);
+  const Message name = msg("entry {}", seq);
   if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back(msg("{}: its text was changed after it was entered", name));
   LedgerEntry e;
   try {
@@ -60,7 +60,7 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
       if (there && by) c.findings.push_back(msg("{} was erased by entry {}, and stands there again", name, *by));
       if (!there) continue;
       try {
-        opening->value = opened_value(found->second, opening->sha256, "opening");
+        opening->value = opened_value(found->second, opening->sha256, msg("opening"));
       } catch (const Error&) {
         c.findings.push_back(msg("{} was changed after it was entered", name));
       }
@@ -119,7 +119,7 @@ StoredNotes stored_notes(Database& db) {
 
 void take_notes(LedgerContent& c, const StoredNotes& stored) {
   for (const auto& [size, text] : stored.notes) {
-    const std::string name = fmt::format("checkpoint {}", size);
+    const Message name = msg("checkpoint {}", size);
     try {
       const ReadCheckpoint read = parse_checkpoint(text, c.key_of(size), name);
       if (read.ledger_id != c.id || read.checkpoint.size != size || text != checkpoint_note(c.id, c.key_of(size), read.checkpoint))
@@ -130,7 +130,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
-    const std::string name = fmt::format("cosignature under {} entries", size);
+    const Message name = msgn("cosignature under {} entry", "cosignature under {} entries", static_cast<std::int64_t>(size), size);
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
@@ -148,7 +148,7 @@ LedgerEntry make_entry(std::uint64_t seq, Entry what, Actor by) {
   e.by = std::move(by);
   e.what = std::move(what);
   e.text = entry_text(e);
-  static_cast<void>(read_entry(e.text, fmt::format("entry {}", seq)));  // nothing is entered that could not be read
+  static_cast<void>(read_entry(e.text, msg("entry {}", seq)));  // nothing is entered that could not be read
   e.leaf = leaf_hash(ledger_bytes(e.text));
   return e;
 }

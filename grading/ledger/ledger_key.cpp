@@ -1,6 +1,5 @@
 #include "grading/ledger/ledger_key.h"
 
-#include <fmt/core.h>
 #include <sodium.h>
 
 #include <filesystem>
@@ -27,7 +26,7 @@ std::string random_hex(std::size_t bytes) {
   return to_hex(b);
 }
 
-Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& where) {
+Bytes from_hex(const std::string& hex, std::size_t bytes, const Where& where) {
   Bytes out(bytes);
   std::size_t read = 0;
   const bool whole = hex.size() == 2 * bytes && hex.find_first_not_of("0123456789abcdef") == std::string::npos &&

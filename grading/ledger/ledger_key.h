@@ -9,6 +9,7 @@
 #include <string>
 
 #include "engine/base/bytes.h"
+#include "engine/base/where.h"
 #include "engine/session/station_key.h"
 
 namespace cavum::ledger {
@@ -23,9 +24,9 @@ namespace cavum::ledger {
 /// `bytes` fresh random bytes as hexadecimal digits (libsodium).
 [[nodiscard]] std::string random_hex(std::size_t bytes);
 /// Bytes of lower-case hexadecimal digits; throws Error(`where`, ...) for anything else, or when they are not `bytes` many.
-[[nodiscard]] Bytes from_hex(const std::string& hex, std::size_t bytes, const std::string& where);
+[[nodiscard]] Bytes from_hex(const std::string& hex, std::size_t bytes, const Where& where);
 template <std::size_t N>
-[[nodiscard]] std::array<std::uint8_t, N> fixed_from_hex(const std::string& hex, const std::string& where) {
+[[nodiscard]] std::array<std::uint8_t, N> fixed_from_hex(const std::string& hex, const Where& where) {
   const Bytes b = from_hex(hex, N, where);
   std::array<std::uint8_t, N> out{};
   std::copy(b.begin(), b.end(), out.begin());

@@ -1,7 +1,5 @@
 #include "grading/ledger/makeup.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "grading/ledger/issue.h"
@@ -32,19 +30,19 @@ std::string issue_makeup(Ledger& ledger, Ticket ticket, const MakeupWish& wish) 
   ledger.append(
       [&](const LedgerContent&) {
         const Registry& registry = ledger.registry();  // as it is under the lock
-        const std::string where = fmt::format("the ticket of entry {}", wish.first);
+        const Message where = msg("the ticket of entry {}", wish.first);
         const IssuedTicket* first = registry.ticket(wish.first);
-        if (first == nullptr) throw Error(LedgerError::unknown, Name{where}, msg("is none"), msg("look at the list of tickets again"));
+        if (first == nullptr) throw Error(LedgerError::unknown, where, msg("is none"), msg("look at the list of tickets again"));
         if (first->ticket.exam != ticket.exam) throw Error(where, msg("is of another exam"), msg("a makeup is of the same exam"));
         Message why_not;
         const std::int64_t now = read_clocks().utc_ns;
         const auto may = makeup_reasons(registry, *first, now, why_not);
         if (std::find(may.begin(), may.end(), wish.became) == may.end())
-          throw Error(LedgerError::not_now, Name{where}, may.empty() ? why_not : msg("was not missed: it was begun, or its time is not over"),
+          throw Error(LedgerError::not_now, where, may.empty() ? why_not : msg("was not missed: it was begun, or its time is not over"),
                       msg("look at the list of tickets again"));
         for (const auto& t : registry.tickets)
           if (t.seq != first->seq && t.ticket.candidate == first->ticket.candidate && t.ticket.exam == ticket.exam && t.live(now))
-            throw AnotherTicket("candidate " + first->ticket.candidate, msg("has another ticket that is good (entry {})", t.seq),
+            throw AnotherTicket(msg("candidate {}", first->ticket.candidate), msg("has another ticket that is good (entry {})", t.seq),
                                 msg("cancel that one first"));
         ticket.candidate = first->ticket.candidate;
         ticket.nonce = random_hex(16);

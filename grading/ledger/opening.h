@@ -8,6 +8,7 @@
 #include <string>
 
 #include "engine/base/shared_value.h"
+#include "engine/base/where.h"
 
 namespace cavum::ledger {
 
@@ -24,7 +25,7 @@ struct Opening {
 /// With 128 fresh random bits of salt.
 [[nodiscard]] Opening make_opening(const nlohmann::json& value);
 /// The value in an opening's text. Throws Error(`where`, ...) when the text is none, or its hash is not `sha256` (hexadecimal).
-[[nodiscard]] nlohmann::json opened_value(const std::string& text, const std::string& sha256, const std::string& where);
+[[nodiscard]] nlohmann::json opened_value(const std::string& text, const std::string& sha256, const Where& where);
 
 /// What can be erased: of a filed session or a regrade its recording (a file), its result, and the result that its station sealed instead; of an
 /// incident what was said.

@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "engine/base/json_fields.h"
+#include "engine/base/said_by.h"
 #include "engine/session/session.h"
 #include "grading/ledger/entry_text.h"
 #include "grading/ledger/history.h"
@@ -89,7 +90,7 @@ std::vector<Message> check_receipt(const json& receipt, const std::string& publi
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    findings.push_back(msg("is no receipt: {}", Name{e.what()}));
+    findings.push_back(msg("is no receipt: {}", said_by(e)));
   }
   return findings;
 }

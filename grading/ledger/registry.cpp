@@ -1,13 +1,12 @@
 #include "grading/ledger/registry.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <map>
 #include <set>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/said_by.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/erasure.h"
 
@@ -171,10 +170,8 @@ class RegistryReader {
       say(msg("speaks of an entry that is not there"));
     } catch (const std::bad_alloc&) {
       throw;
-    } catch (const Error& error) {
-      say(error.message());
     } catch (const std::exception& error) {
-      say(Name{error.what()});
+      say(said_by(error));
     }
   }
   [[nodiscard]] const Registry& so_far() const noexcept { return r_; }
@@ -186,7 +183,7 @@ class RegistryReader {
   void operator()(const RestoreEntry&) {}
 
   void operator()(const TicketEntry& what) {
-    require_signed(what.ticket, what.signature, content_->key_of(e_->seq + 1), "ticket");
+    require_signed(what.ticket, what.signature, content_->key_of(e_->seq + 1), msg("ticket"));
     IssuedTicket t{e_->seq, what.ticket, {}, {}, {}};
     t.first_sitting = e_->seq;
     if (what.makes_up) make_up(*what.makes_up, t);
@@ -221,7 +218,7 @@ class RegistryReader {
 
   void operator()(const BeginEntry& what) {
     const Begin& b = what.begin;
-    require_signed(b, what.signature, content_->key_of(e_->seq + 1), "begin");
+    require_signed(b, what.signature, content_->key_of(e_->seq + 1), msg("word to begin"));
     IssuedTicket& t = r_.tickets.at(by_nonce_.at(b.ticket));
     constexpr std::int64_t k_moment_ns = 60'000'000'000;
     if (std::abs(b.utc_ns - e_->utc_ns) > k_moment_ns) say(msg("lets an exam begin at another time than it was entered"));

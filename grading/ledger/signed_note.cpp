@@ -46,7 +46,7 @@ std::span<const std::uint8_t> bytes_of(const std::string& text) { return {reinte
 /// What a cosigner signs.
 std::string cosigned_text(const std::string& text, std::uint64_t utc_s) { return fmt::format("cosignature/v1\ntime {}\n{}", utc_s, text); }
 
-[[noreturn]] void no_note(const std::string& where, const Message& why) {
+[[noreturn]] void no_note(const Where& where, const Message& why) {
   throw Error(where, msg("is no signed note: {}", why), msg("name a note that `cavum ledger` wrote, unchanged"));
 }
 
@@ -68,7 +68,7 @@ std::optional<Bytes> from_base64(const std::string& text) {
   return to_base64(out) == text ? std::optional(std::move(out)) : std::nullopt;
 }
 
-void require_note_name(const std::string& name, const std::string& where) {
+void require_note_name(const std::string& name, const Where& where) {
   if (name.empty() || name.size() > k_longest_name || !is_plain_text(name) || has_space_or_plus(name))
     throw Error(where, msg("'{}' is no name for a signature", one_line(name)), msg("give 1 to 254 bytes of text without spaces and plus signs"));
 }
@@ -88,7 +88,7 @@ std::string key_line(const NoteKey& key) {
   return fmt::format("{}+{}+{}", key.name, to_hex(key_id_of(key)), to_base64(b));
 }
 
-NoteKey parse_key_line(const std::string& line, const std::string& where) {
+NoteKey parse_key_line(const std::string& line, const Where& where) {
   const auto fail = [&]() -> NoteKey {
     throw Error(where, msg("is no key of a note: NAME+key id+base64"), msg("copy the whole line that its owner shows"));
   };
@@ -103,7 +103,7 @@ NoteKey parse_key_line(const std::string& line, const std::string& where) {
   return key;
 }
 
-NoteSignature parse_signature_line(const std::string& line, const std::string& where) {
+NoteSignature parse_signature_line(const std::string& line, const Where& where) {
   const auto name_end = line.find(' ', k_dash.size());
   if (!line.starts_with(k_dash) || name_end == std::string::npos || line.empty() || line.back() != '\n')
     no_note(where, msg("a line of a signature is none"));
@@ -121,7 +121,7 @@ std::string signature_line(const NoteSignature& s) {
   return fmt::format("{}{} {}\n", k_dash, s.name, to_base64(b));
 }
 
-SignedNote parse_note(const std::string& note, const std::string& where) {
+SignedNote parse_note(const std::string& note, const Where& where) {
   if (note.size() > k_longest_note) no_note(where, msg("it is longer than 1 MB"));
   const auto gap = note.rfind("\n\n");
   if (gap == std::string::npos || note.back() != '\n') no_note(where, msg("it has no empty line between text and signatures, or no line end"));

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/bytes.h"
+#include "engine/base/where.h"
 #include "engine/session/station_key.h"
 
 namespace cavum::ledger {
@@ -37,14 +38,14 @@ struct NoteKey {
 /// A key on one line, as C2SP writes verifier keys: "NAME+hexadecimal key id+base64(kind, public key)".
 [[nodiscard]] std::string key_line(const NoteKey& key);
 /// Throws Error(`where`, ...) when `line` is none, or its id is not its key's.
-[[nodiscard]] NoteKey parse_key_line(const std::string& line, const std::string& where);
+[[nodiscard]] NoteKey parse_key_line(const std::string& line, const Where& where);
 /// Throws Error(`where`, ...) unless `name` is text without spaces and plus signs, 1 to 254 bytes.
-void require_note_name(const std::string& name, const std::string& where);
+void require_note_name(const std::string& name, const Where& where);
 
 /// Throws Error(`where`, ...) when `note` is no signed note, is longer than 1 MB, or has more than 100 signatures.
-[[nodiscard]] SignedNote parse_note(const std::string& note, const std::string& where);
+[[nodiscard]] SignedNote parse_note(const std::string& note, const Where& where);
 /// Throws Error(`where`, ...) when it is no line of a signature with its line end.
-[[nodiscard]] NoteSignature parse_signature_line(const std::string& line, const std::string& where);
+[[nodiscard]] NoteSignature parse_signature_line(const std::string& line, const Where& where);
 [[nodiscard]] std::string signature_line(const NoteSignature& signature);
 [[nodiscard]] std::string write_note(const SignedNote& note);
 

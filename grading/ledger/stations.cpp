@@ -1,6 +1,5 @@
 #include "grading/ledger/stations.h"
 
-#include <fmt/core.h>
 #include <sodium.h>
 
 #include <algorithm>
@@ -53,14 +52,14 @@ SignedRequest request_of(const SigningKey& key, const std::string& school, const
   return out;
 }
 
-void require_signed(const SignedRequest& asked, const std::string& where) {
+void require_signed(const SignedRequest& asked, const Where& where) {
   const StationRequest& r = asked.request;
   const bool has_code = !asked.code_signature.empty();
   if (!is_signed_by(r.public_key, request_message(r), asked.signature))
-    throw Error(LedgerError::bad_signature, Name{where}, msg("the station's signature does not hold: the request was changed"),
+    throw Error(LedgerError::bad_signature, where, msg("the station's signature does not hold: the request was changed"),
                 msg("make it again on the station"));
   if (!is_signed_by(r.by, request_message(r), has_code ? asked.code_signature : asked.old_signature))
-    throw Error(LedgerError::bad_signature, Name{where},
+    throw Error(LedgerError::bad_signature, where,
                 has_code ? msg("the code's signature does not hold") : msg("the signature of the key that is replaced does not hold"),
                 msg("make it again on the station"));
   if (r.devices.size() > k_most_devices)
@@ -73,10 +72,10 @@ Station* station_in(StationRegister& r, const std::string& key) {
 }
 
 /// Whom the request makes a station, by code or in place of another. Throws Error when that cannot be.
-Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t now_utc_ns, const std::string& where) {
+Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t now_utc_ns, const Where& where) {
   const StationRequest& request = asked.request;
   if (station_in(r, request.public_key) != nullptr)
-    throw Error(LedgerError::twice, Name{where}, msg("this key was enrolled before"), msg("see `cavum ledger station`"));
+    throw Error(LedgerError::twice, where, msg("this key was enrolled before"), msg("see `cavum ledger station`"));
   Station s;
   s.public_key = request.public_key;
   s.enrolled_utc_ns = now_utc_ns;
@@ -94,12 +93,11 @@ Station enrolled(StationRegister& r, const SignedRequest& asked, std::int64_t no
   }
   const auto code = std::find_if(r.invitations.begin(), r.invitations.end(), [&](const StationInvitation& i) { return i.code_key == request.by; });
   if (code == r.invitations.end())
-    throw Error(LedgerError::unknown, Name{where}, msg("its code was not given out by this ledger"),
+    throw Error(LedgerError::unknown, where, msg("its code was not given out by this ledger"),
                 msg("invite the station with `cavum ledger station --invite`"));
-  if (code->used)
-    throw Error(LedgerError::used, Name{where}, msg("its code was used before"), msg("invite the station anew: each code is good once"));
+  if (code->used) throw Error(LedgerError::used, where, msg("its code was used before"), msg("invite the station anew: each code is good once"));
   if (now_utc_ns > code->until_utc_ns)
-    throw Error(LedgerError::ended, Name{where}, msg("its code ran out on {}", utc_text(code->until_utc_ns)), msg("invite the station anew"));
+    throw Error(LedgerError::ended, where, msg("its code ran out on {}", utc_text(code->until_utc_ns)), msg("invite the station anew"));
   code->used = true;
   s.name = code->name;
   return s;
@@ -129,7 +127,7 @@ void take_invite(StationRegister& r, const LedgerEntry& e, const InviteEntry& wh
 }
 
 void take_enrol(StationRegister& r, const LedgerEntry& e, const EnrolEntry& what, const std::string& school) {
-  const std::string where = "station entry";
+  const Message where = msg("the entry of a station");
   require_signed(what.asked, where);
   if (what.asked.request.school != school) throw Error(where, msg("asks another school"), msg("use an intact copy"));
   Station s = enrolled(r, what.asked, e.utc_ns, where);
@@ -185,14 +183,14 @@ std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t
   return code;
 }
 
-const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::int64_t until_utc_ns, const std::string& where) {
+const LedgerEntry& enrol_station(Ledger& ledger, const std::string& text, std::int64_t until_utc_ns, const Where& where) {
   const json j = parse_json_or_null(text, k_json_part);
   if (!member_of(j, "request").is_object()) throw Error(where, msg("is no station's request"), msg("name a file that `cavum station --enrol` wrote"));
   const auto asked = value_in<SignedRequest>(j, where);
   require_signed(asked, where);
   return ledger.append([&](const LedgerContent& now) {
     if (asked.request.school != now.public_key)
-      throw Error(LedgerError::another_key, Name{where}, msg("asks another school to be enrolled"),
+      throw Error(LedgerError::another_key, where, msg("asks another school to be enrolled"),
                   msg("copy this school's school.pub to the station, and ask again"));
     StationRegister stations = ledger.registry().stations;
     static_cast<void>(enrolled(stations, asked, read_clocks().utc_ns, where));

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "engine/base/where.h"
 #include "engine/session/motion_source.h"
 #include "engine/session/station_key.h"
 #include "grading/ledger/entry.h"
@@ -61,7 +62,7 @@ void take_room(StationRegister& stations, const RoomEntry& what);
 [[nodiscard]] std::string invite_station(Ledger& ledger, const std::string& name, std::int64_t until_utc_ns);
 /// Enters the station that a request is of, known until `until_utc_ns` (0 = without end). Throws Error(`where`, ...) when the code is unknown, used
 /// or run out, or a signature does not hold.
-const LedgerEntry& enrol_station(Ledger& ledger, const std::string& request, std::int64_t until_utc_ns, const std::string& where);
+const LedgerEntry& enrol_station(Ledger& ledger, const std::string& request, std::int64_t until_utc_ns, const Where& where);
 /// Enters in which room a station stands; an empty one: in none. Throws Error when it is not enrolled, or `room` is no line of at most 80 bytes.
 const LedgerEntry& place_station(Ledger& ledger, const std::string& public_key, const std::string& room);
 /// Enters that nothing counts any more that this key signs and that comes in from now on. Throws Error when it is not enrolled, or was revoked

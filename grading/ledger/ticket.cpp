@@ -1,7 +1,5 @@
 #include "grading/ledger/ticket.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cstdio>
 
@@ -59,18 +57,19 @@ SignedTicket sign_ticket(Ticket t, const SigningKey& school) {
   return out;
 }
 
-void require_signed(const Ticket& t, const std::string& signature, const std::string& public_key, const std::string& where) {
+void require_signed(const Ticket& t, const std::string& signature, const std::string& public_key, const Where& where) {
   if (!public_key.empty() && t.public_key != public_key)
     throw Error(where, msg("is the ticket of another school"), msg("ask for one of this school"));
-  if (!is_signed_by(fixed_from_hex<32>(t.public_key, where + ": public_key"), message_of(t), fixed_from_hex<64>(signature, where + ": signature")))
+  if (!is_signed_by(fixed_from_hex<32>(t.public_key, msg("{}: {}", where, "public_key")), message_of(t),
+                    fixed_from_hex<64>(signature, msg("{}: {}", where, "signature"))))
     throw Error(where, msg("was changed after the school signed it"), msg("ask for a new ticket"));
 }
 
-Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where) {
+Ticket parse_ticket(const std::string& text, const std::string& public_key, const Where& where) {
   const json j = parse_json_or_null(text);
   if (!member_of(j, "ticket").is_object()) throw Error(where, msg("is no ticket"), msg("name a file that `cavum ledger ticket` wrote"));
   auto t = value_in<Ticket>(j["ticket"], where);
-  const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, where + ": grant");
+  const json granted = opened_value(text_in(j, "grant"), t.grant_sha256, msg("{}: {}", where, "grant"));
   if (!granted.is_object()) throw Error(where, msg("grants nothing that can be read"), msg("ask for a new ticket"));
   for (const auto& [key, value] : granted.items()) t.grant.emplace_back(key, text_in(granted, key.c_str()));
   std::sort(t.grant.begin(), t.grant.end());
@@ -98,7 +97,7 @@ std::vector<Message> check_ticket(const Ticket& t, const SessionSetup& setup, st
   return findings;
 }
 
-std::int64_t parse_utc(const std::string& text, const std::string& where) {
+std::int64_t parse_utc(const std::string& text, const Where& where) {
   int year = 0, month = 0, day = 0, hour = 0, minute = 0, second = 0, used = 0;
   const char* c = text.c_str();
   const auto whole = [&] { return used == static_cast<int>(text.size()); };

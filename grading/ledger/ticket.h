@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "engine/base/where.h"
 #include "engine/session/session.h"
 #include "engine/session/station_key.h"
 
@@ -43,15 +44,15 @@ struct SignedTicket {
 /// `grant` is the opening of the accommodations: they stand with the candidate and in the recording, and the ledger knows their hash alone.
 [[nodiscard]] SignedTicket sign_ticket(Ticket ticket, const SigningKey& school);
 /// Throws Error(`where`, ...) when the signature does not hold. `public_key` (hexadecimal): the school's; empty = whoever signed.
-void require_signed(const Ticket& ticket, const std::string& signature, const std::string& public_key, const std::string& where);
+void require_signed(const Ticket& ticket, const std::string& signature, const std::string& public_key, const Where& where);
 /// Throws Error(`where`, ...) when the text is no ticket or its signature does not hold.
-[[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const std::string& where);
+[[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const Where& where);
 
 /// What about the exam is not as promised, in words: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
 /// time.
 [[nodiscard]] std::vector<Message> check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
 
 /// "2026-11-21T09:00Z" or "2026-11-21T09:00:00Z" in ns since 1970; throws Error(`where`, ...).
-[[nodiscard]] std::int64_t parse_utc(const std::string& text, const std::string& where);
+[[nodiscard]] std::int64_t parse_utc(const std::string& text, const Where& where);
 
 }  // namespace cavum::ledger

@@ -45,25 +45,26 @@ Bytes from_hex(const std::string& text, const std::string& where) {
   return bytes;
 }
 
-/// An error's words without the folder, which is another one on each machine.
-std::string below(const std::string& folder, std::string words) {
-  if (folder.empty()) return words;
-  const std::string begin = folder + "/";
-  for (auto at = words.find(begin); at != std::string::npos; at = words.find(begin, at)) words.erase(at, begin.size());
-  return words;
+/// An error speaks of the file without its folder, which is another one on each machine.
+Bytes image_below(const std::string& folder, const std::string& name, std::vector<Message>& findings) {
+  try {
+    return read_session_image(folder.empty() ? name : folder + "/" + name, findings);
+  } catch (const Error& e) {
+    throw Error(e.code(), Name{name}, e.problem(), e.advice());
+  }
 }
 
 /// The session marked as the work asks.
 json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
   const auto graded = grading::load_for_grading(session, grounds);
   if (!work.scenario_toml.empty()) {
-    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario");
+    auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario.toml");
     scenarios::use_surfaces(scenario, work.surfaces);
     grading::use_scenario(*graded, std::move(scenario), work.another_task);
     grading::use_rubric(*graded, graded->scenario.rubric);
   }
-  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric"));
-  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), "result");
+  if (!work.rubric_toml.empty()) grading::use_rubric(*graded, scenarios::parse_rubric(work.rubric_toml, "rubric.toml"));
+  return parse_json(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump(), msg("result"));
 }
 
 }  // namespace
@@ -110,9 +111,13 @@ std::string id_of(const Work& work) { return to_hex(sha256(to_text(work))); }
 std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& grounds) {
   const std::string& name = work.sessions[index];
   json line{{"session", name}};
+  const auto failed = [&line](const Message& error) {
+    line["error"] = one_line(english_text(error));
+    line["said"] = encode(std::vector<Message>{error});
+  };
   try {
     std::vector<Message> findings;
-    const Bytes image = read_session_image(work.folder.empty() ? name : work.folder + "/" + name, findings);
+    const Bytes image = image_below(work.folder, name, findings);
     line["sha256"] = to_hex(sha256(image));
     const SessionReader session(image, name);
     if (work.what == What::verify) {
@@ -130,11 +135,16 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the session
   } catch (const Error& e) {
-    line["error"] = one_line(below(work.folder, english_text(e.without_advice())));
+    failed(e.without_advice());
   } catch (const std::exception& e) {
-    line["error"] = one_line(below(work.folder, e.what()));
+    failed(Name{e.what()});
   }
   return dumped(line);
+}
+
+std::vector<Message> said_in(const json& line) {
+  const json& said = member_of(line, "said");
+  return said.is_null() ? std::vector<Message>() : decode_messages(said);
 }
 
 }  // namespace cavum::pool

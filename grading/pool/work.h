@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,7 @@ struct Work {
 
 /// One line of JSON without its end: `session` (name), `sha256` (of the file), and what comes of it, or `error`. Throws std::bad_alloc only.
 [[nodiscard]] std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& grounds);
+/// The findings or the error of such a line, to be told in any language. Throws std::invalid_argument where it was written by something else.
+[[nodiscard]] std::vector<Message> said_in(const nlohmann::json& line);
 
 }  // namespace cavum::pool

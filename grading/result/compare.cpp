@@ -157,10 +157,10 @@ Message regrade_text(const Comparison& c) {
     return msg("{}, {} of {} points", Term{verdict}, as_points(points), as_points(max));
   };
   const Message now = result(c.verdict, c.points, c.max), sealed = result(c.before.verdict, c.before.points, c.before.max);
-  return c.tampered ? msg("marked anew by {}: {}; the exam was sealed as {}, which is not what grading gives: the result was tampered "
+  return c.tampered ? msg("{} (marked by: {}); the exam was sealed as {}, which is not what grading gives: the result was tampered "
                           "with, or its station's program was, or is another one",
-                          c.by, now, sealed)
-                    : msg("marked anew by {}: {}; the exam was sealed as {}", c.by, now, sealed);
+                          now, c.by, sealed)
+                    : msg("{} (marked by: {}); the exam was sealed as {}", now, c.by, sealed);
 }
 
 Json to_json(const Comparison& c) {

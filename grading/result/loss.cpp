@@ -10,7 +10,7 @@ namespace cavum::grading {
 Message when(const Trace& t) { return msg("{} (tick {})", as_s(t.t_s(), 2), t.tick); }
 
 Message without_ticks(const Message& m) {
-  static const Message k_when = when({});
+  static const Message k_when = when({});  // the one place of its sentence: what has that very address came from when(), whatever it says
   if (m.empty()) return m;
   if (m.english() == k_when.english()) return msg("{}", m.values()[0]);
   std::vector<Value> values = m.values();

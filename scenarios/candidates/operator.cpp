@@ -1,7 +1,5 @@
 #include "scenarios/candidates/operator.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
 #include <string_view>
@@ -280,7 +278,7 @@ ReachMap careless_map(const Scenario& scenario, const ZoneMap& zones, const Toot
 Candidate make_candidate(const std::string& skill_name, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                          const std::vector<ContactTool>& tray, std::uint64_t seed) {
   Skill skill = make_skill(skill_name, seed);
-  const std::string where = scenario.path.empty() ? "scenario" : scenario.path;
+  const Message where = scenario.path.empty() ? msg("the scenario") : Message(Name{scenario.path});
   ChosenPoint chosen = choose_point(zones, tooth, tray);
   if (chosen.index == tray.size() && !zones.target_is_open())
     throw Error(where, msg("the target lies buried: no point comes to it without cutting elsewhere"), msg("let it reach up to the tooth's surface"));

@@ -8,7 +8,6 @@
 
 #include "engine/base/file.h"
 #include "engine/base/shipped.h"
-#include "engine/base/text.h"
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/zones/placed.h"
@@ -89,7 +88,8 @@ ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const
   use_surfaces(task.scenario, task.session.attachments);
   task.scenario.accommodations = granted(task.scenario.accommodations, task.session.notes, scenario_name);
   for (std::size_t i = 0; i < task.session.points_toml.size(); ++i) {
-    task.points.push_back(parse_diamond_point(task.session.points_toml[i], i < point_names.size() ? point_names[i] : "diamond point of the session"));
+    task.points.push_back(
+        parse_diamond_point(task.session.points_toml[i], i < point_names.size() ? point_names[i] : fmt::format("point_{:03}.toml", i)));
     task.point_names.push_back(task.points.back().name);
   }
   return task;
@@ -103,7 +103,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   s.candidate = options.candidate;
   s.device = options.device;
   s.source = options.source;
-  require_sound(options.grant, "accommodations");
+  require_sound(options.grant, msg("the accommodations"));
   s.notes = options.notes;
   for (auto& note : notes_of(options.grant)) s.notes.push_back(std::move(note));
   const std::string tooth_path = options.tooth_file.empty() ? find_tooth_file(scenario) : options.tooth_file;
@@ -137,9 +137,9 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
 }
 
 std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
-  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(session, "scenario of the session"), {}, {}});
-  setup->tooth = load_tooth(session.tooth, "tooth of the session");
-  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "session");
+  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(session, "scenario.toml"), {}, {}});
+  setup->tooth = load_tooth(session.tooth, "start_tooth.cvt");
+  setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, session.landmarks_json, "scenario.toml");
   return setup;
 }
 

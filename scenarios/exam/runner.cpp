@@ -1,7 +1,5 @@
 #include "scenarios/exam/runner.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -54,14 +52,14 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     for (const auto& used : names_in_expression(text))
       if (std::find(names_.begin(), names_.end(), used) == names_.end() && used.rfind("touched_", 0) == 0) names_.push_back(used);
   };
-  const auto wrong = [&](const StepSpec& step, const std::runtime_error& e) {
-    return Error(scenario.path, msg("step '{}': {}", step.id, e.what()), msg("correct the condition"));
+  const auto wrong = [&](const StepSpec& step, const ExpressionError& e) {
+    return Error(scenario.path, msg("step '{}': {}", step.id, e.problem), msg("correct the condition"));
   };
   for (const auto& step : scenario.steps) {
     try {
       name_all(step.complete_when);
       if (!step.fail_when.empty()) name_all(step.fail_when);
-    } catch (const std::runtime_error& e) {
+    } catch (const ExpressionError& e) {
       throw wrong(step, e);
     }
   }
@@ -72,7 +70,7 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
       if (!step.fail_when.empty()) compiled.fail.emplace_back(step.fail_when, names_, values_);
       if (step.time_limit_s) compiled.limit_ticks = step_limit_ticks(scenario, step);
       steps_.push_back(std::move(compiled));
-    } catch (const std::runtime_error& e) {
+    } catch (const ExpressionError& e) {
       throw wrong(step, e);
     }
   }

@@ -20,7 +20,7 @@ std::string in_full(double v) {  // the shortest text that reads back as the sam
   return {text.data(), end};
 }
 
-double number_in(const std::string& text, double most, const std::string& where) {
+double number_in(const std::string& text, double most, const Where& where) {
   double v = -1;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), v);
   if (error != std::errc() || end != text.data() + text.size() || !(v >= 0 && v <= most))
@@ -28,14 +28,14 @@ double number_in(const std::string& text, double most, const std::string& where)
   return v;
 }
 
-bool truth_in(const std::string& text, const std::string& where) {
+bool truth_in(const std::string& text, const Where& where) {
   if (text != "true" && text != "false") throw Error(where, msg("'{}' is neither true nor false", text), msg("use one of them"));
   return text == "true";
 }
 
 }  // namespace
 
-void require_sound(const Grant& g, const std::string& where) {
+void require_sound(const Grant& g, const Where& where) {
   const auto within = [&](const std::optional<double>& v, double most, const Message& name) {
     if (v && !(*v >= 0 && *v <= most)) throw Error(where, msg("{} cannot be {}", name, as_number(*v)), msg("use 0 to {}", as_number(most)));
   };
@@ -56,7 +56,7 @@ std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {
   return notes;
 }
 
-Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes, const std::string& where) {
+Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes, const Where& where) {
   Accommodations a = by_file;
   for (const auto& [key, value] : notes) {
     if (key == k_percent) a.extra_time_percent = number_in(value, k_most_percent, where);

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/message.h"
+#include "engine/base/where.h"
 #include "scenarios/file/scenario.h"
 
 namespace cavum::scenarios {
@@ -19,13 +20,13 @@ struct Grant {
 };
 
 /// Throws Error when a value is outside what a file could say; `where` names the asker.
-void require_sound(const Grant& grant, const std::string& where);
+void require_sound(const Grant& grant, const Where& where);
 /// As notes of a session, "accommodation.extra_time_percent" = "25" and so on; numbers in full.
 [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes_of(const Grant& grant);
 /// What a scenario grants once the notes of a session are heeded. Notes of other kinds are passed over; throws Error on a
 /// value that is none.
 [[nodiscard]] Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes,
-                                     const std::string& where);
+                                     const Where& where);
 /// "25 % and 60 s extra time, left-handed, high-contrast colours"; empty when nothing is granted.
 [[nodiscard]] Message accommodations_text(const Accommodations& a);
 

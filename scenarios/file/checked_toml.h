@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "engine/base/where.h"
 #include "scenarios/file/parse.h"
 
 namespace cavum::scenarios {
@@ -38,7 +39,7 @@ class ProblemList {
 /// Reads one table. `name` is how messages call it ("[zones.leeway]").
 class CheckedTable {
  public:
-  CheckedTable(const toml::table& table, std::string name, ProblemList& problems) : table_(table), name_(std::move(name)), problems_(problems) {}
+  CheckedTable(const toml::table& table, Where name, ProblemList& problems) : table_(table), name_(std::move(name)), problems_(problems) {}
 
   [[nodiscard]] bool has(std::string_view key) const { return table_.contains(key); }
   /// A number within [low, high]; `fallback` when absent (a problem if `required`) or wrong.
@@ -77,7 +78,7 @@ class CheckedTable {
   /// Notes a list longer than `most`, whose items are then not looked at.
   bool too_many(std::string_view key, std::size_t count, std::size_t most);
   const toml::table& table_;
-  std::string name_;
+  Where name_;
   ProblemList& problems_;
   std::vector<std::string> asked_;
 };

@@ -3,7 +3,6 @@
 #include <muParser.h>
 
 #include <cmath>
-#include <stdexcept>
 
 namespace cavum::scenarios {
 namespace {
@@ -14,11 +13,11 @@ double absolute(double a) { return a < 0 ? -a : a; }
 
 void prepare(mu::Parser& parser, const std::string& text) {
   // What muParser would hand to libm, and what would assign: refused by sign, for they are operators.
-  if (text.find('^') != std::string::npos) throw std::runtime_error("powers (^) are not available: multiply instead");
+  if (text.find('^') != std::string::npos) throw ExpressionError(msg("powers (^) are not available: multiply instead"));
   for (std::size_t i = 0; i < text.size(); ++i) {
     const bool compares = (i > 0 && (text[i - 1] == '=' || text[i - 1] == '<' || text[i - 1] == '>' || text[i - 1] == '!')) ||
                           (i + 1 < text.size() && text[i + 1] == '=');
-    if (text[i] == '=' && !compares) throw std::runtime_error("a single = assigns: compare with ==");
+    if (text[i] == '=' && !compares) throw ExpressionError(msg("a single = assigns: compare with =="));
   }
   parser.ClearFun();
   parser.ClearConst();
@@ -31,7 +30,7 @@ void prepare(mu::Parser& parser, const std::string& text) {
 [[noreturn]] void complain(const mu::Parser::exception_type& e) {
   std::string message = e.GetMsg();
   while (!message.empty() && (message.back() == '.' || message.back() == '\n')) message.pop_back();
-  throw std::runtime_error(message);
+  throw ExpressionError(Name{message});
 }
 
 }  // namespace

@@ -127,7 +127,7 @@ void check_shares(const RubricSpec& r, ProblemList& problems) {
     }
 }
 
-RubricSpec read_rubric(const toml::table& table, const std::string& name, Places& places, ProblemList& problems) {
+RubricSpec read_rubric(const toml::table& table, const Where& name, Places& places, ProblemList& problems) {
   CheckedTable t(table, name, problems);
   RubricSpec r;
   r.compensatory = t.word("rule", {"compensatory", "non-compensatory"}, 0, true) == 0;
@@ -204,7 +204,7 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
 }
 
 Scenario read_table(const toml::table& table, const std::string& path, ProblemList& problems) {
-  CheckedTable t(table, "the scenario", problems);
+  CheckedTable t(table, msg("the scenario"), problems);
   Scenario s;
   s.path = path;
   s.id = read_id(t, "");
@@ -261,6 +261,16 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   return s;
 }
 
+/// Whether bytes that are no UTF-8 stand in that line.
+bool is_other_encoding(const std::string& text, std::size_t line) {
+  std::size_t from = 0;
+  for (std::size_t n = 1; n < line && from != std::string::npos; ++n)
+    if ((from = text.find('\n', from)) != std::string::npos) ++from;
+  if (from == std::string::npos) return false;
+  const std::string bytes = text.substr(from, text.find('\n', from) - from), safe = one_line(bytes);  // each such byte is a '?' there
+  return std::count(bytes.begin(), bytes.end(), '?') != std::count(safe.begin(), safe.end(), '?');
+}
+
 /// Parses the TOML itself; a file that is no TOML has exactly one problem.
 bool read_toml(const std::string& text, const std::string& path, toml::table& table, ProblemList& problems) {
   if (text.starts_with("\xff\xfe") || text.starts_with("\xfe\xff") || text.find('\0') != std::string::npos) {
@@ -277,8 +287,7 @@ bool read_toml(const std::string& text, const std::string& path, toml::table& ta
     table = toml::parse(text, path);
     return true;
   } catch (const toml::parse_error& e) {
-    const bool encoding = e.description().find("utf-8") != std::string_view::npos;
-    if (encoding)
+    if (is_other_encoding(text, e.source().begin.line))
       problems.add(e.source(), msg("a letter here is not in UTF-8, as in a text saved as Latin-1"), msg("save the file as UTF-8"), Mistake::not_toml);
     else
       problems.add(e.source(), msg("this is not TOML ({})", e.description()), msg("correct the line"), Mistake::not_toml);
@@ -339,7 +348,7 @@ RubricSpec parse_rubric(const std::string& text, const std::string& path) {
   Places places;
   if (read_toml(text, path, table, problems)) {
     const auto* inner = table.get_as<toml::table>("rubric");
-    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? "[rubric]" : "the rubric", places, problems);
+    r = read_rubric(inner != nullptr ? *inner : table, inner != nullptr ? Where("[rubric]") : msg("the rubric"), places, problems);
   }
   r.path = path;
   require_none(problems.take());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cctype>
-#include <stdexcept>
 
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"
@@ -44,8 +43,8 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
     else if (!is_condition(text))
       t.problem(key, msg("'{}' is a number, not a condition", key), msg("compare it with something, for example \"target_removed_percent >= 90\""),
                 Mistake::condition);
-  } catch (const std::runtime_error& e) {
-    t.problem(key, msg("'{}' cannot be read ({})", key, e.what()), msg("write for example \"target_removed_percent >= 90 && depth_mm < 5\""),
+  } catch (const ExpressionError& e) {
+    t.problem(key, msg("'{}' cannot be read ({})", key, e.problem), msg("write for example \"target_removed_percent >= 90 && depth_mm < 5\""),
               Mistake::condition);
   }
 }
@@ -99,7 +98,7 @@ void check_pause_button(const Scenario& s, ProblemList& problems) {
       std::vector<std::string> used;
       try {
         if (!text.empty()) used = names_in_expression(text);
-      } catch (const std::runtime_error&) {
+      } catch (const ExpressionError&) {
         continue;  // named already
       }
       if (std::find(used.begin(), used.end(), button) == used.end()) continue;

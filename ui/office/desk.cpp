@@ -149,11 +149,11 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
   ticket.grant = *grant;
   const std::string text =
       ledger::issue_makeup(turn.book, ticket, {first, ledger::of_word<ledger::FirstSitting>(asked.became, "what became of the first"), asked.reason});
-  const ledger::Ticket issued = ledger::parse_ticket(text, "", "the ticket");
+  const ledger::Ticket issued = ledger::parse_ticket(text, "", msg("the ticket"));
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {turn.book.content().entries.size() - 1, issued.candidate,
-          tr(scenarios::accommodations_text(scenarios::granted({}, issued.grant, "the ticket")))};
+          tr(scenarios::accommodations_text(scenarios::granted({}, issued.grant, msg("the ticket"))))};
 }
 
 bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
@@ -168,18 +168,18 @@ std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledge
   if (t == nullptr || !keeps_grant(registry, *t))
     throw Error(msg("the accommodations"), msg("of the first ticket are not kept any more"), msg("say them again"));
   if (const std::string file = places_.ticket(t->ticket.nonce); std::filesystem::exists(file))
-    return ledger::parse_ticket(read_text_file(file), "", "the first ticket").grant;
+    return ledger::parse_ticket(read_text_file(file), "", msg("the first ticket")).grant;
   const ledger::FiledSession* sat = registry.session(*t->used_by);
   return ledger::accommodations_in(SessionReader(ledger::recording_of(book.places(), *sat)).setup());
 }
 
 std::vector<std::pair<std::string, std::string>> Desk::grant_on(const std::string& nonce) const {
   if (!std::filesystem::exists(places_.ticket(nonce))) return {};
-  return ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", "the ticket").grant;
+  return ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", msg("the ticket")).grant;
 }
 
 std::string Desk::granted_on(const std::string& nonce) const {
-  return tr(scenarios::accommodations_text(scenarios::granted({}, grant_on(nonce), "the ticket")));
+  return tr(scenarios::accommodations_text(scenarios::granted({}, grant_on(nonce), msg("the ticket"))));
 }
 
 Tickets Desk::tickets(bool grants, const std::set<std::string>& seen) {
@@ -264,7 +264,7 @@ InviteCode Desk::invite(const Invite& asked, const Account& by) {
 
 Entered Desk::revoke(const RevokeStation& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::revoke_station(turn.book, parse_public_key(asked.public_key, "the station's key"), asked.reason).seq};
+  return {ledger::revoke_station(turn.book, parse_public_key(asked.public_key, msg("the station's key")), asked.reason).seq};
 }
 
 Message Desk::station_problem(const std::string& public_key) {

@@ -1,10 +1,7 @@
 // The desk on an exam day: announcements, pauses, incidents, who is not here, rooms and seats.
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <set>
 
-#include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/issue.h"
 #include "ui/office/day_parts.h"
@@ -101,8 +98,8 @@ Seated Desk::seat(const SeatThem& asked, const Account& by) {
   std::size_t left = 0;
   if (asked.sitting) {
     const std::string& exam = asked.sitting->exam;
-    const std::int64_t from = ledger::parse_utc(asked.sitting->not_before, "the first moment"),
-                       until = ledger::parse_utc(asked.sitting->not_after, "the last moment"), now = read_clocks().utc_ns;
+    const std::int64_t from = ledger::parse_utc(asked.sitting->not_before, msg("the first moment")),
+                       until = ledger::parse_utc(asked.sitting->not_after, msg("the last moment")), now = read_clocks().utc_ns;
     seats = free_seats(registry, exam, from, until, asked.room, now);
     for (const auto& t : registry.tickets)
       left +=

@@ -48,7 +48,7 @@ Preview shown_roster(const Roster& roster) {
   for (const std::string& line : shown_each(roster.problems)) out.problem += (out.problem.empty() ? "" : "\n") + line;
   for (const auto& p : roster.people)
     out.people.push_back(
-        {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), "the list")))});
+        {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), msg("the list"))))});
   for (const auto& name : ledger::people_columns()) out.uses.emplace_back(name);
   return out;
 }
@@ -65,7 +65,7 @@ std::int64_t time_limit_s(const std::string& file, const Grants& grants) {
   std::int64_t longest = scenarios::exam_limit_ticks(s);
   for (const auto& grant : grants) {
     scenarios::Scenario granted = s;
-    granted.accommodations = scenarios::granted(s.accommodations, grant, "the exam");
+    granted.accommodations = scenarios::granted(s.accommodations, grant, msg("the exam"));
     longest = std::max(longest, scenarios::exam_limit_ticks(granted));
   }
   return (longest + k_ticks_per_second - 1) / k_ticks_per_second;
@@ -76,8 +76,8 @@ IssueWish issue_wish(const std::string& exam, const std::string& from, const std
   for (const auto& file : exams)
     if (exam_facts(file).id == exam) wish.scenario = file;
   if (wish.scenario.empty()) throw Error(msg("the exam"), msg("is none that this office offers"), msg("choose one of the list"));
-  wish.from_utc_ns = ledger::parse_utc(from, "the first moment");
-  wish.until_utc_ns = ledger::parse_utc(until, "the last moment");
+  wish.from_utc_ns = ledger::parse_utc(from, msg("the first moment"));
+  wish.until_utc_ns = ledger::parse_utc(until, msg("the last moment"));
   if (wish.until_utc_ns <= wish.from_utc_ns)
     throw Error(msg("the last moment"), msg("is not after the first"), msg("give the last moment at which the exam may begin"));
   return wish;
@@ -91,7 +91,7 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const M
     grant = {asked.extra_time_percent, asked.extra_time_s, yes(asked.left_handed), yes(asked.high_contrast)};
     if (!grant.extra_time_percent && !grant.extra_time_s && !grant.left_handed && !grant.high_contrast)
       throw Error(msg("the accommodations"), msg("are none"), msg("say what is granted, or that nothing is"));
-    scenarios::require_sound(grant, "the accommodations");
+    scenarios::require_sound(grant, msg("the accommodations"));
   }
   auto notes = scenarios::notes_of(grant);
   std::sort(notes.begin(), notes.end());

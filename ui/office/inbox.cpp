@@ -16,6 +16,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/memory_reserve.h"
 #include "engine/base/message_json.h"
+#include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
@@ -44,10 +45,8 @@ Handed facts_of(const std::string& path) {
     if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);
   } catch (const std::bad_alloc&) {
     throw;
-  } catch (const Error& e) {
-    if (facts.findings.empty()) facts.findings.push_back(e.message());
   } catch (const std::exception& e) {
-    if (facts.findings.empty()) facts.findings.emplace_back(Name{e.what()});
+    if (facts.findings.empty()) facts.findings.push_back(said_by(e));
   }
   return facts;
 }

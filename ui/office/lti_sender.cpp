@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
+#include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/ledger/passback.h"
@@ -144,10 +145,9 @@ void LtiSender::round(bool asked, bool again) {
       const std::lock_guard guard(lock_);
       troubles_.erase(key);
     } catch (const std::exception& wrong) {
-      const auto* error = dynamic_cast<const Error*>(&wrong);
       const std::lock_guard guard(lock_);
       Trouble& trouble = troubles_[key];
-      trouble.what = error != nullptr ? error->message() : Message(Name{wrong.what()});
+      trouble.what = said_by(wrong);
       trouble.pause = std::clamp(trouble.pause * 2, std::chrono::seconds(k_first_pause), std::chrono::seconds(k_longest_pause));
       trouble.next = Steady::now() + trouble.pause;
     }

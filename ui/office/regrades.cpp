@@ -12,7 +12,6 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/pool/makers.h"
 #include "scenarios/file/parse.h"
@@ -66,7 +65,7 @@ RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
   ledger::RegradeBasis basis;
   basis.rubric_toml = asked.rubric;
   if (basis.rubric_toml.empty()) throw Error(msg("the rubric"), msg("is empty"), msg("choose a file of a rubric (TOML)"));
-  static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "the rubric"));
+  static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "rubric.toml"));
   std::uint64_t entries = 0;
   ledger::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
   end_marking();

@@ -43,7 +43,7 @@ std::string cookie_named(const std::string& field, std::string_view name) {
   return twice ? "" : found;
 }
 
-nlohmann::json Call::json() const { return parse_json(body, "the request", {8U << 20, 100'000, 16}); }
+nlohmann::json Call::json() const { return parse_json(body, msg("the request"), {8U << 20, 100'000, 16}); }
 
 Reply error_reply(int status, const Message& message) { return json_reply({{"error", one_line(tr(message))}}, status); }
 Reply json_reply(const nlohmann::json& body, int status) {

@@ -14,6 +14,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/said_by.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
@@ -144,11 +145,8 @@ void StationLink::speak() {
       }
       take(word);
       pause_ms = k_report_ms;
-    } catch (const Error& wrong) {  // the network, a refusal: it goes on without
-      trouble = wrong.message();
-      pause_ms = std::min(2 * pause_ms, k_longest_wait_ms);
-    } catch (const std::exception& wrong) {  // an answer that is none
-      trouble = Name{wrong.what()};
+    } catch (const std::exception& wrong) {  // the network, a refusal, an answer that is none: it goes on without
+      trouble = said_by(wrong);
       pause_ms = std::min(2 * pause_ms, k_longest_wait_ms);
     }
     guard.lock();
@@ -174,7 +172,7 @@ void StationLink::fetch_tickets(StationClient& client) {
   std::set<std::string> live;
   for (const json& t : client.tickets()) {
     const std::string text = text_in(t, "text");
-    const ledger::Ticket ticket = ledger::parse_ticket(text, options_.school, "the office's ticket");
+    const ledger::Ticket ticket = ledger::parse_ticket(text, options_.school, msg("the office's ticket"));
     const std::string path = fmt::format("{}/{}.ticket", options_.tickets, file_name_of(ticket.candidate));
     live.insert(path);
     std::error_code none;

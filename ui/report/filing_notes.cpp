@@ -19,12 +19,11 @@ void add_filing_notes(Document& d, const ReportSource& s) {
   if (const auto& r = s.filing->regrade; r && !r->person.empty()) {
     const Term verdict{r->verdict};
     const Message decided = s.reader == ReportReader::student
-                                ? msg("{}: {} (entry {} of the ledger, {}).", verdict, r->reason, r->entry, r->date)
-                                : msg("{}, by {}: {} (entry {} of the ledger, {}).", verdict, r->person, r->reason, r->entry, r->date);
+                                ? msg("{}: {} (entry {} of the ledger, {})", verdict, r->reason, r->entry, r->date)
+                                : msg("{}, by {}: {} (entry {} of the ledger, {})", verdict, r->person, r->reason, r->entry, r->date);
     note("decided", tr("Decided by a person"),
-         tr("{} {}", decided,
-            r->by_program == grading::verdict_name(grading::Verdict::review) ? msg("The program had left it to a person")
-                                                                             : msg("The program's own verdict was {}", Term{r->by_program})));
+         r->by_program == grading::verdict_name(grading::Verdict::review) ? tr("{}. The program had left it to a person", decided)
+                                                                          : tr("{}. The program's own verdict was {}", decided, Term{r->by_program}));
   } else if (r)
     note("regraded", tr("Why it was regraded"),
          tr("{} (entry {} of the ledger, {}). The result below is the one that counts", as_is(r->reason), r->entry, as_is(r->date)));

@@ -1,5 +1,7 @@
 #include "ui/report/report_data.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
@@ -63,7 +65,7 @@ json instruments_json(const ReportSource& s) {
     if (static_cast<int>(point) == mounted) continue;
     mounted = static_cast<int>(point);
     if (point >= s.facts.points_toml.size()) continue;
-    const DiamondPoint p = parse_diamond_point(s.facts.points_toml[point], "diamond point of the session");
+    const DiamondPoint p = parse_diamond_point(s.facts.points_toml[point], fmt::format("point_{:03}.toml", point));
     json profile = json::array({{0.0, 0.0}});
     for (const auto& at : p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
       profile.push_back({rounded(at.at.z_mm, 1e-3), rounded(at.at.r_mm, 1e-3)});

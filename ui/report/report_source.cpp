@@ -1,5 +1,7 @@
 #include "ui/report/report_source.h"
 
+#include <fmt/core.h>
+
 #include <algorithm>
 
 #include "engine/instrument/diamond_point.h"
@@ -32,7 +34,7 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
             const auto at = static_cast<std::size_t>(of.point);
             return say(EventGroup::violation, at < points_toml.size()
                                                   ? msg("diamond point not allowed here: {}",
-                                                        Term{parse_diamond_point(points_toml[at], "diamond point of the session").title})
+                                                        Term{parse_diamond_point(points_toml[at], fmt::format("point_{:03}.toml", at)).title})
                                                   : msg("diamond point not allowed here"));
           },
           [&](const AimReached& of) { return say(EventGroup::aim, msg("{} reached: the aim", tissue(of)), of.site_mm); },

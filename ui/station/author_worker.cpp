@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/said_by.h"
 #include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
@@ -155,7 +156,7 @@ void AuthorWorker::find(const AuthorTask& task) {
     f.problems = std::move(checked.problems);
     f.expert_s = checked.expert.time_s;
   } catch (const std::exception& e) {
-    f.problems = {{{task.path}, Name{e.what()}, msg("mend it in a text editor")}};
+    f.problems = {{{task.path}, said_by(e), msg("mend it in a text editor")}};
   }
   f.checked = true;
   publish(std::move(f));

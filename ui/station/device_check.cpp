@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
+#include "engine/base/said_by.h"
 
 namespace cavum::station {
 namespace {
@@ -127,11 +128,8 @@ void DeviceCheck::run() noexcept {
         seen.pedal_came_back = seen.pedal_came_back || (seen.pedal_pressed && r.pedal < 0.05);
       }
       seen.button = (r.flags & (k_button_1 | k_button_2)) != 0;
-    } catch (const Error& e) {
-      seen.error = e.message();
-      stop_.store(true, std::memory_order_release);
     } catch (const std::exception& e) {
-      seen.error = Name{e.what()};
+      seen.error = said_by(e);
       stop_.store(true, std::memory_order_release);
     }
     before = now;

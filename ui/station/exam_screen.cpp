@@ -127,19 +127,19 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
     const ImU32 steel = ink(may ? t.text : t.faint), coated = ink(may ? t.warn : t.faint);
     draw_silhouette(c.shelf[i], {at.x, at.y + t.px(6)}, {size.x, size.y - t.px(62)}, steel, coated);
     push_font(Font::small);
-    // shape, its end and size on a line each; a long line a little smaller, so that all can be read
-    const std::string title = tr("{}", Authored{c.shelf[i].title});
+    // a long word a little smaller, so that all can be read
     const float room = size.x - t.px(6);
+    const std::string title = in_lines(tr("{}", Authored{c.shelf[i].title}), room);
     float below = t.px(54);
     for (std::size_t from = 0; from < title.size();) {
-      const std::size_t to = std::min(title.find(", ", from), title.size());
+      const std::size_t to = std::min(title.find('\n', from), title.size());
       const std::string line = title.substr(from, to - from);
       const float wide = ImGui::CalcTextSize(line.c_str()).x, font = ImGui::GetFontSize() * std::min(1.0F, room / std::max(1.0F, wide));
       draw.AddText(ImGui::GetFont(), font, {at.x + (size.x - std::min(wide, room)) / 2, at.y + size.y - below}, ink(may ? t.text : t.quiet),
                    line.c_str());
       ImGui::LogText("%s\n", line.c_str());
       below -= t.px(17);
-      from = to + 2;
+      from = to + 1;
     }
     if (may) draw.AddText({at.x + t.px(6), at.y + t.px(4)}, ink(t.quiet), fmt::format("F{}", i + 1).c_str());
     pop_font();

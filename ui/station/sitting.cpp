@@ -46,7 +46,7 @@ void ask_for_word(ledger::HeldTicket& held, const std::function<std::string(cons
   ledger::require_promised(promised, session);
   const std::string said = word(held.ticket.nonce);
   if (said.empty()) return;
-  static_cast<void>(ledger::parse_begin(said, held.ticket.public_key, "the office's word"));
+  static_cast<void>(ledger::parse_begin(said, held.ticket.public_key, msg("the office's word")));
   write_private_text_file(ledger::begin_path(held.path), said + "\n");
   held.begin = said;
   std::erase_if(session.notes, [](const auto& note) { return note.first == ledger::k_begin_note; });  // an earlier one
@@ -270,7 +270,7 @@ void Sitting::end_running() {
   stage_ = Stage::unsaved;
 }
 
-Message Sitting::why_stopped() const { return report_.servo.error.empty() ? msg("the servo was stopped") : Message(Name{report_.servo.error}); }
+Message Sitting::why_stopped() const { return report_.servo.failure.empty() ? msg("the servo was stopped") : report_.servo.failure; }
 
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {

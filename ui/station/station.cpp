@@ -12,6 +12,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/said_by.h"
 #include "engine/session/session_reader.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/parts/interrupt.h"
@@ -90,7 +91,7 @@ class Station {
     } catch (const std::exception& e) {
       rescue();
       if (!open_session().empty())
-        throw Error(msg("station"), msg("failed during the exam ({})", e.what()),
+        throw Error(msg("station"), msg("failed during the exam ({})", said_by(e)),
                     msg("what was done is recorded; go on with: cavum station --resume {}", open_session()));
       throw;
     }

@@ -235,7 +235,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   }
   write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
   const std::string& session = exam.recorder().path();
-  const Message why = report.servo.error.empty() ? msg("was stopped") : msg("was stopped: {}", Name{report.servo.error});
+  const Message why = report.servo.failure.empty() ? msg("was stopped") : msg("was stopped: {}", report.servo.failure);
   if (o.json) print_json(nlohmann::json{{"session", session}, {"stopped", english_text(why)}, {"servo", servo}});
   say_error(msg("{}: {}; go on with --resume --device, or close it as it stands with --resume --end", session, why));
   return 1;

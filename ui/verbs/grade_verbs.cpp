@@ -121,7 +121,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
       list.push_back(std::move(one));
     } catch (const Error& e) {
       ++failed;
-      list.push_back({{"file", file}, {"error", e.what()}});
+      list.push_back({{"file", file}, {"error", e.message()}});
       changes.add(msg("cannot be graded: {}", e.message()), 2);
     }
   }
@@ -139,7 +139,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
     List sum;
     sum.items.push_back(msgn("{} session", "{} sessions", n, n));
     for (const auto& [turn, count] : verdicts)
-      sum.items.push_back(turn.first == turn.second ? msg("{} stay {}", count, Term{turn.second})
+      sum.items.push_back(turn.first == turn.second ? msgn("{} stays {}", "{} stay {}", count, count, Term{turn.second})
                                                     : msg("{} {} -> {}", count, Term{turn.first}, Term{turn.second}));
     if (const int new_ones = static_cast<int>(files.size()) - failed - compared; new_ones > 0)
       sum.items.push_back(msg("{} without a sealed result", new_ones));

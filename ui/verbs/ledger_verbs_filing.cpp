@@ -5,6 +5,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/memory_reserve.h"
+#include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "grading/ledger/filing.h"
 #include "ui/parts/print_json.h"
@@ -95,7 +96,7 @@ int ledger_add(const LedgerOptions& o) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back(msg("{}: cannot be filed ({}); use an intact copy", path, e.what()));
+      filing.findings.push_back(msg("{}: cannot be filed ({}); use an intact copy", path, said_by(e)));
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};

@@ -84,9 +84,12 @@ void ledger_key(const LedgerOptions& o) {
   const std::string path = o.key.empty() ? ledger::school_key_path() : o.key;
   const std::int64_t until = o.until.empty() ? 0 : ledger::parse_utc(o.until, "--until");
   if (!o.replace && o.until.empty()) {
-    for (const auto& k : ledger::read_ledger({o.folder}).keys)
-      say(k.until_utc_ns > 0 ? msg("{} signs from {} entries on, good until {}", k.public_key, k.first_size, utc_text(k.until_utc_ns))
-                             : msg("{} signs from {} entries on", k.public_key, k.first_size));
+    for (const auto& k : ledger::read_ledger({o.folder}).keys) {
+      const auto n = static_cast<std::int64_t>(k.first_size);
+      say(k.until_utc_ns > 0 ? msgn("{} signs from {} entry on, good until {}", "{} signs from {} entries on, good until {}", n, k.public_key, n,
+                                    utc_text(k.until_utc_ns))
+                             : msgn("{} signs from {} entry on", "{} signs from {} entries on", n, k.public_key, n));
+    }
     return;
   }
   if (!o.replace) {

@@ -62,7 +62,7 @@ int ledger_ticket(const LedgerOptions& o) {
       continue;
     }
     const std::string file = file_for(one.candidate);
-    const Message granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, "the ticket"));
+    const Message granted = scenarios::accommodations_text(scenarios::granted(setup->scenario.accommodations, one.ticket.grant, msg("the ticket")));
     printed.push_back(
         {{"candidate", one.candidate}, {"id", p.id}, {"name", p.name}, {"accommodations", granted}, {"file", file}, {"station", p.station}});
     const Message who = p.name.empty() ? msg("{}", p.id) : msg("{}, {}", p.id, p.name);

@@ -175,7 +175,7 @@ void office_tickets(const OfficeArguments& o) {
   const json tickets = client.tickets();
   for (const auto& t : tickets) {
     const std::string text = t.at("text");
-    const ledger::Ticket ticket = ledger::parse_ticket(text, ledger::station_school_key(), "the office's ticket");
+    const ledger::Ticket ticket = ledger::parse_ticket(text, ledger::station_school_key(), msg("the office's ticket"));
     const std::string file = fmt::format("{}/{}.ticket", o.out, file_name_of(ticket.candidate));
     write_private_text_file(file, text);
     say(msg("written: {}", file));

@@ -139,12 +139,11 @@ Sums sums_of(const pool::Made& made) {
     if (text.empty()) continue;
     const json line = parse_json_or_null(text, k_json_part);
     sums.ticks += whole_in(line, "ticks");
-    const json &verified = member_of(line, "verified"), &findings = member_of(line, "findings");
-    if (line.contains("error"))
-      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), text_in(line, "error")));
+    const json& verified = member_of(line, "verified");
+    if (const auto said = pool::said_in(line); !said.empty())
+      sums.wrong.push_back(msg("{}: {}", text_in(line, "session"), said[0]));
     else if (verified.is_boolean() && !verified.get<bool>())
-      sums.wrong.push_back(findings.empty() ? msg("{}: does not hold", text_in(line, "session"))
-                                            : msg("{}: {}", text_in(line, "session"), findings[0].get<std::string>()));
+      sums.wrong.push_back(msg("{}: does not hold", text_in(line, "session")));
     else
       ++sums.sound;
   }

@@ -127,7 +127,7 @@ std::vector<std::uint8_t> FalconUsb::hear(int patience_ms) {
   return {packet.begin() + k_status_bytes, packet.begin() + got};
 }
 
-void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& stage) {
+void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& silent, const Message& otherwise) {
   using Clock = std::chrono::steady_clock;
   const auto until = Clock::now() + std::chrono::milliseconds(k_patience_ms);
   std::vector<std::uint8_t> heard;
@@ -136,8 +136,7 @@ void FalconUsb::expect(std::span<const std::uint8_t> wanted, const Message& stag
     heard.insert(heard.end(), more.begin(), more.end());
   }
   if (heard.size() < wanted.size() || !std::equal(wanted.begin(), wanted.end(), heard.begin()))
-    throw falcon_error(heard.empty() ? DeviceError::silent : DeviceError::wrong_firmware,
-                       msg("{} {}", heard.empty() ? msg("is silent") : msg("answers something else"), stage),
+    throw falcon_error(heard.empty() ? DeviceError::silent : DeviceError::wrong_firmware, heard.empty() ? silent : otherwise,
                        msg("take it off its power supply for a moment, and begin again"));
 }
 
@@ -187,15 +186,16 @@ void FalconUsb::load(const std::vector<std::uint8_t>& firmware) {
   control(k_flow, 0);
   for (const int lines : {k_rts_off, k_dtr_off, k_dtr_on}) control(k_modem, lines);
   send(k_who);
-  expect(k_loader, msg("when its loader is called"));
+  expect(k_loader, msg("is silent when its loader is called"), msg("answers something else when its loader is called"));
   control(k_modem, k_dtr_off);
   control(k_baud, k_140000_baud);
   send(k_ready);
-  expect(k_ready, msg("when the loading begins"));
+  expect(k_ready, msg("is silent when the loading begins"), msg("answers something else when the loading begins"));
   for (std::size_t at = 0; at < firmware.size(); at += k_piece_bytes) {
     const auto piece = std::span(firmware).subspan(at, std::min(k_piece_bytes, firmware.size() - at));
     send(piece);
-    expect(piece, msg("while the firmware is loaded"));  // it says back what it heard
+    expect(piece, msg("is silent while the firmware is loaded"),
+           msg("answers something else while the firmware is loaded"));  // it says back what it heard
   }
 }
 

@@ -56,7 +56,7 @@ class FalconUsb {
   void send(std::span<const std::uint8_t> bytes);
   /// What came within `patience_ms`, without the status bytes of the chip; may be nothing.
   std::vector<std::uint8_t> hear(int patience_ms);
-  void expect(std::span<const std::uint8_t> wanted, const Message& stage);
+  void expect(std::span<const std::uint8_t> wanted, const Message& silent, const Message& otherwise);
   bool answers();
   void speak_normally();
   void load(const std::vector<std::uint8_t>& firmware);

@@ -25,13 +25,13 @@ constexpr double k_clipped_share = 0.002;  // of all rows at the limit
 
 void time_stamps(const Recording& r, std::vector<DataFault>& faults) {
   Eigen::Index backwards = 0, repeated = 0;
-  std::string first;
+  Message first;
   for (const auto& s : r.sessions)
     for (Eigen::Index i = s.begin + 1; i < s.end; ++i) {
       const double d = r.t_s[i] - r.t_s[i - 1];
       if (d > 0.0) continue;
       ++(d < 0.0 ? backwards : repeated);
-      if (first.empty()) first = fmt::format("session {} after {} s", one_line(s.name), plain_number(r.t_s[i - 1]));
+      if (first.empty()) first = msg("session {} after {}", one_line(s.name), as_s(r.t_s[i - 1], k_as_needed));
     }
   if (backwards > 0)
     faults.push_back({DataFault::Kind::time_stamps,

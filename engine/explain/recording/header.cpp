@@ -1,7 +1,5 @@
 #include "engine/explain/recording/header.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -149,10 +147,10 @@ std::optional<std::string> nearest_name(const std::vector<std::string>& names, s
   return best;
 }
 
-std::string list_of_names(const std::vector<std::string>& names) {
-  std::string out;
-  for (std::size_t i = 0; i < names.size() && i < k_most_listed; ++i) out += fmt::format("{}'{}'", i > 0 ? ", " : "", one_line(names[i]));
-  return names.size() > k_most_listed ? fmt::format("{} and {} more", out, names.size() - k_most_listed) : out;
+Message list_of_names(const std::vector<std::string>& names) {
+  List list;
+  for (std::size_t i = 0; i < names.size() && i < k_most_listed; ++i) list.items.push_back(msg("'{}'", one_line(names[i])));
+  return names.size() > k_most_listed ? msg("{} and {} more", list, names.size() - k_most_listed) : msg("{}", list);
 }
 
 }  // namespace cavum::explain

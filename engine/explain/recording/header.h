@@ -6,6 +6,8 @@
 #include <string_view>
 #include <vector>
 
+#include "engine/base/message.h"
+
 namespace cavum::explain {
 
 /// "Fz [N]" is the name Fz with the unit N, and so are "Fz (N)", "Fz/N", "Fz, N" and, less surely, "Fz_N".
@@ -26,6 +28,6 @@ struct HeaderName {
 /// of the longer one.
 [[nodiscard]] std::optional<std::string> nearest_name(const std::vector<std::string>& names, std::string_view wanted);
 /// "'a', 'b' and 12 more".
-[[nodiscard]] std::string list_of_names(const std::vector<std::string>& names);
+[[nodiscard]] Message list_of_names(const std::vector<std::string>& names);
 
 }  // namespace cavum::explain

@@ -151,16 +151,16 @@ Unit at_lever(const Unit& unit, Role role, double lever_mm) {
   return out;
 }
 
-std::string known_units(Role role) {
-  if (role == Role::speed) return "mm/s, mm/min, m/s, µm/s, in/s, rad/s, deg/s (a length or an angle over a time)";
-  std::string out;
+Message known_units(Role role) {
+  if (role == Role::speed) return msg("{} (a length or an angle over a time)", "mm/s, mm/min, m/s, µm/s, in/s, rad/s, deg/s");
+  std::vector<std::string> names;
   for (const KnownUnit& unit : k_known) {
     const bool fits = (role == Role::time && unit.quantity == Quantity::time) ||
                       (role == Role::position && (unit.quantity == Quantity::length || unit.quantity == Quantity::angle)) ||
                       (role == Role::force && (unit.quantity == Quantity::force || unit.quantity == Quantity::torque));
-    if (fits && !unit.mass_word) out += fmt::format("{}{}", out.empty() ? "" : ", ", unit.shown);
+    if (fits && !unit.mass_word) names.emplace_back(unit.shown);
   }
-  return role == Role::force ? out + "; g, kg, lb and oz as what they weigh" : out;
+  return role == Role::force ? msg("{}; g, kg, lb and oz as what they weigh", list_of(names)) : msg("{}", list_of(names));
 }
 
 const char* contract_name(Role role) noexcept {

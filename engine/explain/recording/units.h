@@ -5,6 +5,8 @@
 #include <string>
 #include <string_view>
 
+#include "engine/base/message.h"
+
 namespace cavum::explain {
 
 /// What a column of the motion is: one of the four that a recording is made of.
@@ -27,7 +29,7 @@ struct Unit {
 /// The same at a lever of `lever_mm` > 0: angle × lever, torque / lever.
 [[nodiscard]] Unit at_lever(const Unit& unit, Role role, double lever_mm);
 /// All that `find_unit` knows for a role, parted by commas.
-[[nodiscard]] std::string known_units(Role role);
+[[nodiscard]] Message known_units(Role role);
 /// "t_s", "x_mm", "v_mm_s", "f_n".
 [[nodiscard]] const char* contract_name(Role role) noexcept;
 /// The role of a short name (t, x, v, f) or of a contract's name; none for others.

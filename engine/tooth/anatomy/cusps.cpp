@@ -54,8 +54,11 @@ void name_side(std::vector<CuspTip>& side, bool buccal, std::size_t before) {
       {{said("buccal"), "", ""}, {said("mesiobuccal"), said("distobuccal"), ""}, {said("mesiobuccal"), said("distobuccal"), said("distal")}}};
   static constexpr std::array<std::array<const char*, 2>, 2> k_lingual{{{said("lingual"), ""}, {said("mesiolingual"), said("distolingual")}}};
   const std::size_t n = side.size();
-  for (std::size_t i = 0; i < n; ++i)
-    side[i].name = buccal && n <= 3 ? k_buccal[n - 1][i] : !buccal && n <= 2 ? k_lingual[n - 1][i] : fmt::format("cusp {}", before + i + 1);
+  const bool named = n <= (buccal ? 3 : 2);
+  for (std::size_t i = 0; i < n; ++i) {
+    side[i].name = !named ? fmt::format("cusp {}", before + i + 1) : buccal ? k_buccal[n - 1][i] : k_lingual[n - 1][i];
+    if (named) side[i].side = buccal ? CuspSide::buccal : CuspSide::lingual;
+  }
 }
 
 }  // namespace

@@ -1,5 +1,3 @@
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 
@@ -162,9 +160,7 @@ void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std:
   for (std::size_t i = 0; i + 1 < marks.cusps.size(); ++i) {
     const auto& ridges = marks.cusp_ridges;
     const Vec3 a = marks.cusps[i].tip_mm, b = marks.cusps[i + 1].tip_mm;
-    const bool same_side =
-        (marks.cusps[i].name.find("lingual") != std::string::npos) == (marks.cusps[i + 1].name.find("lingual") != std::string::npos);
-    if (!same_side) continue;
+    if ((marks.cusps[i].side == CuspSide::lingual) != (marks.cusps[i + 1].side == CuspSide::lingual)) continue;
     // the common end of the two cusps' ridges
     std::optional<Vec3> notch;
     for (const auto& r : ridges)

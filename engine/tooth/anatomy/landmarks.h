@@ -28,10 +28,13 @@ struct ClassGuess {
   Message reason;         ///< the signs with their figures, for people
 };
 
+enum class CuspSide : std::uint8_t { untold, buccal, lingual };
+
 struct CuspTip {
   std::string name;  ///< "mesiobuccal", "buccal", ...; "cusp 3" where the place has no name of its own
   Vec3 tip_mm;
-  double prominence_mm = 0.0;  ///< above the highest way to a higher cusp
+  double prominence_mm = 0.0;        ///< above the highest way to a higher cusp
+  CuspSide side = CuspSide::untold;  ///< of one whose place has a name of its own, as it was found
 };
 
 /// The crest between two cusps at the mesial or distal end of the occlusal table.

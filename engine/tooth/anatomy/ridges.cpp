@@ -25,12 +25,9 @@ std::size_t lowest(const Polyline& edge, const std::vector<std::size_t>& places)
   return *std::min_element(places.begin(), places.end(), [&](std::size_t a, std::size_t b) { return edge[a].z < edge[b].z; });
 }
 
-bool is_buccal(const CuspTip& c) { return c.name.find("buccal") != std::string::npos || c.name == "distal"; }
-bool is_lingual(const CuspTip& c) { return c.name.find("lingual") != std::string::npos; }
-
 struct OnEdge {
   std::size_t place;
-  bool buccal, lingual;
+  CuspSide side;
 };
 
 /// The middle of the stretch around the lowest place that is as low: a level crest has its lowest place anywhere.
@@ -104,7 +101,7 @@ void find_ridges(const CrownMaps& maps, const OcclusalTable& table, const std::o
     std::size_t near = 0;
     for (std::size_t i = 1; i < edge.size(); ++i)
       if (flat_distance(edge[i], c.tip_mm) < flat_distance(edge[near], c.tip_mm)) near = i;
-    if (flat_distance(edge[near], c.tip_mm) <= k_tip_to_edge_mm) tips.push_back({near, is_buccal(c), is_lingual(c)});
+    if (flat_distance(edge[near], c.tip_mm) <= k_tip_to_edge_mm) tips.push_back({near, c.side});
   }
   std::sort(tips.begin(), tips.end(), [](const OnEdge& a, const OnEdge& b) { return a.place < b.place; });
   const std::size_t n = tips.size();
@@ -121,8 +118,8 @@ void find_ridges(const CrownMaps& maps, const OcclusalTable& table, const std::o
   for (std::size_t i = 0; i < n; ++i) {
     const auto& a = tips[i];
     const auto& b = tips[(i + 1) % n];
-    if (a.lingual && b.buccal) mesial[0] = &a, mesial[1] = &b;
-    if (a.buccal && b.lingual) distal[0] = &a, distal[1] = &b;
+    if (a.side == CuspSide::lingual && b.side == CuspSide::buccal) mesial[0] = &a, mesial[1] = &b;
+    if (a.side == CuspSide::buccal && b.side == CuspSide::lingual) distal[0] = &a, distal[1] = &b;
   }
   const auto& way = groove->way;
   marks.mesial = ridge_of(edge, maps.fissures.place(way[groove->mesial.place]), groove->mesial.ridge, mesial[0], mesial[1], true);

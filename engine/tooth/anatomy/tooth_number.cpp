@@ -3,14 +3,14 @@
 #include <fmt/core.h>
 
 #include <array>
-#include <string_view>
 
 #include "engine/base/error.h"
 
 namespace cavum {
 namespace {
 
-constexpr std::string_view k_numbered = "tooth ";
+/// How the name of a tooth begins in its file when its number was said.
+std::string numbered(const ToothNumber& n) { return fmt::format("tooth {} (universal {})", n.fdi, n.universal()); }
 
 }  // namespace
 
@@ -31,12 +31,16 @@ ToothClass ToothNumber::tooth_class() const noexcept {
   return place() <= 2 ? ToothClass::incisor : place() == 3 ? ToothClass::canine : place() <= 5 ? ToothClass::premolar : ToothClass::molar;
 }
 
-std::string ToothNumber::text() const {
-  static constexpr std::array<const char*, 8> k_names{"central incisor", "lateral incisor", "canine",       "first premolar",
-                                                      "second premolar", "first molar",     "second molar", "third molar"};
-  return fmt::format("{} (universal {}), {} {} {}", fdi, universal(), upper() ? "upper" : "lower", left() ? "left" : "right",
-                     k_names[static_cast<std::size_t>(place() - 1)]);
+Message ToothNumber::name() const {
+  const std::array<Message, 8> kinds{msg("central incisor"), msg("lateral incisor"), msg("canine"),       msg("first premolar"),
+                                     msg("second premolar"), msg("first molar"),     msg("second molar"), msg("third molar")};
+  const Message& kind = kinds[static_cast<std::size_t>(place() - 1)];
+  return upper()  ? left() ? msg("upper left {}", kind) : msg("upper right {}", kind)
+          : left() ? msg("lower left {}", kind)
+                  : msg("lower right {}", kind);
 }
+
+std::string ToothNumber::text() const { return fmt::format("{} (universal {}), {}", fdi, universal(), english_text(name())); }
 
 ToothNumber from_fdi(int number, const std::string& option) {
   const ToothNumber n{number};
@@ -51,12 +55,12 @@ ToothNumber from_universal(int number, const std::string& option) {
   return from_fdi(fdi, option);
 }
 
-std::string name_with(const ToothNumber& number) { return std::string(k_numbered) + number.text(); }
+std::string name_with(const ToothNumber& number) { return "tooth " + number.text(); }
 
 std::optional<ToothNumber> number_in(const std::string& name) {
   for (int quadrant = 1; quadrant <= 4; ++quadrant)
     for (int place = 1; place <= 8; ++place)
-      if (const ToothNumber n{10 * quadrant + place}; name.starts_with(name_with(n))) return n;
+      if (const ToothNumber n{10 * quadrant + place}; name.starts_with(numbered(n))) return n;
   return std::nullopt;
 }
 

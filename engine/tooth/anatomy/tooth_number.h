@@ -18,7 +18,11 @@ struct ToothNumber {
   /// Number of the universal system, 1 to 32.
   [[nodiscard]] int universal() const noexcept;
   [[nodiscard]] ToothClass tooth_class() const noexcept;
-  /// "36 (universal 19), lower left first molar"
+  /// "lower left first molar"
+  [[nodiscard]] Message name() const;
+  /// "36 (universal 19, lower left first molar)"
+  [[nodiscard]] Message in_words() const { return msg("{} (universal {}, {})", fdi, universal(), name()); }
+  /// "36 (universal 19), lower left first molar", as files keep it.
   [[nodiscard]] std::string text() const;
   /// z cross mesial, with z occlusal, points to the lips or cheek in quadrants 1 and 3, and to tongue or palate in 2 and 4.
   [[nodiscard]] bool y_is_buccal() const noexcept { return quadrant() % 2 == 1; }

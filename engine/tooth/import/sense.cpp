@@ -148,7 +148,7 @@ FrameOptions settled_frame(const FrameOptions& frame, const SenseOptions& option
   FrameOptions settled = frame;
   if (!options.number) return settled;
   if (frame.mirror && options.number->y_is_buccal())
-    throw Error(ImportError::contradicted, Name{"--mirror"}, msg("would make +y lingual on tooth {}", options.number->text()),
+    throw Error(ImportError::contradicted, Name{"--mirror"}, msg("would make +y lingual on tooth {}", options.number->in_words()),
                 msg("leave it out, or give the number of the other side"));
   settled.mirror = !options.number->y_is_buccal();
   return settled;
@@ -215,8 +215,8 @@ void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, co
   const Vec3 along = enamel_centroid - dentin_centroid;
   if (options.number && !options.patient_frame.empty() && (occlusal.z < 0) != options.number->upper())
     object(options, "upright", where,
-           occlusal.z < 0 ? msg("the crown points down in the patient, and tooth {} is an upper one", options.number->text())
-                          : msg("the crown points up in the patient, and tooth {} is a lower one", options.number->text()),
+           occlusal.z < 0 ? msg("the crown points down in the patient, and tooth {} is an upper one", options.number->in_words())
+                          : msg("the crown points up in the patient, and tooth {} is a lower one", options.number->in_words()),
            msg("give another number or --patient-frame"), sense);
   if (!(length(along) > k_centroids_apart_mm)) return;
   const Vec3 way = normalized(along);
@@ -241,13 +241,13 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
   if (options.number) {
     const ToothClass said = options.number->tooth_class();
     if (l.tooth_class.kind == ToothClass::unknown)
-      sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->text()));
+      sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->in_words()));
     else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
       object(options, "class", where,
-             msg("it is said to be tooth {}, but has the shape of {} ({})", options.number->text(), kind, l.tooth_class.reason),
+             msg("it is said to be tooth {}, but by its shape it is {} ({})", options.number->in_words(), kind, l.tooth_class.reason),
              msg("give another number"), sense);
     else if (l.tooth_class.kind != said)
-      sense.warnings.push_back(msg("tooth {} has rather the shape of {}", options.number->text(), kind));
+      sense.warnings.push_back(msg("tooth {}: by its shape rather {}", options.number->in_words(), kind));
   }
   if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
     object(options, "pulp", where,

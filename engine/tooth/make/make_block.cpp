@@ -11,6 +11,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
+#include "engine/base/where.h"
 #include "engine/tooth/distance.h"
 
 namespace cavum {
@@ -37,32 +38,32 @@ bool holds(double low, double high, double v) { return v >= low - k_tie_mm && v 
 constexpr double k_rounding_mm = 1e-9;  // 3 * 0.1 is a little more than 0.3
 
 /// Throws unless `mm` can be built of leaves at all; `named` and `option` are the words of the error.
-void check_extent(double mm, double leaf_mm, const std::string& where, const std::string& named, const std::string& option) {
-  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, msg("{} must be larger than 0 mm", named), msg("give {}", option));
+void check_extent(double mm, double leaf_mm, const Where& where, const Message& named, const Message& advice) {
+  if (!(mm > 0 && std::isfinite(mm))) throw Error(where, msg("{} must be larger than 0 mm", named), advice);
   if (mm < leaf_mm - k_rounding_mm)
     throw Error(where, msg("{} is {}, less than a leaf of {}", named, as_mm(mm, k_as_needed), as_mm(leaf_mm, k_as_needed)),
                 msg("use a smaller --leaf-mm"));
 }
 
-void check_leaf(double leaf_mm, const std::string& where) {
+void check_leaf(double leaf_mm, const Where& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
 }
 
 /// Tissues that files of teeth name beside our own: the catalogue takes them from here.
 [[maybe_unused]] constexpr std::array k_further_tissues{said("bone"), said("caries"), said("cement"), said("cementum"), said("composite")};
 
-void check_tissue_name(const std::string& name, const std::string& where) {
+void check_tissue_name(const std::string& name, const Where& where) {
   if (!is_plain_text(name))
     throw Error(where, msg("the name of a tissue holds a control character or bytes that are no UTF-8"), msg("use letters and digits"));
   if (name == "air" || name == "solid" || name.empty())
     throw Error(where, msg("a tissue cannot be named '{}'", name), msg("name a tissue: enamel, dentin, pulp, or one of your own"));
 }
 
-void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm, const std::string& where) {
+void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm, const Where& where) {
   double sum = 0.0;
   for (const auto& layer : layers) {
     check_tissue_name(layer.tissue, where);
-    check_extent(layer.thickness_mm, leaf_mm, where, fmt::format("layer '{}'", layer.tissue), "every layer a thickness such as 1.2");
+    check_extent(layer.thickness_mm, leaf_mm, where, msg("layer '{}'", layer.tissue), msg("give every layer a thickness such as 1.2"));
     sum += layer.thickness_mm;
   }
   if (std::fabs(sum - size_mm.z) > 1e-6)
@@ -71,7 +72,7 @@ void check_layers(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm
 }
 
 /// The tissue of each layer; a name that is new gets the next free number.
-std::vector<std::uint8_t> number_tissues(const std::vector<Layer>& layers, std::vector<Tissue>& tissues, const std::string& where) {
+std::vector<std::uint8_t> number_tissues(const std::vector<Layer>& layers, std::vector<Tissue>& tissues, const Where& where) {
   std::vector<std::uint8_t> ids;
   for (const auto& layer : layers) {
     const auto found = std::find_if(tissues.begin(), tissues.end(), [&](const Tissue& t) { return t.name == layer.tissue; });
@@ -89,10 +90,11 @@ std::vector<std::uint8_t> number_tissues(const std::vector<Layer>& layers, std::
 }  // namespace
 
 Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm) {
-  const std::string where = "block";
+  const Message where = msg("block");
   check_leaf(leaf_mm, where);
-  for (const auto& [axis, mm] : {std::pair{"length", size_mm.x}, std::pair{"width", size_mm.y}, std::pair{"height", size_mm.z}})
-    check_extent(mm, leaf_mm, where, fmt::format("the {}", axis), "--size-mm 10,10,6, for example");
+  for (const auto& [axis, mm] :
+       {std::pair{msg("the length"), size_mm.x}, std::pair{msg("the width"), size_mm.y}, std::pair{msg("the height"), size_mm.z}})
+    check_extent(mm, leaf_mm, where, axis, msg("give --size-mm 10,10,6, for example"));
   check_layers(size_mm, layers, leaf_mm, where);
   Tooth tooth;
   const std::vector<std::uint8_t> ids = number_tissues(layers, tooth.tissues, where);
@@ -141,9 +143,9 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
 }
 
 Tooth make_cube(double edge_mm, const std::string& tissue, double leaf_mm) {
-  check_leaf(leaf_mm, "cube");
-  check_tissue_name(tissue, "cube");
-  check_extent(edge_mm, leaf_mm, "cube", "the edge", "--edge-mm 10, for example");
+  check_leaf(leaf_mm, msg("cube"));
+  check_tissue_name(tissue, msg("cube"));
+  check_extent(edge_mm, leaf_mm, msg("cube"), msg("the edge"), msg("give --edge-mm 10, for example"));
   Tooth tooth = make_block({edge_mm, edge_mm, edge_mm}, {{tissue, edge_mm}}, leaf_mm);
   tooth.name = fmt::format("{} cube {} mm", tissue, plain_number(edge_mm));
   return tooth;

@@ -54,7 +54,7 @@ std::uint64_t add_periodontium(TissueGrid& grid, double thickness_mm) {
   const int held = std::min({low.x, low.y, low.z, grid.size.x - 1 - high.x, grid.size.y - 1 - high.y});
   const int margin = std::max(0, needed - held);
   if (margin > 0) {
-    check_lattice(grid.size + IVec3{2 * margin, 2 * margin, margin}, grid.leaf_mm, "periodontium");
+    check_lattice(grid.size + IVec3{2 * margin, 2 * margin, margin}, grid.leaf_mm, msg("periodontium"));
     grid = with_margin(grid, margin);
   }
   const double below = enamel > 0 ? enamel_z / static_cast<double>(enamel) + margin : grid.size.z;

@@ -114,7 +114,7 @@ LtiLogins::LtiLogins() : secret_(ledger::random_hex(k_random_bytes)) {}
 std::string LtiLogins::sealed(const std::string& text) const {
   unsigned char seal[crypto_auth_BYTES];
   static_assert(crypto_auth_KEYBYTES == k_random_bytes);
-  const Bytes key = ledger::from_hex(secret_, k_random_bytes, "the secret");
+  const Bytes key = ledger::from_hex(secret_, k_random_bytes, msg("the secret"));
   crypto_auth(seal, reinterpret_cast<const unsigned char*>(text.data()), text.size(), key.data());
   return text + "." + to_base64url({reinterpret_cast<const char*>(seal), sizeof seal});
 }

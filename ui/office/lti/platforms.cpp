@@ -62,7 +62,7 @@ LtiPlatform sound_platform(LtiPlatform p) {
   require_address(p.jwks_url, "jwks_url", false);
   p.office = origin_of(p.office);
   if (p.key_set.is_string())
-    p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), "the key set", {1U << 18, 5'000, 8});
+    p.key_set = p.key_set.get<std::string>().empty() ? json() : parse_json(p.key_set.get<std::string>(), msg("the key set"), {1U << 18, 5'000, 8});
   if (p.jwks_url.empty() == p.key_set.is_null())
     throw Error(msg("the platform's keys"), p.jwks_url.empty() ? msg("are missing") : msg("stand there twice"),
                 msg("give jwks_url or key_set, and not both"));

@@ -18,7 +18,7 @@ namespace cavum::office {
 inline constexpr char k_lti_keys[] = "/lti/jwks", k_lti_login[] = "/lti/login", k_lti_launch[] = "/lti/launch";
 
 /// How what is sent to the office is read.
-[[nodiscard]] inline JsonSource asked_json() { return {"", msg("send it as docs/office.md says"), false}; }
+[[nodiscard]] inline JsonSource asked_json() { return {{}, msg("send it as docs/office.md says"), false}; }
 
 using LtiLine = Text<1000>;
 /// What both sides agreed on. Addresses are https. `name`: for people: "Moodle"; `office`: this office as browsers reach it:

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/text.h"
 #include "ui/language/say.h"
 #include "ui/report/print/pdf_sheet.h"
 #include "ui/report/print/pdf_tags.h"
@@ -84,11 +83,10 @@ class Printer {
   void operator()(const LessonList& b) {
     int number = 0;
     for (const auto& i : b.items) {
-      PdfText text{
-          i.jump ? tr("{} ({}, at {})", as_is(i.instead), as_is(i.weight), as_s(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight),
-          k_text_pt, false};
-      text.lead = fmt::format("{}. {}", ++number, i.what.ends_with('.') ? i.what.substr(0, i.what.size() - 1) : i.what);
-      s_.lines(text, s_.width_pt());
+      s_.lines({fmt::format("{}. {}", ++number, i.what), k_text_pt, true}, s_.width_pt());
+      s_.lines({i.jump ? tr("{} ({}, at {})", as_is(i.instead), as_is(i.weight), as_s(i.jump->t_s, 1)) : fmt::format("{} ({})", i.instead, i.weight),
+                k_text_pt, false},
+               s_.width_pt());
       s_.space(k_gap_pt / 2);
     }
     s_.space(k_gap_pt / 2);

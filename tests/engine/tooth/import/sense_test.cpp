@@ -444,7 +444,7 @@ TEST(Sense, ACanineWithAnEdgeIsTaken) {
   MeshImportOptions o = upright(k_sensed_mm);
   o.sense.number = from_fdi(33, "x");
   const auto done = import_meshes(incisor().write(fresh_folder()), o);
-  EXPECT_TRUE(tells(done.sense.warnings, from_fdi(33, "x").text()));
+  EXPECT_TRUE(tells(done.sense.warnings, from_fdi(33, "x").in_words()));
 }
 
 TEST(Sense, APieceOfAnotherToothOnTheContactIsRefused) {
