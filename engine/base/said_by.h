@@ -9,7 +9,7 @@ namespace cavum {
 
 [[nodiscard]] inline Message said_by(const std::exception& wrong) {
   const auto* error = dynamic_cast<const Error*>(&wrong);
-  return error != nullptr ? error->message() : Message(Name{wrong.what()});
+  return error != nullptr ? error->message() : Message(cavum::Name{wrong.what()});
 }
 
 }  // namespace cavum
