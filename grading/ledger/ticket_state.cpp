@@ -24,13 +24,11 @@ std::string_view name_of(TicketGroup group) noexcept {
 TicketState state_of(const IssuedTicket& t, std::int64_t now_utc_ns) {
   TicketState state = own_state(t, now_utc_ns);
   if (t.makes_up)
-    state.words = t.makes_up->became == FirstSitting::missed
-                      ? msg("{}; makeup of entry {}, which was missed", state.words, t.makes_up->ticket)
-                      : msg("{}; makeup of entry {}, which was interrupted", state.words, t.makes_up->ticket);
+    state.words = t.makes_up->became == FirstSitting::missed ? msg("{}; makeup of entry {}, which was missed", state.words, t.makes_up->ticket)
+                                                             : msg("{}; makeup of entry {}, which was interrupted", state.words, t.makes_up->ticket);
   if (t.made_up_by) {
     const bool open = state.group == TicketGroup::live || state.group == TicketGroup::run_out;  // it is neither any more
-    state = {TicketGroup::made_up,
-             open ? msg("made up by entry {}", *t.made_up_by) : msg("{}; made up by entry {}", state.words, *t.made_up_by)};
+    state = {TicketGroup::made_up, open ? msg("made up by entry {}", *t.made_up_by) : msg("{}; made up by entry {}", state.words, *t.made_up_by)};
   }
   return state;
 }

@@ -19,8 +19,7 @@ std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std
   std::vector<ledger::Seat> seats;
   std::set<std::string> given;
   for (const auto& t : registry.tickets) {
-    if (!t.live(now) || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until ||
-        !t.seat.empty())
+    if (!t.live(now) || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until || !t.seat.empty())
       continue;
     for (const auto& s : registry.stations.stations) {
       if (s.revoked_utc_ns || !s.replaced_by.empty() || (!room.empty() && s.room != room) || given.contains(s.public_key)) continue;
@@ -103,9 +102,7 @@ Seated Desk::seat(const SeatThem& asked, const Account& by) {
     seats = free_seats(registry, exam, from, until, asked.room, now);
     for (const auto& t : registry.tickets)
       left +=
-          t.ticket.exam == exam && t.ticket.not_before_utc_ns == from && t.ticket.not_after_utc_ns == until && t.seat.empty() && t.live(now)
-              ? 1
-              : 0;
+          t.ticket.exam == exam && t.ticket.not_before_utc_ns == from && t.ticket.not_after_utc_ns == until && t.seat.empty() && t.live(now) ? 1 : 0;
     left -= seats.size();
     if (seats.empty()) throw Error(msg("the sitting"), msg("has nobody without a seat, or no station is free"), msg("take another room or time"));
   } else {

@@ -31,12 +31,8 @@ void list_stations(const LedgerOptions& o) {
     json devices = json::array();
     for (const auto& d : s.devices) devices.push_back({{"name", d.name}, {"serial", d.serial}});
     const auto [state, words] = state_of(s);
-    printed.push_back({{"name", s.name},
-                       {"public_key", s.public_key},
-                       {"entry", s.seq},
-                       {"state", state},
-                       {"text", english_text(words)},
-                       {"styluses", devices}});
+    printed.push_back(
+        {{"name", s.name}, {"public_key", s.public_key}, {"entry", s.seq}, {"state", state}, {"text", english_text(words)}, {"styluses", devices}});
     if (!o.as_json) say(msg("{}  {}, {}", s.public_key, s.name, words));
   }
   if (o.as_json)
