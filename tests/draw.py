@@ -1,7 +1,7 @@
-"""draw.py SEED: which of the long tests a commit runs. `./dev test` leaves out the others, `./dev test --deep` runs all.
+"""draw.py TURN: which of the long tests a commit runs. `./dev test` leaves out the others, `./dev test --all` runs all.
 
 long_tests.txt lists them with their seconds on one quiet core: tests of GoogleTest programs by suite and name, other programs by their name in CTest.
-They are dealt out, longest first, to hands of about equal length; SEED names the hand. Prints two lines for the shell, the patterns that leave out the
+They are dealt out, longest first, to hands of about equal length; TURN, which counts commits, names the hand. Prints two lines for the shell, the patterns that leave out the
 rest: GTEST_FILTER of all GoogleTest programs, and `ctest --exclude-regex`.
 """
 import pathlib
@@ -41,9 +41,9 @@ def is_whole_program(name):
     return name[0].islower()
 
 
-def left_out(rows, seed, hands=HANDS):
-    """(GTEST_FILTER, regular expression for ctest --exclude-regex) of all but the hand that the seed names."""
-    mine = set(deal(rows, hands)[seed % hands])
+def left_out(rows, turn, hands=HANDS):
+    """(GTEST_FILTER, regular expression for ctest --exclude-regex) of all but the hand whose turn it is."""
+    mine = set(deal(rows, hands)[turn % hands])
     others = [name for name, _ in rows if name not in mine]
     programs = [re.escape(name).replace(r"\-", "-") for name in others if is_whole_program(name)]
     return "-" + ":".join(n for n in others if not is_whole_program(n)), f"^({'|'.join(programs)})$" if programs else "^$"

@@ -1,4 +1,4 @@
-"""What draw.py promises: over the seeds every long test runs, each commit has about the same to do, and what is left out is exactly the rest."""
+"""What draw.py promises: over eight turns every long test runs, each commit has about the same to do, and what is left out is exactly the rest."""
 import pathlib
 import random
 import re
@@ -20,15 +20,15 @@ def runs(name, patterns):
 
 
 class Draw(unittest.TestCase):
-    def test_every_long_test_runs_at_one_seed_of_as_many_as_there_are_hands(self):
-        patterns = [draw.left_out(TABLE, seed) for seed in range(40, 40 + draw.HANDS)]
+    def test_every_long_test_runs_at_one_turn_of_as_many_as_there_are_hands(self):
+        patterns = [draw.left_out(TABLE, turn) for turn in range(40, 40 + draw.HANDS)]
         for name, _ in TABLE:
             self.assertEqual([runs(name, pattern) for pattern in patterns].count(True), 1, name)
 
     def test_what_is_not_long_always_runs(self):
-        for seed in range(5):
+        for turn in range(5):
             for name in ("Octree.IsADenseGrid", "replay.every_build_gives_the_same_bits", "ui_test", "report.page.units", "report.page.browse"):
-                self.assertTrue(runs(name, draw.left_out(TABLE, seed)), name)
+                self.assertTrue(runs(name, draw.left_out(TABLE, turn)), name)
 
     def test_hands_are_of_one_length(self):
         seconds = dict(TABLE)
