@@ -142,7 +142,7 @@ void judge_honest(const scenarios::Scenario& scenario, const Result& r, std::vec
   const bool enough = points >= 0.01 * k_honest_percent * max;
   if (r.verdict == Verdict::pass && enough) return;
   const Message to_do = !r.progress.open_last_step.empty() ? msg("make the condition of step '{}' one that this completes", r.progress.open_last_step)
-                        : worst != nullptr                 ? msg("begin with '{}': {}", worst->id, worst->reason)
+                        : worst != nullptr                 ? msg("begin with '{}': {}", worst->id, worst->reason())
                                                            : msg("give the rubric criteria");
   problems.push_back(scenarios::problem_at(scenario, "rubric",
                                            msg("who removes exactly the target gets {} of {} points that need no hand, and the verdict is {}",

@@ -52,6 +52,17 @@ std::string utc_ms_text(std::int64_t utc_ns) {
   return fmt::format("{}.{:03}Z", seconds, ms);
 }
 
+namespace {
+
+/// Why a criterion has its points, fact by fact.
+Message reason_in(const json& criterion) {
+  List facts{{}, true};
+  for (const json& fact : member_of(criterion, "facts")) facts.items.push_back(said_in(fact));
+  return msg("{}", facts);
+}
+
+}  // namespace
+
 ExportedGrade exported_grade(const FiledSession& session, const std::map<std::string, ExamScale>& own_scales) {
   const auto known = own_scales.find(session.scenario_id);
   const ExamScale own = known == own_scales.end() ? ExamScale{} : known->second;
@@ -98,7 +109,7 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   }
   for (const auto& c : result.at("criteria"))
     if (c.at("points").get<double>() < c.at("max").get<double>())
-      told.push_back(msg("{}, {} of {} points: {}.", c.value("id", ""), as_points(c.at("points")), as_number(c.at("max")), said_in(c)));
+      told.push_back(msg("{}, {} of {} points: {}.", c.value("id", ""), as_points(c.at("points")), as_number(c.at("max")), reason_in(c)));
   return g;
 }
 

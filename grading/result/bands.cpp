@@ -14,19 +14,15 @@ void put_in_band(const Result& r, const scenarios::CriterionSpec& spec, Criterio
   std::size_t band = 0;
   while (band < spec.band_limits.size() && (!judged || worse * (*c.value - spec.band_limits[band]) > 0)) ++band;
   c.band = band;
-  std::vector<Message>& facts = c.reason.items;
+  using Kind = FindingKind;
   const Authored name{r.bands[band].name};
   const auto limit = [&](std::size_t i) { return value_text(measure, spec.band_limits[i], 0, 2); };
-  if (!judged && c.value)
-    facts.push_back(msg("{}, for less than half of the work was done", name));
-  else if (judged && band > 0 && measure.reads != scenarios::Reads::yes_no)
-    facts.push_back(msg("{}, beyond {}", name, limit(band - 1)));
-  else
-    facts.push_back(msg("{}", name));
+  c.facts.push_back(!judged && c.value                                                ? finding<Kind::in_band_for_part>(name)
+                    : judged && band > 0 && measure.reads != scenarios::Reads::yes_no ? finding<Kind::in_band_beyond>(name, limit(band - 1))
+                                                                                      : finding<Kind::in_band>(name));
   if (!judged) return;
   for (std::size_t i = 0; i < spec.band_limits.size(); ++i)
-    if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound)
-      facts.push_back(msg("the limit of {} lies within the bound of the figure", limit(i)));
+    if (c.bound > 0 && std::fabs(*c.value - spec.band_limits[i]) <= c.bound) c.facts.push_back(finding<Kind::band_limit_in_bound>(limit(i)));
 }
 
 Findings count_bands(Result& r) {

@@ -37,10 +37,21 @@ nlohmann::ordered_json json_of_message(const Message& message) {
 
 }  // namespace
 
-nlohmann::ordered_json to_json(const Finding& f) {
+List sentences(const Findings& findings) {
+  List all{{}, true};
+  for (const Finding& f : findings) all.items.push_back(f.message());
+  return all;
+}
+
+nlohmann::ordered_json values_json(const Finding& f) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = json_of_value(f.values[i]);
-  return {{"kind", f.row().name}, {"values", values}, {"text", english_text(f.message())}, {"said", encode(f.message())}};
+  for (std::size_t i = 0; i < f.values.size(); ++i)
+    if (const char* name = f.row().values[i]; *name != 0) values[name] = json_of_value(f.values[i]);
+  return values;
+}
+
+nlohmann::ordered_json to_json(const Finding& f) {
+  return {{"kind", f.row().name}, {"values", values_json(f)}, {"text", english_text(f.message())}, {"said", encode(f.message())}};
 }
 
 }  // namespace cavum::grading

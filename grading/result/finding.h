@@ -21,7 +21,7 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
 // clang-format off
 #define CAVUM_FINDINGS(FINDING) \
   /* why the verdict is what it is */ \
-  FINDING(critical_limit, reader, "critical criterion {}: {}", "criterion", "reason") \
+  FINDING(critical_limit, reader, "criterion {} alone fails the exam", "criterion") \
   FINDING(band_too_full, reader, "{} {}, and at most {} may be: {}", "count", "band", "most", "criteria") \
   FINDING(bands_too_full, reader, "{} {} or worse, and at most {} may be: {}", "count", "band", "most", "criteria") \
   FINDING(sum_reaches, reader, "the sum reaches {}, the pass mark is {}", "percent", "pass_percent") \
@@ -56,6 +56,73 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
   FINDING(step_timed_out, reader, "step '{}' ran out of its time at {} (tick {}): its limit was {}", "step", "t_s", "tick", "limit_s") \
   FINDING(step_timed_out_otherwise, reader, "step '{}' ran out of its time at {} (tick {})", "step", "t_s", "tick") \
   FINDING(record_differs, examiner, "the list of removed leaves and the final tooth disagree: an examiner must look at this recording", ) \
+  /* what a criterion's points are for, and what was lost */ \
+  FINDING(not_shown, reader, "not judged: a preparation without its recording does not show it", ) \
+  FINDING(not_shown_critical, reader, "it has a critical limit, so the verdict is no pass", ) \
+  FINDING(not_measured, reader, "cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind", ) \
+  FINDING(full_marks, reader, "full marks", ) \
+  FINDING(full_marks_for_part, reader, "full marks for what was done", ) \
+  FINDING(below_full, reader, "{} where {} gives full marks", "value", "full") \
+  FINDING(at_end, reader, "as it stood at the end, {}", "t_s", "tick") \
+  FINDING(granted_limits, reader, "the limits are {} times the rubric's, for the time that was granted", "times") \
+  FINDING(fails_exam, reader, "this alone fails the exam", ) \
+  FINDING(fails_exam_in_bound, reader, "this alone fails the exam, and the limit lies within the bound of the figure", ) \
+  FINDING(above_critical, reader, "critical above {}: this alone fails the exam", "limit") \
+  FINDING(below_critical, reader, "critical below {}: this alone fails the exam", "limit") \
+  FINDING(above_critical_in_bound, reader, "critical above {}, which lies within the bound of the figure: this alone fails the exam", "limit") \
+  FINDING(below_critical_in_bound, reader, "critical below {}, which lies within the bound of the figure: this alone fails the exam", "limit") \
+  FINDING(critical_in_bound, reader, "the critical limit of {} lies within the bound of the figure", "limit") \
+  FINDING(part_counts, reader, "only {} of the target was removed: {} of these points count (all of them from {} on)", "done_percent", "counts_percent", "all_from_percent") \
+  FINDING(part_towards_counts, reader, "only {} of the target towards {} was removed: {} of these points count (all of them from {} on)", "done_percent", "", "counts_percent", "all_from_percent", "wall") \
+  FINDING(in_band, reader, "{}", "band") \
+  FINDING(in_band_beyond, reader, "{}, beyond {}", "band", "limit") \
+  FINDING(in_band_for_part, reader, "{}, for less than half of the work was done", "band") \
+  FINDING(band_limit_in_bound, reader, "the limit of {} lies within the bound of the figure", "limit") \
+  FINDING(target_left, reader, "{} of the target left standing, the largest part towards {} ({}), where it was cut last at {}", "missed_mm3", "", "largest_mm3", "t_s", "tick", "wall") \
+  FINDING(target_left_partly_cut, reader, "{} of the target left standing, the largest part towards {} ({}), where some of it was cut", "missed_mm3", "", "largest_mm3", "wall") \
+  FINDING(target_left_uncut, reader, "{} of the target left standing, the largest part towards {} ({}), where nothing of it was cut", "missed_mm3", "", "largest_mm3", "wall") \
+  FINDING(removed_beyond, reader, "{} removed beyond the target", "removed_mm3") \
+  FINDING(removed_outside, reader, "the largest part outside all zones at {} ({})", "", "largest_mm3", "wall") \
+  FINDING(removed_in_zone, reader, "the largest part in {} at {} ({})", "zone", "", "largest_mm3", "wall") \
+  FINDING(wall_uncut, reader, "nothing was cut there", ) \
+  FINDING(wall_beyond_container, reader, "cut outside the container, up to {} beyond {}", "furthest_mm", "", "wall") \
+  FINDING(wall_overcut, reader, "{} overcut by up to {}", "", "furthest_mm", "wall") \
+  FINDING(wall_thick, reader, "{} left up to {} thick", "", "furthest_mm", "wall") \
+  FINDING(wall_p95_thick, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} thick", "", "furthest_mm", "wall") \
+  FINDING(wall_p95_overcut, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} beyond the target", "", "furthest_mm", "wall") \
+  FINDING(wall_mean_thick, reader, "{}, in the mean of its places; the furthest {} thick", "", "furthest_mm", "wall") \
+  FINDING(wall_mean_overcut, reader, "{}, in the mean of its places; the furthest {} beyond the target", "", "furthest_mm", "wall") \
+  FINDING(end_too_far, reader, "{} at the {} end ({} too far)", "part_mm", "end", "beyond_mm") \
+  FINDING(end_short, reader, "{} at the {} end ({} short)", "part_mm", "end", "short_mm") \
+  FINDING(length, reader, "length {} instead of {}", "length_mm", "target_mm") \
+  FINDING(width, reader, "width {} instead of {}", "width_mm", "target_mm") \
+  FINDING(depth, reader, "depth {} instead of {}", "depth_mm", "target_mm") \
+  FINDING(taper, reader, "the walls open by {} instead of {}", "taper_deg", "target_deg") \
+  FINDING(roof_left, reader, "roof left above the chamber, around {}", "site_mm") \
+  FINDING(canals_covered, reader, "hard tissue stands over the mouths around {}", "site_mm") \
+  FINDING(floor_uncut, reader, "no hard tissue was cut below the target", ) \
+  FINDING(dentin_thinnest, reader, "thinnest at {}", "site_mm") \
+  FINDING(pulp_opened, reader, "the pulp was opened at {}", "site_mm") \
+  FINDING(neighbour_cut, reader, "the neighbour is cut deepest at {}", "site_mm") \
+  FINDING(no_contact_opened, reader, "the target opens no contact", ) \
+  FINDING(clearance, reader, "least between {} and the neighbour's {}", "site_mm", "neighbour_mm") \
+  FINDING(full_time_over, reader, "that time was over at {}", "t_s", "tick") \
+  FINDING(pressed_hardest, reader, "pressed hardest at {}, at {}", "site_mm", "t_s", "tick") \
+  FINDING(force_above_limit, reader, "above the limit first at {}", "t_s", "tick") \
+  FINDING(nothing_opened, reader, "no faulty breakthrough", ) \
+  FINDING(tissue_opened, reader, "{} opened, {} of its wall in all, none of it removed", "tissue", "area_mm2") \
+  FINDING(tissue_opened_and_removed, reader, "{} opened, {} of its wall in all, {} of it removed", "tissue", "area_mm2", "removed_mm3") \
+  FINDING(none_from_outside, reader, "no soft tissue was removed from outside the tooth", ) \
+  FINDING(from_outside, reader, "soft tissue was removed from outside the tooth", ) \
+  FINDING(force_fell, reader, "a drop in force from {} at {}", "force_n", "t_s", "tick") \
+  FINDING(no_fall_confirmed, reader, "no faulty breakthrough that force and tissue show", ) \
+  FINDING(tissue_touched, reader, "{} touched", "tissue") \
+  FINDING(tissue_untouched, reader, "{} never touched", "tissue") \
+  FINDING(violated, reader, "the first violation was at {}", "t_s", "tick") \
+  FINDING(first_cut, reader, "cut first at {}, at {}", "site_mm", "t_s", "tick") \
+  FINDING(cut_site, reader, "the place is {}, cut at {}", "site_mm", "t_s", "tick") \
+  FINDING(site, reader, "the place is {}", "site_mm") \
+  FINDING(site_uncut, reader, "the place is {}, where nothing was cut", "site_mm") \
   /* of a scan */ \
   FINDING(scan_note, reader, "the scan: {}", "note") \
   FINDING(scan_shows_nothing, reader, "the scan shows nothing that was removed", ) \
@@ -76,10 +143,16 @@ struct FindingRow {
   std::string_view name;
   Concerns concerns;
   const char* english;
-  std::array<const char*, 4> values;  ///< their names in the JSON
+  std::array<const char*, 6> values;  ///< their names in the JSON; "" is for the sentence alone, those beyond its gaps for programs alone
   [[nodiscard]] constexpr std::size_t count() const noexcept {
     std::size_t n = 0;
     while (n < values.size() && values[n] != nullptr) ++n;
+    return n;
+  }
+  /// Of the sentence: as many of the values, the first ones, stand in it.
+  [[nodiscard]] constexpr std::size_t gaps() const noexcept {
+    std::size_t n = 0;
+    for (const char* c = english; *c != 0; ++c) n += *c == '{' ? 1 : 0;
     return n;
   }
 };
@@ -96,10 +169,14 @@ struct Finding {
   [[nodiscard]] const FindingRow& row() const noexcept { return k_findings[static_cast<std::size_t>(kind)]; }
   /// Leaves the verdict to an examiner.
   [[nodiscard]] bool asks_examiner() const noexcept { return row().concerns == Concerns::examiner; }
-  [[nodiscard]] Message message() const { return {row().english, nullptr, 0, values}; }
+  [[nodiscard]] Message message() const {
+    return {row().english, nullptr, 0, {values.begin(), values.begin() + static_cast<std::ptrdiff_t>(row().gaps())}};
+  }
   friend bool operator==(const Finding&, const Finding&) = default;
 };
 using Findings = std::vector<Finding>;
+/// One sentence after the other.
+[[nodiscard]] List sentences(const Findings& findings);
 
 /// A finding of this kind: the compiler counts its values.
 template <FindingKind kind, class... A>
@@ -108,6 +185,8 @@ template <FindingKind kind, class... A>
   return {kind, {message_detail::value_of(std::forward<A>(values))...}};
 }
 
+/// Its values by their names.
+[[nodiscard]] nlohmann::ordered_json values_json(const Finding& finding);
 /// {"kind", "values": {by name}, "text": English, "said": the sentence as our own files keep it (encode)}.
 [[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
 

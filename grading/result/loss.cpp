@@ -7,23 +7,6 @@
 
 namespace cavum::grading {
 
-Message when(const Trace& t) { return msg("{} (tick {})", as_s(t.t_s(), 2), t.tick); }
-
-Message without_ticks(const Message& m) {
-  static const Message k_when = when({});  // the one place of its sentence: what has that very address came from when(), whatever it says
-  if (m.empty()) return m;
-  if (m.english() == k_when.english()) return msg("{}", m.values()[0]);
-  std::vector<Value> values = m.values();
-  for (Value& v : values) {
-    if (auto* message = std::get_if<Message>(&v)) *message = without_ticks(*message);
-    if (auto* list = std::get_if<List>(&v))
-      for (Message& item : list->items) item = without_ticks(item);
-  }
-  return {m.english(), m.plural(), m.count(), std::move(values)};
-}
-
-Message place_and_time(const Trace& t) { return t.timed() ? msg("{}, at {}", t.site_mm, when(t)) : msg("{}", t.site_mm); }
-
 Unit unit_of(std::string_view name) noexcept {
   constexpr std::pair<std::string_view, Unit> k_units[] = {{"mm", Unit::mm},    {"mm2", Unit::mm2}, {"mm3", Unit::mm3},  {"N", Unit::newton},
                                                            {"s", Unit::second}, {"deg", Unit::deg}, {"%", Unit::percent}};
@@ -40,23 +23,36 @@ Message value_text(const scenarios::Measure& measure, double value, double bound
 
 Message drop_text(const ForceDrop& d) {
   if (d.from_tick < 0) return msg("no force was missing while the hand pressed on");
-  const Message went = msg("{}, {} of what the filled tooth would give, went within {}", as_n(d.missing_n, 2), as_percent(100.0 * d.share, 0),
-                           as_s(static_cast<double>(d.to_tick - d.from_tick) * k_tick_s, 2));
-  const Number felt_s = as_s(static_cast<double>(d.felt_tick) * k_tick_s, 3);
+  const Number missing = as_n(d.missing_n, 2), share = as_percent(100.0 * d.share, 0),
+               within = as_s(static_cast<double>(d.to_tick - d.from_tick) * k_tick_s, 2),
+               felt_s = as_s(static_cast<double>(d.felt_tick) * k_tick_s, 3);
   switch (d.severity()) {
     case DropSeverity::not_felt:
-      return msg("{}: not to be felt", went);
+      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: not to be felt", missing, share, within);
     case DropSeverity::faint:
-      return msg("{}: faint", went);
+      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: faint", missing, share, within);
     case DropSeverity::felt:
-      return msg("{}: felt clearly from {} on", went, felt_s);
+      return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on", missing, share, within, felt_s);
     case DropSeverity::felt_and_cut_on:
       break;
   }
-  return msg("{}: felt clearly from {} on, and the cavity was opened further for {}", went, felt_s, as_s(d.cut_on_s, 2));
+  return msg("resistance fell by {}, {} of what the filled tooth would give, within {}: felt clearly from {} on, and cutting continued for {}",
+             missing, share, within, felt_s, as_s(d.cut_on_s, 2));
 }
 
 namespace {
+
+using Kind = FindingKind;
+
+/// A wall's identifier, for programs.
+Name id_of(std::size_t wall) { return {scenarios::wall_name(static_cast<scenarios::Wall>(wall))}; }
+Number seconds(const Trace& t) { return as_s(t.t_s(), 2); }
+
+/// Where it began, and when that is known; nothing where it never did.
+void put_first(Findings& facts, const Trace& t) {
+  if (t.timed()) facts.push_back(finding<Kind::first_cut>(t.site_mm, seconds(t), t.tick));
+  if (!t.timed() && t.tick >= 0) facts.push_back(finding<Kind::site>(t.site_mm));
+}
 
 std::size_t largest(const std::array<double, scenarios::k_walls + 1>& by_wall) {
   return static_cast<std::size_t>(std::max_element(by_wall.begin(), by_wall.end()) - by_wall.begin());
@@ -67,11 +63,9 @@ Loss missed(const Result& r) {
   const Trace& last = r.volumes.target_last[w];
   const Number all = as_mm3(r.volumes.missed.mm3, 2, r.volumes.missed.bound_mm3), most = as_mm3(r.volumes.missed_by_wall_mm3[w], 2);
   const Message wall = scenarios::wall_text(w, r.shape.facing);
-  if (last.tick < 0)
-    return {msg("{} of the target left standing, the largest part towards {} ({}), where nothing of it was cut", all, wall, most), last};
-  if (!last.timed())
-    return {msg("{} of the target left standing, the largest part towards {} ({}), where some of it was cut", all, wall, most), last};
-  return {msg("{} of the target left standing, the largest part towards {} ({}), where it was cut last at {}", all, wall, most, when(last)), last};
+  if (last.tick < 0) return {{finding<Kind::target_left_uncut>(all, wall, most, id_of(w))}, last};
+  if (!last.timed()) return {{finding<Kind::target_left_partly_cut>(all, wall, most, id_of(w))}, last};
+  return {{finding<Kind::target_left>(all, wall, most, seconds(last), last.tick, id_of(w))}, last};
 }
 
 Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
@@ -91,23 +85,30 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
   }
   const Message wall = scenarios::wall_text(w, r.shape.facing);
   const Number volume = as_mm3(most, 2);
-  const Message where = worst == scenarios::Zone::none ? msg("the largest part outside all zones at {} ({})", wall, volume)
-                                                       : msg("the largest part in {} at {} ({})", Term{scenarios::zone_name(worst)}, wall, volume);
-  if (first.tick < 0) return {where, first};
-  return {msg("{}, beginning at {}", where, place_and_time(first)), first};
+  Loss loss{{worst == scenarios::Zone::none ? finding<Kind::removed_outside>(wall, volume, id_of(w))
+                                            : finding<Kind::removed_in_zone>(Term{scenarios::zone_name(worst)}, wall, volume, id_of(w))},
+            first};
+  put_first(loss.what, first);
+  return loss;
 }
 
-/// "0.68 mm at the mesial end (0.68 mm too far), 0.57 mm at the distal end (0.57 mm short)"
-List ends(const Result& r, std::size_t first) {
-  List list;
+/// "0.68 mm at the mesial end (0.68 mm too far)", and the other end.
+Findings ends(const Result& r, std::size_t first) {
+  Findings facts;
   for (std::size_t i = first; i < first + 2; ++i) {
     const auto& e = r.shape.end_error[i];
     const Term end{scenarios::wall_name(static_cast<scenarios::Wall>(i), r.shape.facing)};
     const Number part = as_mm(e.part_mm, 2), beyond = as_mm(std::fabs(e.beyond_mm), 2);
-    list.items.push_back(e.beyond_mm >= 0 ? msg("{} at the {} end ({} too far)", part, end, beyond)
-                                          : msg("{} at the {} end ({} short)", part, end, beyond));
+    facts.push_back(e.beyond_mm >= 0 ? finding<Kind::end_too_far>(part, end, beyond) : finding<Kind::end_short>(part, end, beyond));
   }
-  return list;
+  return facts;
+}
+
+/// The fact itself, and where and when it was cut.
+Loss cut_at(Finding fact, const Trace& at) {
+  Loss loss{{std::move(fact)}, at};
+  if (at.timed()) loss.what.push_back(finding<Kind::cut_site>(at.site_mm, seconds(at), at.tick));
+  return loss;
 }
 
 /// When the exam's clock, which stands still in pauses, had run for so long; tick -1 when it never did.
@@ -131,9 +132,11 @@ Loss removed_in_zones(const Result& r, const Asked& a) { return removed_in(r, a.
 Loss missed_and_beyond(const Result& r, const Asked& a) {
   Loss over = removed_in(r, a.marking->zones);
   const BoundedVolume& in_target = r.volumes.zone[static_cast<std::size_t>(scenarios::Zone::target)].removed;
-  Loss not_cut = missed(r);
-  if (over.first.tick < 0) return not_cut;
-  return {msg("{}; {} removed beyond the target, {}", not_cut.what, as_mm3(r.volumes.removed.mm3 - in_target.mm3, 2), over.what), over.first};
+  Loss all = missed(r);
+  if (over.first.tick < 0) return all;
+  all.what.push_back(finding<Kind::removed_beyond>(as_mm3(r.volumes.removed.mm3 - in_target.mm3, 2)));
+  all.what.insert(all.what.end(), over.what.begin(), over.what.end());
+  return {std::move(all.what), over.first};
 }
 
 Loss at_walls(const Result& r, const Asked& a) {
@@ -148,125 +151,144 @@ Loss at_walls(const Result& r, const Asked& a) {
     if (m.samples == 0 && !(over && m.max_over_mm > 0)) continue;
     if (worst == end || size(m) > size(r.shape.wall[worst])) worst = w;
   }
-  if (worst == end) return {msg("nothing was cut there"), {}};
+  if (worst == end) return {{finding<Kind::wall_uncut>()}, {}};
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   const bool thick = &t == &m.worst_under;
   const Message wall = scenarios::wall_text(worst, r.shape.facing);
   const Number furthest = as_mm(thick ? m.max_under_mm : m.max_over_mm, 2);
-  const Message what = over && m.over_outside ? msg("cut outside the container, up to {} beyond {}", furthest, wall)
-                       : over                 ? msg("{} overcut by up to {}", wall, furthest)
-                       : under                ? msg("{} left up to {} thick", wall, furthest)
-                       : p95 && thick         ? msg("{}, 95 % of whose places lie no further out than that; the furthest {} thick", wall, furthest)
-                       : p95   ? msg("{}, 95 % of whose places lie no further out than that; the furthest {} beyond the target", wall, furthest)
-                       : thick ? msg("{}, in the mean of its places; the furthest {} thick", wall, furthest)
-                               : msg("{}, in the mean of its places; the furthest {} beyond the target", wall, furthest);
-  if (t.timed()) return {msg("{}, at {}, cut at {}", what, t.site_mm, when(t)), t};
-  if (t.tick >= 0) return {msg("{}, at {}", what, t.site_mm), t};
-  return {thick && m.max_under_mm > 0 ? msg("{}, at {}, where nothing was cut", what, t.site_mm) : what, t};
+  Loss loss{{over && m.over_outside ? finding<Kind::wall_beyond_container>(furthest, wall, id_of(worst))
+             : over                 ? finding<Kind::wall_overcut>(wall, furthest, id_of(worst))
+             : under                ? finding<Kind::wall_thick>(wall, furthest, id_of(worst))
+             : p95 && thick         ? finding<Kind::wall_p95_thick>(wall, furthest, id_of(worst))
+             : p95                  ? finding<Kind::wall_p95_overcut>(wall, furthest, id_of(worst))
+             : thick                ? finding<Kind::wall_mean_thick>(wall, furthest, id_of(worst))
+                                    : finding<Kind::wall_mean_overcut>(wall, furthest, id_of(worst))},
+            t};
+  if (t.timed()) loss.what.push_back(finding<Kind::cut_site>(t.site_mm, seconds(t), t.tick));
+  if (!t.timed() && t.tick >= 0) loss.what.push_back(finding<Kind::site>(t.site_mm));
+  if (t.tick < 0 && thick && m.max_under_mm > 0) loss.what.push_back(finding<Kind::site_uncut>(t.site_mm));
+  return loss;
 }
 
 Loss length_error(const Result& r, const Asked&) {
   if (!r.shape.length_mm) return {};
-  return {msg("{}; length {} instead of {}", ends(r, 0), as_mm(*r.shape.length_mm, 2), as_mm(r.shape.target_length_mm, 2)), {}};
+  Loss loss{ends(r, 0), {}};
+  loss.what.push_back(finding<Kind::length>(as_mm(*r.shape.length_mm, 2), as_mm(r.shape.target_length_mm, 2)));
+  return loss;
 }
 
 Loss width_error(const Result& r, const Asked&) {
   if (!r.shape.width_mm) return {};
-  return {msg("{}; width {} instead of {}", ends(r, 2), as_mm(*r.shape.width_mm, 2), as_mm(r.shape.target_width_mm, 2)), {}};
+  Loss loss{ends(r, 2), {}};
+  loss.what.push_back(finding<Kind::width>(as_mm(*r.shape.width_mm, 2), as_mm(r.shape.target_width_mm, 2)));
+  return loss;
 }
 
 Loss depth_error(const Result& r, const Asked&) {
   if (!r.shape.depth_mm) return {};
-  return {msg("depth {} instead of {}", as_mm(*r.shape.depth_mm, 2), as_mm(r.shape.target_depth_mm, 2)), {}};
+  return {{finding<Kind::depth>(as_mm(*r.shape.depth_mm, 2), as_mm(r.shape.target_depth_mm, 2))}, {}};
 }
 
 Loss taper_error(const Result& r, const Asked&) {
-  return {msg("the walls open by {} instead of {}", as_deg(*r.shape.taper_deg, 1), as_deg(*r.access.target_taper_deg, 1)), {}};
+  return {{finding<Kind::taper>(as_deg(*r.shape.taper_deg, 1), as_deg(*r.access.target_taper_deg, 1))}, {}};
 }
 
-Loss overhang(const Result& r, const Asked&) { return {msg("roof left above the chamber, around {}", r.access.overhang_middle_mm), {}}; }
+Loss overhang(const Result& r, const Asked&) { return {{finding<Kind::roof_left>(r.access.overhang_middle_mm)}, {}}; }
 
-Loss canals_covered(const Result& r, const Asked&) { return {msg("hard tissue stands over the mouths around {}", r.access.canals_covered_mm), {}}; }
+Loss canals_covered(const Result& r, const Asked&) { return {{finding<Kind::canals_covered>(r.access.canals_covered_mm)}, {}}; }
 
 Loss floor_cut(const Result& r, const Asked&) {
-  if (r.access.floor_first.tick < 0) return {msg("no hard tissue was cut below the target"), {}};
-  return {msg("beginning at {}", place_and_time(r.access.floor_first)), r.access.floor_first};
+  if (r.access.floor_first.tick < 0) return {{finding<Kind::floor_uncut>()}, {}};
+  Loss loss{{}, r.access.floor_first};
+  put_first(loss.what, loss.first);
+  return loss;
 }
 
 Loss dentin_over_pulp(const Result& r, const Asked&) {
   const Trace& at = r.over_pulp.thinnest;
-  if (*r.over_pulp.dentin_mm > 0)
-    return {at.timed() ? msg("thinnest at {}, cut at {}", at.site_mm, when(at)) : msg("thinnest at {}", at.site_mm), at};
-  return {at.timed() ? msg("the pulp was opened at {}, cut at {}", at.site_mm, when(at)) : msg("the pulp was opened at {}", at.site_mm), at};
+  return cut_at(*r.over_pulp.dentin_mm > 0 ? finding<Kind::dentin_thinnest>(at.site_mm) : finding<Kind::pulp_opened>(at.site_mm), at);
 }
 
 Loss nick(const Result& r, const Asked&) {
   const Trace& at = r.beside.deepest;
   if (at.tick < 0) return {};
-  return {msg("the neighbour is cut deepest at {}, cut at {}", at.site_mm, when(at)), r.beside.first_nick};
+  Loss loss = cut_at(finding<Kind::neighbour_cut>(at.site_mm), at);
+  loss.first = r.beside.first_nick;
+  return loss;
 }
 
 Loss clearance(const Result& r, const Asked&) {
-  if (!r.beside.clearance_mm) return {msg("the target opens no contact"), {}};
-  return {msg("least between {} and the neighbour's {}", r.beside.clearance_from_mm, r.beside.clearance_to_mm), {}};
+  if (!r.beside.clearance_mm) return {{finding<Kind::no_contact_opened>()}, {}};
+  return {{finding<Kind::clearance>(r.beside.clearance_from_mm, r.beside.clearance_to_mm)}, {}};
 }
 
 Loss gum(const Result& r, const Asked&) {
-  const Trace& at = r.beside.first_gum;
-  if (at.tick < 0) return {};
-  return {msg("cut first at {}, at {}", at.site_mm, when(at)), at};
+  Loss loss{{}, r.beside.first_gum};
+  put_first(loss.what, loss.first);
+  return loss;
 }
 
 Loss time_over(const Result& r, const Asked& a) {
   const Trace first = clock_at(r, a.full);
-  return {first.tick >= 0 ? msg("that time was over at {}", when(first)) : Message(), first};
+  if (first.tick < 0) return {};
+  return {{finding<Kind::full_time_over>(seconds(first), first.tick)}, first};
 }
 
 Loss force_peak(const Result& r, const Asked&) {
-  return {msg("pressed hardest at {}, at {}", r.motion.force_peak.site_mm, when(r.motion.force_peak)), r.motion.force_peak};
+  const Trace& at = r.motion.force_peak;
+  return {{finding<Kind::pressed_hardest>(at.site_mm, seconds(at), at.tick)}, at};
 }
 
 Loss force_over_limit(const Result& r, const Asked&) {
-  if (r.motion.first_over_limit.tick < 0) return {};
-  return {msg("above the limit first at {}", when(r.motion.first_over_limit)), r.motion.first_over_limit};
+  const Trace& first = r.motion.first_over_limit;
+  if (first.tick < 0) return {};
+  return {{finding<Kind::force_above_limit>(seconds(first), first.tick)}, first};
 }
 
 Loss fault_opened(const Result& r, const Asked&) {
   const PerforationTruth& t = r.perforation.fault;
-  if (!t.perforated) return {msg("no faulty breakthrough"), {}};
-  const Message opened = msg("{} opened at {}", Term{t.tissue}, place_and_time(t.first));
+  if (!t.perforated) return {{finding<Kind::nothing_opened>()}, {}};
   const Number area = as_mm2(t.area_mm2, 3);
-  return {t.volume_mm3 > 0 ? msg("{}, {} of its wall in all, {} of it removed", opened, area, as_mm3(t.volume_mm3, 3))
-                           : msg("{}, {} of its wall in all, none of it removed", opened, area),
-          t.first};
+  Loss loss{{t.volume_mm3 > 0 ? finding<Kind::tissue_opened_and_removed>(Term{t.tissue}, area, as_mm3(t.volume_mm3, 3))
+                              : finding<Kind::tissue_opened>(Term{t.tissue}, area)},
+            t.first};
+  put_first(loss.what, t.first);
+  return loss;
 }
 
 Loss swept_outside(const Result& r, const Asked&) {
   const Trace& first = r.perforation.fault.first_outside;
-  if (first.tick < 0) return {msg("none"), {}};
-  return {msg("from outside the tooth, first at {}", place_and_time(first)), first};
+  if (first.tick < 0) return {{finding<Kind::none_from_outside>()}, {}};
+  Loss loss{{finding<Kind::from_outside>()}, first};
+  put_first(loss.what, first);
+  return loss;
 }
 
 Loss fault_felt(const Result& r, const Asked&) {
   for (const auto& e : r.perforation.events)
     if (e.fault && e.confirmed) {
       const Trace at{e.tick, e.site_mm};
-      return {msg("a drop in force from {} at {}", as_n(e.force_before_n, 2), when(at)), at};
+      return {{finding<Kind::force_fell>(as_n(e.force_before_n, 2), seconds(at), at.tick)}, at};
     }
-  return {msg("no faulty breakthrough that force and tissue show"), {}};
+  return {{finding<Kind::no_fall_confirmed>()}, {}};
 }
 
 Loss tissue_touched(const Result& r, const Asked& a) {
+  const Term tissue{a.measure.tissue};
   for (const auto& t : r.tissues)
-    if (const Trace& first = r.volumes.tissue_first[t.id]; t.name == a.measure.tissue && first.tick >= 0)
-      return {msg("touched first at {}", place_and_time(first)), first};
-  return {msg("never touched"), {}};
+    if (const Trace& first = r.volumes.tissue_first[t.id]; t.name == a.measure.tissue && first.tick >= 0) {
+      Loss loss{{finding<Kind::tissue_touched>(tissue)}, first};
+      put_first(loss.what, first);
+      return loss;
+    }
+  return {{finding<Kind::tissue_untouched>(tissue)}, {}};
 }
 
 Loss first_violation(const Result& r, const Asked&) {
-  if (r.progress.first_violation.tick < 0) return {};
-  return {msg("first at {}", when(r.progress.first_violation)), r.progress.first_violation};
+  const Trace& first = r.progress.first_violation;
+  if (first.tick < 0) return {};
+  return {{finding<Kind::violated>(seconds(first), first.tick)}, first};
 }
 
 }  // namespace reason

@@ -11,8 +11,8 @@ namespace cavum::grading {
 struct Asked;
 
 struct Loss {
-  Message what;
-  Trace first;  ///< where the loss began
+  Findings what;  ///< none: the figure says all there is
+  Trace first;    ///< where the loss began
 };
 
 /// What the rows of grading/result/measure_marking.h choose from. Each says it of the measure that was asked for.
@@ -47,12 +47,6 @@ namespace reason {
 [[nodiscard]] Unit unit_of(std::string_view name) noexcept;
 /// A measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
 [[nodiscard]] Message value_text(const scenarios::Measure& measure, double value, double bound, int digits);
-/// "12.34 s (tick 12340)".
-[[nodiscard]] Message when(const Trace& t);
-/// The same message with each when() in it as its seconds alone.
-[[nodiscard]] Message without_ticks(const Message& message);
-/// The place, and when it was where that is known.
-[[nodiscard]] Message place_and_time(const Trace& t);
 /// In words: how much, how quick, from when, and how clear.
 [[nodiscard]] Message drop_text(const ForceDrop& drop);
 

@@ -11,12 +11,15 @@
 namespace cavum::grading {
 namespace {
 
+using Kind = FindingKind;
+
 constexpr char k_exam_time[] = "time_s";
 
 struct Work {
   double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
   Message towards;         ///< those walls; empty: all of the target
   double bound_percent = 0.0;
+  std::string wall = {};  ///< the identifier of the one wall, or "sides"
   [[nodiscard]] double share(double off = 0) const { return std::clamp((percent + off * bound_percent) / k_care_counts_percent, 0.0, 1.0); }
 };
 
@@ -35,10 +38,22 @@ Work work_done(const Result& r, const scenarios::Measure& measure) {
   };
   if (measure.judges == scenarios::Judges::work) return {};
   // a distance at some of the walls; volumes, also of what lies below the floor, ask for all of the work
-  if (measure.walls > 0 && measure.walls < scenarios::k_walls)
-    return towards(measure.first_wall, measure.first_wall + measure.walls,
-                   measure.walls == 1 ? scenarios::wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
+  if (measure.walls > 0 && measure.walls < scenarios::k_walls) {
+    const bool one = measure.walls == 1;
+    Work work = towards(measure.first_wall, measure.first_wall + measure.walls,
+                        one ? scenarios::wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
+    work.wall = one ? scenarios::wall_name(static_cast<scenarios::Wall>(measure.first_wall)) : "sides";
+    return work;
+  }
   return towards(0, scenarios::k_walls + 1, {});
+}
+
+/// Of how many of its points remain for the work that was done.
+Finding work_counts(const Work& work) {
+  const Number done = as_percent(work.percent, 1, work.bound_percent), counts = as_percent(100 * work.share()),
+               all_from = as_percent(k_care_counts_percent);
+  return work.towards.empty() ? finding<Kind::part_counts>(done, counts, all_from)
+                              : finding<Kind::part_towards_counts>(done, work.towards, counts, all_from, work.wall);
 }
 
 /// Digits that it takes to tell a value from another one and from nothing.
@@ -61,7 +76,7 @@ bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
 CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   const Asked a = asked(c.metric, c.full);
   CriterionResult out;
-  std::vector<Message>& facts = out.reason.items;
+  Findings& facts = out.facts;
   out.id = c.id;
   out.title = c.title;
   out.metric = c.metric;
@@ -69,15 +84,15 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   out.max = c.points;
   if (not_shown(r, a.measure)) {
     out.judged = false;
-    facts.push_back(msg("not judged: a preparation without its recording does not show it"));
-    if (c.critical_above || c.critical_below) facts.push_back(msg("it has a critical limit, so the verdict is no pass"));
+    facts.push_back(finding<Kind::not_shown>());
+    if (c.critical_above || c.critical_below) facts.push_back(finding<Kind::not_shown_critical>());
     return out;
   }
   const MetricValue v = value_of(r, a);
   out.value = v.value;
   out.bound = v.bound;
   if (!v.value) {
-    facts.push_back(msg("cannot be measured: nothing was cut there, or tooth and scenario have nothing of the kind"));
+    facts.push_back(finding<Kind::not_measured>());
     out.critical_failed = c.critical_below.has_value();
     out.first = r.end;
     return out;
@@ -91,20 +106,22 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
       std::max(c.points * std::max(low, high) * work.share(1) - out.points, out.points - c.points * std::min(low, high) * work.share(-1)) + 0.0;
   out.critical_failed = (c.critical_above && *v.value > *c.critical_above) || (c.critical_below && *v.value < *c.critical_below);
   if (share >= 1.0 && !out.critical_failed) {
-    facts.push_back(out.work_share < 1 ? msg("full marks for what was done") : msg("full marks"));
+    facts.push_back(out.work_share < 1 ? finding<Kind::full_marks_for_part>() : finding<Kind::full_marks>());
   } else {
     Loss loss = a.marking->reason(r, a);
+    facts = std::move(loss.what);
     const int digits = digits_for(*v.value, c.full);
-    const Message is = value_text(a.measure, *v.value, v.bound, digits), full = value_text(a.measure, c.full, 0, digits);
-    facts.push_back(loss.what.empty() ? msg("{} where {} gives full marks", is, full) : msg("{} where {} gives full marks: {}", is, full, loss.what));
+    // of a yes or no the loss says all
+    if (facts.empty() || a.measure.reads != scenarios::Reads::yes_no)
+      facts.push_back(finding<Kind::below_full>(value_text(a.measure, *v.value, v.bound, digits), value_text(a.measure, c.full, 0, digits)));
     if (loss.first.tick < 0 && r.end.tick >= 0) {
       loss.first = r.end;
-      facts.push_back(msg("as it stood at the end, {}", when(r.end)));
+      facts.push_back(finding<Kind::at_end>(as_s(r.end.t_s(), 2), r.end.tick));
     }
     out.first = loss.first;
   }
   if (const double stretch = granted_stretch(r); c.metric == k_exam_time && stretch != 1)
-    facts.push_back(msg("the limits are {} times the rubric's, for the time that was granted", as_number(std::round(100 * stretch) / 100)));
+    facts.push_back(finding<Kind::granted_limits>(as_number(std::round(100 * stretch) / 100)));
   const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
   out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
   const auto limit_value = [&](const std::optional<double>& limit) { return as_number(limit.value_or(0), 2); };
@@ -112,25 +129,19 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
     const bool above = c.critical_above && *v.value > *c.critical_above;
     const auto& limit = above ? c.critical_above : c.critical_below;
     const Number at = limit_value(limit);
+    const bool in_bound = near(limit);
     if (a.measure.reads == scenarios::Reads::yes_no)
-      facts.push_back(near(limit) ? msg("critical, and the limit lies within the bound of the figure") : msg("critical"));
-    else if (near(limit))
-      facts.push_back(above ? msg("critical above {}, which lies within the bound of the figure", at)
-                            : msg("critical below {}, which lies within the bound of the figure", at));
+      facts.push_back(in_bound ? finding<Kind::fails_exam_in_bound>() : finding<Kind::fails_exam>());
+    else if (in_bound)
+      facts.push_back(above ? finding<Kind::above_critical_in_bound>(at) : finding<Kind::below_critical_in_bound>(at));
     else
-      facts.push_back(above ? msg("critical above {}", at) : msg("critical below {}", at));
-    facts.push_back(msg("this alone fails the exam"));
+      facts.push_back(above ? finding<Kind::above_critical>(at) : finding<Kind::below_critical>(at));
   } else if (out.limit_in_bound) {
-    facts.push_back(msg("the critical limit of {} lies within the bound of the figure",
-                        limit_value(near(c.critical_above) ? c.critical_above : c.critical_below)));
+    facts.push_back(finding<Kind::critical_in_bound>(limit_value(near(c.critical_above) ? c.critical_above : c.critical_below)));
   }
   if (out.work_share < 1) {
     if (out.first.tick < 0) out.first = r.end;
-    const Number done = as_percent(work.percent, 1, work.bound_percent);
-    out.work_text =
-        work.towards.empty() ? msg("{} of the target was removed", done) : msg("{} of the target towards {} was removed", done, work.towards);
-    facts.push_back(msg("counts {} only, for {}, and care counts in full from {} on", as_percent(100 * out.work_share), out.work_text,
-                        as_percent(k_care_counts_percent)));
+    facts.push_back(work_counts(work));
   }
   return out;
 }
@@ -184,7 +195,7 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
     if (spec.critical_above || spec.critical_below) guarded.push_back(spec.id);
   }
   if (open.empty()) return;
-  r.verdict_reasons.push_back(finding<FindingKind::not_judged>(list_of(open), as_points(r.unjudged_points), as_points(r.max_points)));
+  r.verdict_reasons.push_back(finding<Kind::not_judged>(list_of(open), as_points(r.unjudged_points), as_points(r.max_points)));
   if (critical) return;
   const Reach reach = r.unjudged_points > 0 ? reach_of(r, standing) : Reach{standing.percent, standing.percent};
   const auto verdict_at = [&](double percent) {
@@ -195,11 +206,11 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
   r.verdict = worst == best ? worst : Verdict::review;
   const Number least = as_percent(reach.least, 1), most = as_percent(reach.most, 1);
   if (r.unjudged_points > 0)
-    r.verdict_reasons.push_back(worst == best ? finding<FindingKind::not_judged_same>(least, most, word_of(worst))
-                                              : finding<FindingKind::not_judged_open>(least, most));
+    r.verdict_reasons.push_back(worst == best ? finding<Kind::not_judged_same>(least, most, word_of(worst))
+                                              : finding<Kind::not_judged_open>(least, most));
   if (r.verdict != Verdict::pass || guarded.empty()) return;
   r.verdict = Verdict::review;
-  r.verdict_reasons.push_back(finding<FindingKind::not_judged_critical>(list_of(guarded)));
+  r.verdict_reasons.push_back(finding<Kind::not_judged_critical>(list_of(guarded)));
 }
 
 }  // namespace
@@ -248,7 +259,7 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     if (!c.critical_failed) continue;
     critical = true;
     certain = certain || !c.limit_in_bound;
-    r.verdict_reasons.push_back(finding<FindingKind::critical_limit>(c.id, msg("{}", c.reason)));
+    r.verdict_reasons.push_back(finding<Kind::critical_limit>(c.id));
   }
   for (auto& too_full : count_bands(r)) {
     critical = certain = true;
@@ -261,33 +272,32 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
   const bool open = !certain && !band && std::fabs(beyond) < standing.bound_percent;
   if (!critical && band) r.verdict = Verdict::review;
   const Number reached = as_percent(standing.percent, 1), pass = as_percent(rubric.pass_percent, 1);
-  r.verdict_reasons.push_back(!standing.criterion.empty() ? finding<FindingKind::lowest_criterion_reaches>(standing.criterion, reached, pass)
-                              : r.unjudged_points > 0     ? finding<FindingKind::judged_sum_reaches>(reached, pass)
-                                                          : finding<FindingKind::sum_reaches>(reached, pass));
-  if (critical && beyond >= 0) r.verdict_reasons.push_back(finding<FindingKind::enough_alone>());
-  if (!critical && band) r.verdict_reasons.push_back(finding<FindingKind::borderline>(as_percent(rubric.borderline_percent, 1)));
-  if (open && !critical) r.verdict_reasons.push_back(finding<FindingKind::bound_crosses>(as_percent(standing.bound_percent, 1)));
+  r.verdict_reasons.push_back(!standing.criterion.empty() ? finding<Kind::lowest_criterion_reaches>(standing.criterion, reached, pass)
+                              : r.unjudged_points > 0     ? finding<Kind::judged_sum_reaches>(reached, pass)
+                                                          : finding<Kind::sum_reaches>(reached, pass));
+  if (critical && beyond >= 0) r.verdict_reasons.push_back(finding<Kind::enough_alone>());
+  if (!critical && band) r.verdict_reasons.push_back(finding<Kind::borderline>(as_percent(rubric.borderline_percent, 1)));
+  if (open && !critical) r.verdict_reasons.push_back(finding<Kind::bound_crosses>(as_percent(standing.bound_percent, 1)));
   if (!r.compensatory)
     for (const auto& c : r.criteria)
       if (const double percent = c.max > 0 && c.judged ? 100 * c.points / c.max : 100.0; percent < rubric.pass_percent && standing.criterion != c.id)
-        r.verdict_reasons.push_back(finding<FindingKind::criterion_below>(c.id, as_percent(percent, 1)));
+        r.verdict_reasons.push_back(finding<Kind::criterion_below>(c.id, as_percent(percent, 1)));
   weigh_unjudged(r, rubric, standing, critical);
   // What fails by points whatever a limit's figure is, or the other way round, is not open.
   const bool fails_by_points = beyond < 0 && !band && !open;
   if (rubric.review_within_bound && !certain && !fails_by_points && (open || limit_open)) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(finding<FindingKind::bounds_open>());
+    r.verdict_reasons.push_back(finding<Kind::bounds_open>());
   }
   if (!r.perforation.agree())
-    r.verdict_reasons.push_back(r.perforation.detected() ? finding<FindingKind::force_without_tissue>()
-                                                         : finding<FindingKind::tissue_without_force>());
+    r.verdict_reasons.push_back(r.perforation.detected() ? finding<Kind::force_without_tissue>() : finding<Kind::tissue_without_force>());
   if (r.verdict == Verdict::pass && !r.progress.open_last_step.empty() && !rubric.open_step_passes) {
     r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(finding<FindingKind::last_step_open>(r.progress.open_last_step));
+    r.verdict_reasons.push_back(finding<Kind::last_step_open>(r.progress.open_last_step));
   }
   if (r.perforation.fault.perforated &&
       std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))
-    r.verdict_reasons.push_back(finding<FindingKind::fault_not_asked>(Term{r.perforation.fault.tissue}));
+    r.verdict_reasons.push_back(finding<Kind::fault_not_asked>(Term{r.perforation.fault.tissue}));
   for (const Finding& note : r.notes)
     if (note.asks_examiner()) {
       r.verdict = Verdict::review;

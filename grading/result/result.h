@@ -233,18 +233,18 @@ struct ProgressMeasures {
 
 struct CriterionResult {
   std::string id, title, metric, unit;
-  List reason{{}, true};        ///< fact by fact
+  Findings facts;               ///< why it has its points, the most important first: what was lost, or that nothing was
   std::optional<double> value;  ///< none when the metric cannot be measured on this cavity
   bool judged = true;           ///< false: what was handed in does not show it. It has no points and takes none from the score
   double bound = 0.0;
   double points = 0.0, max = 0.0;
   double points_bound = 0.0;  ///< by the bounds of the value and of the work's share
   double work_share = 1.0;    ///< of its points that count, for not enough of the work was done that it judges
-  Message work_text;          ///< that in words; empty when all of them count
   bool critical_failed = false;
   bool limit_in_bound = false;      ///< the value lies no further from a critical limit than its bound
   std::optional<std::size_t> band;  ///< that it lies in, of Result::bands
   Trace first;                      ///< where the loss began
+  [[nodiscard]] Message reason() const { return msg("{}", sentences(facts)); }
 };
 
 /// A band of the rubric, and the criteria that lie in it.

@@ -91,6 +91,12 @@ Json score_json(const Result& r) {
   return j;
 }
 
+Json json_of(const Findings& findings) {
+  Json all = Json::array();
+  for (const Finding& f : findings) all.push_back(to_json(f));
+  return all;
+}
+
 Json criterion_json(const Result& r, const CriterionResult& c) {
   Json j = {{"id", c.id},
             {"title", c.title},
@@ -102,8 +108,10 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"max", rounded(c.max)},
             {"points_bound", rounded(c.points_bound)},
             {"critical_failed", c.critical_failed},
-            {"reason", english_text(msg("{}", c.reason))},
-            {"said", encode(msg("{}", c.reason))},
+            {"kind", c.facts.front().row().name},
+            {"values", values_json(c.facts.front())},
+            {"facts", json_of(c.facts)},
+            {"reason", english_text(c.reason())},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
   if (c.band) j["band"] = r.bands[*c.band].name;
@@ -212,12 +220,6 @@ void put_what_there_was(Json& j, const Result& r) {
   if (r.late_work.ticks > 0) j["late_work"] = {{"ticks", r.late_work.ticks}, {"pedal_ticks", r.late_work.pedal_ticks}};
 }
 
-Json json_of(const Findings& findings) {
-  Json all = Json::array();
-  for (const Finding& f : findings) all.push_back(to_json(f));
-  return all;
-}
-
 }  // namespace
 
 Json to_json(const Result& r) {
@@ -274,7 +276,10 @@ nlohmann::json without_words(nlohmann::json result) {
     if (result.contains(list) && result[list].is_array()) erase_words(result[list]);
   if (result.contains("criteria") && result["criteria"].is_array())
     for (nlohmann::json& c : result["criteria"])
-      if (c.is_object()) c.erase("reason"), c.erase("said");
+      if (c.is_object()) {
+        c.erase("reason");
+        erase_words(c["facts"]);
+      }
   return result;
 }
 
@@ -292,8 +297,7 @@ void add_criteria(Lines& out, const Result& r) {
   for (const auto& c : r.criteria) {
     const Number most = as_points(c.max);
     out.row({Name{c.id}, c.judged ? msg("{} / {}", as_points(c.points), most) : msg("- / {}", most),
-             c.judged ? msg("± {}", as_points(c.points_bound)) : Message(),
-             c.critical_failed && !r.verdict_reasons.empty() ? msg("critical: see above") : msg("{}", c.reason)},
+             c.judged ? msg("± {}", as_points(c.points_bound)) : Message(), c.reason()},
             2);
   }
 }

@@ -110,8 +110,11 @@ void LossFinder::missed(double points) {
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
     const Message wall = scenarios::wall_text(w, r_.shape.facing);
-    const Message left = p.sum > 0 ? msg("target left towards {}, its middle at {}", wall, p.middle / p.sum) : msg("target left towards {}", wall);
-    fact(last.tick >= 0 ? msg("{}; the target was last cut there at {}", left, when(last)) : msg("{}; nothing of the target was cut there", left),
+    const Vec3 middle_mm = p.sum > 0 ? p.middle / p.sum : Vec3();
+    fact(p.sum > 0        ? last.tick >= 0 ? msg("target left towards {}, its middle at {}; cut there last at this time", wall, middle_mm)
+                                           : msg("target left towards {}, its middle at {}; nothing of it was cut there", wall, middle_mm)
+                : last.tick >= 0 ? msg("target left towards {}; cut there last at this time", wall)
+                          : msg("target left towards {}; nothing of it was cut there", wall),
          mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
     if (mm3 >= k_least_moment_mm3) continue;
@@ -204,9 +207,9 @@ void LossFinder::value_and_work() {
     why_.items.back().points_lost = by_value;
   }
   if (by_work > 1e-9) {
-    fact(msg("{} of the points count, for care counts in full only from {} of the work on: {}", as_percent(100 * c.work_share, 1),
-             as_percent(k_care_counts_percent), c.work_text),
-         {}, "", r_.end);
+    const auto part = std::find_if(c.facts.begin(), c.facts.end(),
+                                   [](const Finding& f) { return f.kind == FindingKind::part_counts || f.kind == FindingKind::part_towards_counts; });
+    fact(part->message(), {}, "", r_.end);
     why_.items.back().points_lost = by_work;
   }
 }

@@ -41,7 +41,7 @@ Json to_json(const Why& w) {
             {"points", rounded(c.points)},
             {"max", rounded(c.max)},
             {"critical_failed", c.critical_failed},
-            {"reason", english_text(msg("{}", c.reason))}}},
+            {"reason", english_text(c.reason())}}},
           {"points_lost", rounded(c.max - c.points)},
           {"moments", items},
           {"moments_left_out", w.left_out},
@@ -60,7 +60,7 @@ Lines to_text(const Why& w) {
           : w.full < w.zero                         ? msg("full marks at {} or less, none from {} on", full, none)
                                                     : msg("full marks at {} or more, none from {} down", full, none),
           2);
-  out.add(msg("{}", c.reason), 2);
+  out.add(c.reason(), 2);
   if (!w.items.empty()) out.gap();
   const auto seconds = [](std::int64_t tick) { return as_s(static_cast<double>(tick) * k_tick_s, 3); };
   for (const auto& i : w.items)

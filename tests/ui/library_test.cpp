@@ -34,7 +34,7 @@ std::string told(const grading::Result& r) {
   std::string all =
       std::string(grading::verdict_name(r.verdict)) + ", " + std::to_string(r.points) + " points, " + finish_name(r.progress.finish) + "\n";
   for (const auto& reason : r.verdict_reasons) all += "  " + english_text(reason.message()) + "\n";
-  for (const auto& c : r.criteria) all += "  " + c.id + ": " + english_text(msg("{}", c.reason)) + "\n";
+  for (const auto& c : r.criteria) all += "  " + c.id + ": " + english_text(c.reason()) + "\n";
   return all;
 }
 
@@ -88,7 +88,7 @@ TEST_P(TakenTask, IsPassedByTheExpertAndFailedByTheCarelessForTheReasonItNames) 
   EXPECT_EQ(expert.verdict, grading::Verdict::pass) << told(expert);
   EXPECT_GE(expert.points, 90) << told(expert);
   for (const auto& c : expert.criteria)
-    EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << english_text(msg("{}", c.reason));
+    EXPECT_DOUBLE_EQ(c.work_share, 1) << "who does it well is not credited with it: " << c.id << ", " << english_text(c.reason());
   EXPECT_EQ(expert.progress.finish, Finish::completed) << told(expert);
 
   const std::string reason = setup->scenario.careless.fails_by;

@@ -104,8 +104,9 @@ void add_criteria(Document& d, const ReportSource& s) {
     const grading::CriterionResult& c = s.result.criteria[i];
     const std::string points = !c.judged ? tr("not judged") : tr("{} / {}", Number{c.points, Unit::none, 1, c.points_bound}, as_points(c.max));
     const std::string limits = i < s.rubric.criteria.size() ? tr("{}", limits_of(grading::as_marked(s.rubric.criteria[i], s.result))) : "";
-    t.rows.push_back({{{tr("{}", Authored{c.title})}, {tr(shown_value(c))}, {limits}, {points}, {tr(for_reader(msg("{}", c.reason), s))}},
-                      c.judged && c.max - c.points > 1e-9});
+    const bool tick = s.reader == ReportReader::instructor && c.max - c.points > 1e-9 && c.first.timed();
+    const std::string why = tick ? tr("{} (from tick {})", c.reason(), c.first.tick) : tr(c.reason());
+    t.rows.push_back({{{tr("{}", Authored{c.title})}, {tr(shown_value(c))}, {limits}, {points}, {why}}, c.judged && c.max - c.points > 1e-9});
   }
   d.blocks.push_back(std::move(t));
   for (auto& words : how_to_read(s.result)) d.blocks.push_back(std::move(words));
@@ -180,8 +181,7 @@ Message finding_for(grading::Finding f, const ReportSource& s) {
   const auto& v = f.values;
   if (f.kind == Kind::critical_limit)
     for (const auto& c : s.result.criteria)
-      if (v[0] == Value(Name{c.id}))
-        return grading::finding<Kind::critical_limit>(Authored{c.title}, grading::without_ticks(for_reader(msg("{}", c.reason), s))).message();
+      if (v[0] == Value(Name{c.id})) return msg("critical criterion {}: {}", Authored{c.title}, c.reason());
   if (f.kind == Kind::step_failed || f.kind == Kind::step_timed_out || f.kind == Kind::step_timed_out_otherwise || f.kind == Kind::last_step_open)
     f.values[0] = step_by_text(v[0], s);
   if (s.reader == ReportReader::instructor) return f.message();
@@ -198,7 +198,7 @@ Message finding_for(grading::Finding f, const ReportSource& s) {
     case Kind::step_timed_out_otherwise:
       return msg("step '{}' ran out of its time at {}", v[0], v[1]);
     default:
-      return for_reader(f.message(), s);
+      return f.message();
   }
 }
 
@@ -222,12 +222,11 @@ std::vector<std::string> reasons_for(const ReportSource& s) {
 }
 
 /// A row of a moment: time, place, what, how much, points.
-TableRow moment_row(const grading::WhyItem& m, const ReportSource& s) {
-  const Message what = for_reader(m.what, s);
+TableRow moment_row(const grading::WhyItem& m) {
   const bool lasts = m.end_tick > m.tick && m.tick >= 0;
   return {{time_cell(m.tick, m.site_mm),
            {place_text(m.site_mm)},
-           {lasts ? tr("{} (until {})", what, as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(what)},
+           {lasts ? tr("{} (until {})", m.what, as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(m.what)},
            {m.amount ? figure(as_unit(*m.amount, grading::unit_of(m.unit), 3)) : ""},
            {m.points_lost ? figure(as_points(*m.points_lost, 2)) : ""}},
           m.points_lost && *m.points_lost > 0};
@@ -253,7 +252,7 @@ void add_moments(Document& d, const ReportSource& s) {
                   tr("Moments behind {}", Authored{c.title})};
     for (const auto& m : w.items) {
       const bool cost_nothing = m.points_lost && *m.points_lost < k_no_points;
-      if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m, s));
+      if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m));
     }
     if (w.left_out > 0)
       t.rows.push_back({{{k_dash},
@@ -436,10 +435,6 @@ Message finish_words(Finish finish) {
       break;
   }
   return msg("it was not finished");
-}
-
-Message for_reader(const Message& message, const ReportSource& s) {
-  return s.reader == ReportReader::student ? grading::without_ticks(message) : message;
 }
 
 namespace {

@@ -35,8 +35,6 @@ void add_integrity(Document& document, const ReportSource& source);
 [[nodiscard]] std::string floor_words();
 /// How an exam came to its end: "time was up".
 [[nodiscard]] Message finish_words(Finish finish);
-/// What the rooms below say of an exam, as a report's reader takes it: for a student without ticks.
-[[nodiscard]] Message for_reader(const Message& message, const ReportSource& source);
 
 /// A figure in the reader's language.
 [[nodiscard]] inline std::string figure(const Number& n) { return tr("{}", n); }

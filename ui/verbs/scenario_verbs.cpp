@@ -167,7 +167,7 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
 nlohmann::ordered_json to_json(const Caught& c) {
   const auto result = grading::to_json(c.result);
   nlohmann::ordered_json j{
-      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(msg("{}", c.criterion.reason))}, {"what_to_do", c.advice}};
+      {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(c.criterion.reason())}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
   return j;
 }
@@ -176,8 +176,8 @@ Lines to_text(const Caught& c) {
   Lines out;
   const Number points = as_points(c.result.points), most = as_points(c.result.max_points);
   const Message verdict = grading::word_of(c.result.verdict);
-  out.add(c.as_named ? msg("careless: failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict)
-                     : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason, points, most, verdict));
+  out.add(c.as_named ? msg("careless: failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason(), points, most, verdict)
+                     : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason(), points, most, verdict));
   if (c.as_named) return out;
   for (const auto& reason : c.result.verdict_reasons) out.add(msg("because: {}", reason.message()));
   out.add(msg("what to do: {}", c.advice));
@@ -239,7 +239,7 @@ int solve(const ScenarioArguments& o) {
     say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0),
             solved.point));
     say(msg("steps: {} of {} completed, ended: {}", r.progress.steps_completed, r.progress.steps, Term{finish_name(r.progress.finish)}));
-    for (const auto& c : r.criteria) say(msg("{}: {} of {}, {}", c.id, as_points(c.points), as_points(c.max), c.reason), 2);
+    for (const auto& c : r.criteria) say(msg("{}: {} of {}, {}", c.id, as_points(c.points), as_points(c.max), c.reason()), 2);
   }
   for (const auto& reason : solved.reasons) say(msg("because: {}", reason));
   if (!passed) say(msg("what to do: {}", solved.advice));

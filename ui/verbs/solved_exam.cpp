@@ -60,7 +60,7 @@ Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed, const s
   for (std::size_t i = static_cast<std::size_t>(r.progress.steps_completed + r.progress.steps_failed); i < setup.scenario.steps.size(); ++i)
     solved.reasons.push_back(msg("step {} was not completed ({})", setup.scenario.steps[i].id, setup.scenario.steps[i].complete_when));
   for (const auto& c : r.criteria)
-    if (c.points < c.max && !c.critical_failed) solved.reasons.push_back(msg("criterion {}: {}", c.id, c.reason));  // a critical one is named already
+    if (c.points < c.max || c.critical_failed) solved.reasons.push_back(msg("criterion {}: {}", c.id, c.reason()));
   solved.advice = advice_for_expert(r);
   return solved;
 }

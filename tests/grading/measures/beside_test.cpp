@@ -83,7 +83,7 @@ TEST(BesideMeasures, OfTheToothItselfTheNickIsNoOvercutAndNothingOutside) {
   EXPECT_EQ(a.notes.size(), b.notes.size());
   EXPECT_FALSE(to_json(b).contains("beside"));
   EXPECT_EQ(to_json(a)["beside"]["neighbour_nick_depth_mm"], rounded(a.beside.nick_depth_mm));
-  EXPECT_TRUE(testing_basics::tells(a.criteria.back().reason, Value(a.beside.deepest.site_mm)));
+  EXPECT_TRUE(testing_basics::tells(a.criteria.back().reason(), Value(a.beside.deepest.site_mm)));
   EXPECT_TRUE(a.criteria.back().critical_failed);
 }
 

@@ -88,7 +88,7 @@ TEST(OverPulp, NeverMoreWhenMoreIsCutAndNothingFromTheTickInWhichThePulpIsOpened
   const Result r = c.graded();
   EXPECT_EQ(*r.over_pulp.dentin_mm, 0.0);
   EXPECT_EQ(r.over_pulp.thinnest.tick, 9);
-  EXPECT_TRUE(testing_basics::tells(r.criteria.back().reason, Value(r.over_pulp.thinnest.site_mm)));
+  EXPECT_TRUE(testing_basics::tells(r.criteria.back().reason(), Value(r.over_pulp.thinnest.site_mm)));
   EXPECT_TRUE(r.criteria.back().critical_failed);
 }
 
@@ -126,7 +126,7 @@ TEST(OverPulp, ReasonMomentsAndJsonSayWhereAndWhen) {
   const Result r = c.graded();
   const CriterionResult& left = r.criteria.back();
   EXPECT_NEAR(left.points, 10 * (0.7 - 0.2) / (1.2 - 0.2), left.points_bound);
-  EXPECT_TRUE(testing_basics::tells(left.reason, Value(r.over_pulp.thinnest.site_mm)));
+  EXPECT_TRUE(testing_basics::tells(left.reason(), Value(r.over_pulp.thinnest.site_mm)));
   EXPECT_EQ(left.first.tick, 7);
   const Why w = why(c.input(), r, c.scenario.rubric, "left");
   ASSERT_FALSE(w.items.empty());

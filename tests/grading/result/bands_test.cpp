@@ -53,7 +53,7 @@ TEST(Bands, AValueLiesInTheFirstBandWhoseLimitItDoesNotPass) {
   EXPECT_EQ(j["criteria"][0]["band"], "marginal");
   EXPECT_EQ(j["score"]["bands"][0]["criteria"], 2);
   EXPECT_EQ(j["score"]["bands"][1]["most"], 1);
-  EXPECT_TRUE(testing_basics::tells(r.criteria[0].reason, "marginal") && testing_basics::tells(r.criteria[0].reason, 0.2));
+  EXPECT_TRUE(testing_basics::tells(r.criteria[0].reason(), "marginal") && testing_basics::tells(r.criteria[0].reason(), 0.2));
 }
 
 TEST(Bands, OneMoreThanABandMayHoldFailsWhateverThePoints) {
@@ -78,8 +78,8 @@ TEST(Bands, CareForLessThanHalfOfTheWorkLiesInTheWorst) {
 
 TEST(Bands, ALimitWithinTheFiguresBoundIsSaid) {
   const Result r = cut_beyond(0.21, 0.0, rubric(1));
-  const auto facts = [](const Result& of) { return of.criteria[0].reason.items.size(); };
-  EXPECT_EQ(facts(r), facts(cut_beyond(0.35, 0.0, rubric(1))) + 1) << msg("{}", r.criteria[0].reason);
+  const auto facts = [](const Result& of) { return of.criteria[0].facts.size(); };
+  EXPECT_EQ(facts(r), facts(cut_beyond(0.35, 0.0, rubric(1))) + 1) << r.criteria[0].reason();
 }
 
 TEST(Bands, ARubricWithoutThemSaysNothingOfThem) {

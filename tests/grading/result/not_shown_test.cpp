@@ -40,7 +40,7 @@ TEST(NotShown, WhatNeedsTimeWayOrForceHasNoPointsAndTakesNone) {
     if (c.judged) continue;
     EXPECT_FALSE(c.value.has_value());
     EXPECT_EQ(c.points, 0.0);
-    EXPECT_FALSE(c.reason.items.empty());
+    EXPECT_FALSE(c.facts.empty());
   }
   for (const auto& c : r.criteria) (c.judged ? judged : not_judged) += c.max;
   EXPECT_EQ(r.max_points, judged);

@@ -126,7 +126,7 @@ TEST_F(Lessons, ADentFarFromTheCavityIsNoWallOfIt) {
   static_cast<void>(of());
   for (const auto& c : result_.criteria) {
     if (c.metric != "side_walls_max_over_mm") continue;
-    EXPECT_TRUE(result_.shape.wall[static_cast<std::size_t>(scenarios::Wall::mesial)].over_outside) << msg("{}", c.reason);
+    EXPECT_TRUE(result_.shape.wall[static_cast<std::size_t>(scenarios::Wall::mesial)].over_outside) << c.reason();
   }
 }
 

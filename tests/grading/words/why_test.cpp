@@ -125,7 +125,7 @@ TEST(Why, MomentsBeginWhereTheReasonSaysAndAddUpToValueAndBound) {
         EXPECT_NEAR(bound, r.criteria[0].bound, 1e-9) << metric;
       }
       if (w.left_out == 0) {
-        EXPECT_EQ(r.criteria[0].first.tick, first) << metric << ": " << msg("{}", r.criteria[0].reason);
+        EXPECT_EQ(r.criteria[0].first.tick, first) << metric << ": " << r.criteria[0].reason();
       }
     }
   }
@@ -163,7 +163,7 @@ TEST(Why, EveryLineThatCostsPointsHasItsTick) {
       const scenarios::RubricSpec rubric = half_lost(measured, m.name, sign);
       Result r = measured;
       mark(r, rubric);
-      EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << msg("{}", r.criteria[0].reason);
+      EXPECT_GE(r.criteria[0].first.tick, 0) << m.name << ": " << r.criteria[0].reason();
       for (const auto& i : why(c.input(), r, rubric, "c").items)
         if (i.points_lost.value_or(0) > 1e-9) {
           EXPECT_GE(i.tick, 0) << m.name << ": " << i.what;
