@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/lines.h"
+#include "grading/ledger/finding.h"
 
 namespace cavum::grading {
 class ExamGrounds;
@@ -18,7 +19,7 @@ struct SessionExplanation {
   bool holds = false;             ///< closed, true, and as its ticket promised when it has one
   bool interrupted = false;       ///< does not hold for one reason alone: nobody closed it; what is recorded is intact and can be resumed
   std::vector<Message> proved;    ///< what holds, each with how it is known
-  std::vector<Message> findings;  ///< what does not hold
+  Findings findings;              ///< what does not hold
   std::vector<Message> remarks;   ///< what nobody can know from the file, and what the clocks show
 };
 
