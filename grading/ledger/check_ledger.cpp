@@ -60,7 +60,7 @@ void check_times(const LedgerContent& content, Findings& remarks) {
   const std::int64_t now_ns = read_clocks().utc_ns;
   for (const auto& e : content.entries)
     if (e.utc_ns > now_ns + k_patience_ns)
-      remarks.push_back({FindingKind::clock_set_back, msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)), e.seq});
+      remarks.push_back({FindingKind::clock_ahead, msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)), e.seq});
 }
 
 /// What can never be shown of this ledger here, and why.

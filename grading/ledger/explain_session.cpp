@@ -20,11 +20,11 @@ namespace {
 
 /// `say` may find the session too damaged to be asked: that is a finding, too.
 template <class Say>
-void or_damage(SessionExplanation& e, const Say& say) {
+void or_damage(SessionExplanation& e, const Say& say, FindingKind kind = FindingKind::recording_unsound) {
   try {
     say();
   } catch (const Error& damage) {
-    e.findings.push_back({FindingKind::recording_unsound, damage.message()});
+    e.findings.push_back({kind, damage.message()});
   }
 }
 
@@ -150,7 +150,7 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
       if (key == k_ticket_note) ticket_text = value;
   });
   if (!ticket_text.empty())
-    or_damage(e, [&] { say_ticket(e, session, setup, ticket_text, school_key); });
+    or_damage(e, [&] { say_ticket(e, session, setup, ticket_text, school_key); }, FindingKind::ticket_invalid);
   else
     say_no_ticket(e, session.findings().empty(), !school_key.empty() && ticket_needed);
   say_circumstances(e, session, path);

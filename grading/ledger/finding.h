@@ -90,7 +90,8 @@ namespace cavum::ledger {
   KIND(rewritten)              /* history was */ \
   KIND(witness_changed) \
   /* of remarks */ \
-  KIND(clock_set_back)         /* the ledger's own, or it was ahead */ \
+  KIND(clock_set_back)         /* the ledger's own */ \
+  KIND(clock_ahead) \
   KIND(restored)               /* went on from a backup, and what was lost by that */ \
   KIND(contested)              /* by another ending of the same exam */ \
   KIND(release_void)
