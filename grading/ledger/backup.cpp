@@ -118,7 +118,7 @@ void require_place_for(const LedgerContent& content, const std::string& folder) 
   Findings findings;
   if (!before.checkpoints.empty()) check_history(content, before.id, before.checkpoints.back(), msg("the backup that is there"), findings);
   if (before.checkpoints.empty() || !findings.empty())
-    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read")   : findings[0].what, msg("keep it, and name a new folder"));
+    throw Error(folder, findings.empty() ? msg("holds a backup that cannot be read") : findings[0].what, msg("keep it, and name a new folder"));
 }
 
 /// Adds what a checkpoint from outside tells of the backup.
@@ -148,7 +148,8 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
     if (!is_signed_by_school(c.id, key_then, p))
       plan.findings.push_back({FindingKind::signature_invalid, msg("{}: the school's signature on the backup's checkpoint does not hold", path)});
     else if (p.size == 0 || p.size > history.roots().size() || history.roots()[static_cast<std::size_t>(p.size) - 1] != p.root)
-      plan.findings.push_back({FindingKind::tree_differs, msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size)});
+      plan.findings.push_back(
+          {FindingKind::tree_differs, msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size)});
   } catch (const Error& e) {
     plan.findings.push_back({FindingKind::malformed, e.without_advice()});
   }

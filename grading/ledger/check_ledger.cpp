@@ -48,10 +48,13 @@ void compare_with_line(const FiledSession& s, const std::string& line, const Mes
   List told{{differ[0]}, true};
   if (differ.size() > 1) told.items.push_back(msg("{} more", differ.size() - 1));
   if (s.grading_version == grading::k_grading_version)
-    out.findings.push_back({FindingKind::result_differs, msg("{}: the result that was filed is not what marking it gives: filed {}", name, told), s.seq});
+    out.findings.push_back(
+        {FindingKind::result_differs, msg("{}: the result that was filed is not what marking it gives: filed {}", name, told), s.seq});
   else
-    out.remarks.push_back({FindingKind::result_differs, msg("{}: was marked by grading version {}; version {} gives another result: filed {}", name, s.grading_version,
-                              grading::k_grading_version, told), s.seq});
+    out.remarks.push_back({FindingKind::result_differs,
+                           msg("{}: was marked by grading version {}; version {} gives another result: filed {}", name, s.grading_version,
+                               grading::k_grading_version, told),
+                           s.seq});
 }
 
 /// An entry made while the computer's clock was ahead is named as soon as that is put right.
@@ -60,19 +63,23 @@ void check_times(const LedgerContent& content, Findings& remarks) {
   const std::int64_t now_ns = read_clocks().utc_ns;
   for (const auto& e : content.entries)
     if (e.utc_ns > now_ns + k_patience_ns)
-      remarks.push_back({FindingKind::clock_ahead, msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)), e.seq});
+      remarks.push_back(
+          {FindingKind::clock_ahead,
+           msg("entry {}: bears a time that has not come yet, {}; the clock was ahead then, or is behind now", e.seq, utc_text(e.utc_ns)), e.seq});
 }
 
 /// What can never be shown of this ledger here, and why.
 void say_not_checked(const LedgerContent& content, const Registry& registry, bool replay, LedgerCheck& out) {
   if (content.id.empty())
-    out.not_checked.push_back({FindingKind::older_copy, msg(
-        "whether an older copy was put back, and which of the filed sessions belong to it: the ledger's id could not be read, so nothing could be "
-        "compared")});
+    out.not_checked.push_back({FindingKind::older_copy, msg("whether an older copy was put back, and which of the filed sessions belong to it: the "
+                                                            "ledger's id could not be read, so nothing could be "
+                                                            "compared")});
   else if (!content.witnessed)
     out.not_checked.push_back({FindingKind::older_copy, msg("whether an older copy was put back: this computer has no witness of the ledger")});
   if (!replay && !registry.sessions.empty())
-    out.not_checked.push_back({FindingKind::not_simulated, msg("whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each")});
+    out.not_checked.push_back(
+        {FindingKind::not_simulated,
+         msg("whether the filed sessions' motion gives their forces, teeth, events and marks again: --replay simulates and marks each")});
 }
 
 Message name_of(const FiledSession& s) { return msg("entry {} (session of {})", s.seq, s.candidate); }
@@ -85,8 +92,10 @@ Recording check_recording(const FiledSession& s, const LedgerPlaces& places, con
   const std::string path = places.session(s.file_sha256);
   if (s.motion_erased_by) {
     if (std::filesystem::exists(path) && gone.contains(s.file_sha256))
-      out.findings.push_back({FindingKind::erased_still_there, msg("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it",
-                                 name, *s.motion_erased_by, path), s.seq});
+      out.findings.push_back({FindingKind::erased_still_there,
+                              msg("{}: its recording is erased by entry {}, and is still there: {}; `cavum ledger erase` without more removes it",
+                                  name, *s.motion_erased_by, path),
+                              s.seq});
     return Recording::erased;
   }
   if (!std::filesystem::exists(path)) {
@@ -129,9 +138,12 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     filed_with_findings += s.findings.empty() ? 0 : 1;
     for (const auto other : s.contested_by)
       if (other > s.seq)
-        out.remarks.push_back({FindingKind::contested, s.doubtful() && registry.chosen_instead_of(s) == nullptr
-                ? msg("{}: is contested by entry {}, another ending of the same exam: a person decides which counts", name_of(s), other)
-                : msg("{}: is contested by entry {}, another ending of the same exam: a person has chosen which counts", name_of(s), other), s.seq});
+        out.remarks.push_back(
+            {FindingKind::contested,
+             s.doubtful() && registry.chosen_instead_of(s) == nullptr
+                 ? msg("{}: is contested by entry {}, another ending of the same exam: a person decides which counts", name_of(s), other)
+                 : msg("{}: is contested by entry {}, another ending of the same exam: a person has chosen which counts", name_of(s), other),
+             s.seq});
   }
   const pool::Work work = work_on(places, registry, pool::What::verify);
   if (by && !work.sessions.empty()) {
@@ -142,11 +154,13 @@ void check_recordings(const LedgerPlaces& places, const LedgerContent& content, 
     }
   }
   if (by && filed_with_findings > 0)
-    out.not_checked.push_back({FindingKind::not_simulated, msg("{} sessions that were filed with findings are not simulated again", filed_with_findings)});
+    out.not_checked.push_back(
+        {FindingKind::not_simulated, msg("{} sessions that were filed with findings are not simulated again", filed_with_findings)});
   if (erased > 0)
-    out.not_checked.push_back({FindingKind::not_simulated, msgn("{} recording was erased, as entries say: whether motion gives its mark can no longer be shown",
-                                   "{} recordings were erased, as entries say: whether motion gives their marks can no longer be shown",
-                                   static_cast<std::int64_t>(erased), erased)});
+    out.not_checked.push_back(
+        {FindingKind::not_simulated, msgn("{} recording was erased, as entries say: whether motion gives its mark can no longer be shown",
+                                          "{} recordings were erased, as entries say: whether motion gives their marks can no longer be shown",
+                                          static_cast<std::int64_t>(erased), erased)});
 }
 
 /// Files that no entry knows.
@@ -155,7 +169,8 @@ void say_strangers(const LedgerPlaces& places, const Registry& registry, LedgerC
   for (const auto& s : registry.sessions) filed.insert(s.file_sha256 + ".cavum");
   std::error_code none;
   for (const auto& f : std::filesystem::directory_iterator(places.folder + "/sessions", none))
-    if (!filed.contains(f.path().filename().string())) out.remarks.push_back({FindingKind::foreign, msg("{}: belongs to no entry", f.path().string())});
+    if (!filed.contains(f.path().filename().string()))
+      out.remarks.push_back({FindingKind::foreign, msg("{}: belongs to no entry", f.path().string())});
 }
 
 /// Who has a ticket and is no longer among the identities, though no entry says that he was forgotten.
@@ -167,8 +182,11 @@ void say_missing(const LedgerPlaces& places, const LedgerContent& content, Ident
   for (const auto& e : read_ledger(places).entries)  // again: somebody may be forgotten meanwhile
     if (const auto* forgotten = e.as<ForgetEntry>()) missing.erase(forgotten->candidate);
   for (const auto& [who, seq] : missing)
-    out.findings.push_back({FindingKind::identity_missing, msg("identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
-            who, seq), seq});
+    out.findings.push_back(
+        {FindingKind::identity_missing,
+         msg("identities: {}, who has the ticket of entry {}, is missing, and no entry says that he was forgotten; restore the file from its backup",
+             who, seq),
+         seq});
 }
 
 }  // namespace
@@ -200,11 +218,13 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
   const bool unread = content.public_key.empty();
   bool known = false;
   if (std::filesystem::exists(next_key_path(key_path)))
-    check.findings.push_back({FindingKind::key_half_replaced, msg("replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it",
-                                 next_key_path(key_path))});
+    check.findings.push_back({FindingKind::key_half_replaced,
+                              msg("replacing the school's key was cut off: {} is still there; `cavum ledger key LEDGER --replace` goes on with it",
+                                  next_key_path(key_path))});
   const auto must_be_ours = [&](const std::string& key, const std::string& path) {
     if (!unread && key != content.public_key)
-      check.findings.push_back({FindingKind::other_school, msg("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key)});
+      check.findings.push_back({FindingKind::other_school,
+                                msg("the ledger is of another school than {} names: signed by {}, expected {}", path, content.public_key, key)});
   };
   if (std::filesystem::exists(public_key_path)) {
     known = true;
@@ -213,7 +233,9 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
       while (!text.empty() && (text.back() == '\n' || text.back() == '\r' || text.back() == ' ')) text.pop_back();
       must_be_ours(parse_public_key(text, public_key_path), public_key_path);
     } catch (const Error&) {
-      check.findings.push_back({FindingKind::key_unreadable, msg("{}: is no school's public key, 64 hexadecimal digits; copy it again from the school's computer", public_key_path)});
+      check.findings.push_back(
+          {FindingKind::key_unreadable,
+           msg("{}: is no school's public key, 64 hexadecimal digits; copy it again from the school's computer", public_key_path)});
     }
   }
   std::optional<SigningKey> key;
@@ -227,26 +249,34 @@ void check_owner(LedgerCheck& check, const LedgerPlaces& places, const LedgerCon
     }
   }
   if (unread) {
-    check.not_checked.push_back({FindingKind::other_school, msg("whether the ledger is this school's, and whether names were exchanged among the identities, or taken out: the ledger's id and key could "
-            "not be read, so nothing could be compared")});
+    check.not_checked.push_back({FindingKind::other_school, msg("whether the ledger is this school's, and whether names were exchanged among the "
+                                                                "identities, or taken out: the ledger's id and key could "
+                                                                "not be read, so nothing could be compared")});
     return;
   }
   if (!known)
-    check.not_checked.push_back({FindingKind::other_school, msg("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path)});
+    check.not_checked.push_back({FindingKind::other_school,
+                                 msg("whether the ledger is this school's: neither {} nor {} is here to compare with", key_path, public_key_path)});
   if (!std::filesystem::exists(places.identities())) {
-    check.not_checked.push_back({FindingKind::identities_changed, msg("whether names were exchanged among the identities, or taken out: {} is not there; restore it from its backup if this is the school's "
-            "own copy",
-            places.identities())});
+    check.not_checked.push_back(
+        {FindingKind::identities_changed,
+         msg("whether names were exchanged among the identities, or taken out: {} is not there; restore it from its backup if this is the school's "
+             "own copy",
+             places.identities())});
   } else if (!key || to_hex(key->public_key) != content.public_key) {
-    check.not_checked.push_back({FindingKind::identities_changed, msg("whether names were exchanged among the identities, or taken out: the key that made the pseudonyms is not here")});
+    check.not_checked.push_back(
+        {FindingKind::identities_changed,
+         msg("whether names were exchanged among the identities, or taken out: the key that made the pseudonyms is not here")});
   } else {
     try {
       Identities identities(places.identities());
       append(check.findings, identities.check(*key));
       for (const auto& e : content.entries)
         if (const auto* forgotten = e.as<ForgetEntry>(); forgotten != nullptr && identities.of_pseudonym(forgotten->candidate))
-          check.findings.push_back({FindingKind::erased_still_there, msg("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
-                                       forgotten->candidate, e.seq), e.seq});
+          check.findings.push_back({FindingKind::erased_still_there,
+                                    msg("identities: {} was forgotten by entry {}, and is still named; `cavum ledger erase` without more removes it",
+                                        forgotten->candidate, e.seq),
+                                    e.seq});
       say_missing(places, content, identities, check);
     } catch (const Error& e) {
       check.findings.push_back({FindingKind::file_unreadable, e.message()});

@@ -31,8 +31,8 @@ constexpr std::int64_t k_patience_ns = 300'000'000'000;    // by which the clock
 constexpr std::int64_t k_hand_in_ns = 86'400'000'000'000;  // within which a finished exam reaches the ledger
 
 /// Times that contradict one another, and a gap that changed who or what sat the exam.
-Findings check_course(const SessionReader& session, const SessionSetup& setup, const std::optional<IssuedTicket>& ticket,
-                                  std::int64_t issued_utc_ns, std::int64_t received_utc_ns) {
+Findings check_course(const SessionReader& session, const SessionSetup& setup, const std::optional<IssuedTicket>& ticket, std::int64_t issued_utc_ns,
+                      std::int64_t received_utc_ns) {
   Findings findings;
   const std::int64_t begun = session.created().utc_ns, closed = session.seal()->clocks.utc_ns;
   if (closed > received_utc_ns + k_patience_ns)
@@ -42,14 +42,17 @@ Findings check_course(const SessionReader& session, const SessionSetup& setup, c
     findings.push_back({FindingKind::clock, msg("by the station's clock the exam began on {}, before its ticket was issued", utc_text(begun))});
   // A clock that was set back puts an exam into its window; that it reaches the ledger late is what is left to see.
   if (ticket && received_utc_ns > std::max(closed, ticket->ticket.not_after_utc_ns) + k_hand_in_ns)
-    findings.push_back({FindingKind::handed_in_late, msg("it was handed in on {}, more than a day after its ticket's time and after it ended by the station's clock ({}): nothing but that clock "
-            "shows when it was sat",
-            utc_text(received_utc_ns), utc_text(closed))});
+    findings.push_back(
+        {FindingKind::handed_in_late,
+         msg("it was handed in on {}, more than a day after its ticket's time and after it ended by the station's clock ({}): nothing but that clock "
+             "shows when it was sat",
+             utc_text(received_utc_ns), utc_text(closed))});
   for (const auto& e : session.event_rows()) {
     const auto* gap = e.as<RecordingGap>();
     if (gap == nullptr) continue;
     if (ticket && gap->resumed_utc_ns > ticket->ticket.not_after_utc_ns)
-      findings.push_back({FindingKind::ticket_time, msg("the exam was taken up again on {}, when its ticket was no longer good", utc_text(gap->resumed_utc_ns))});
+      findings.push_back(
+          {FindingKind::ticket_time, msg("the exam was taken up again on {}, when its ticket was no longer good", utc_text(gap->resumed_utc_ns))});
     const std::string& source = gap->by.device;
     if (!source.empty() && source != setup.device)
       findings.push_back({FindingKind::device_other, msg("the exam was begun with {}, and taken up again with {}", setup.device, source)});
@@ -65,8 +68,9 @@ Findings check_begin(const LedgerContent& content, const SessionReader& session,
     if (key == k_begin_note) text = value;
   if (text.empty()) {
     if (!ticket.begins.empty())
-      findings.push_back({FindingKind::begin_missing, msg("the ledger let this exam begin on {} (entry {}), and the recording does not bear its word: it was begun without it",
-                             utc_text(ticket.begins.back().utc_ns), ticket.begins.back().seq)});
+      findings.push_back({FindingKind::begin_missing,
+                          msg("the ledger let this exam begin on {} (entry {}), and the recording does not bear its word: it was begun without it",
+                              utc_text(ticket.begins.back().utc_ns), ticket.begins.back().seq)});
     else if (ticket.ticket.begun_at_ledger)
       findings.push_back({FindingKind::begin_missing, msg("its ticket asks for the ledger's word to begin, and nobody asked the ledger")});
     return findings;
@@ -82,11 +86,14 @@ Findings check_begin(const LedgerContent& content, const SessionReader& session,
   const auto found = std::find_if(ticket.begins.begin(), ticket.begins.end(), [&](const LetBegin& l) { return l.nonce == b.nonce; });
   if (found == ticket.begins.end()) return {{FindingKind::begin_invalid, msg("the ledger has not given the word to begin that is in it")}};
   if (found + 1 != ticket.begins.end())
-    findings.push_back({FindingKind::begin_invalid, msg("it was begun with the ledger's word of {}, and the ledger let the exam begin again on {}: only the recording with the last word counts",
-            utc_text(b.utc_ns), utc_text(ticket.begins.back().utc_ns))});
+    findings.push_back(
+        {FindingKind::begin_invalid,
+         msg("it was begun with the ledger's word of {}, and the ledger let the exam begin again on {}: only the recording with the last word counts",
+             utc_text(b.utc_ns), utc_text(ticket.begins.back().utc_ns))});
   if (session.created().utc_ns < b.utc_ns - k_patience_ns)
-    findings.push_back({FindingKind::clock, msg("by the station's clock the exam began on {}, and the ledger let it begin on {}: the station's clock was set back",
-                           utc_text(session.created().utc_ns), utc_text(b.utc_ns))});
+    findings.push_back(
+        {FindingKind::clock, msg("by the station's clock the exam began on {}, and the ledger let it begin on {}: the station's clock was set back",
+                                 utc_text(session.created().utc_ns), utc_text(b.utc_ns))});
   return findings;
 }
 
@@ -109,21 +116,24 @@ std::vector<HeldTime> held_times(const SessionReader& session) {
 
 /// What moved the stylus, at which station, and what the clocks say of it. What no hand moved is nobody's exam: no station has to answer for it.
 Findings check_hand(const Registry& registry, const SessionReader& session, const SessionSetup& setup, std::int64_t received_utc_ns,
-                                const FilingOptions& options) {
+                    const FilingOptions& options) {
   Findings findings;
   if (const std::string by = simulated_by(session, setup); !by.empty()) {
-    if (!options.simulated) findings.push_back({FindingKind::no_hand, msg("no candidate's hand moved this exam, but '{}' (--simulated files it as that)", by)});
+    if (!options.simulated)
+      findings.push_back({FindingKind::no_hand, msg("no candidate's hand moved this exam, but '{}' (--simulated files it as that)", by)});
     return findings;
   }
   if (session.fact(k_station_fact).empty())
-    findings.push_back({FindingKind::station_unknown, msg("the recording does not say which station began it, and bears no signature of its beginning")});
+    findings.push_back(
+        {FindingKind::station_unknown, msg("the recording does not say which station began it, and bears no signature of its beginning")});
   const std::string key = to_hex(session.seal()->public_key);
   if (auto why = registry.stations.problem(key, session.seal()->clocks.utc_ns, received_utc_ns)) {
     findings.push_back(std::move(*why));
   } else if (const auto& known = registry.stations.of(key)->devices; !known.empty()) {
     for (const auto& [tick, source] : sources_of(session))
       if (std::find(known.begin(), known.end(), source) == known.end())
-        findings.push_back({FindingKind::device_other, msg("the stylus {} (serial number '{}') is none that the station was enrolled with", source.name, source.serial)});
+        findings.push_back({FindingKind::device_other,
+                            msg("the stylus {} (serial number '{}') is none that the station was enrolled with", source.name, source.serial)});
   }
   for (const auto& remark : check_clocks(session))
     if (remark.doubtful) findings.push_back({FindingKind::clock, msg("clocks, from tick {}: {}", remark.first_tick, remark.what)});
@@ -188,7 +198,7 @@ std::string simulated_by(const SessionReader& session, const SessionSetup& setup
 }
 
 Findings check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session, std::int64_t received_utc_ns,
-                                  const FilingOptions& options, const LedgerPlaces* filed) {
+                      const FilingOptions& options, const LedgerPlaces* filed) {
   if (!session.closed()) return {{FindingKind::not_closed, msg("the session was never closed")}};
   const SessionSetup setup = session.setup();
   const std::string chain_sha256 = to_hex(session.seal()->chain_sha256), nonce = ticket_nonce_in(setup);
@@ -203,13 +213,15 @@ Findings check_claims(const LedgerContent& content, const Registry& registry, co
   append(findings, unexplained_holds(registry.day, to_hex(session.seal()->public_key), held_times(session), received_utc_ns));
   if (text.empty()) {
     if (!options.without_ticket) findings.push_back({FindingKind::ticket_missing, msg("the session holds no ticket: nobody promised this exam")});
-    if (is_pseudonym(setup.candidate)) findings.push_back({FindingKind::ticket_missing, msg("the session bears a pseudonym, and no ticket that it was given by")});
+    if (is_pseudonym(setup.candidate))
+      findings.push_back({FindingKind::ticket_missing, msg("the session bears a pseudonym, and no ticket that it was given by")});
     append(findings, check_course(session, setup, {}, 0, received_utc_ns));
     return findings;
   }
   try {
     const Ticket ticket = parse_ticket(text, "", msg("the session's ticket"));
-    if (!content.has_key(ticket.public_key)) findings.push_back({FindingKind::ticket_other_school, msg("the session's ticket is the ticket of another school")});
+    if (!content.has_key(ticket.public_key))
+      findings.push_back({FindingKind::ticket_other_school, msg("the session's ticket is the ticket of another school")});
     append(findings, check_ticket(ticket, setup, session.created().utc_ns));
     if (ticket.ledger != content.id) findings.push_back({FindingKind::ticket_unknown, msg("the ticket was issued by another ledger")});
     bool issued = false;
@@ -217,16 +229,18 @@ Findings check_claims(const LedgerContent& content, const Registry& registry, co
       if (t.ticket.nonce != nonce) continue;
       issued = true;
       if (t.cancelled_by)
-        findings.push_back({FindingKind::ticket_cancelled, msg("its ticket was cancelled on {} (entry {})", utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by)});
+        findings.push_back({FindingKind::ticket_cancelled,
+                            msg("its ticket was cancelled on {} (entry {})", utc_text(content.entries.at(*t.cancelled_by).utc_ns), *t.cancelled_by)});
       if (t.made_up_by) findings.push_back({FindingKind::ticket_made_up, msg("a makeup sitting was given in its place (entry {})", *t.made_up_by)});
       append(findings, check_begin(content, session, setup, t));
       append(findings, check_course(session, setup, t, content.entries.at(t.seq).utc_ns, received_utc_ns));
       if (t.used_by) {
         const auto other =
             std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const FiledSession& s) { return s.seq == *t.used_by; });
-        findings.push_back({FindingKind::ticket_used, filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
-                               ? msg("the ticket was used before: entry {}", *t.used_by)
-                               : other_ending(session, *t.used_by, filed->session(other->file_sha256))});
+        findings.push_back({FindingKind::ticket_used,
+                            filed == nullptr || other == registry.sessions.end() || other->motion_erased_by || other->chain_sha256 == chain_sha256
+                                ? msg("the ticket was used before: entry {}", *t.used_by)
+                                : other_ending(session, *t.used_by, filed->session(other->file_sha256))});
       }
     }
     if (!issued) findings.push_back({FindingKind::ticket_unknown, msg("the ledger has not issued this ticket")});

@@ -20,11 +20,11 @@ struct FilingOptions {
 /// the recording's truth. `received_utc_ns`: the ledger's own time. With `filed`, a second ending of an exam is compared with the one in the ledger's
 /// folder.
 [[nodiscard]] Findings check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
-                                                std::int64_t received_utc_ns, const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
+                                    std::int64_t received_utc_ns, const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
 
 /// The same, for one session: what the entries add up to is read for it.
 [[nodiscard]] inline Findings check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
-                                                       const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
+                                           const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
   return check_claims(content, read_registry(content), session, received_utc_ns, options, filed);
 }
 

@@ -51,7 +51,6 @@ struct CosignedNoteCheck {
 /// Checks a note against the ledger: the school's signature, those of known cosigners, and whether the ledger still begins with what it saw.
 [[nodiscard]] CosignedNoteCheck check_cosigned(const std::string& note, const std::vector<NoteKey>& known, const LedgerContent& ledger);
 /// The same of the cosignatures that the ledger holds.
-void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, Findings& findings,
-                        Findings& not_checked);
+void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, Findings& findings, Findings& not_checked);
 
 }  // namespace cavum::ledger

@@ -102,7 +102,8 @@ Findings unexplained_holds(const ExamDay& day, const std::string& station, std::
       return h.audience.holds(station) && from >= h.utc_ns - k_clocks_ns && to <= until + k_clocks_ns && to - from <= until - h.utc_ns + k_network_ns;
     });
     if (!known)
-      findings.push_back({FindingKind::pause_unknown, msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause", utc_text(begun), utc_text(ended))});
+      findings.push_back({FindingKind::pause_unknown, msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause",
+                                                          utc_text(begun), utc_text(ended))});
   }
   return findings;
 }

@@ -62,6 +62,6 @@ const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, con
 using HeldTime = std::pair<std::int64_t, std::int64_t>;
 /// Which of them the ledger does not know of: a station may not give its candidate time by itself.
 [[nodiscard]] Findings unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held,
-                                                     std::int64_t received_utc_ns);
+                                         std::int64_t received_utc_ns);
 
 }  // namespace cavum::ledger

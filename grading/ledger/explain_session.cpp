@@ -60,7 +60,8 @@ void say_ticket(SessionExplanation& e, const SessionReader& session, const Sessi
                 const std::string& school_key) {
   const Ticket ticket = parse_ticket(ticket_text, school_key, msg("the session's ticket"));
   Findings wrong = check_ticket(ticket, setup, session.created().utc_ns);
-  append(wrong, findings_of(FindingKind::exam_differs, scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario.toml").scenario)));
+  append(wrong,
+         findings_of(FindingKind::exam_differs, scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario.toml").scenario)));
   append(e.findings, wrong);
   if (wrong.empty())
     e.proved.push_back(
@@ -129,12 +130,11 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);
-  const grading::SchoolMark mark = session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
+  const grading::SchoolMark mark =
+      session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
   e.findings = findings_of(mark);
   say_replay(e, session, mark);
-  or_damage(e, [&] {
-    append(e.findings, findings_of(FindingKind::station_changed, check_stations(session)));
-  });
+  or_damage(e, [&] { append(e.findings, findings_of(FindingKind::station_changed, check_stations(session))); });
   say_closing(e, session, mark.replay);
   or_damage(e, [&] {
     const SessionCheckFindings check = check_of_session(session);
@@ -150,7 +150,8 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
       if (key == k_ticket_note) ticket_text = value;
   });
   if (!ticket_text.empty())
-    or_damage(e, [&] { say_ticket(e, session, setup, ticket_text, school_key); }, FindingKind::ticket_invalid);
+    or_damage(
+        e, [&] { say_ticket(e, session, setup, ticket_text, school_key); }, FindingKind::ticket_invalid);
   else
     say_no_ticket(e, session.findings().empty(), !school_key.empty() && ticket_needed);
   say_circumstances(e, session, path);

@@ -113,8 +113,9 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   auto claimed = claims_of(ledger, session, options)(ledger.content());
   if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
     out.findings = std::move(claimed);
-    out.findings.push_back({FindingKind::not_simulated, msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
-                               as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0))});
+    out.findings.push_back(
+        {FindingKind::not_simulated, msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
+                                         as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0))});
     return out;
   }
   enter(ledger, image, session, grading::mark_again(session, grounds), options, claimed, seen, out);

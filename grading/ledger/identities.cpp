@@ -122,7 +122,8 @@ std::vector<Identity> Identities::all() { return identities(select(database_, "O
 Findings Identities::check(const SigningKey& school) {
   Findings findings;
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym")))
-    if (!holds(r, school)) findings.push_back({FindingKind::identities_changed, msg("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym)});
+    if (!holds(r, school))
+      findings.push_back({FindingKind::identities_changed, msg("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym)});
   return findings;
 }
 

@@ -23,13 +23,18 @@ namespace {
 /// What the row says, as far as it can be read; else a finding.
 LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256& leaf, Findings& findings) {
   const Message name = msg("entry {}", seq);
-  if (leaf_hash(ledger_bytes(text)) != leaf) findings.push_back({FindingKind::entry_changed, msg("{}: its text was changed after it was entered", name), seq});
+  if (leaf_hash(ledger_bytes(text)) != leaf)
+    findings.push_back({FindingKind::entry_changed, msg("{}: its text was changed after it was entered", name), seq});
   LedgerEntry e;
   try {
     e = read_entry(text, name);
-    if (entry_text(e) != text) findings.push_back({FindingKind::entry_malformed, msg("{}: is not written as this program writes entries: keys, spaces or numbers", name), seq});
-    if (e.seq != seq) findings.push_back({FindingKind::entry_out_of_order, msg("{}: was entered as number {}: entries were moved", name, e.seq), seq});
-    if (e.as<InitEntry>() != nullptr && seq != 0) findings.push_back({FindingKind::entry_out_of_order, msg("{}: begins a ledger a second time", name), seq});
+    if (entry_text(e) != text)
+      findings.push_back(
+          {FindingKind::entry_malformed, msg("{}: is not written as this program writes entries: keys, spaces or numbers", name), seq});
+    if (e.seq != seq)
+      findings.push_back({FindingKind::entry_out_of_order, msg("{}: was entered as number {}: entries were moved", name, e.seq), seq});
+    if (e.as<InitEntry>() != nullptr && seq != 0)
+      findings.push_back({FindingKind::entry_out_of_order, msg("{}: begins a ledger a second time", name), seq});
   } catch (const Error& wrong) {
     findings.push_back({FindingKind::entry_malformed, wrong.without_advice(), seq});
     e.text = text;
@@ -57,7 +62,8 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
       const auto by = erased_by(c.erased, e.seq, part);
       named.insert(opening->sha256);
       if (!there && !by) c.findings.push_back({FindingKind::part_missing, msg("{} was taken out of the ledger", name), e.seq});
-      if (there && by) c.findings.push_back({FindingKind::erased_still_there, msg("{} was erased by entry {}, and stands there again", name, *by), e.seq});
+      if (there && by)
+        c.findings.push_back({FindingKind::erased_still_there, msg("{} was erased by entry {}, and stands there again", name, *by), e.seq});
       if (!there) continue;
       try {
         opening->value = opened_value(found->second, opening->sha256, msg("opening"));
@@ -67,7 +73,8 @@ void take_openings(LedgerContent& c, const std::map<std::string, std::string>& s
     }
   }
   for (const auto& [hash, text] : stored)
-    if (!named.contains(hash)) c.findings.push_back({FindingKind::foreign, msg("opening {}: belongs to no entry; it was put into the ledger's file", hash)});
+    if (!named.contains(hash))
+      c.findings.push_back({FindingKind::foreign, msg("opening {}: belongs to no entry; it was put into the ledger's file", hash)});
 }
 
 std::map<std::string, std::string> stored_openings(Database& db) {
@@ -85,7 +92,8 @@ void read_documents(Database& db, LedgerContent& c) {
     while (rows.step()) {
       const std::string hash = to_hex(rows.fixed_blob<32>(0));
       Bytes bytes = rows.blob(1);
-      if (to_hex(sha256(bytes)) != hash) c.findings.push_back({FindingKind::part_changed, msg("document {}: was changed after it was entered", hash)});
+      if (to_hex(sha256(bytes)) != hash)
+        c.findings.push_back({FindingKind::part_changed, msg("document {}: was changed after it was entered", hash)});
       c.documents[hash] = std::move(bytes);
     }
   }
@@ -95,10 +103,12 @@ void read_documents(Database& db, LedgerContent& c) {
       for (const auto& [name, hash] : regrade->by) {
         named.insert(hash);
         if (!c.documents.contains(hash))
-          c.findings.push_back({FindingKind::part_missing, msg("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name), e.seq});
+          c.findings.push_back(
+              {FindingKind::part_missing, msg("entry {}: the {} that its result was marked by was taken out of the ledger", e.seq, name), e.seq});
       }
   for (const auto& [hash, bytes] : c.documents)
-    if (!named.contains(hash)) c.findings.push_back({FindingKind::foreign, msg("document {}: belongs to no entry; it was put into the ledger's file", hash)});
+    if (!named.contains(hash))
+      c.findings.push_back({FindingKind::foreign, msg("document {}: belongs to no entry; it was put into the ledger's file", hash)});
 }
 
 /// Notes and cosignatures as they are stored; read when the ledger's id and key are known.
@@ -209,7 +219,8 @@ LedgerContent read_content(Database& db, const std::string& where, AskWitness as
   std::int64_t before = 0;
   for (const auto& e : c.entries) {
     if (e.utc_ns < before)
-      c.remarks.push_back({FindingKind::clock_set_back, msg("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq), e.seq});
+      c.remarks.push_back({FindingKind::clock_set_back,
+                           msg("entry {}: by the computer's clock it is older than the one before; the clock was set back", e.seq), e.seq});
     before = e.utc_ns;
   }
   return c;

@@ -54,7 +54,8 @@ void check_schema(Database& db, Findings& findings) {
       findings.push_back({FindingKind::schema_differs, msg("{}: is not as this program made it; it was altered", name)});
   }
   for (const auto& [name, sql] : found)
-    if (!wanted.contains(name)) findings.push_back({FindingKind::schema_differs, msg("{}: does not belong to a ledger; it was put into its file", name)});
+    if (!wanted.contains(name))
+      findings.push_back({FindingKind::schema_differs, msg("{}: does not belong to a ledger; it was put into its file", name)});
 }
 
 Findings schema_findings(Database& db) noexcept {

@@ -44,7 +44,9 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    const auto say = [&](const Message& what) { r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, what), seq}); };
+    const auto say = [&](const Message& what) {
+      r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, what), seq});
+    };
     if (const FiledSession* other = r.chosen_instead_of(s)) {
       say(msg("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;

@@ -116,9 +116,9 @@ std::optional<Finding> StationRegister::problem(const std::string& key, std::int
   if (s == nullptr)
     return Finding{FindingKind::station_unknown, msg("the station with the key {} is not enrolled: anybody can make such a recording", key)};
   if (s->revoked_utc_ns && received_utc_ns > *s->revoked_utc_ns)
-    return Finding{FindingKind::station_revoked, s->replaced_by.empty()
-                                                     ? msg("the key of station '{}' was revoked on {}", s->name, utc_text(*s->revoked_utc_ns))
-                                                     : msg("the key of station '{}' was replaced, and good until {}", s->name, utc_text(*s->revoked_utc_ns))};
+    return Finding{FindingKind::station_revoked,
+                   s->replaced_by.empty() ? msg("the key of station '{}' was revoked on {}", s->name, utc_text(*s->revoked_utc_ns))
+                                          : msg("the key of station '{}' was replaced, and good until {}", s->name, utc_text(*s->revoked_utc_ns))};
   if (s->until_utc_ns > 0 && (closed_utc_ns > s->until_utc_ns || received_utc_ns > s->until_utc_ns + k_late_ns))
     return Finding{FindingKind::station_run_out, msg("the key of station '{}' ran out on {}", s->name, utc_text(s->until_utc_ns))};
   return {};

@@ -90,7 +90,8 @@ FindingKind kind_of(const std::string& artifact) {
 
 Findings check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
   Findings findings;
-  if (setup.candidate != t.candidate) findings.push_back({FindingKind::ticket_candidate, msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate)});
+  if (setup.candidate != t.candidate)
+    findings.push_back({FindingKind::ticket_candidate, msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate)});
   const auto examined = examined_artifacts(setup);
   for (const auto& [name, hash] : t.artifacts) {
     const auto found = examined.find(name);
@@ -101,10 +102,11 @@ Findings check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t b
   }
   for (const auto& [name, hash] : examined)
     if (!t.artifacts.contains(name)) findings.push_back({kind_of(name), msg("the exam has {}, of which the ticket says nothing", name)});
-  if (accommodations_in(setup) != t.grant) findings.push_back({FindingKind::ticket_accommodations, msg("the accommodations are not those that the ticket grants")});
+  if (accommodations_in(setup) != t.grant)
+    findings.push_back({FindingKind::ticket_accommodations, msg("the accommodations are not those that the ticket grants")});
   if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
-    findings.push_back({FindingKind::ticket_time, msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns), utc_text(t.not_before_utc_ns),
-                           utc_text(t.not_after_utc_ns))});
+    findings.push_back({FindingKind::ticket_time, msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns),
+                                                      utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns))});
   return findings;
 }
 

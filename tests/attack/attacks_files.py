@@ -19,7 +19,7 @@ def all_verbs(s, name):
     return last
 
 
-@attack("file", FOUND, "leaves or plants a log beside the file: one image of both is read, checked, kept and hashed")
+@attack("file", FOUND, "leaves or plants a log beside the file: one image of both is read, checked, kept and hashed", "recording_unsound")
 def log_planted(s):
     """A write-ahead log beside the recording in which the result says pass."""
     db = sqlite3.connect(s.p("anna.cavum"))
@@ -157,7 +157,7 @@ def zstd_bomb(s):
     return last
 
 
-@attack("file", FOUND, "one zstd frame; malformed packing")
+@attack("file", FOUND, "one zstd frame; malformed packing", "recording_unsound")
 def packing_malformed(s):
     """Two frames, a rest behind the frame, varints without an end, counts of 2^62, a tissue too many."""
     last = None

@@ -369,7 +369,8 @@ void SchoolDay::cosign_here() {
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
       // an older request that was overtaken by a newer one
-      if (signed_note.findings[0].kind != ledger::FindingKind::older_copy) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      if (signed_note.findings[0].kind != ledger::FindingKind::older_copy)
+        wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
       return;
     }
     cosigned_size_ = std::max(cosigned_size_, signed_note.size);
@@ -398,8 +399,7 @@ void SchoolDay::verify() {
   ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
   for (const auto& s : ledger::read_registry(ledger::read_ledger({k_ledger})).sessions)
-    if (s.motion_erased_by)
-      std::erase_if(check.findings, [&](const ledger::Finding& f) { return f.entry == s.seq; });
+    if (s.motion_erased_by) std::erase_if(check.findings, [&](const ledger::Finding& f) { return f.entry == s.seq; });
   // a disk that fails meanwhile may well be in the way of looking
   if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }

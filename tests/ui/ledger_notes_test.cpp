@@ -146,7 +146,8 @@ TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
   EXPECT_EQ(found.exit_code, 1);
   const json finding = json::parse(found.out)["findings"].at(0);
   EXPECT_EQ(finding["kind"], "older_copy");
-  for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")}) EXPECT_NE(finding.dump().find(told), std::string::npos) << finding;
+  for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")})
+    EXPECT_NE(finding.dump().find(told), std::string::npos) << finding;
   EXPECT_EQ(run("ledger add-cosignature " + path("L") + " " + path("n1")).exit_code, 1) << "it is not kept";
   // and the cosigner neither signs the older copy nor what grew from it
   ASSERT_EQ(run("ledger checkpoint " + path("L") + " --out " + path("older")).exit_code, 0);

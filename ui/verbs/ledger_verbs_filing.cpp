@@ -96,8 +96,7 @@ int ledger_add(const LedgerOptions& o) {
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& e) {  // of this one recording: those after it are filed all the same
-      filing.findings.push_back(
-          {ledger::FindingKind::file_unreadable, msg("{}: cannot be filed ({}); use an intact copy", path, said_by(e))});
+      filing.findings.push_back({ledger::FindingKind::file_unreadable, msg("{}: cannot be filed ({}); use an intact copy", path, said_by(e))});
     }
     all = all && filing.seq && filing.findings.empty();
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};

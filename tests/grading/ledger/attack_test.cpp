@@ -154,7 +154,8 @@ TEST_F(Attack, MoreTimeThanWasGranted) {
   expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), Kind::ticket_accommodations);
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_model, {"force_model.toml"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_model,
+                 {"force_model.toml"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {
   const Ticket t = parse_ticket(ticket_, "", "ticket");
@@ -217,14 +218,16 @@ TEST_F(Attack, EveryEditOfAFiledEntry) {
   expect_found({{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", Kind::part_changed, " 4"},
                 {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4", Kind::entry_changed, " 4"},
                 {"DELETE FROM opening", Kind::part_missing, " 4"},
-                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4", Kind::tree_differs, " 5"},
+                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4",
+                 Kind::tree_differs, " 5"},
                 {"DELETE FROM entry WHERE seq = 4", Kind::entry_missing},
                 {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", Kind::older_copy, " 5"}},
                true);
 }
 TEST_F(Attack, EveryEditOfTheLedgersTables) {
   expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", Kind::foreign, "000"},
-                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))", Kind::entry_changed, " 4"}},
+                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))",
+                 Kind::entry_changed, " 4"}},
                true);
   const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
                     own = "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";

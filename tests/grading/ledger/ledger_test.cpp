@@ -405,7 +405,8 @@ TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
     expect_finding(check.findings, Kind::schema_differs, {"table " + table});
     EXPECT_EQ(text_of(words_of(check.findings)).find("no such table"), std::string::npos) << "in the database's own words";
     EXPECT_EQ(read_ledger(school.places()).entries.size(), table == "entry" ? 0u : k_first_entries + 1) << table;
-    EXPECT_EQ(text_of(words_of(check.remarks)).find("stray") != std::string::npos, table != "entry") << "without entries nothing is said of the files";
+    EXPECT_EQ(text_of(words_of(check.remarks)).find("stray") != std::string::npos, table != "entry")
+        << "without entries nothing is said of the files";
     const auto adding = thrown_by([&] { static_cast<void>(school.ledger()); }),
                telling = thrown_by([&] { static_cast<void>(Ledger(school.ledger_folder(), School::key(), LedgerUse::tell)); });
     for (const auto& refused : {adding, telling}) {
