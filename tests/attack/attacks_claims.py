@@ -52,7 +52,7 @@ def an_attachment_slipped_in(s):
     return insider(s, lambda r: r.artifacts.insert(len(r.artifacts) - 1, ["attachment/../../../planted.stl", b"solid x\nendsolid x\n"]))
 
 
-@attack("claim", FOUND, "any change is found; artifacts in this order")
+@attack("claim", FOUND, "any change is found; artifacts in this order", "recording_unsound", "scenario.toml")
 def an_artifact_twice(s):
     """Two scenarios in one recording: the promised one, and an easier one of the same name."""
     return insider(s, lambda r: r.artifacts.insert(1, ["scenario.toml", own_scenario(r).replace("full = 90", "full = 10").encode()]))
@@ -125,14 +125,14 @@ def older_physics(s):
     return insider(s, lambda r: r.facts.update(physics_version="3"))
 
 
-@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "recording_unsound")
+@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "recording_unsound", "99999999999999999999")
 def physics_of_the_future(s):
     """... version 99999999999999999999."""
     s.must(insider(s, lambda r: r.facts.update(physics_version="1000")).rc != 0, "physics version 1000 is taken")
     return insider(s, lambda r: r.facts.update(physics_version="99999999999999999999"))
 
 
-@attack("claim", FOUND, "format n", "error", "2")
+@attack("claim", FOUND, "format n", "recording_unsound", "'2'")
 def format_of_the_future(s):
     """The fact `format` says 2."""
     return insider(s, lambda r: r.facts.update(format="2"))

@@ -143,7 +143,7 @@ def bomb(size):
     return b"".join(out)
 
 
-@attack("file", FOUND, "oversized input")
+@attack("file", FOUND, "oversized input", "recording_unsound")
 def zstd_bomb(s):
     """2 GiB of zeros packed into a chunk's inputs, with a fitting and with a wrong number of ticks; into removed; in many frames."""
     big = bomb(2 << 30)
@@ -193,7 +193,7 @@ def texts_nested_deep(s):
     return last
 
 
-@attack("file", FOUND, "a lying tooth")
+@attack("file", FOUND, "a lying tooth", "recording_unsound")
 def tooth_lies(s):
     """The start tooth claims to be of 2^64 - 1 bytes, of none, or is cut short; the final tooth, too."""
     last = None
