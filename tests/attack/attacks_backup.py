@@ -79,11 +79,11 @@ def backup_with_links(s):
     return r
 
 
-@attack("history", FOUND, "each salt and number must give its pseudonym again", "identities_changed file_unreadable")
+@attack("history", FOUND, "each row is sealed", "identities_changed")
 def backup_identities_exchanged(s):
     """The identities of a backup are exchanged before it is restored."""
     db = sqlite3.connect(s.p("backup/identities.db"))
-    db.executescript("UPDATE identity SET salt = zeroblob(16) WHERE id = '4711'")
+    db.executescript("UPDATE identity SET name = 'Ben Behrens' WHERE id = '4711'")
     db.close()
     r = s.run("ledger", "restore", s.p("backup"), "--out", s.p("L2"))
     if r.rc != 0:

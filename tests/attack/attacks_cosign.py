@@ -54,7 +54,7 @@ def fork(s):
     return cosign(s, request(ledger, 18))
 
 
-@attack("cosign", FOUND, SIGNS)
+@attack("cosign", FOUND, SIGNS, "rewritten")
 def smaller_or_another_old(s):
     """A smaller size; old that is not the last one; the same size with a proof."""
     ledger = longer(s)
@@ -65,7 +65,7 @@ def smaller_or_another_old(s):
     return cosign(s, lf.cosign_request(18, lf.consistency(18, ledger.leaves()) + [sha(b"x")], good))
 
 
-@attack("cosign", FOUND, SIGNS, "signature_invalid error")
+@attack("cosign", FOUND, SIGNS, "signature_invalid")
 def of_another_school(s):
     """The note signed by a stranger under the same origin; with a second, good line of the school below another text."""
     ledger = longer(s)
@@ -154,7 +154,7 @@ def requests_hostile_to_cosigner(s):
     return s.run("ledger", "cosign", s.p("pipe"), "--out", s.p("answer2"), home=s.p("cosigner"))
 
 
-@attack("cosign", FOUND, "lines of a known one must hold; others are not checked")
+@attack("cosign", FOUND, "lines of a known one must hold; others are not checked", "older_copy", "30")
 def answers_forged(s):
     """What comes back: signed by nobody, by a stranger under the cosigner's name, for another text, with a time of another."""
     cosigner = Key.read(s.p("cosigner/cosigner.key"))

@@ -33,7 +33,7 @@ def station_as_an_oracle(s):
     return unclosed(s, lambda r: r.rebuild(s.station("stranger")))
 
 
-@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "station_changed")
+@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "error station_changed")
 def station_as_an_oracle_unsigned(s):
     """... whose beginning is not signed at all."""
     def change(r):
@@ -42,7 +42,7 @@ def station_as_an_oracle_unsigned(s):
     return unclosed(s, change)
 
 
-@attack("flow", FOUND, "... and with a line forged in used_tickets", "station_changed")
+@attack("flow", FOUND, "... and with a line forged in used_tickets", "error station_changed")
 def station_as_an_oracle_memory_forged(s):
     """... with a line `used` of the ticket forged at the station."""
     def change(r):

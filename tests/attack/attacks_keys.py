@@ -61,7 +61,7 @@ def key_signed_by_nobody(s):
     return last
 
 
-@attack("five", FOUND, "goes on with a key that was replaced: refused", "signature_invalid")
+@attack("five", FOUND, "goes on with a key that was replaced: refused", "malformed signature_invalid")
 def old_key_goes_on(s):
     """After the replacement: an entry by the verb with the old key; by hand with a note of the old key; the note of the `key` entry by the old one."""
     old, new = replaced(s)
@@ -105,7 +105,7 @@ def key_ran_out(s):
     return s.ledger("verify")
 
 
-@attack("five", FOUND, "the first time, and when the school replaced its key, a person tells the cosigner")
+@attack("five", FOUND, "the first time, and when the school replaced its key, a person tells the cosigner", "signature_invalid")
 def cosigner_and_another_key(s):
     """The cosigner is asked to sign a checkpoint of the new key without being shown that entry's receipt; then of a stranger's, which the ledger's id fits."""
     old, new = replaced(s)
@@ -263,7 +263,7 @@ def two_tickets(s):
     return s.ledger("ticket", s.p("quick.toml"), "--candidate", "4711", "--from", school.hours(-2), "--until", school.hours(9), "--out", s.p("t5"))
 
 
-@attack("five", FOUND, "made-up entries of the new kinds")
+@attack("five", FOUND, "made-up entries of the new kinds", "malformed signature_invalid")
 def new_kinds_hostile(s):
     """With the school's key: cancel of what is no ticket, begin with a word of a stranger, forget with a list of nonsense, `key` with a key that is none."""
     key, stranger = s.school_key(), s.station("stranger")

@@ -158,7 +158,7 @@ def cosignature_forged(s):
     return edited(s, lambda ledger: ledger.cosignatures.append([999, line]), and_add=False)
 
 
-@attack("ledger", FOUND, "leaf, tree, signature; types")
+@attack("ledger", FOUND, "leaf, tree, signature; types", "schema_differs", "entry_stays")
 def types_confused(s):
     """A leaf of 31 bytes; the table made without STRICT and a leaf as TEXT, a sequence number as TEXT."""
     def change(ledger):
