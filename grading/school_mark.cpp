@@ -136,6 +136,13 @@ std::vector<Message> result_differences(const json& sealed_result, const json& m
   return out;
 }
 
+std::vector<Message> SchoolMark::findings() const {
+  std::vector<Message> all = replay.findings;
+  all.insert(all.end(), exam.begin(), exam.end());
+  if (!other_result.empty()) all.push_back(other_result);
+  return all;
+}
+
 SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   SchoolMark out;
   std::optional<EventsAgain> events;
@@ -144,21 +151,20 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("scenario: {}", said_by(e)));
+    out.exam.push_back(msg("scenario: {}", said_by(e)));
   }
   Tooth final_tooth;
   const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
     events->see(tick, input, output, state);
   };
   out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, events ? events->teeth(final_tooth) : VerifyTeeth{});
-  out.findings.insert(out.findings.begin(), out.replay.findings.begin(), out.replay.findings.end());
   if (events)
-    for (auto& f : events->servo_findings()) out.findings.push_back(std::move(f));
+    for (auto& f : events->servo_findings()) out.exam.push_back(std::move(f));
   // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
   const bool repeated =
       out.replay.closed && out.replay.ticks_replayed == out.replay.ticks && out.replay.ticks_different == 0 && !out.replay.first_divergence && events;
   if (!repeated) return out;
-  for (auto& f : events->differences(session.ticks())) out.findings.push_back(std::move(f));
+  for (auto& f : events->differences(session.ticks())) out.exam.push_back(std::move(f));
   try {
     const auto graded = load_for_grading(session, std::move(final_tooth), grounds);
     graded->events = events->events();
@@ -166,7 +172,7 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the recording
   } catch (const std::exception& e) {
-    out.findings.push_back(msg("cannot be marked: {}", said_by(e)));
+    out.exam.push_back(msg("cannot be marked: {}", said_by(e)));
     return out;
   }
   const json sealed = parse_json_or_null(session.result_json(), k_json_part);
@@ -178,10 +184,10 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
     all.items.resize(k_most_named);
     all.items.push_back(msg("{} more", differ.size() - k_most_named));
   }
-  out.findings.push_back(msg(
+  out.other_result = msg(
       "the sealed result, by grading version {}, is not what this program's version {} gives: it was tampered with, or its station's program was, "
       "or is another one. Sealed {}",
-      whole_in(sealed, "grading_version"), k_grading_version, all));
+      whole_in(sealed, "grading_version"), k_grading_version, all);
   return out;
 }
 

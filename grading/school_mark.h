@@ -15,9 +15,12 @@ namespace cavum::grading {
 struct SchoolMark {
   VerifyReport replay;              ///< the file, its chain and signature, and the motion
   nlohmann::json result;            ///< this program's mark, as to_json gives it; null when the recording cannot be marked
-  std::vector<Message> findings;    ///< the replay's, and what of events, scenario and sealed result does not hold
+  std::vector<Message> exam;        ///< what of scenario, servo and events does not hold, or why it cannot be marked
+  Message other_result;             ///< in what the sealed result is another; empty: in nothing
   nlohmann::json sealed_otherwise;  ///< the sealed result where it is not `result`; else null
-  [[nodiscard]] bool holds() const { return replay.verified && findings.empty(); }
+  [[nodiscard]] bool holds() const { return replay.verified && exam.empty() && other_result.empty(); }
+  /// The replay's, then these.
+  [[nodiscard]] std::vector<Message> findings() const;
 };
 
 /// Simulates, runs and marks a closed session again. A sealed result that differs is a finding. What cannot be replayed (another physics version) is

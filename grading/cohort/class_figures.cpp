@@ -152,8 +152,8 @@ void look_at_sessions(ClassFigures& f, const ledger::Registry& registry, const s
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
     if (!s.findings.empty()) {
-      const Message counts = s.chosen ? msg("was filed with findings, and counts, for a person chose it: {}", s.findings.front())
-                                      : msg("was filed with findings and does not count: {}", s.findings.front());
+      const Message counts = s.chosen ? msg("was filed with findings, and counts, for a person chose it: {}", s.findings.front().what)
+                                      : msg("was filed with findings and does not count: {}", s.findings.front().what);
       f.to_look_at.push_back({s.seq, s.candidate, s.findings.size() > 1 ? msg("{}, and {} more", counts, s.findings.size() - 1) : counts});
     }
     for (const auto other : s.contested_by)

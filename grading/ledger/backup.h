@@ -29,7 +29,7 @@ struct Seen {
 /// What a backup lacks, as far as anything at hand tells.
 struct RestorePlan {
   LedgerContent content;
-  std::vector<Message> findings;              ///< the backup does not hold, or is another history than what was seen: it is not restored
+  Findings findings;                          ///< the backup does not hold, or is another history than what was seen: it is not restored
   std::vector<std::string> missing_sessions;  ///< filed in it, and their files are gone or changed: SHA-256
   std::vector<Message> lost_entries;          ///< in words: entries after the backup
   std::vector<Checkpoint> lost;               ///< every checkpoint that was seen of them

@@ -27,7 +27,7 @@ std::string begin_text(const BeginEntry& e) { return json{{"begin", json_of(e.be
 void require_signed(const Begin& b, const std::string& signature, const std::string& public_key, const Where& where) {
   if (!public_key.empty() && b.public_key != public_key) throw Error(where, msg("is of another school"), msg("ask this school's office"));
   if (!is_signed_by(b.public_key, message_of(b), signature))
-    throw Error(where, msg("was changed after the school signed it"), msg("ask the office again"));
+    throw Error(LedgerError::bad_signature, where, msg("was changed after the school signed it"), msg("ask the office again"));
 }
 
 Begin parse_begin(const std::string& text, const std::string& public_key, const Where& where) {

@@ -10,10 +10,10 @@
 namespace cavum::ledger {
 
 struct LedgerCheck {
-  std::vector<Message> findings;     ///< what does not hold
-  std::vector<Message> not_checked;  ///< what could not be checked or was not asked for, and why
-  std::vector<Message> remarks;      ///< what may be harmless
-  std::vector<Message> not_made;     ///< in a sentence each: sessions that should have been simulated again, and were not
+  Findings findings;     ///< what does not hold
+  Findings not_checked;  ///< what could not be checked or was not asked for, and why
+  Findings remarks;      ///< what may be harmless
+  Findings not_made;     ///< sessions that should have been simulated again, and were not
 };
 /// What is to be done with the filed recordings: their names below the ledger's folder, sorted, each once, whether or not their files are there and
 /// unchanged. Left out are those that were erased, and, where they are to be verified, those that were filed with findings.

@@ -16,15 +16,15 @@ struct FilingOptions {
   bool with_findings = false;   ///< files what does not hold, too, with what was found: for an appeal; it is released only by name
 };
 
-/// What a closed session's station, source of motion, clocks and ticket claim and the entries so far contradict, in words: what filing asks beside
+/// What a closed session's station, source of motion, clocks and ticket claim and the entries so far contradict: what filing asks beside
 /// the recording's truth. `received_utc_ns`: the ledger's own time. With `filed`, a second ending of an exam is compared with the one in the ledger's
 /// folder.
-[[nodiscard]] std::vector<Message> check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
-                                                std::int64_t received_utc_ns, const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
+[[nodiscard]] Findings check_claims(const LedgerContent& content, const Registry& registry, const SessionReader& session,
+                                    std::int64_t received_utc_ns, const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr);
 
 /// The same, for one session: what the entries add up to is read for it.
-[[nodiscard]] inline std::vector<Message> check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
-                                                       const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
+[[nodiscard]] inline Findings check_claims(const LedgerContent& content, const SessionReader& session, std::int64_t received_utc_ns,
+                                           const FilingOptions& options = {}, const LedgerPlaces* filed = nullptr) {
   return check_claims(content, read_registry(content), session, received_utc_ns, options, filed);
 }
 

@@ -25,7 +25,7 @@ struct Cosigner {
   std::vector<std::string> key_entries{};  ///< texts of entries `key` by which the school replaced the key that is remembered
 };
 struct Cosigned {
-  std::vector<Message> findings;  ///< why it was refused; then nothing is signed or remembered
+  Findings findings;  ///< why it was refused; then nothing is signed or remembered
   std::string ledger_id;
   std::uint64_t size = 0;
   std::string note;  ///< with the cosignature
@@ -43,15 +43,14 @@ struct Cosigned {
 
 /// What a cosigned note shows.
 struct CosignedNoteCheck {
-  std::vector<Message> findings;
-  std::vector<Message> not_checked;
+  Findings findings;
+  Findings not_checked;
   std::optional<Checkpoint> checkpoint;     ///< what it saw, when it can be read and the school signed it
   std::vector<NoteSignature> cosignatures;  ///< those of known cosigners
 };
 /// Checks a note against the ledger: the school's signature, those of known cosigners, and whether the ledger still begins with what it saw.
 [[nodiscard]] CosignedNoteCheck check_cosigned(const std::string& note, const std::vector<NoteKey>& known, const LedgerContent& ledger);
 /// The same of the cosignatures that the ledger holds.
-void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, std::vector<Message>& findings,
-                        std::vector<Message>& not_checked);
+void check_cosignatures(const LedgerContent& ledger, const std::vector<NoteKey>& known, Findings& findings, Findings& not_checked);
 
 }  // namespace cavum::ledger

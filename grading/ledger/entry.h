@@ -11,6 +11,7 @@
 
 #include "engine/base/hash.h"
 #include "engine/session/motion_source.h"
+#include "grading/ledger/finding.h"
 #include "grading/ledger/opening.h"
 #include "grading/ledger/ticket.h"
 
@@ -78,7 +79,7 @@ struct SessionEntry {
   std::string simulated;                               ///< what moved it instead of a hand; empty for people
   std::int64_t begun_utc_ns = 0, closed_utc_ns = 0;    ///< by the station's clock
   std::int64_t ticks = 0;
-  std::vector<Message> findings;
+  Findings findings;
   std::int64_t grading_version = 0, physics_version = 0;  ///< that marked it on filing, that it was recorded under
   Opening result;                                         ///< the school's own mark; null when it could not be marked
   std::optional<Opening> sealed;                          ///< the JSON text of the result that the station sealed, where that is another

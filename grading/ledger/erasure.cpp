@@ -51,12 +51,13 @@ const std::vector<ErasedPart>& erased_parts(const LedgerEntry& e) {
   return erase != nullptr ? erase->erased : forget != nullptr ? forget->erased : k_none;
 }
 
-Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<Message>& findings) {
+Erased read_erased(const std::vector<LedgerEntry>& entries, Findings& findings) {
   Erased out;
   for (const auto& e : entries)
     for (const auto& [seq, part] : erased_parts(e)) {
       if (seq == 0 || seq >= e.seq || seq >= entries.size() || !has_part(entries[seq], part))
-        findings.push_back(msg("entry {}: erases what is not there: '{}' of entry {}", e.seq, word_of(part), seq));
+        findings.push_back(
+            {FindingKind::entry_contradicts, msg("entry {}: erases what is not there: '{}' of entry {}", e.seq, word_of(part), seq), e.seq});
       else
         out[seq].emplace(part, e.seq);
     }
@@ -120,7 +121,7 @@ std::size_t remove_forgotten(const LedgerContent& c, Identities& identities) {
 Identities sound_identities(const Ledger& ledger) {
   Identities identities(ledger.places().identities());
   if (const auto wrong = identities.check(ledger.key()); !wrong.empty())
-    throw Error(ledger.places().identities(), wrong[0], msg("restore the file from its backup: marks would go to somebody else"));
+    throw Error(ledger.places().identities(), wrong[0].what, msg("restore the file from its backup: marks would go to somebody else"));
   remove_forgotten(ledger.content(), identities);
   return identities;
 }

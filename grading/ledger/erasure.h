@@ -14,7 +14,7 @@
 namespace cavum::ledger {
 
 /// What entries say was erased; adds findings for what they name and cannot be erased.
-[[nodiscard]] Erased read_erased(const std::vector<LedgerEntry>& entries, std::vector<Message>& findings);
+[[nodiscard]] Erased read_erased(const std::vector<LedgerEntry>& entries, Findings& findings);
 /// The entry that says that `what` of entry `seq` was erased.
 [[nodiscard]] std::optional<std::uint64_t> erased_by(const Erased& erased, std::uint64_t seq, Part what);
 /// What an entry says was erased.

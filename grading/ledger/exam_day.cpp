@@ -92,18 +92,18 @@ const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, con
   });
 }
 
-std::vector<Message> unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held, std::int64_t received_utc_ns) {
+Findings unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held, std::int64_t received_utc_ns) {
   constexpr std::int64_t k_clocks_ns = 300'000'000'000;  // by which the clocks of station and ledger may differ
   constexpr std::int64_t k_network_ns = 60'000'000'000;  // for word of the end to come
-  std::vector<Message> findings;
+  Findings findings;
   for (const auto& [begun, ended] : held) {
     const bool known = std::any_of(day.holds.begin(), day.holds.end(), [&, from = begun, to = ended](const Hold& h) {
       const std::int64_t until = h.ended_by ? h.ended_utc_ns : received_utc_ns;
       return h.audience.holds(station) && from >= h.utc_ns - k_clocks_ns && to <= until + k_clocks_ns && to - from <= until - h.utc_ns + k_network_ns;
     });
     if (!known)
-      findings.push_back(
-          msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause", utc_text(begun), utc_text(ended)));
+      findings.push_back({FindingKind::pause_unknown, msg("its clock was held for the office from {} to {}, and the ledger knows of no such pause",
+                                                          utc_text(begun), utc_text(ended))});
   }
   return findings;
 }

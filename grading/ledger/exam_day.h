@@ -60,8 +60,8 @@ const LedgerEntry& note_incident(Ledger& ledger, const std::string& station, con
 
 /// A time for which a recording's clock stood still because of the office, from and to, by the station's clock, UTC in ns.
 using HeldTime = std::pair<std::int64_t, std::int64_t>;
-/// Which of them the ledger does not know of, in words: a station may not give its candidate time by itself.
-[[nodiscard]] std::vector<Message> unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held,
-                                                     std::int64_t received_utc_ns);
+/// Which of them the ledger does not know of: a station may not give its candidate time by itself.
+[[nodiscard]] Findings unexplained_holds(const ExamDay& day, const std::string& station, std::span<const HeldTime> held,
+                                         std::int64_t received_utc_ns);
 
 }  // namespace cavum::ledger

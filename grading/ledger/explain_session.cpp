@@ -20,11 +20,11 @@ namespace {
 
 /// `say` may find the session too damaged to be asked: that is a finding, too.
 template <class Say>
-void or_damage(SessionExplanation& e, const Say& say) {
+void or_damage(SessionExplanation& e, const Say& say, FindingKind kind = FindingKind::recording_unsound) {
   try {
     say();
   } catch (const Error& damage) {
-    e.findings.push_back(damage.message());
+    e.findings.push_back({kind, damage.message()});
   }
 }
 
@@ -41,7 +41,7 @@ void say_replay(SessionExplanation& e, const SessionReader& session, const gradi
     e.proved.push_back(
         msg("the motion gives the recorded forces, removed leaves and tooth again, bit for bit: {} ticks simulated", report.ticks_replayed));
   }
-  if (report.intact && session.closed() && mark.findings.empty() && mark.result.is_object())
+  if (report.intact && session.closed() && mark.findings().empty() && mark.result.is_object())
     e.proved.emplace_back(mark.sealed_otherwise.is_null() ? msg("the motion gives the recorded events and the sealed result again")
                                                           : msg("the motion gives the recorded events again"));
 }
@@ -59,9 +59,10 @@ void say_closing(SessionExplanation& e, const SessionReader& session, const Veri
 void say_ticket(SessionExplanation& e, const SessionReader& session, const SessionSetup& setup, const std::string& ticket_text,
                 const std::string& school_key) {
   const Ticket ticket = parse_ticket(ticket_text, school_key, msg("the session's ticket"));
-  auto wrong = check_ticket(ticket, setup, session.created().utc_ns);
-  for (auto& f : scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario.toml").scenario)) wrong.push_back(std::move(f));
-  e.findings.insert(e.findings.end(), wrong.begin(), wrong.end());
+  Findings wrong = check_ticket(ticket, setup, session.created().utc_ns);
+  append(wrong,
+         findings_of(FindingKind::exam_differs, scenarios::check_servo(setup.servo_toml, scenarios::exam_task(setup, "scenario.toml").scenario)));
+  append(e.findings, wrong);
   if (wrong.empty())
     e.proved.push_back(
         msg("the school with key {} promised this exam to candidate {}: scenario, tooth, rubric and accommodations are those of the ticket, and it "
@@ -78,7 +79,7 @@ void say_no_ticket(SessionExplanation& e, bool readable, bool needed) {
   if (!readable)
     e.remarks.emplace_back(msg("whether the session holds a ticket could not be read for certain"));
   else if (needed)
-    e.findings.emplace_back(msg("the session holds no ticket: nobody promised this exam"));
+    e.findings.push_back({FindingKind::ticket_missing, msg("the session holds no ticket: nobody promised this exam")});
   else
     e.remarks.emplace_back(msg("there is no ticket: that this exam was asked for, and of whom, is not shown"));
 }
@@ -129,16 +130,15 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);
-  const grading::SchoolMark mark = session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}};
-  e.findings = session.closed() ? mark.findings : mark.replay.findings;
+  const grading::SchoolMark mark =
+      session.closed() ? grading::mark_again(session, grounds) : grading::SchoolMark{verify_session(path), {}, {}, {}, {}};
+  e.findings = findings_of(mark);
   say_replay(e, session, mark);
-  or_damage(e, [&] {
-    for (auto& f : check_stations(session)) e.findings.push_back(std::move(f));
-  });
+  or_damage(e, [&] { append(e.findings, findings_of(FindingKind::station_changed, check_stations(session))); });
   say_closing(e, session, mark.replay);
   or_damage(e, [&] {
     const SessionCheckFindings check = check_of_session(session);
-    e.findings.insert(e.findings.end(), check.findings.begin(), check.findings.end());
+    append(e.findings, findings_of(FindingKind::self_check, check.findings));
     e.remarks.insert(e.remarks.end(), check.remarks.begin(), check.remarks.end());
   });
 
@@ -150,7 +150,8 @@ SessionExplanation explain_session(const std::string& path, const std::string& s
       if (key == k_ticket_note) ticket_text = value;
   });
   if (!ticket_text.empty())
-    or_damage(e, [&] { say_ticket(e, session, setup, ticket_text, school_key); });
+    or_damage(
+        e, [&] { say_ticket(e, session, setup, ticket_text, school_key); }, FindingKind::ticket_invalid);
   else
     say_no_ticket(e, session.findings().empty(), !school_key.empty() && ticket_needed);
   say_circumstances(e, session, path);
@@ -170,7 +171,7 @@ Lines to_text(const SessionExplanation& e) {
     out.add(title);
     for (const auto& l : lines) out.add(msg("- {}", l), 2);
   };
-  list(e.interrupted ? msg("what is missing") : msg("what does not hold"), e.findings);
+  list(e.interrupted ? msg("what is missing") : msg("what does not hold"), words_of(e.findings));
   list(msg("what is proved"), e.proved);
   list(msg("to be known"), e.remarks);
   return out;

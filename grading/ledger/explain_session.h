@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "engine/base/lines.h"
+#include "grading/ledger/finding.h"
 
 namespace cavum::grading {
 class ExamGrounds;
@@ -15,11 +16,11 @@ namespace cavum::ledger {
 
 struct SessionExplanation {
   std::string file;
-  bool holds = false;             ///< closed, true, and as its ticket promised when it has one
-  bool interrupted = false;       ///< does not hold for one reason alone: nobody closed it; what is recorded is intact and can be resumed
-  std::vector<Message> proved;    ///< what holds, each with how it is known
-  std::vector<Message> findings;  ///< what does not hold
-  std::vector<Message> remarks;   ///< what nobody can know from the file, and what the clocks show
+  bool holds = false;            ///< closed, true, and as its ticket promised when it has one
+  bool interrupted = false;      ///< does not hold for one reason alone: nobody closed it; what is recorded is intact and can be resumed
+  std::vector<Message> proved;   ///< what holds, each with how it is known
+  Findings findings;             ///< what does not hold
+  std::vector<Message> remarks;  ///< what nobody can know from the file, and what the clocks show
 };
 
 /// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. With one, a session without a ticket does not

@@ -31,10 +31,10 @@ namespace cavum::ledger {
 /// "ledger", "checkpoint", "public_key", "signature"}: keys in order, no spaces, signed by the school over "CVRESULT" and the text of the object
 /// without "signature". Pseudonyms only.
 [[nodiscard]] std::string signed_results(const Registry& registry, const Ledger& ledger);
-/// Why `text` is not what signed_results wrote, in words; empty when it is. As check_receipt(): `public_key` (hexadecimal) is the school's, empty =
+/// Why `text` is not what signed_results wrote; empty when it is. As check_receipt(): `public_key` (hexadecimal) is the school's, empty =
 /// the file's own; with a ledger's content also whether that still begins with what the export saw. The text has to be the one that was written, to
 /// the character: another program might read an object with a key twice, or a number with more digits, in another way.
-[[nodiscard]] std::vector<Message> check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
+[[nodiscard]] Findings check_results(const std::string& text, const std::string& public_key, const LedgerContent* ledger);
 
 /// CSV, one row for each session and criterion: session, candidate, scenario, station, simulated, regraded, findings, contested (their numbers),
 /// chosen, makes_up, made_up_by (entries of tickets, or empty), verdict, released, criterion, metric, value, unit, points, max. Pseudonyms only.

@@ -58,19 +58,26 @@ void require_closed(const SessionReader& session) {
     throw Error(path, msg("was never closed"), msg("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
 }
 
+Bytes image_of(const std::string& path, Findings& findings) {
+  std::vector<Message> left_out;
+  Bytes image = read_session_image(path, left_out);
+  append(findings, findings_of(FindingKind::recording_unsound, left_out));
+  return image;
+}
+
 auto claims_of(Ledger& ledger, const SessionReader& session, const FilingOptions& options) {
   return [&](const LedgerContent& c) { return check_claims(c, ledger.registry(), session, read_clocks().utc_ns, options, &ledger.places()); };
 }
 
 /// Takes the marked image in: `out` holds the findings of reading it, `claimed` what the ledger has against it.
 void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, const grading::SchoolMark& mark, const FilingOptions& options,
-           std::vector<Message> claimed, std::size_t seen, Filing& out) {
+           const Findings& claimed, std::size_t seen, Filing& out) {
   const SessionSetup setup = session.setup();
   const std::string file_sha256 = to_hex(sha256(image));
   const auto claims = claims_of(ledger, session, options);
   const auto refused = [&] { return !out.findings.empty() && !options.with_findings; };
-  out.findings.insert(out.findings.end(), mark.findings.begin(), mark.findings.end());
-  out.findings.insert(out.findings.end(), claimed.begin(), claimed.end());
+  append(out.findings, findings_of(mark));
+  append(out.findings, claimed);
   if (refused()) return;
 
   const std::string kept = ledger.places().session(file_sha256);
@@ -80,7 +87,7 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   SessionEntry entry = entry_of(session, setup, mark, file_sha256);
   const std::size_t entered = ledger.append_all([&](const LedgerContent& now) -> std::vector<Entry> {
     // again under the lock: somebody may have used the ticket meanwhile
-    auto late = now.entries.size() == seen ? std::vector<Message>() : claims(now);
+    auto late = now.entries.size() == seen ? Findings() : claims(now);
     if (!late.empty() && out.findings.empty()) out.findings = std::move(late);
     if (refused()) return {};
     entry.findings = out.findings;
@@ -100,29 +107,30 @@ SessionReader require_closed_session(const Bytes& image, const std::string& path
 Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamGrounds& grounds) {
   Filing out;
   ledger.refresh();
-  const Bytes image = read_session_image(path, out.findings);
+  const Bytes image = image_of(path, out.findings);
   const SessionReader session = require_closed_session(image, path);
   const std::size_t seen = ledger.content().entries.size();
   auto claimed = claims_of(ledger, session, options)(ledger.content());
   if (session.ticks() > k_longest_refused_ticks && !claimed.empty() && !options.with_findings) {  // a stranger's file is not worth minutes of work
     out.findings = std::move(claimed);
-    out.findings.push_back(msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
-                               as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0)));
+    out.findings.push_back(
+        {FindingKind::not_simulated, msg("it lasts {} minutes, and was not simulated: of what is refused as it is at most 10 minutes are",
+                                         as_number(static_cast<double>(session.ticks()) * k_tick_s / 60.0, 0))});
     return out;
   }
-  enter(ledger, image, session, grading::mark_again(session, grounds), options, std::move(claimed), seen, out);
+  enter(ledger, image, session, grading::mark_again(session, grounds), options, claimed, seen, out);
   return out;
 }
 
 MarkedRecording::MarkedRecording(const std::string& path, grading::ExamGrounds& grounds)
-    : image_(read_session_image(path, findings_)), session_(require_closed_session(image_, path)), mark_(grading::mark_again(session_, grounds)) {}
+    : image_(image_of(path, findings_)), session_(require_closed_session(image_, path)), mark_(grading::mark_again(session_, grounds)) {}
 
 Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options) {
   Filing out;
   ledger.refresh();
   out.findings = marked.findings_;
-  auto claimed = claims_of(ledger, marked.session_, options)(ledger.content());
-  enter(ledger, marked.image_, marked.session_, marked.mark_, options, std::move(claimed), ledger.content().entries.size(), out);
+  const auto claimed = claims_of(ledger, marked.session_, options)(ledger.content());
+  enter(ledger, marked.image_, marked.session_, marked.mark_, options, claimed, ledger.content().entries.size(), out);
   return out;
 }
 

@@ -14,7 +14,7 @@
 namespace cavum::ledger {
 
 struct Filing {
-  std::vector<Message> findings;     ///< why it was not filed, or with what it was; empty for a sound session
+  Findings findings;                 ///< why it was not filed, or with what it was; empty for a sound session
   std::optional<std::uint64_t> seq;  ///< of the new entry; none: refused
 };
 /// Simulates `session` tick by tick, runs its scenario and marks it again, checks station, source, clocks and ticket, keeps the file in the ledger's
@@ -36,7 +36,7 @@ class MarkedRecording {
 
  private:
   friend Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options);
-  std::vector<Message> findings_;
+  Findings findings_;
   Bytes image_;
   SessionReader session_;
   grading::SchoolMark mark_;

@@ -119,10 +119,11 @@ std::vector<Identity> Identities::of_person(const std::string& who) {
 
 std::vector<Identity> Identities::all() { return identities(select(database_, "ORDER BY pseudonym")); }
 
-std::vector<Message> Identities::check(const SigningKey& school) {
-  std::vector<Message> findings;
+Findings Identities::check(const SigningKey& school) {
+  Findings findings;
   for (const auto& r : rows(select(database_, "ORDER BY pseudonym")))
-    if (!holds(r, school)) findings.push_back(msg("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym));
+    if (!holds(r, school))
+      findings.push_back({FindingKind::identities_changed, msg("identities: {} is not whom it was given to; the row was changed", r.who.pseudonym)});
   return findings;
 }
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/session/sqlite.h"
+#include "grading/ledger/finding.h"
 #include "grading/ledger/ledger_key.h"
 
 namespace cavum::ledger {
@@ -23,8 +24,8 @@ class Identities {
  public:
   /// Opens the file; with `make` makes it (mode 0600). Throws Error, also when it is missing: names that are lost are restored, not begun anew.
   explicit Identities(const std::string& path, bool make = false);
-  /// What does not hold, in words: a row that the school's key did not seal, so that marks would go to somebody else.
-  [[nodiscard]] std::vector<Message> check(const SigningKey& school);
+  /// What does not hold: a row that the school's key did not seal, so that marks would go to somebody else.
+  [[nodiscard]] Findings check(const SigningKey& school);
   /// Seals all rows with another key of the school. Throws Error when neither `before` nor `now` has sealed one of them.
   void seal_again(const SigningKey& before, const SigningKey& now);
   /// The candidate's pseudonym for an exam: as before, or a new one. Throws Error when `id` is empty or no plain text.

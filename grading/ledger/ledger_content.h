@@ -1,5 +1,5 @@
 // What a ledger's file holds, read and checked without changing it: entries, the tree over them, the school's signatures, and the rubrics and
-// scenarios that results were marked anew by. What does not hold is said in words.
+// scenarios that results were marked anew by.
 #pragma once
 
 #include <fmt/core.h>
@@ -47,8 +47,8 @@ struct LedgerContent {
   std::vector<Cosignature> cosignatures;   ///< by size; whose they are is not checked here
   std::map<std::string, Bytes> documents;  ///< by SHA-256 (hexadecimal): what results were marked anew by
   Erased erased;                           ///< what entries say was erased
-  std::vector<Message> findings;           ///< in words; empty when entries, tree and signatures hold
-  std::vector<Message> remarks;            ///< what is odd and may be harmless: a clock that was set back
+  Findings findings;                       ///< empty when entries, tree and signatures hold
+  Findings remarks;                        ///< what is odd and may be harmless: a clock that was set back
   /// The key that signs a tree of this size; of a larger one than there is, the last.
   [[nodiscard]] const std::string& key_of(std::uint64_t size) const;
   /// True when the school has had it.

@@ -42,24 +42,25 @@ void require_ledger(Database& db, const std::string& where) {
                 msg("use the version that wrote it"));
 }
 
-void check_schema(Database& db, std::vector<Message>& findings) {
+void check_schema(Database& db, Findings& findings) {
   Database fresh = Database::open(":memory:", true);
   fresh.run(k_ledger_schema);
   const auto wanted = schema_of(fresh), found = schema_of(db);
   for (const auto& [name, sql] : wanted) {
     const auto is = found.find(name);
     if (is == found.end())
-      findings.push_back(msg("{}: was taken out of the ledger's file", name));
+      findings.push_back({FindingKind::schema_differs, msg("{}: was taken out of the ledger's file", name)});
     else if (is->second != sql)
-      findings.push_back(msg("{}: is not as this program made it; it was altered", name));
+      findings.push_back({FindingKind::schema_differs, msg("{}: is not as this program made it; it was altered", name)});
   }
   for (const auto& [name, sql] : found)
-    if (!wanted.contains(name)) findings.push_back(msg("{}: does not belong to a ledger; it was put into its file", name));
+    if (!wanted.contains(name))
+      findings.push_back({FindingKind::schema_differs, msg("{}: does not belong to a ledger; it was put into its file", name)});
 }
 
-std::vector<Message> schema_findings(Database& db) noexcept {
+Findings schema_findings(Database& db) noexcept {
   try {
-    std::vector<Message> findings;
+    Findings findings;
     check_schema(db, findings);
     return findings;
   } catch (const std::exception&) {

@@ -30,8 +30,8 @@ void wipe_erased(Database& database, const std::string& where);
 /// Adds what another party signed of a checkpoint, unless it is there already.
 void insert_cosignature(Database& database, std::uint64_t size, const std::string& line);
 /// Tables, triggers, views and indexes that are not those that this version made: a view that shows people other figures, a trigger that is gone.
-void check_schema(Database& database, std::vector<Message>& findings);
+void check_schema(Database& database, Findings& findings);
 /// The same of a database that could not be read: nothing when not even that can be told.
-[[nodiscard]] std::vector<Message> schema_findings(Database& database) noexcept;
+[[nodiscard]] Findings schema_findings(Database& database) noexcept;
 
 }  // namespace cavum::ledger

@@ -9,6 +9,7 @@
 #include "engine/base/said_by.h"
 #include "grading/ledger/begin.h"
 #include "grading/ledger/erasure.h"
+#include "grading/ledger/ledger_error.h"
 
 namespace cavum::ledger {
 
@@ -43,7 +44,9 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    const auto say = [&](const Message& what) { r.remarks.push_back(msg("entry {}: has not released entry {}, for {}", seq, s.seq, what)); };
+    const auto say = [&](const Message& what) {
+      r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, what), seq});
+    };
     if (const FiledSession* other = r.chosen_instead_of(s)) {
       say(msg("entry {}, another ending of the same exam, was chosen before", other->seq));
       continue;
@@ -168,6 +171,8 @@ class RegistryReader {
       std::visit(*this, *e.what);
     } catch (const std::out_of_range&) {
       say(msg("speaks of an entry that is not there"));
+    } catch (const Error& error) {
+      say(error.message(), error.code() == LedgerError::bad_signature ? FindingKind::signature_invalid : FindingKind::entry_contradicts);
     } catch (const std::bad_alloc&) {
       throw;
     } catch (const std::exception& error) {
@@ -243,7 +248,7 @@ class RegistryReader {
     s.grading_version = what.grading_version;
     s.simulated = what.simulated;
     s.findings = what.findings;
-    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(msg("a session that was entered before"));
+    if (!chains_.insert(s.chain_sha256).second && s.findings.empty()) say(msg("a session that was entered before"), FindingKind::submitted_twice);
     if (!s.nonce.empty() && s.findings.empty()) use_ticket(s);
     if (const auto t = by_nonce_.find(s.nonce); t != by_nonce_.end()) {
       const IssuedTicket& ticket = r_.tickets[t->second];
@@ -322,7 +327,9 @@ class RegistryReader {
   void operator()(const RoomEntry& what) { take_room(r_.stations, what); }
 
  private:
-  void say(const Message& what) { r_.findings.push_back(msg("entry {}: {}", e_->seq, what)); }
+  void say(const Message& what, FindingKind kind = FindingKind::entry_contradicts) {
+    r_.findings.push_back({kind, msg("entry {}: {}", e_->seq, what), e_->seq});
+  }
   FiledSession& session(std::uint64_t seq) { return r_.sessions.at(by_session_.at(seq)); }
 
   /// Of the first sitting nothing counts from now on.
@@ -364,11 +371,11 @@ class RegistryReader {
 
   void use_ticket(const FiledSession& s) {
     const auto found = by_nonce_.find(s.nonce);
-    if (found == by_nonce_.end()) return say(msg("a session with a ticket that was not issued"));
+    if (found == by_nonce_.end()) return say(msg("a session with a ticket that was not issued"), FindingKind::ticket_unknown);
     IssuedTicket& t = r_.tickets[found->second];
-    if (t.used_by) return say(msg("a ticket that was used before"));
-    if (t.cancelled_by) say(msg("a ticket that was cancelled by entry {}", *t.cancelled_by));
-    if (t.made_up_by) say(msg("a ticket that entry {} makes up", *t.made_up_by));
+    if (t.used_by) return say(msg("a ticket that was used before"), FindingKind::ticket_used);
+    if (t.cancelled_by) say(msg("a ticket that was cancelled by entry {}", *t.cancelled_by), FindingKind::ticket_cancelled);
+    if (t.made_up_by) say(msg("a ticket that entry {} makes up", *t.made_up_by), FindingKind::ticket_made_up);
     t.used_by = e_->seq;
   }
 

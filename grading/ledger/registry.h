@@ -45,7 +45,7 @@ struct FiledSession {
   std::int64_t grading_version = 0;  ///< that marked it on filing
   SharedJson result;                 ///< that counts: the one that was filed, or the last regrade's
   std::uint64_t result_seq;          ///< of the entry that holds it
-  std::vector<Message> findings;
+  Findings findings;
   std::string simulated;             ///< what moved the stylus instead of a candidate's hand: an operator, a motion file, practice; empty for people
   bool released = false;             ///< the result that counts
   SharedJson shown;                  ///< the last one that was released: it stands until another is; null before
@@ -120,11 +120,11 @@ struct Registry {
   std::vector<IssuedTicket> tickets;
   std::vector<FiledSession> sessions;
   std::vector<PassbackEntry> passbacks;
-  /// What entries contradict each other in, in words: a ticket used twice, a session entered twice, a regrade or release of nothing.
-  std::vector<Message> findings;
-  /// Releases without effect, in words: of an ending of an exam when another one was chosen, or of two at once; of a sitting when another one counts.
+  /// What entries contradict each other in: a ticket used twice, a session entered twice, a regrade or release of nothing.
+  Findings findings;
+  /// Releases without effect: of an ending of an exam when another one was chosen, or of two at once; of a sitting when another one counts.
   /// None is a contradiction.
-  std::vector<Message> remarks;
+  Findings remarks;
   /// Of that entry; null where it is no session's or ticket's.
   [[nodiscard]] const FiledSession* session(std::uint64_t seq) const;
   [[nodiscard]] const IssuedTicket* ticket(std::uint64_t seq) const;

@@ -60,9 +60,9 @@ void require_promised(const HeldTicket& held, const SessionSetup& setup) {
   if (held.ticket.begun_at_ledger && held.begin.empty())
     throw Error(LedgerError::unknown, Name{held.path}, msg("asks for the ledger's word to begin, and {} is not there", begin_path(held.path)),
                 msg("have the office run `cavum ledger begin LEDGER --ticket {}`", held.path));
-  auto wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
+  const Findings wrong = check_ticket(held.ticket, setup, read_clocks().utc_ns);
   if (wrong.empty()) return;
-  throw Error(held.path, msg("{}", List{std::move(wrong), true}), msg("ask the school for another ticket, or name the files that it promises"));
+  throw Error(held.path, msg("{}", List{words_of(wrong), true}), msg("ask the school for another ticket, or name the files that it promises"));
 }
 
 std::string used_tickets_path() { return station_path("used_tickets"); }

@@ -39,8 +39,8 @@ struct StationRegister {
   std::vector<Station> stations;
   std::vector<StationInvitation> invitations;
   [[nodiscard]] const Station* of(const std::string& public_key) const;
-  /// Why a recording that this key closed at `closed_utc_ns` and that came in at `received_utc_ns` does not count; empty when it does.
-  [[nodiscard]] Message problem(const std::string& public_key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const;
+  /// Why a recording that this key closed at `closed_utc_ns` and that came in at `received_utc_ns` does not count; none when it does.
+  [[nodiscard]] std::optional<Finding> problem(const std::string& public_key, std::int64_t closed_utc_ns, std::int64_t received_utc_ns) const;
 };
 
 // What an entry says of stations. Each throws Error when it contradicts what is there; `school`: its public key then.

@@ -7,6 +7,7 @@
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "grading/ledger/entry_text.h"
+#include "grading/ledger/ledger_error.h"
 #include "grading/ledger/ledger_key.h"
 #include "grading/ledger/opening.h"
 
@@ -62,7 +63,7 @@ void require_signed(const Ticket& t, const std::string& signature, const std::st
     throw Error(where, msg("is the ticket of another school"), msg("ask for one of this school"));
   if (!is_signed_by(fixed_from_hex<32>(t.public_key, msg("{}: {}", where, "public_key")), message_of(t),
                     fixed_from_hex<64>(signature, msg("{}: {}", where, "signature"))))
-    throw Error(where, msg("was changed after the school signed it"), msg("ask for a new ticket"));
+    throw Error(LedgerError::bad_signature, where, msg("was changed after the school signed it"), msg("ask for a new ticket"));
 }
 
 Ticket parse_ticket(const std::string& text, const std::string& public_key, const Where& where) {
@@ -77,23 +78,35 @@ Ticket parse_ticket(const std::string& text, const std::string& public_key, cons
   return t;
 }
 
-std::vector<Message> check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
-  std::vector<Message> findings;
-  if (setup.candidate != t.candidate) findings.push_back(msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate));
+namespace {
+
+FindingKind kind_of(const std::string& artifact) {
+  if (artifact == "start_tooth.cvt") return FindingKind::ticket_tooth;
+  if (artifact == "force_model.toml") return FindingKind::ticket_model;
+  return artifact.starts_with("point_") ? FindingKind::ticket_bur : FindingKind::ticket_scenario;
+}
+
+}  // namespace
+
+Findings check_ticket(const Ticket& t, const SessionSetup& setup, std::int64_t begun_utc_ns) {
+  Findings findings;
+  if (setup.candidate != t.candidate)
+    findings.push_back({FindingKind::ticket_candidate, msg("the ticket is candidate {}'s, the exam was sat by {}", t.candidate, setup.candidate)});
   const auto examined = examined_artifacts(setup);
   for (const auto& [name, hash] : t.artifacts) {
     const auto found = examined.find(name);
     if (found == examined.end())
-      findings.push_back(msg("the ticket promises {}, which the exam does not have", name));
+      findings.push_back({kind_of(name), msg("the ticket promises {}, which the exam does not have", name)});
     else if (found->second != hash)
-      findings.push_back(msg("{} is not the one that the ticket promises", name));
+      findings.push_back({kind_of(name), msg("{} is not the one that the ticket promises", name)});
   }
   for (const auto& [name, hash] : examined)
-    if (!t.artifacts.contains(name)) findings.push_back(msg("the exam has {}, of which the ticket says nothing", name));
-  if (accommodations_in(setup) != t.grant) findings.emplace_back(msg("the accommodations are not those that the ticket grants"));
+    if (!t.artifacts.contains(name)) findings.push_back({kind_of(name), msg("the exam has {}, of which the ticket says nothing", name)});
+  if (accommodations_in(setup) != t.grant)
+    findings.push_back({FindingKind::ticket_accommodations, msg("the accommodations are not those that the ticket grants")});
   if (begun_utc_ns < t.not_before_utc_ns || begun_utc_ns > t.not_after_utc_ns)
-    findings.push_back(msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns), utc_text(t.not_before_utc_ns),
-                           utc_text(t.not_after_utc_ns)));
+    findings.push_back({FindingKind::ticket_time, msg("the exam began on {}, and the ticket is good from {} to {}", utc_text(begun_utc_ns),
+                                                      utc_text(t.not_before_utc_ns), utc_text(t.not_after_utc_ns))});
   return findings;
 }
 

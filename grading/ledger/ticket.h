@@ -10,6 +10,7 @@
 #include "engine/base/where.h"
 #include "engine/session/session.h"
 #include "engine/session/station_key.h"
+#include "grading/ledger/finding.h"
 
 namespace cavum::ledger {
 
@@ -48,9 +49,9 @@ void require_signed(const Ticket& ticket, const std::string& signature, const st
 /// Throws Error(`where`, ...) when the text is no ticket or its signature does not hold.
 [[nodiscard]] Ticket parse_ticket(const std::string& text, const std::string& public_key, const Where& where);
 
-/// What about the exam is not as promised, in words: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
+/// What about the exam is not as promised: another candidate, another scenario, tooth or rubric, other accommodations, or begun outside its
 /// time.
-[[nodiscard]] std::vector<Message> check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
+[[nodiscard]] Findings check_ticket(const Ticket& ticket, const SessionSetup& setup, std::int64_t begun_utc_ns);
 
 /// "2026-11-21T09:00Z" or "2026-11-21T09:00:00Z" in ns since 1970; throws Error(`where`, ...).
 [[nodiscard]] std::int64_t parse_utc(const std::string& text, const Where& where);

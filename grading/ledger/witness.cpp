@@ -19,7 +19,7 @@ namespace cavum::ledger {
 
 std::string witness_path(const std::string& ledger_id) { return station_path("witness/" + file_name_of(ledger_id)); }
 
-std::vector<Checkpoint> read_witness(const std::string& id, std::vector<Message>& findings) {
+std::vector<Checkpoint> read_witness(const std::string& id, Findings& findings) {
   std::vector<Checkpoint> out;
   const std::string path = witness_path(id);
   if (!std::filesystem::exists(path)) return out;
@@ -35,7 +35,7 @@ std::vector<Checkpoint> read_witness(const std::string& id, std::vector<Message>
     try {
       p.root = fixed_from_hex<32>(root, path);
     } catch (const Error&) {
-      findings.push_back(msg("{}: the witness was changed at entry {}", path, p.size));
+      findings.push_back({FindingKind::witness_changed, msg("{}: the witness was changed at entry {}", path, p.size)});
       break;
     }
     out.push_back(p);

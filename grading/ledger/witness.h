@@ -12,7 +12,7 @@ namespace cavum::ledger {
 
 /// What it remembers, the oldest first; nothing when this computer has none. A root that is none is a finding; a line that a
 /// power cut left short is left out.
-[[nodiscard]] std::vector<Checkpoint> read_witness(const std::string& ledger_id, std::vector<Message>& findings);
+[[nodiscard]] std::vector<Checkpoint> read_witness(const std::string& ledger_id, Findings& findings);
 /// Holds room on the disk for so many lines, before entries are made that it is told of. Throws DatabaseError when there is none.
 void make_room_for_witness(const std::string& ledger_id, std::size_t lines);
 /// Adds a line, synced. Throws Error when that cannot be done; the next entry tells it again.

@@ -122,7 +122,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
     const SessionReader session(image, name);
     if (work.what == What::verify) {
       const grading::SchoolMark mark = grading::mark_again(session, grounds);
-      findings.insert(findings.end(), mark.findings.begin(), mark.findings.end());
+      for (auto& f : mark.findings()) findings.push_back(std::move(f));
       line["verified"] = mark.holds() && findings.empty();
       line["ticks"] = mark.replay.ticks;
       line["findings"] = on_lines(findings);

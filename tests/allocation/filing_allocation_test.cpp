@@ -55,18 +55,18 @@ class FilingWithoutMemory : public testing::Test {
     }
     const std::uint64_t requests = testing_allocation::end_counting();
     const std::string at = "request " + std::to_string(n) + ": ";
-    if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0]), requests};
+    if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0].what), requests};
     if (!filing && said.find("; ") == std::string::npos) return {at + "does not say what to do: " + said, requests};
     if (!filing && said.find("memory") == std::string::npos) return {at + "does not say that memory is short: " + said, requests};
     const ledger::LedgerCheck check = ledger::check_ledger(places, false);
-    if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0]) + " (" + said + ")", requests};
+    if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0].what) + " (" + said + ")", requests};
     auto now = texts_of(ledger::read_ledger(places));
     if (!filing && now != before_) return {at + "the ledger was changed, and yet: " + said, requests};
     if (!filing) {
       keep_memory_reserve();  // the next program
       ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
       const ledger::Filing again = ledger::file_session(ledger, exam, {}, grounds_);
-      if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0]), requests};
+      if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].what), requests};
       now = texts_of(ledger::read_ledger(places));
     }
     if (now.size() != before_.size() + 1 || !ledger::check_ledger(places, false).findings.empty()) return {at + "it was not filed", requests};

@@ -19,25 +19,25 @@ def own_scenario(r):
     return r.artifact("scenario.toml").decode()
 
 
-@attack("claim", FOUND, TICKET, "scenario")
+@attack("claim", FOUND, TICKET, "ticket_scenario", "scenario.toml")
 def easier_scenario(s):
     """The scenario gives full points from 10 % on; mark and hashes are made anew."""
     return insider(s, lambda r: r.set_artifact("scenario.toml", own_scenario(r).replace("full = 90", "full = 10").replace("zero = 60", "zero = 1").encode()))
 
 
-@attack("claim", FOUND, TICKET, "force_model|model")
+@attack("claim", FOUND, TICKET, "ticket_model", "force_model.toml")
 def softer_model(s):
     """The force model has one more line."""
     return insider(s, lambda r: r.set_artifact("force_model.toml", r.artifact("force_model.toml") + b"\n# softer\n"))
 
 
-@attack("claim", FOUND, TICKET, "point_001|point")
+@attack("claim", FOUND, TICKET, "ticket_bur", "point_001")
 def another_point(s):
     """A diamond point of the tray has one more line."""
     return insider(s, lambda r: r.set_artifact("point_001.toml", r.artifact("point_001.toml") + b"\n# sharper\n"))
 
 
-@attack("claim", FOUND, TICKET, "rubric")
+@attack("claim", FOUND, TICKET, "ticket_scenario", "rubric.toml")
 def a_rubric_slipped_in(s):
     """A rubric of one's own beside the scenario's."""
     def change(r):
@@ -46,13 +46,13 @@ def a_rubric_slipped_in(s):
     return insider(s, change)
 
 
-@attack("claim", FOUND, TICKET, "attachment|scenario|not")
+@attack("claim", FOUND, TICKET, "ticket_scenario", "attachment/")
 def an_attachment_slipped_in(s):
     """An attachment that the ticket does not know, whose name leads out of the folder."""
     return insider(s, lambda r: r.artifacts.insert(len(r.artifacts) - 1, ["attachment/../../../planted.stl", b"solid x\nendsolid x\n"]))
 
 
-@attack("claim", FOUND, "any change is found; artifacts in this order", "servo|artifact")
+@attack("claim", FOUND, "any change is found; artifacts in this order", "recording_unsound", "scenario.toml")
 def an_artifact_twice(s):
     """Two scenarios in one recording: the promised one, and an easier one of the same name."""
     return insider(s, lambda r: r.artifacts.insert(1, ["scenario.toml", own_scenario(r).replace("full = 90", "full = 10").encode()]))
@@ -89,7 +89,7 @@ def control_resimulated(s):
     return resimulated(s, lambda r: None)
 
 
-@attack("claim", FOUND, "the ticket promises scenario.toml, whose max_rpm is 200000; servo.toml, which says what was really used, is in no ticket", "servo|rpm")
+@attack("claim", FOUND, "the ticket promises scenario.toml, whose max_rpm is 200000; servo.toml, which says what was really used, is in no ticket", "exam_differs", "max_rpm")
 def another_servo(s):
     """servo.toml has 400000 rpm, twice what the promised scenario allows, really simulated: 25 points instead of 14."""
     def change(r):
@@ -97,7 +97,7 @@ def another_servo(s):
     return resimulated(s, change)
 
 
-@attack("claim", FOUND, TICKET + " (a tick of another length is more time)", "tick|servo|time")
+@attack("claim", FOUND, TICKET + " (a tick of another length is more time)", "exam_differs", "tick_s")
 def slower_tick(s):
     """servo.toml and tick_s say 10 ms, with clocks that fit: thirty seconds for an exam of three, 32 points instead of 14."""
     def change(r):
@@ -107,7 +107,7 @@ def slower_tick(s):
     return resimulated(s, change)
 
 
-@attack("claim", FOUND, TICKET, "extra|time|accommodation|grant")
+@attack("claim", FOUND, TICKET, "ticket_accommodations")
 def more_time_than_promised(s):
     """Extra time of 100 % that the ticket does not grant, really simulated."""
     return resimulated(s, lambda r: r.facts.update({"note.accommodation.extra_time_percent": "100"}))
@@ -119,26 +119,26 @@ def begins_elsewhere(s):
     return resimulated(s, lambda r: r.facts.update(first_tip_x_nm="500000", first_tip_z_nm="-300000"))
 
 
-@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "physics|version")
+@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "recording_unsound", "3")
 def older_physics(s):
     """The recording says that physics version 3 simulated it, so that nobody may simulate it again."""
     return insider(s, lambda r: r.facts.update(physics_version="3"))
 
 
-@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "physics|version")
+@attack("claim", FOUND, "simulated on filing; `verified` needs the same physics", "recording_unsound", "99999999999999999999")
 def physics_of_the_future(s):
     """... version 99999999999999999999."""
     s.must(insider(s, lambda r: r.facts.update(physics_version="1000")).rc != 0, "physics version 1000 is taken")
     return insider(s, lambda r: r.facts.update(physics_version="99999999999999999999"))
 
 
-@attack("claim", FOUND, "format n", "format")
+@attack("claim", FOUND, "format n", "recording_unsound", "'2'")
 def format_of_the_future(s):
     """The fact `format` says 2."""
     return insider(s, lambda r: r.facts.update(format="2"))
 
 
-@attack("claim", FOUND, SOURCE, "hand moved|motion")
+@attack("claim", FOUND, SOURCE, "no_hand", "expert")
 def operator_is_not_filed(s):
     """An operator's recording without --simulated."""
     return s.add("op_anna.cavum")
@@ -154,7 +154,7 @@ def control_operator_filed_as_simulated(s):
     return done
 
 
-@attack("claim", FOUND, SOURCE, "hand|moved|source|motion")
+@attack("claim", FOUND, SOURCE, "no_hand")
 def every_source_but_a_hand(s):
     """pointer, practice, motion_file, program, and names that no page knows."""
     last = None
@@ -166,31 +166,31 @@ def every_source_but_a_hand(s):
     return last
 
 
-@attack("claim", FOUND, "a recording that does not say it is no candidate's exam", "source|moved|hand")
+@attack("claim", FOUND, "a recording that does not say it is no candidate's exam", "no_hand")
 def source_taken_out(s):
     """The three facts of the source are not there."""
     return insider(s, lambda r: [r.facts.pop(n) for n in ("source", "source_name", "source_serial")])
 
 
-@attack("claim", FOUND, SOURCE, "operator|hand")
+@attack("claim", FOUND, SOURCE, "no_hand", "expert")
 def note_of_operator_left(s):
     """A hand's recording whose notes still name the operator and its seed."""
     return insider(s, lambda r: r.facts.update({"note.operator": "expert", "note.operator_seed": "1"}))
 
 
-@attack("claim", FOUND, SOURCE, "practice|hand")
+@attack("claim", FOUND, SOURCE, "no_hand", "practice")
 def note_of_practice_left(s):
     """A hand's recording with a note of practice."""
     return insider(s, lambda r: r.facts.update({"note.practice": "yes"}))
 
 
-@attack("claim", UNSTATED, "a device's name that stands for none", "")
+@attack("claim", UNSTATED, "a device's name that stands for none")
 def device_is_simulated(s):
     """source `device`, named as the simulated stylus is."""
     return insider(s, lambda r: r.facts.update(source_name="simulated Omni, operator expert", device="simulated Omni, operator expert"))
 
 
-@attack("claim", FOUND, "makes a ticket up: the ledger, on filing", "ticket")
+@attack("claim", FOUND, "makes a ticket up: the ledger, on filing", "ticket_other_school")
 def ticket_self_signed(s):
     """A ticket of one's own with more time, signed with the station's key, which it names."""
     def change(r):
@@ -200,13 +200,13 @@ def ticket_self_signed(s):
     return insider(s, change)
 
 
-@attack("claim", FOUND, "makes a ticket up: the ledger, on filing", "ticket")
+@attack("claim", FOUND, "makes a ticket up: the ledger, on filing", "ticket_invalid")
 def ticket_edited(s):
     """The ticket's end is two days later; the signature stays."""
     return insider(s, lambda r: r.facts.update({"note.ticket": re.sub(r'"not_after":"\d{4}', '"not_after":"2030', r.facts["note.ticket"])}))
 
 
-@attack("claim", FOUND, "makes a ticket up; JSON text in one form", "ticket|twice|duplicate")
+@attack("claim", FOUND, "makes a ticket up; JSON text in one form", "ticket_invalid")
 def ticket_key_twice(s):
     """`ticket` stands there twice: one that was signed, one that counts for a careless reader."""
     def change(r):
@@ -223,19 +223,19 @@ def ticket_spaced(s):
     return insider(s, lambda r: r.facts.update({"note.ticket": json.dumps(ticket_of(r), ensure_ascii=False, indent=1)}))
 
 
-@attack("claim", FOUND, "under another's ticket", "ticket|candidate|promise")
+@attack("claim", FOUND, "under another's ticket", "ticket_candidate")
 def ticket_of_another(s):
     """Anna's recording with Ben's ticket."""
     return insider(s, lambda r: r.facts.update({"note.ticket": s.session("ben.cavum").facts["note.ticket"]}))
 
 
-@attack("claim", FOUND, "every exam that counts is promised by a ticket", "ticket")
+@attack("claim", FOUND, "every exam that counts is promised by a ticket", "ticket_missing")
 def ticket_taken_out(s):
     """No ticket."""
     return insider(s, lambda r: r.facts.pop("note.ticket") and None)
 
 
-@attack("claim", FOUND, "uses a ticket twice: the ledger, on filing", "used before")
+@attack("claim", FOUND, "uses a ticket twice: the ledger, on filing", "ticket_used", "18")
 def ticket_used_twice(s):
     """Anna hands in one recording, then another sat with the same ticket."""
     s.must(s.add("anna.cavum").rc == 0, "the first is refused")
@@ -246,13 +246,13 @@ def ticket_used_twice(s):
     return s.add("m.cavum")
 
 
-@attack("claim", FOUND, "begins twice with one ticket at a station: refused", "ticket|used")
+@attack("claim", FOUND, "begins twice with one ticket at a station: refused", "error")
 def ticket_begun_twice(s):
     """The same ticket at the same station, another file."""
     return s.run("exam", s.p("quick.toml"), "--ticket", s.p("anna.ticket"), "--operator", "expert", "--out", s.p("m.cavum"), "--quiet", home=s.p("seat1"))
 
 
-@attack("claim", FOUND, "the ticket, at the station", "ticket|promise|scenario")
+@attack("claim", FOUND, "the ticket, at the station", "error", "scenario.toml")
 def ticket_with_another_scenario(s):
     """At the station: Finn's ticket with another scenario, and with a model and extra time of one's own."""
     for more in (["--model", "paper"], ["--extra-time-percent", "10"], ["--left-handed"]):

@@ -39,7 +39,7 @@ def control_cosigned(s):
     return s.ledger("verify", "--cosigned", s.p("answer"))
 
 
-@attack("cosign", FOUND, SIGNS, "fork|root|proof|not")
+@attack("cosign", FOUND, SIGNS, "rewritten")
 def fork(s):
     """Another history of the same ledger, signed by the school: same size, larger, larger with a made-up proof."""
     ledger = lf.Ledger(s.L)
@@ -54,7 +54,7 @@ def fork(s):
     return cosign(s, request(ledger, 18))
 
 
-@attack("cosign", FOUND, SIGNS)
+@attack("cosign", FOUND, SIGNS, "rewritten")
 def smaller_or_another_old(s):
     """A smaller size; old that is not the last one; the same size with a proof."""
     ledger = longer(s)
@@ -65,7 +65,7 @@ def smaller_or_another_old(s):
     return cosign(s, lf.cosign_request(18, lf.consistency(18, ledger.leaves()) + [sha(b"x")], good))
 
 
-@attack("cosign", FOUND, SIGNS)
+@attack("cosign", FOUND, SIGNS, "signature_invalid")
 def of_another_school(s):
     """The note signed by a stranger under the same origin; with a second, good line of the school below another text."""
     ledger = longer(s)
@@ -76,7 +76,7 @@ def of_another_school(s):
     return cosign(s, lf.cosign_request(18, [], both))
 
 
-@attack("cosign", FOUND, "the school's key of a ledger that it does not remember is told by a person, never by the file", "school-key|key")
+@attack("cosign", FOUND, "the school's key of a ledger that it does not remember is told by a person, never by the file", "error")
 def unknown_ledger(s):
     """A ledger that the cosigner never saw, without --school-key."""
     made = lf.note("ab" * 16, 1, sha(b"x"), 10**18, s.station("stranger"))
@@ -91,7 +91,7 @@ def told_another_key(s):
                   "--school-key", s.station("stranger").hex)
 
 
-@attack("cosign", FOUND, "the origin is cavum.ledger/ID, the memory is cosigned/ID")
+@attack("cosign", FOUND, "the origin is cavum.ledger/ID, the memory is cosigned/ID", "error")
 def origin_leads_out(s):
     """The ledger's id is a path: ../../planted, an absolute one, nothing, a dot, with a zero byte, of 5000 characters."""
     last = None
@@ -104,7 +104,7 @@ def origin_leads_out(s):
     return last
 
 
-@attack("cosign", FOUND, "what was changed in the memory is found")
+@attack("cosign", FOUND, "what was changed in the memory is found", "error")
 def memory_changed(s):
     """The memory's note is of a smaller size, unsigned; names another key; is empty, rubbish, a pipe."""
     ledger = longer(s)
@@ -154,7 +154,7 @@ def requests_hostile_to_cosigner(s):
     return s.run("ledger", "cosign", s.p("pipe"), "--out", s.p("answer2"), home=s.p("cosigner"))
 
 
-@attack("cosign", FOUND, "lines of a known one must hold; others are not checked", "cosign|hold|sign")
+@attack("cosign", FOUND, "lines of a known one must hold; others are not checked", "older_copy", "30")
 def answers_forged(s):
     """What comes back: signed by nobody, by a stranger under the cosigner's name, for another text, with a time of another."""
     cosigner = Key.read(s.p("cosigner/cosigner.key"))

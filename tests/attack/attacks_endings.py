@@ -8,7 +8,7 @@ from school import as_hand
 from session_format import Session, pack, unpack
 
 
-@attack("insider", FOUND, "the sealed result says nothing of the interruption; one that did would pass: as after any crash (the page says: nobody)", "sealed result")
+@attack("insider", FOUND, "the sealed result says nothing of the interruption; one that did would pass: as after any crash (the page says: nobody)", "result_differs")
 def forged_gap(s):
     """A pause of 31.2 s with a made-up `gap` event at the same station: an interruption that no crash explains."""
     def change(r):
@@ -49,14 +49,14 @@ def resume(s, seat):
     return s.run("exam", "--resume", "--operator", "expert", "--out", s.p("cut.cavum"), "--quiet", home=s.p(seat))
 
 
-@attack("insider", FOUND, "takes an exam up again that was closed: the station where it was closed refuses", "closed")
+@attack("insider", FOUND, "takes an exam up again that was closed: the station where it was closed refuses", "error")
 def cut_back_same_station(s):
     """A closed exam cut back to before its end and taken up at the same station."""
     cut_back(s, "cut.cavum")
     return resume(s, "seat1")
 
 
-@attack("insider", FOUND, "... at another station: begun by one station, taken up or ended by another", "another station")
+@attack("insider", FOUND, "... at another station: begun by one station, taken up or ended by another", "station_changed")
 def cut_back_other_station(s):
     """... and taken up at seat 2, which is enrolled, too."""
     cut_back(s, "cut.cavum")
@@ -65,7 +65,7 @@ def cut_back_other_station(s):
     return s.add("cut.cavum", "--simulated")
 
 
-@attack("insider", FOUND, "... its used_tickets removed: taken up at a station that does not remember beginning it", "remember")
+@attack("insider", FOUND, "... its used_tickets removed: taken up at a station that does not remember beginning it", "station_changed")
 def cut_back_memory_removed(s):
     """... and taken up at the same station, whose memory of tickets was removed."""
     cut_back(s, "cut.cavum")
@@ -84,7 +84,7 @@ def cut_back_memory_put_back(s):
     return s.add("cut.cavum", "--simulated")
 
 
-@attack("insider", FOUND, "filing of the second: up to which tick they are one recording", "one recording|same")
+@attack("insider", FOUND, "filing of the second: up to which tick they are one recording", "ticket_used", "2000")
 def both_endings_handed_in(s):
     """The first ending is filed, then the second of the same exam."""
     s.must(s.add("op_anna.cavum", "--simulated").rc == 0, "the first ending is refused")
@@ -98,7 +98,7 @@ def whole_by_another_enrolled_station(s):
     return s.add("m.cavum")
 
 
-@attack("insider", FOUND, "only recordings of the stylus that the station asked for count", "stylus|F-1|serial")
+@attack("insider", FOUND, "only recordings of the stylus that the station asked for count", "device_other", "F-1")
 def another_stylus(s):
     """At seat 2, enrolled for the stylus F-2, with the stylus F-1."""
     s.write(as_hand(s.session("op_anna.cavum"), s.station("seat2"), 60, serial="F-1"), "m.cavum")

@@ -50,7 +50,7 @@ def control_erased(s):
     return s.ledger("verify", "--replay")
 
 
-@attack("five", FOUND, "changes a result: its hash in the entry", "14|opening|result")
+@attack("five", FOUND, "changes a result: its hash in the entry", "part_missing", "14")
 def opening_edited(s):
     """The opening's text is another under its old name; then under its own name, which no entry has."""
     def rename(ledger):
@@ -66,7 +66,7 @@ def opening_edited(s):
     return edited(s, rename)
 
 
-@attack("five", FOUND, "changes a result, takes one out, or puts one in", "")
+@attack("five", FOUND, "changes a result, takes one out, or puts one in", "part_changed", "14")
 def openings_exchanged(s):
     """The results of two sessions change places."""
     def change(ledger):
@@ -75,13 +75,13 @@ def openings_exchanged(s):
     return edited(s, change)
 
 
-@attack("five", FOUND, "takes a result or recording out without an entry: `verify`", "14")
+@attack("five", FOUND, "takes a result or recording out without an entry: `verify`", "part_missing", "14")
 def opening_taken_out(s):
     """The result is deleted (the schema lets one), no entry says so."""
     return edited(s, lambda ledger: ledger.openings.pop(ledger.body(14)["opens"]["result"]) and None)
 
 
-@attack("five", FOUND, "puts one in: an opening of no entry", "opening|no entry")
+@attack("five", FOUND, "puts one in: an opening of no entry", "foreign", "ZZ")
 def opening_of_no_entry(s):
     """An opening that no entry names; one whose name is not hexadecimal."""
     def change(ledger):
@@ -93,7 +93,7 @@ def opening_of_no_entry(s):
     return edited(s, lambda ledger: ledger.openings.update({"ZZ": "{}"}))
 
 
-@attack("five", FOUND, "brings an erased one back: `verify`", "erased|back|14")
+@attack("five", FOUND, "brings an erased one back: `verify`", "erased_still_there", "14")
 def erased_result_brought_back(s):
     """The erased opening is put in again; the erased recording, too."""
     ledger = lf.Ledger(s.L)
@@ -107,7 +107,7 @@ def erased_result_brought_back(s):
     return edited(s, lambda ledger: ledger.openings.update({name: text}))
 
 
-@attack("five", FOUND, "an entry says what was erased, and what is gone without one is a finding", "14|erase|still")
+@attack("five", FOUND, "an entry says what was erased, and what is gone without one is a finding", "entry_malformed")
 def erased_only_on_paper(s):
     """With the school's key: an entry `erase` whose result stays; of an entry that is not there; of a ticket; of something unknown."""
     last = None
@@ -124,7 +124,7 @@ def erased_only_on_paper(s):
     return last
 
 
-@attack("five", FOUND, "what was erased without results is marked no more", "")
+@attack("five", FOUND, "what was erased without results is marked no more", "submitted_twice")
 def erased_is_released_no_more(s):
     """An erased result must not come back by regrade, release or export; a second filing of the same recording is refused."""
     shutil.copy(f"{s.L}/sessions/{lf.Ledger(s.L).body(14)['file_sha256']}.cavum", s.p("kept.cavum"))
@@ -163,7 +163,7 @@ def control_backup_forgets(s):
     return s.run("ledger", "verify", s.p("backup"))
 
 
-@attack("five", FOUND, "the accommodations are not those that the ticket grants", "grant|accommodation|ticket")
+@attack("five", FOUND, "the accommodations are not those that the ticket grants", "ticket_invalid")
 def grant_edited(s):
     """The grant beside the ticket gives extra time: its hash is not the signed one; the ticket's hash edited, too; the grant taken out; with another salt; Ben's."""
     last = None
@@ -189,7 +189,7 @@ def grant_edited(s):
     return last
 
 
-@attack("five", FOUND, "each row is sealed", "identit")
+@attack("five", FOUND, "each row is sealed", "identities_changed")
 def identity_row_made_up(s):
     """The seal of a row is another's, or is empty."""
     rows = __import__("school").identities(s)

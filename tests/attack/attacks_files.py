@@ -19,7 +19,7 @@ def all_verbs(s, name):
     return last
 
 
-@attack("file", FOUND, "leaves or plants a log beside the file: one image of both is read, checked, kept and hashed")
+@attack("file", FOUND, "leaves or plants a log beside the file: one image of both is read, checked, kept and hashed", "recording_unsound")
 def log_planted(s):
     """A write-ahead log beside the recording in which the result says pass."""
     db = sqlite3.connect(s.p("anna.cavum"))
@@ -143,7 +143,7 @@ def bomb(size):
     return b"".join(out)
 
 
-@attack("file", FOUND, "oversized input")
+@attack("file", FOUND, "oversized input", "recording_unsound")
 def zstd_bomb(s):
     """2 GiB of zeros packed into a chunk's inputs, with a fitting and with a wrong number of ticks; into removed; in many frames."""
     big = bomb(2 << 30)
@@ -157,7 +157,7 @@ def zstd_bomb(s):
     return last
 
 
-@attack("file", FOUND, "one zstd frame; malformed packing")
+@attack("file", FOUND, "one zstd frame; malformed packing", "recording_unsound")
 def packing_malformed(s):
     """Two frames, a rest behind the frame, varints without an end, counts of 2^62, a tissue too many."""
     last = None
@@ -193,7 +193,7 @@ def texts_nested_deep(s):
     return last
 
 
-@attack("file", FOUND, "a lying tooth")
+@attack("file", FOUND, "a lying tooth", "recording_unsound")
 def tooth_lies(s):
     """The start tooth claims to be of 2^64 - 1 bytes, of none, or is cut short; the final tooth, too."""
     last = None

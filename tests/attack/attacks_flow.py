@@ -27,13 +27,13 @@ def unclosed(s, change):
     return s.add("m.cavum")
 
 
-@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "taken up")
+@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "station_changed")
 def station_as_an_oracle(s):
     """Without the station's key: a made-up hand's exam, begun by a stranger's key, is closed by the honest program (`--resume --end`)."""
     return unclosed(s, lambda r: r.rebuild(s.station("stranger")))
 
 
-@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "taken up|begun|began")
+@attack("flow", FOUND, "taken up by another station than began it; the beginning is signed", "error station_changed")
 def station_as_an_oracle_unsigned(s):
     """... whose beginning is not signed at all."""
     def change(r):
@@ -42,7 +42,7 @@ def station_as_an_oracle_unsigned(s):
     return unclosed(s, change)
 
 
-@attack("flow", FOUND, "... and with a line forged in used_tickets", "taken up|begun|began")
+@attack("flow", FOUND, "... and with a line forged in used_tickets", "error station_changed")
 def station_as_an_oracle_memory_forged(s):
     """... with a line `used` of the ticket forged at the station."""
     def change(r):
@@ -152,7 +152,7 @@ def killed_while_adding(s):
     return s.add("anna.cavum")
 
 
-@attack("flow", FOUND, "a school.pub or key that is not the ledger's own is a finding", "key|school")
+@attack("flow", FOUND, "a school.pub or key that is not the ledger's own is a finding", "other_school")
 def another_schools_key(s):
     """school.pub of a stranger; then the key, too."""
     good = open(f"{s.home}/school.pub").read()
@@ -205,7 +205,7 @@ def control_old_ledger(s):
     return sat(s, text, time.time_ns() - 60 * 10**9)
 
 
-@attack("flow", FOUND, "more than a day after its ticket's time and its own end is a finding", "day|late|handed")
+@attack("flow", FOUND, "more than a day after its ticket's time and its own end is a finding", "handed_in_late")
 def handed_in_late(s):
     """The ticket was good two days ago for two hours; the station's clock says that it was sat then; handed in now."""
     text, then = old_ledger(s, 2, 2)
@@ -219,7 +219,7 @@ def clock_set_back_within_a_day(s):
     return sat(s, text, then + 3600 * 10**9)
 
 
-@attack("flow", FOUND, "takes the exam up again after the ticket's time: findings", "time|ticket|after")
+@attack("flow", FOUND, "takes the exam up again after the ticket's time: findings", "ticket_time")
 def begun_after_the_hours(s):
     """The ticket ran out ten hours ago, the clock is honest."""
     text, then = old_ledger(s, 0.5, 2)

@@ -22,7 +22,7 @@ def put_back(s, with_witness):
         shutil.rmtree(f"{s.home}/witness")
 
 
-@attack("history", FOUND, "puts an older copy of the ledger back: the witness on this computer", "older")
+@attack("history", FOUND, "puts an older copy of the ledger back: the witness on this computer", "older_copy")
 def older_copy(s):
     """The ledger of before Dora's filing; nothing may be added to it."""
     put_back(s, "kept")
@@ -38,7 +38,7 @@ def older_copy_and_witness(s):
     return s.ledger("verify")
 
 
-@attack("history", FOUND, "... a receipt or a cosigned note of a later state, when somebody shows it", "older|put back")
+@attack("history", FOUND, "... a receipt or a cosigned note of a later state, when somebody shows it", "older_copy")
 def older_copy_and_witness_and_a_receipt(s):
     """... and a receipt, then the cosigned note, is shown."""
     put_back(s, "older")
@@ -63,12 +63,12 @@ def older_copy_gone_on_with(s):
 def older_copy_without_witness(s):
     """The witness is gone: verify must say that this was not checked."""
     put_back(s, "gone")
-    done = s.ledger("verify")
-    s.must("not checked" in done.out and "older" in done.out.replace("put back", "older"), "it is not listed as not checked")
+    done = s.ledger("verify", "--json")
+    s.must("older_copy" in done.kinds("not_checked"), "it is not listed as not checked")
     return done
 
 
-@attack("history", FOUND, "makes up a line of the witness: the school's signature under each", "witness")
+@attack("history", FOUND, "makes up a line of the witness: the school's signature under each", "witness_changed", "40")
 def witness_line_made_up(s):
     """A line of a larger size with a signature of a stranger."""
     with open(s.witness_path(), "a") as file:
@@ -76,7 +76,7 @@ def witness_line_made_up(s):
     return s.ledger("verify")
 
 
-@attack("history", FOUND, "each line bears a signature", "witness|rewritten|put back")
+@attack("history", FOUND, "each line bears a signature")
 def witness_line_unsigned(s):
     """A line of a larger size without signature."""
     with open(s.witness_path(), "a") as file:
@@ -116,7 +116,7 @@ def witness_hostile(s):
 RECEIPT = "a receipt's inclusion, consistency and the school's signature"
 
 
-@attack("history", FOUND, RECEIPT)
+@attack("history", FOUND, RECEIPT, "malformed")
 def receipts_wrong(s):
     """Receipts with another entry, place, path, checkpoint, ledger, key; with a proof too long, of a stranger's signature."""
     ledger = lf.Ledger(s.L)
@@ -166,7 +166,7 @@ def receipts_hostile(s):
     return last
 
 
-@attack("history", FOUND, "`verify --results`: an export of --format json, signed and unchanged")
+@attack("history", FOUND, "`verify --results`: an export of --format json, signed and unchanged", "malformed")
 def results_edited(s):
     """Points edited; signed by a stranger; a key twice; results appended; a space; the signature's place."""
     line = open(s.p("results.json"), encoding="utf-8").read()

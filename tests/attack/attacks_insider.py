@@ -25,7 +25,7 @@ def renumber(r):
         e["seq"] = i
 
 
-@attack("insider", FOUND, MARK, "tampered|result")
+@attack("insider", FOUND, MARK, "result_differs")
 def forged_result(s):
     """Points 100 and a pass in the sealed result, signed by the station itself."""
     def change(r):
@@ -35,7 +35,7 @@ def forged_result(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, MARK, "tampered|result")
+@attack("insider", FOUND, MARK, "result_differs")
 def forged_criterion(s):
     """Only one criterion's reason and points in the sealed result are better."""
     def change(r):
@@ -45,7 +45,7 @@ def forged_criterion(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, MARK, "tampered|result")
+@attack("insider", FOUND, MARK, "result_differs", " 7")
 def forged_result_of_another_grading(s):
     """The forged result says that grading version 7 gave it."""
     def change(r):
@@ -55,7 +55,7 @@ def forged_result_of_another_grading(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, REPLAY, "simulat|differ|tick")
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def forged_forces(s):
     """All forces of one second are lower, so that no peak is seen."""
     def change(r):
@@ -65,7 +65,7 @@ def forged_forces(s):
     return insider(s, change, also=[("replay", "--verify"), ("verify",)])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def forged_removed_leaves(s):
     """One removed leaf is said to lie elsewhere."""
     def change(r):
@@ -76,7 +76,7 @@ def forged_removed_leaves(s):
     return insider(s, change, also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def forged_tissue(s):
     """A removed leaf of enamel is said to have been dentin."""
     def change(r):
@@ -87,19 +87,19 @@ def forged_tissue(s):
     return insider(s, change, also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def forged_final_tooth(s):
     """The final tooth is Dora's better one."""
     return insider(s, lambda r: r.set_artifact("final_tooth.cvt", s.session("dora.cavum").artifact("final_tooth.cvt")), also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def forged_state_hash(s):
     """One second's state is another."""
     return insider(s, lambda r: r.chunks[1].update(state_hash=r.chunks[1]["state_hash"] ^ 1), also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "event")
+@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "exam_differs")
 def event_left_out(s):
     """The event that the time was up is left out."""
     def change(r):
@@ -108,7 +108,7 @@ def event_left_out(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "event")
+@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "exam_differs")
 def event_added(s):
     """An event says that the step was completed."""
     def change(r):
@@ -118,13 +118,13 @@ def event_added(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "event")
+@attack("insider", FOUND, "leaves out, adds or moves an event of the exam: the events come from the motion", "exam_differs")
 def event_moved(s):
     """The exam is said to have ended 200 ticks earlier."""
     return insider(s, lambda r: [e.update(tick=e["tick"] - 200) for e in r.events[1:]])
 
 
-@attack("insider", FOUND, "any other kind, member or way of writing is damage", "event")
+@attack("insider", FOUND, "any other kind, member or way of writing is damage", "recording_unsound")
 def event_of_unknown_kind(s):
     """An event `examiner_excused` with a text for people."""
     def change(r):
@@ -133,7 +133,7 @@ def event_of_unknown_kind(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def spliced_second_half(s):
     """The first second is Anna's, the rest Dora's, with Dora's final tooth and result."""
     other = s.session("dora.cavum")
@@ -147,7 +147,7 @@ def spliced_second_half(s):
     return insider(s, change, also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def truncated_and_sealed(s):
     """The last second is gone and the seal made anew over what is left, events too."""
     def change(r):
@@ -157,7 +157,7 @@ def truncated_and_sealed(s):
     return insider(s, change, also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, REPLAY)
+@attack("insider", FOUND, REPLAY, "recording_unsound")
 def stretched_in_time(s):
     """Every pose of one second is held twice as long."""
     def change(r):
@@ -170,7 +170,7 @@ def stretched_in_time(s):
     return insider(s, change, also=[("replay", "--verify")])
 
 
-@attack("insider", FOUND, "chunk: meta.tick_s is the length of a tick; any change is found; simulating gives everything again")
+@attack("insider", FOUND, "chunk: meta.tick_s is the length of a tick; any change is found; simulating gives everything again", "recording_unsound")
 def another_tick_length(s):
     """The fact tick_s says half a millisecond: the exam took half as long."""
     return insider(s, lambda r: r.facts.update(tick_s="0.0005"))
@@ -187,7 +187,7 @@ def anothers_motion_under_own_ticket(s):
     return insider(s, change, "dora.cavum")
 
 
-@attack("insider", FOUND, "makes an exam up faster than time: the clocks of every second are findings", "faster|ahead|clock")
+@attack("insider", FOUND, "makes an exam up faster than time: the clocks of every second are findings", "clock")
 def made_up_faster_than_time(s):
     """An operator's recording is only renamed to a hand's; its clocks are those of the simulation."""
     def change(r):
@@ -207,7 +207,7 @@ def clocks_disagree(s):
     return insider(s, lambda r: [c.update(boot_ns=c["boot_ns"] + 20 * 10**9) for c in r.chunks[1:]])
 
 
-@attack("insider", FOUND, "with clocks that do not fit one another", "clock|back")
+@attack("insider", FOUND, "with clocks that do not fit one another", "clock")
 def clocks_run_backwards(s):
     """The last second was complete before the second before it."""
     def change(r):
@@ -216,7 +216,7 @@ def clocks_run_backwards(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, "time that the recording does not own up to is a finding", "second|took|longer|s ")
+@attack("insider", FOUND, "time that the recording does not own up to is a finding", "clock")
 def pause_not_owned_up_to(s):
     """40 s pass between two seconds, and no gap is noted."""
     def change(r):
@@ -226,19 +226,19 @@ def pause_not_owned_up_to(s):
     return insider(s, change)
 
 
-@attack("insider", FOUND, "sets the station's clock against the ledger's: findings", "clock|future|later")
+@attack("insider", FOUND, "sets the station's clock against the ledger's: findings", "clock")
 def recorded_in_the_future(s):
     """All clocks are three hours ahead, within the ticket's time."""
     return insider(s, lambda r: r.set_clocks(int(r.facts["created_utc_ns"]) + 3 * 3600 * 10**9, int(r.facts["created_boot_ns"])))
 
 
-@attack("insider", FOUND, "outside the hours: the ticket, on filing", "before|time|ticket")
+@attack("insider", FOUND, "outside the hours: the ticket, on filing", "ticket_time")
 def begun_before_the_hours(s):
     """Begun three hours before the ticket's time."""
     return insider(s, lambda r: r.set_clocks(int(r.facts["created_utc_ns"]) - 5 * 3600 * 10**9, int(r.facts["created_boot_ns"])))
 
 
-@attack("insider", FOUND, "more than a day after its ticket's time and its own end is a finding", "day|later|ticket|before")
+@attack("insider", FOUND, "more than a day after its ticket's time and its own end is a finding", "handed_in_late")
 def handed_in_days_later(s):
     """A ticket of three days ago, and a recording whose clocks were set to it."""
     import school

@@ -83,7 +83,7 @@ def better(ledger):
     return seq, result
 
 
-@attack("ledger", FOUND, SQL, "14")
+@attack("ledger", FOUND, SQL, "part_changed", "14")
 def result_edited(s):
     """The result beside an entry is another."""
     def change(ledger):
@@ -95,13 +95,13 @@ def body_and_result(ledger):
     ledger.set_result(*better(ledger), True)
 
 
-@attack("ledger", FOUND, SQL, "14")
+@attack("ledger", FOUND, SQL, "entry_changed", "14")
 def entry_edited(s):
     """Entry and result are edited, the leaf stays."""
     return edited(s, body_and_result)
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "tree_differs", "14")
 def entry_edited_leaf_too(s):
     """... and the leaf computed anew."""
     def change(ledger):
@@ -111,26 +111,26 @@ def entry_edited_leaf_too(s):
     return edited(s, change)
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "signature_invalid")
 def entry_edited_notes_of_a_stranger(s):
     """... and all notes signed anew with a stranger's key."""
     return edited(s, body_and_result, 1, s.station("stranger"))
 
 
-@attack("ledger", FOUND, "... and adds other entries: history was rewritten (the witness)", "rewritten|witness")
+@attack("ledger", FOUND, "... and adds other entries: history was rewritten (the witness)", "rewritten")
 def entry_edited_by_the_school(s):
     """... and all notes signed anew with the school's own key; the witness remembers."""
     return edited(s, body_and_result, 1)
 
 
-@attack("ledger", FOUND, "verify --replay: the school's own mark", "mark|result")
+@attack("ledger", FOUND, "verify --replay: the school's own mark", "result_differs")
 def entry_edited_by_the_school_no_witness(s):
     """... and the witness taken away: only the motion tells (--replay)."""
     edited(s, body_and_result, 1, witness=False, and_add=False)
     return s.ledger("verify", "--replay")
 
 
-@attack("ledger", FOUND, "a receipt or a cosigned note of a later state, when somebody shows it", "receipt|rewritten")
+@attack("ledger", FOUND, "a receipt or a cosigned note of a later state, when somebody shows it", "rewritten tree_differs")
 def rewritten_and_a_receipt(s):
     """... and a candidate shows the receipt; a cosigner his note."""
     edited(s, body_and_result, 1, witness=False, and_add=False)
@@ -139,7 +139,7 @@ def rewritten_and_a_receipt(s):
     return s.ledger("verify", "--receipt", s.p("receipts/receipt-14.json"))
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "rewritten")
 def entry_inserted(s):
     """A ticket is slipped in between two entries, everything renumbered and signed by the school."""
     def change(ledger):
@@ -149,7 +149,7 @@ def entry_inserted(s):
     return edited(s, change, 1)
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "rewritten")
 def entries_reordered(s):
     """Two tickets change places, signed by the school."""
     def change(ledger):
@@ -158,7 +158,7 @@ def entries_reordered(s):
     return edited(s, change, 1)
 
 
-@attack("ledger", FOUND, "puts an older copy back: the witness on this computer", "older|witness|put back")
+@attack("ledger", FOUND, "puts an older copy back: the witness on this computer", "older_copy")
 def entries_truncated(s):
     """The release is cut off, its note too."""
     def change(ledger):
@@ -167,13 +167,13 @@ def entries_truncated(s):
     return edited(s, change)
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "checkpoint_missing")
 def note_cut_off(s):
     """Only the last note is missing."""
     return edited(s, lambda ledger: ledger.notes.pop())
 
 
-@attack("ledger", FOUND, SQL)
+@attack("ledger", FOUND, SQL, "other_school")
 def init_names_another_school(s):
     """Entry 0 names a stranger's key and all is signed with that one; school.pub and key of the school stay."""
     def change(ledger):
@@ -183,7 +183,7 @@ def init_names_another_school(s):
     return edited(s, change, 1, s.station("stranger"), witness=False)
 
 
-@attack("ledger", FOUND, "init: entry 0 and no other")
+@attack("ledger", FOUND, "init: entry 0 and no other", "entry_out_of_order", "18")
 def second_init(s):
     """A second `init` with another school's key, signed by the school, the witness told."""
     def change(ledger):
@@ -224,7 +224,7 @@ def entries_hostile(s):
     return last
 
 
-@attack("ledger", FOUND, "an entry is JSON text: the keys of every object in the order of their bytes, no spaces", "JSON|entry 18|twice")
+@attack("ledger", FOUND, "an entry is JSON text: the keys of every object in the order of their bytes, no spaces", "entry_malformed", "18")
 def entry_not_json_text(s):
     """With the school's key: a release with `results` twice (readers differ on which counts), then one with spaces, then keys out of order."""
     last = None

@@ -49,7 +49,7 @@ def control_packed_anew(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def pose_changed(s):
     """One tip position is 0.1 mm lower."""
     def change(r):
@@ -59,7 +59,7 @@ def pose_changed(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def force_changed(s):
     """One recorded force is halved."""
     def change(r):
@@ -69,49 +69,49 @@ def force_changed(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def result_changed_unsigned(s):
     """The sealed result says pass."""
     return changed(s, lambda r: setattr(r, "result", r.result.replace('"verdict":"fail"', '"verdict":"pass"')))
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def event_changed(s):
     """The detail of an event is another."""
     return changed(s, lambda r: r.events[-1].update(detail_json='{"how":"failed"}'))
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def event_removed_unsigned(s):
     """The last event is gone."""
     return changed(s, lambda r: r.events.pop())
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def clock_changed(s):
     """One second's clock is set back by a minute."""
     return changed(s, lambda r: r.chunks[1].update(utc_ns=r.chunks[1]["utc_ns"] - 60 * 10**9))
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def candidate_changed(s):
     """The recording names another candidate."""
     return changed(s, lambda r: r.facts.update(candidate="C-0000-0000-0000"))
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def scenario_changed(s):
     """The scenario that is kept asks for less; its SHA-256 in the table fits."""
     return changed(s, lambda r: r.set_artifact("scenario.toml", r.artifact("scenario.toml").replace(b"full = 90", b"full = 10")))
 
 
-@attack("recording", FOUND, P1)
+@attack("recording", FOUND, P1, "recording_unsound")
 def tooth_changed(s):
     """The final tooth is another candidate's."""
     return changed(s, lambda r: r.set_artifact("final_tooth.cvt", s.session("ben.cavum").artifact("final_tooth.cvt")))
 
 
-@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session")
+@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session", "recording_unsound")
 def seconds_cut_off(s):
     """The last second is gone, its events too."""
     def change(r):
@@ -120,7 +120,7 @@ def seconds_cut_off(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session")
+@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session", "recording_unsound")
 def seconds_swapped(s):
     """Two seconds change places, numbers and all."""
     def change(r):
@@ -131,7 +131,7 @@ def seconds_swapped(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session")
+@attack("recording", FOUND, "drops, swaps, repeats or cuts off seconds of a closed session", "recording_unsound")
 def second_repeated(s):
     """The last second stands there twice."""
     def change(r):
@@ -141,7 +141,7 @@ def second_repeated(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, "a session without seal is never verified")
+@attack("recording", FOUND, "a session without seal is never verified", "error")
 def seal_taken_out(s):
     """Seal, result and final tooth are gone: as if it had been interrupted."""
     def change(r):
@@ -150,7 +150,7 @@ def seal_taken_out(s):
     return changed(s, change)
 
 
-@attack("recording", FOUND, "sets points in the sealed result and signs it anew, with any key", "begun|station")
+@attack("recording", FOUND, "sets points in the sealed result and signs it anew, with any key", "station_changed")
 def chain_rebuilt_new_seal(s):
     """A better result, sealed with a stranger's key; the beginning stays signed by the station."""
     r = s.session("anna.cavum")
@@ -160,7 +160,7 @@ def chain_rebuilt_new_seal(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "records at a station that nobody enrolled: its key is not in the register", "register|enrol|station")
+@attack("recording", FOUND, "records at a station that nobody enrolled: its key is not in the register", "station_unknown")
 def whole_by_a_stranger(s):
     """Everything chained and signed with a key that nobody enrolled."""
     s.write(s.session("anna.cavum").rebuild(s.station("stranger"), s.station("stranger")), "m.cavum")
@@ -168,14 +168,14 @@ def whole_by_a_stranger(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "whose key was revoked", "revoked")
+@attack("recording", FOUND, "whose key was revoked", "station_revoked", "revoked")
 def whole_by_a_revoked_station(s):
     """Everything signed with the key that was revoked."""
     s.write(s.session("anna.cavum").rebuild(s.station("revoked"), s.station("revoked")), "m.cavum")
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "begun by one station, taken up or ended by another", "station")
+@attack("recording", FOUND, "begun by one station, taken up or ended by another", "station_changed")
 def ended_at_another_enrolled_station(s):
     """Begun at seat 1, sealed by seat 2: both are enrolled."""
     s.write(s.session("anna.cavum").rebuild(s.station("seat1"), s.station("revoked")), "m.cavum")
@@ -184,7 +184,7 @@ def ended_at_another_enrolled_station(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "Ed25519 as in RFC 8032")
+@attack("recording", FOUND, "Ed25519 as in RFC 8032", "recording_unsound")
 def seal_malleable(s):
     """The seal's S is S + L: another file, the same signature to a lax check."""
     order = 2**252 + 27742317777372353535851937790883648493
@@ -195,7 +195,7 @@ def seal_malleable(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "submits a session twice")
+@attack("recording", FOUND, "submits a session twice", "submitted_twice")
 def filed_twice_other_bytes(s):
     """A filed session handed in again, in a file whose bytes differ (vacuumed, another page order)."""
     s.write(s.session("dora.cavum"), "m.cavum")
@@ -206,7 +206,7 @@ def filed_twice_other_bytes(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "more tables, triggers or views are damage", "schema")
+@attack("recording", FOUND, "more tables, triggers or views are damage", "error")
 def recording_with_a_trigger(s):
     """A trigger, a view and a table more in the recording's file."""
     import sqlite3
@@ -220,7 +220,7 @@ def recording_with_a_trigger(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "the schema must match to the letter; STRICT tables", "schema")
+@attack("recording", FOUND, "the schema must match to the letter; STRICT tables", "error")
 def recording_not_strict(s):
     """Tables without STRICT, and a TEXT where a BLOB belongs, a REAL where a whole number does, a NULL."""
     for column, value in (("inputs", "text"), ("ticks", 1000.5), ("state_hash", None)):
@@ -232,7 +232,7 @@ def recording_not_strict(s):
     return s.add("m.cavum")
 
 
-@attack("recording", FOUND, "a lying schema")
+@attack("recording", FOUND, "a lying schema", "error recording_unsound")
 def recording_schema_lies(s):
     """The schema's text is put back to STRICT by writable_schema after values of the wrong type were written."""
     import sqlite3

@@ -9,21 +9,21 @@ from kinds import ACCEPTED, FOUND, NOBODY, SURVIVES, attack
 from session_format import sha
 
 
-@attack("ledger", FOUND, SCHEMA, "trigger|entry_stays")
+@attack("ledger", FOUND, SCHEMA, "schema_differs", "entry_stays")
 def trigger_dropped(s):
     """The trigger that forbids changes is gone."""
     sql(s, "DROP TRIGGER entry_stays")
     return checked(s)
 
 
-@attack("ledger", FOUND, SCHEMA, "view|session")
+@attack("ledger", FOUND, SCHEMA, "schema_differs", "session")
 def view_altered(s):
     """The view of sessions shows everybody a pass."""
     sql(s, "DROP VIEW session", "CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry WHERE text ->> '$.kind' = 'session'")
     return checked(s)
 
 
-@attack("ledger", FOUND, SCHEMA)
+@attack("ledger", FOUND, SCHEMA, "schema_differs")
 def index_and_table_added(s):
     """An index, a table, a trigger that changes an entry as soon as a cosignature comes in."""
     for line in ("CREATE INDEX i ON entry(text)", "CREATE TABLE more (a)", "CREATE TRIGGER t AFTER INSERT ON cosignature BEGIN INSERT INTO document VALUES (x'00', x'00'); END"):
@@ -32,14 +32,14 @@ def index_and_table_added(s):
     return checked(s)
 
 
-@attack("ledger", FOUND, "a table that was taken out is one [a finding]", "note|document|cosignature")
+@attack("ledger", FOUND, "a table that was taken out is one [a finding]", "schema_differs", "cosignature")
 def table_taken_out(s):
     """The table of cosignatures is gone."""
     sql(s, "DROP TABLE cosignature")
     return checked(s)
 
 
-@attack("ledger", FOUND, "a file of another format is refused")
+@attack("ledger", FOUND, "a file of another format is refused", "error")
 def format_numbers(s):
     """user_version 0, 2, -1, 2^31 - 1; another application_id."""
     good = lf.Ledger(s.L).version
@@ -50,7 +50,7 @@ def format_numbers(s):
     return checked(s)
 
 
-@attack("ledger", FOUND, "documents: by which a regrade was marked", "document")
+@attack("ledger", FOUND, "documents: by which a regrade was marked", "part_missing")
 def document_edited(s):
     """The scenario that a result was marked anew by is another; then gone; then another under its hash."""
     def change(ledger):
@@ -64,13 +64,13 @@ def document_edited(s):
     return edited(s, lambda ledger: ledger.documents.clear())
 
 
-@attack("ledger", FOUND, "a document that nobody names", "document")
+@attack("ledger", FOUND, "a document that nobody names", "foreign")
 def document_added(s):
     """A document that no entry names."""
     return edited(s, lambda ledger: ledger.documents.append([sha(b"contraband"), b"contraband"]), and_add=False)
 
 
-@attack("ledger", FOUND, "edits or removes a filed session: its hash in its entry", "session")
+@attack("ledger", FOUND, "edits or removes a filed session: its hash in its entry", "file_gone")
 def session_edited(s):
     """One byte of a filed recording is another; then the file is gone; then it is another recording's; a link; a pipe; a folder."""
     body = lf.Ledger(s.L).body(14)
@@ -96,7 +96,7 @@ def session_edited(s):
     return s.ledger("verify")
 
 
-@attack("ledger", FOUND, "exchanges names among the identities: each salt and number must give its pseudonym again")
+@attack("ledger", FOUND, "exchanges names among the identities: each salt and number must give its pseudonym again", "identities_changed")
 def numbers_exchanged(s):
     """Number and name of two candidates change places, the salts stay."""
     a, b = [r["pseudonym"] for r in school.identities(s)][:2]
@@ -108,7 +108,7 @@ def numbers_exchanged(s):
     return checked(s, and_add=False)
 
 
-@attack("ledger", FOUND, "exchanges names among the identities: ... `verify`, `release`, `export`")
+@attack("ledger", FOUND, "exchanges names among the identities: ... `verify`, `release`, `export`", "identities_changed")
 def names_exchanged(s):
     """Only the names of two candidates change places; numbers and salts stay."""
     a, b = [r["pseudonym"] for r in school.identities(s) if r["id"] in ("4711", "4714")]
@@ -119,7 +119,7 @@ def names_exchanged(s):
     return checked(s, and_add=False)
 
 
-@attack("ledger", FOUND, "`forget` removes salt and number, after which the school itself cannot say who it was", "identit|schema|table|trigger")
+@attack("ledger", FOUND, "`forget` removes salt and number, after which the school itself cannot say who it was", "file_unreadable", "identities.db")
 def forget_undone_by_a_trigger(s):
     """A table and a trigger planted in identities.db keep every identity that is removed; `forget`, then `verify`."""
     sql(s, "CREATE TABLE kept (pseudonym TEXT, id TEXT, name TEXT, salt BLOB); "
@@ -147,7 +147,7 @@ def cosignatures_taken_out(s):
     return edited(s, lambda ledger: ledger.cosignatures.clear())
 
 
-@attack("ledger", FOUND, "lines of a known one must hold", "cosign")
+@attack("ledger", FOUND, "lines of a known one must hold", "cosignature_invalid", "999")
 def cosignature_forged(s):
     """A known cosigner's name and key id over another signature; and one of a size that is not there."""
     ledger = lf.Ledger(s.L)
@@ -158,7 +158,7 @@ def cosignature_forged(s):
     return edited(s, lambda ledger: ledger.cosignatures.append([999, line]), and_add=False)
 
 
-@attack("ledger", FOUND, "leaf, tree, signature; types", "leaf|entry|BLOB|type")
+@attack("ledger", FOUND, "leaf, tree, signature; types", "schema_differs", "entry_stays")
 def types_confused(s):
     """A leaf of 31 bytes; the table made without STRICT and a leaf as TEXT, a sequence number as TEXT."""
     def change(ledger):

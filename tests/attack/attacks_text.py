@@ -130,7 +130,7 @@ def office_texts(s):
     return s.ledger("verify")
 
 
-@attack("text", FOUND, "what was edited is named, and the names are harmless", "")
+@attack("text", FOUND, "what was edited is named, and the names are harmless")
 def edited_entries_with_escapes(s):
     """Entries, notes and witness lines edited to hold escapes: findings quote them harmlessly."""
     ledger = lf.Ledger(s.L)

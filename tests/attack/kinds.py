@@ -7,18 +7,19 @@ CONTROL = re.compile("[\x00-\x08\x0b-\x1f\x7f\x80-\x9f\u202a-\u202e\u2066-\u2069
 
 
 class Attack:
-    def __init__(self, name, family, promise, page, names, run):
-        self.name, self.family, self.promise, self.page, self.names, self.run = name, family, promise, page, names, run
+    def __init__(self, name, family, promise, page, kinds, told, run):
+        self.name, self.family, self.promise, self.page, self.kinds, self.told, self.run = name, family, promise, page, set(kinds.split()), told, run
         self.what = " ".join((run.__doc__ or "").split())
 
 
-def attack(family, promise, page="", names=""):
+def attack(family, promise, page="", kinds="", told=""):
     """Registers a function as an attack. promise: what the page says becomes of it.
 
-    found: refused or named, with exit code other than 0 (and a line that `names` matches); accepted: a control;
+    found: refused or named, with exit code other than 0, by a finding of one of `kinds`, or `error`: exit code 2; and with names or numbers that the
+    regular expression `told` matches; accepted: a control;
     nobody: the page owns up that nobody finds it; survives: any orderly end; unstated: the page says nothing, reported as it is."""
     def register(run):
-        ATTACKS.append(Attack(run.__name__, family, promise, page, names, run))
+        ATTACKS.append(Attack(run.__name__, family, promise, page, kinds, told, run))
         return run
     return register
 
@@ -38,7 +39,8 @@ def judge(a, s, result):
     if a.promise == FOUND:
         if not refused:
             return "HOLE: taken as clean", True, True
-        if a.names and not re.search(a.names, result.out):
+        kinds = {"error"} if result.rc == 2 else result.kinds()
+        if (a.kinds and not a.kinds & kinds) or not re.search(a.told, result.out):
             return "BROKEN PROMISE: refused, but for another reason", False, True
         return "found", False, False
     if a.promise == ACCEPTED:

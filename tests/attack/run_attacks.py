@@ -62,6 +62,7 @@ def main():
         folder = os.path.join(work, a.name)
         shutil.rmtree(folder, ignore_errors=True)
         s = base.copy_to(folder)
+        s.ask_kinds = bool(a.kinds)
         try:
             result = a.run(s)
             verdict, hole, promise = judge(a, s, result)

@@ -11,14 +11,15 @@ import ledger_format as lf
 from session_format import Key, Session
 
 QUICK_S = 3
+TELL_KINDS = {("verify",), ("ledger", "verify"), ("ledger", "add"), ("ledger", "restore"), ("ledger", "cosign")}
 CPU_LIMIT_S, WALL_LIMIT_S, MEMORY_LIMIT_KB = 5.0, 120, 1 << 20  # the wall only ends what waits for ever: machines are shared
 
 
 class Result:
     """How one run of the program ended."""
 
-    def __init__(self, args, rc, out, cpu, memory_kb, wall):
-        self.args, self.rc, self.out, self.cpu, self.memory_kb, self.wall = args, rc, out, cpu, memory_kb, wall
+    def __init__(self, args, rc, stdout, stderr, cpu, memory_kb, wall):
+        self.args, self.rc, self.stdout, self.out, self.cpu, self.memory_kb, self.wall = args, rc, stdout, stdout + stderr, cpu, memory_kb, wall
         self.verb = " ".join([a for a in args[:2] if "/" not in a and not a.startswith("-")] + [a for a in args if a in ("--replay", "--receipt", "--results", "--cosigned", "--enrol")])
 
     def crash(self):
@@ -34,8 +35,21 @@ class Result:
             return f"{self.memory_kb >> 10} MiB of memory"
         return ""
 
+    def said(self, of="findings"):
+        """What --json tells, of all sessions: findings, or what is not_checked, or remarks."""
+        try:
+            told = json.loads(self.stdout)
+        except ValueError:
+            return []
+        return [f for part in [told, *told.get("sessions", [])] for f in part.get(of, [])]
+
+    def kinds(self, of="findings"):
+        return {f["kind"] for f in self.said(of)}
+
     def first(self):
-        """The first finding line, or the first line of all."""
+        """The first finding, or the first line of all."""
+        if self.said():
+            return "{kind}: {text}".format(**self.said()[0])
         lines = [l.strip() for l in self.out.splitlines() if l.strip()]
         found = [l for l in lines if l.startswith("- ")] or [l for l in lines if "cavum:" in l or "NOT" in l] or lines
         return found[0].removeprefix("- ") if found else ""
@@ -49,17 +63,19 @@ class School:
         self.home, self.L = f"{folder}/home", f"{folder}/L"
         self.results = []
         self.notes = []
+        self.ask_kinds = False  # --json, where a verb tells its findings so
 
     def p(self, name):
         return f"{self.folder}/{name}"
 
     def run(self, *args, home=None, stdin=None, quiet=False):
         env = dict(os.environ, CAVUM_HOME=home or self.home, LC_ALL="C.UTF-8")
+        args = [str(a) for a in args]
+        if self.ask_kinds and ((args[0],) in TELL_KINDS or tuple(args[:2]) in TELL_KINDS) and "--json" not in args:
+            args.append("--json")
         started = time.monotonic()
-        out_path = self.p(".out")
-        with open(out_path, "wb") as out:
-            process = subprocess.Popen([self.cavum, *map(str, args)], env=env, stdout=out, stderr=subprocess.STDOUT,
-                                       stdin=subprocess.DEVNULL, cwd=self.folder)
+        with open(self.p(".out"), "wb") as out, open(self.p(".err"), "wb") as err:
+            process = subprocess.Popen([self.cavum, *args], env=env, stdout=out, stderr=err, stdin=subprocess.DEVNULL, cwd=self.folder)
             rc = None
             while time.monotonic() - started < WALL_LIMIT_S:
                 pid, status, usage = os.wait4(process.pid, os.WNOHANG)
@@ -71,8 +87,8 @@ class School:
                 process.kill()
                 _, _, usage = os.wait4(process.pid, 0)
             process.returncode = 0 if rc is None else rc
-        text = open(out_path, "rb").read(1 << 20).decode("utf-8", "surrogateescape")
-        result = Result([str(a) for a in args], rc, text, usage.ru_utime + usage.ru_stime, usage.ru_maxrss, time.monotonic() - started)
+        stdout, stderr = (open(self.p(name), "rb").read(1 << 20).decode("utf-8", "surrogateescape") for name in (".out", ".err"))
+        result = Result(args, rc, stdout, stderr, usage.ru_utime + usage.ru_stime, usage.ru_maxrss, time.monotonic() - started)
         if not quiet:
             self.results.append(result)
         return result

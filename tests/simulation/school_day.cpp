@@ -41,17 +41,18 @@ grading::ExamGrounds& grounds() {
 
 /// Whether one of `findings` names the clock of a station: by the exam's beginning or end, as the station says, or by the tick from which it was
 /// uneven.
-bool names_clock(const std::vector<Message>& findings, const SatExam& exam) {
-  return std::any_of(findings.begin(), findings.end(), [&](const Message& f) {
-    if (exam.clock == WrongClock::uneven)
-      return f.values().size() == 2 && std::holds_alternative<std::int64_t>(f.values()[0]) && std::holds_alternative<Message>(f.values()[1]);
-    return tells(f, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
+bool names_clock(const ledger::Findings& findings, const SatExam& exam) {
+  using Kind = ledger::FindingKind;
+  return std::any_of(findings.begin(), findings.end(), [&](const ledger::Finding& f) {
+    if (exam.clock == WrongClock::uneven) return f.kind == Kind::clock;
+    return (f.kind == Kind::clock || f.kind == Kind::handed_in_late || f.kind == Kind::ticket_time) &&
+           tells(f.what, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
   });
 }
 
-std::string all(const std::vector<Message>& findings) {
+std::string all(const ledger::Findings& findings) {
   std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f.what);
   return out;
 }
 
@@ -367,8 +368,9 @@ void SchoolDay::cosign_here() {
     to_cosigner_.clear();
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
-      // an older request that was overtaken by a newer one: the sizes of both are told, and where what was signed is kept
-      if (signed_note.findings[0].values().size() != 3) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      // an older request that was overtaken by a newer one
+      if (signed_note.findings[0].kind != ledger::FindingKind::older_copy)
+        wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
       return;
     }
     cosigned_size_ = std::max(cosigned_size_, signed_note.size);
@@ -397,8 +399,7 @@ void SchoolDay::verify() {
   ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
   for (const auto& s : ledger::read_registry(ledger::read_ledger({k_ledger})).sessions)
-    if (s.motion_erased_by)
-      std::erase_if(check.findings, [&](const Message& f) { return tells(f, ledger::LedgerPlaces{k_ledger}.session(s.file_sha256)); });
+    if (s.motion_erased_by) std::erase_if(check.findings, [&](const ledger::Finding& f) { return f.entry == s.seq; });
   // a disk that fails meanwhile may well be in the way of looking
   if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
 }

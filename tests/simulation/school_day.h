@@ -98,7 +98,7 @@ class SchoolDay {
   void wrong(const std::string& what);
   void check_end();
   void check_entries(const ledger::LedgerContent& content);
-  void check_clocks(const std::vector<Message>& remarks);
+  void check_clocks(const ledger::Findings& remarks);
   void check_identities();
   void check_backup();
   void check_cosigner(const ledger::LedgerContent& content);

@@ -22,20 +22,18 @@ using nlohmann::json;
 
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
 
-std::string all(const std::vector<Message>& findings) {
+std::string all(const ledger::Findings& findings) {
   std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
+  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f.what);
   return out;
 }
 
 std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("utc_ns").get<std::int64_t>(); }
 
-/// "entry 7: ..." of remarks that name a clock which was set back.
-bool names_clock(const std::vector<Message>& remarks, std::uint64_t after, std::uint64_t until) {
-  for (std::uint64_t k = after + 1; k <= until; ++k)
-    for (const auto& r : remarks)
-      if (r.values() == std::vector<Value>{static_cast<std::int64_t>(k)}) return true;
-  return false;
+/// Whether a remark is of this kind, on an entry from `first` to `last`.
+bool names_clock(const ledger::Findings& remarks, ledger::FindingKind kind, std::uint64_t first, std::uint64_t last) {
+  return std::any_of(remarks.begin(), remarks.end(),
+                     [&](const ledger::Finding& r) { return r.kind == kind && r.entry && *r.entry >= first && *r.entry <= last; });
 }
 
 }  // namespace
@@ -52,7 +50,7 @@ void SchoolDay::check_end() {
     check_clocks(check.remarks);
     check_identities();
     check_backup();
-    std::vector<Message> findings, not_checked;
+    ledger::Findings findings, not_checked;
     ledger::check_cosignatures(content, ledger::read_cosigners(ledger::known_cosigners_path()), findings, not_checked);
     if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
   });
@@ -70,7 +68,7 @@ void SchoolDay::check_end() {
 }
 
 void SchoolDay::check_entries(const ledger::LedgerContent& content) {
-  std::vector<Message> findings;
+  ledger::Findings findings;
   const auto witnessed = ledger::read_witness(content.id, findings);
   if (!findings.empty()) wrong("the witness: " + all(findings));
   std::set<std::uint64_t> seen;
@@ -110,7 +108,7 @@ void SchoolDay::check_entries(const ledger::LedgerContent& content) {
       wrong("a cosignature that was kept is lost, under " + std::to_string(size) + " entries");
 }
 
-void SchoolDay::check_clocks(const std::vector<Message>& remarks) {
+void SchoolDay::check_clocks(const ledger::Findings& remarks) {
   std::vector<std::pair<std::uint64_t, std::int64_t>> times;
   for (const Entered& e : entries_) times.emplace_back(e.seq, utc_in(e.text));
   std::sort(times.begin(), times.end());
@@ -118,7 +116,7 @@ void SchoolDay::check_clocks(const std::vector<Message>& remarks) {
     for (std::size_t j = i + 1; j < times.size(); ++j)
       if (times[j].second < times[i].second) {
         ++counts_["ledger's clock set back"];
-        if (!names_clock(remarks, times[i].first, times[j].first))
+        if (!names_clock(remarks, ledger::FindingKind::clock_set_back, times[i].first + 1, times[j].first))
           wrong("the clock was set back between entries " + std::to_string(times[i].first) + " and " + std::to_string(times[j].first) +
                 ", and nothing says so");
       }
@@ -126,9 +124,7 @@ void SchoolDay::check_clocks(const std::vector<Message>& remarks) {
   for (const auto& [seq, utc_ns] : times)
     if (utc_ns > k_begin_utc_ns + world_.true_ns() + k_patience_ns) {
       ++counts_["ledger's clock ahead"];
-      if (std::none_of(remarks.begin(), remarks.end(), [&](const Message& r) {
-            return r.values() == std::vector<Value>{static_cast<std::int64_t>(seq), Name{utc_text(utc_ns)}};
-          }))
+      if (!names_clock(remarks, ledger::FindingKind::clock_ahead, seq, seq))
         wrong("entry " + std::to_string(seq) + " bears a time that is still to come, and nothing says so");
     }
 }

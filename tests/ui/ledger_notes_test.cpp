@@ -144,8 +144,10 @@ TEST_F(LedgerNotes, ACosignerRefusesALedgerThatWasPutBack) {
   EXPECT_EQ(run("ledger verify " + path("L")).exit_code, 0);
   const auto found = run("ledger verify --json " + path("L") + " --cosigned " + path("n1"));
   EXPECT_EQ(found.exit_code, 1);
-  const std::string finding = json::parse(found.out)["findings"].at(0);
-  for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")}) EXPECT_NE(finding.find(told), std::string::npos) << finding;
+  const json finding = json::parse(found.out)["findings"].at(0);
+  EXPECT_EQ(finding["kind"], "older_copy");
+  for (const std::string& told : {path("n1"), std::string(" 3 "), std::string(" 4")})
+    EXPECT_NE(finding.dump().find(told), std::string::npos) << finding;
   EXPECT_EQ(run("ledger add-cosignature " + path("L") + " " + path("n1")).exit_code, 1) << "it is not kept";
   // and the cosigner neither signs the older copy nor what grew from it
   ASSERT_EQ(run("ledger checkpoint " + path("L") + " --out " + path("older")).exit_code, 0);
@@ -200,8 +202,9 @@ TEST_F(LedgerNotes, ABackupIsRestoredAndSaysWhatWasLost) {
   EXPECT_FALSE(fs::exists(path("L2")));
   const json done = run_json(restore + " --accept-loss 'the disk died'");
   EXPECT_EQ(done["restored"], true);
-  const std::string remarks = run_json("ledger verify " + path("L2"))["remarks"].dump();
-  EXPECT_NE(remarks.find("the disk died"), std::string::npos) << remarks;
+  const json remark = run_json("ledger verify " + path("L2"))["remarks"].at(0);
+  EXPECT_EQ(remark["kind"], "restored");
+  EXPECT_NE(remark["text"].get<std::string>().find("the disk died"), std::string::npos) << remark;
   EXPECT_NE(run("ledger candidates " + path("L2")).out.find("4711"), std::string::npos);
   EXPECT_EQ(run("ledger ticket " + path("L2") + " " + CAVUM_SOURCE_DIR + "/tests/replay/block_cavity.toml --candidate 4714" +
                 " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("t"))

@@ -270,7 +270,8 @@ Entered Desk::revoke(const RevokeStation& asked, const Account& by) {
 Message Desk::station_problem(const std::string& public_key) {
   Turn turn(*this);
   const std::int64_t now = read_clocks().utc_ns;
-  return turn.book.registry().stations.problem(public_key, now, now);
+  const auto problem = turn.book.registry().stations.problem(public_key, now, now);
+  return problem ? problem->what : Message();
 }
 
 Enrolled Desk::enrol(const std::string& request) {

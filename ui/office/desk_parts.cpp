@@ -32,6 +32,12 @@ std::vector<std::string> shown_each(const std::vector<Message>& messages) {
   return texts;
 }
 
+std::vector<ShownFinding> shown_each(const ledger::Findings& findings) {
+  std::vector<ShownFinding> shown;
+  for (const auto& f : findings) shown.push_back({f.kind, one_line(tr(f.what))});
+  return shown;
+}
+
 Roster roster_of(const ClassList& asked) {
   const std::string& packed = asked.base64;
   std::string bytes(packed.size() / 4 * 3 + 3, '\0');

@@ -35,6 +35,7 @@ void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
 /// In the office's language.
 [[nodiscard]] std::string in_words(const Message& message);
 [[nodiscard]] std::vector<std::string> shown_each(const std::vector<Message>& messages);
+[[nodiscard]] std::vector<ShownFinding> shown_each(const ledger::Findings& findings);
 
 /// The list of a request. Throws Error when it is none.
 [[nodiscard]] Roster roster_of(const ClassList& asked);

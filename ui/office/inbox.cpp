@@ -14,8 +14,8 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/memory_reserve.h"
-#include "engine/base/message_json.h"
 #include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
@@ -24,6 +24,7 @@
 namespace cavum::office {
 namespace {
 
+using ledger::FindingKind;
 using nlohmann::json;
 
 constexpr char k_part[] = ".part";
@@ -34,19 +35,21 @@ constexpr std::size_t k_hash_letters = 64;
 Handed facts_of(const std::string& path) {
   constexpr std::size_t k_longest_candidate = 200;
   Handed facts;
+  std::vector<Message> left_out;
   try {
-    const Bytes image = read_session_image(path, facts.findings);
+    const Bytes image = read_session_image(path, left_out);
     const SessionReader session(image, path);
     const bool closed = session.closed();
-    facts.findings.clear();
-    if (!closed) facts.findings.push_back(session.findings().empty() ? msg("was never closed") : msg("is damaged: {}", session.findings().front()));
+    if (!closed && session.findings().empty()) facts.findings.push_back({FindingKind::not_closed, msg("was never closed")});
+    if (!closed && !session.findings().empty())
+      facts.findings.push_back({FindingKind::recording_unsound, msg("is damaged: {}", session.findings().front())});
     if (closed) facts.station = to_hex(session.seal()->public_key);
     const std::string candidate = session.setup().candidate;
     if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);
   } catch (const std::bad_alloc&) {
     throw;
   } catch (const std::exception& e) {
-    if (facts.findings.empty()) facts.findings.push_back(said_by(e));
+    if (facts.findings.empty()) facts.findings = findings_of(FindingKind::file_unreadable, left_out.empty() ? std::vector{said_by(e)} : left_out);
   }
   return facts;
 }
@@ -130,9 +133,9 @@ Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, l
     if (h.state == Handed::State::waiting) continue;
     h.state = Handed::State::refused;
     try {
-      h.findings = decode_messages(member_of(kept, "findings"));
-    } catch (const std::invalid_argument&) {
-      h.findings = {msg("why it was refused cannot be read any more")};
+      h.findings = json_value_of<ledger::Findings>(member_of(kept, "findings"), {msg("the inbox"), {}});
+    } catch (const Error&) {
+      h.findings = {{FindingKind::file_unreadable, msg("why it was refused cannot be read any more")}};
     }
     const auto word = [&](const char* name) { return member_of(kept, name).is_string() ? member_of(kept, name).get<std::string>() : ""; };
     h.station = word("station");
@@ -254,9 +257,9 @@ bool Inbox::file(const std::string& hash) {
 
 void Inbox::refuse(const std::string& hash, Handed why) {
   why.state = Handed::State::refused;
-  for (Message& f : why.findings) f = without_places(f, hash);
+  for (ledger::Finding& f : why.findings) f.what = without_places(f.what, hash);
   if (const std::string sender = of(hash).station; !sender.empty()) why.station = sender;
-  const json kept{{"findings", encode(why.findings)}, {"station", why.station}, {"candidate", why.candidate}};
+  const json kept{{"findings", to_json_value(why.findings)}, {"station", why.station}, {"candidate", why.candidate}};
   write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");
   std::filesystem::rename(path_of(hash), fmt::format("{}/refused/{}.cavum", folder_, hash));
   const std::lock_guard guard(lock_);

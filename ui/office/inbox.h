@@ -47,10 +47,10 @@ class Arriving {
 struct Handed {
   using State = HandedState;
   State state = State::unknown;
-  std::uint64_t entry = 0;             ///< of the ledger, when it is filed
-  std::vector<Message> findings = {};  ///< why it was refused
-  std::string station = {};            ///< key of who handed it in, or of who sealed it; empty: neither is known
-  std::string candidate = {};          ///< of one that was refused and can be read; else empty
+  std::uint64_t entry = 0;         ///< of the ledger, when it is filed
+  ledger::Findings findings = {};  ///< why it was refused
+  std::string station = {};        ///< key of who handed it in, or of who sealed it; empty: neither is known
+  std::string candidate = {};      ///< of one that was refused and can be read; else empty
 };
 
 class Inbox {

@@ -29,10 +29,10 @@ namespace cavum::office {
 namespace {
 
 /// As a station is told: it knows what to say in its own language of nothing but the state.
-std::vector<std::string> english_each(const std::vector<Message>& messages) {
-  std::vector<std::string> texts;
-  for (const Message& m : messages) texts.push_back(english_text(m));
-  return texts;
+std::vector<ShownFinding> english_each(const ledger::Findings& findings) {
+  std::vector<ShownFinding> told;
+  for (const auto& f : findings) told.push_back({f.kind, english_text(f.what)});
+  return told;
 }
 
 using nlohmann::json;

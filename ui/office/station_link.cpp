@@ -50,8 +50,7 @@ std::optional<HandedIn> StationLink::outcome(const std::string& recording) {
   if (!fs::exists(refusal_of(recording), none)) return std::nullopt;
   HandedIn refused;
   const json said = parse_json_or_null(read_text_file(refusal_of(recording)), k_json_part);
-  for (const json& f : member_of(said, "findings"))
-    if (f.is_string()) refused.findings.push_back(f);
+  for (const json& f : member_of(said, "findings")) refused.findings.push_back(text_in(f, "text"));
   return refused;
 }
 

@@ -14,6 +14,7 @@
 
 #include "engine/base/json_struct.h"
 #include "engine/base/text.h"
+#include "grading/ledger/finding.h"
 #include "ui/office/lti/platforms.h"
 
 namespace cavum::office {
@@ -123,7 +124,9 @@ CAVUM_JSON(StationShown, (std::string, name), (std::string, public_key), (std::s
 CAVUM_JSON(ToRead, (std::uint64_t, entry), (std::int64_t, utc_ns), (std::string, text))
 /// A pause with its reason, or an announcement; `stations`: keys, none for all.
 CAVUM_JSON_MORE(Notice, ToRead, (std::string, room), (Texts, stations))
-CAVUM_JSON(RefusedExam, (std::string, sha256), (std::string, candidate), (std::string, station), (Texts, findings))
+/// `text`: in the office's language; for stations in English.
+CAVUM_JSON(ShownFinding, (ledger::FindingKind, kind), (std::string, text))
+CAVUM_JSON(RefusedExam, (std::string, sha256), (std::string, candidate), (std::string, station), (List<ShownFinding>, findings))
 CAVUM_JSON(InboxShown, (std::size_t, waiting), (std::string, trouble), (List<RefusedExam>, refused))
 /// `tickets`: how many, by name of their ledger::TicketGroup.
 CAVUM_JSON(BoardShown, (std::int64_t, utc_ns), (List<StationShown>, stations), (ByName<std::size_t>, tickets), (List<Notice>, holds),
@@ -163,7 +166,7 @@ CAVUM_JSON(StillOut, (std::string, verdict), (Maybe<double>, points))
 CAVUM_JSON(ResultRow, (std::uint64_t, session), (std::uint64_t, result), (std::string, candidate), (std::string, exam), (std::string, state),
            (std::string, verdict), (std::string, station), (std::string, seat), (std::string, why_back), (std::string, simulated),
            (std::string, sha256), (Maybe<std::string>, id), (Maybe<std::string>, name), (Maybe<double>, points), (Maybe<double>, max),
-           (Maybe<double>, grade), (Texts, findings), (Maybe<Decided>, decided), (bool, shown), (bool, appeal), (Maybe<std::uint64_t>, makes_up),
+           (Maybe<double>, grade), (List<ShownFinding>, findings), (Maybe<Decided>, decided), (bool, shown), (bool, appeal), (Maybe<std::uint64_t>, makes_up),
            (Maybe<std::uint64_t>, made_up_by), (Maybe<StillOut>, out), (Maybe<std::uint64_t>, later))
 using Results = Only<"results", std::vector<ResultRow>>;
 /// All that is ready, sessions, or results as a page showed them, each by its entry.
@@ -227,7 +230,7 @@ CAVUM_JSON(HoldHere, (std::uint64_t, entry), (std::string, reason))
 CAVUM_JSON(OfficeWord, (std::int64_t, utc_ns), (std::size_t, tickets), (Maybe<HoldHere>, hold), (List<ToRead>, announcements))
 /// Of a recording that is handed in; in pieces how much there is, until it is whole.
 CAVUM_JSON(HandInState, (Maybe<HandedState>, state), (Maybe<std::uint64_t>, have), (Maybe<std::uint64_t>, of), (Maybe<std::uint64_t>, entry),
-           (Maybe<nlohmann::json>, receipt), (Maybe<Texts>, findings))
+           (Maybe<nlohmann::json>, receipt), (Maybe<List<ShownFinding>>, findings))
 // clang-format on
 
 }  // namespace cavum::office

@@ -53,7 +53,7 @@ ReportIntegrity replayed_integrity(const std::string& path, grading::ExamGrounds
   const ledger::SessionExplanation e = ledger::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
   for (const auto& p : e.proved) i.proved.push_back(msg("{}", p));
-  for (const auto& f : e.findings) i.findings.push_back(msg("{}", f));
+  for (const auto& f : e.findings) i.findings.push_back(msg("{}", f.what));
   for (const auto& r : e.remarks) i.remarks.push_back(msg("{}", r));
   return i;
 }

@@ -44,7 +44,7 @@ void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledge
 /// What a session was filed with, and that another ending of it was.
 std::vector<Message> doubts_of(const ledger::FiledSession& s) {
   std::vector<Message> out;
-  for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f));
+  for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f.what));
   for (const auto other : s.contested_by) out.push_back(msg("contested by entry {}, another ending of this exam", other));
   return out;
 }
@@ -53,7 +53,7 @@ std::vector<Message> doubts_of(const ledger::FiledSession& s) {
 
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(ledger::read_ledger(places)) {
   if (!content.findings.empty())
-    throw Error(folder, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", folder));
+    throw Error(folder, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", folder));
   registry = ledger::read_registry(content);
 }
 

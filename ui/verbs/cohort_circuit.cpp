@@ -37,7 +37,7 @@ void measure_circuit(const CircuitArguments& o) {
   const ledger::LedgerPlaces places{o.folder};
   const ledger::LedgerContent content = ledger::read_ledger(places);
   if (!content.findings.empty())
-    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
   const ledger::Registry registry = ledger::read_registry(content);
   ledger::Identities identities(places.identities());
   ledger::remove_forgotten(content, identities);

@@ -22,23 +22,22 @@ int ledger_verify(const LedgerOptions& o) {
   if (!o.key.empty()) static_cast<void>(ledger::load_school_key(o.key));  // one that was named has to be there
   const pool::Maker by = o.replay ? pool::Maker([&](const pool::Work& work) { return make_lines(work, o.pool); }) : pool::Maker();
   ledger::LedgerCheck check = ledger::check_ledger(places, by);
-  check.findings.insert(check.findings.end(), check.not_made.begin(), check.not_made.end());
+  append(check.findings, check.not_made);
   const ledger::LedgerContent content = ledger::read_ledger(places);
   ledger::check_owner(check, places, content, o.key.empty() ? ledger::school_key_path() : o.key, ledger::school_public_key_path());
   for (const auto& path : o.receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
-    for (auto& f : ledger::check_receipt(receipt, content.public_key, &content)) check.findings.push_back(msg("{}: {}", path, f));
+    append(check.findings, named(Name{path}, ledger::check_receipt(receipt, content.public_key, &content)));
   }
   const auto cosigners = cosigners_of(o);
   ledger::check_cosignatures(content, cosigners, check.findings, check.not_checked);
   for (const auto& path : o.cosigned) {
     const auto note = ledger::check_cosigned(read_text_file(path), cosigners, content);
-    for (const auto& f : note.findings) check.findings.push_back(msg("{}: {}", path, f));
-    for (const auto& n : note.not_checked) check.not_checked.push_back(msg("{}: {}", path, n));
+    append(check.findings, named(Name{path}, note.findings));
+    append(check.not_checked, named(Name{path}, note.not_checked));
   }
   if (!o.results.empty())
-    for (auto& f : ledger::check_results(read_text_file(o.results), content.public_key, &content))
-      check.findings.push_back(msg("{}: {}", o.results, f));
+    append(check.findings, named(Name{o.results}, ledger::check_results(read_text_file(o.results), content.public_key, &content)));
   if (o.as_json) {
     print_json(json{{"verified", check.findings.empty()},
                     {"ledger", content.id},
@@ -55,9 +54,9 @@ int ledger_verify(const LedgerOptions& o) {
     const Message whose =
         content.public_key.empty() ? msg("{}, whose they are could not be read", entries) : msg("{}, key {}", entries, content.public_key);
     say(check.findings.empty() ? msg("{}: verified, {}", o.folder, whose) : msg("{}: NOT VERIFIED, {}", o.folder, whose));
-    for (const auto& f : check.findings) say(msg("- {}", f), 2);
-    for (const auto& m : check.not_checked) say(msg("not checked: {}", m), 2);
-    for (const auto& r : check.remarks) say(msg("({})", r), 2);
+    for (const auto& f : check.findings) say(msg("- {}", f.what), 2);
+    for (const auto& m : check.not_checked) say(msg("not checked: {}", m.what), 2);
+    for (const auto& r : check.remarks) say(msg("({})", r.what), 2);
   }
   return check.findings.empty() ? 0 : 1;
 }
@@ -85,14 +84,14 @@ List all_of_it(const ledger::FiledSession& s) {
 int ledger_show(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   const ledger::Registry registry = ledger::read_registry(content);
-  std::vector<Message> findings = content.findings;
-  findings.insert(findings.end(), registry.findings.begin(), registry.findings.end());
+  ledger::Findings findings = content.findings;
+  append(findings, registry.findings);
   if (!findings.empty())
     say_error(
         msgn("{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} finding: {2}); run `cavum ledger verify {0} --replay`",
              "{0}: WARNING: this ledger does not hold, and what it shows may be made up ({1} findings, first: {2}); run `cavum ledger verify {0} "
              "--replay`",
-             static_cast<std::int64_t>(findings.size()), o.folder, findings.size(), findings.front()));
+             static_cast<std::int64_t>(findings.size()), o.folder, findings.size(), findings.front().what));
   const int code = findings.empty() ? 0 : 1;
   if (o.as_json) {
     json sessions = json::array();

@@ -145,7 +145,7 @@ void ledger_decide(const LedgerOptions& o) {
   if (o.session_seq < 0) {
     const ledger::LedgerContent content = ledger::read_ledger({o.folder});
     if (!content.findings.empty())
-      throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+      throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
     const auto queue = ledger::review_queue(ledger::read_registry(content));
     json list = json::array();
     Lines rows;
@@ -194,7 +194,7 @@ namespace {
 void print_appeals(const LedgerOptions& o) {
   const ledger::LedgerContent content = ledger::read_ledger({o.folder});
   if (!content.findings.empty())
-    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front()), msg("see `cavum ledger verify {}`", o.folder));
+    throw Error(Name{o.folder}, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", o.folder));
   json list = json::array();
   Lines rows;
   std::int64_t open = 0;

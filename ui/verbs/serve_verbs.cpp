@@ -11,6 +11,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/json_fields.h"
 #include "engine/base/text.h"
 #include "engine/session/session_image.h"
 #include "grading/ledger/begin.h"
@@ -218,7 +219,7 @@ int office_file(const OfficeArguments& o) {
     all = all && filed;
     say(filed ? msg("{}: entry {}", path, state.at("entry").get<std::int64_t>()) : msg("{}: NOT FILED", path));
     if (!filed)
-      for (const auto& f : state.value("findings", std::vector<std::string>())) say(msg("- {}", f), 2);
+      for (const json& f : state.value("findings", json::array())) say(msg("- {}", text_in(f, "text")), 2);
     if (filed && !o.receipts.empty())
       write_private_text_file(fmt::format("{}/receipt-{}.json", o.receipts, state.at("entry").get<std::uint64_t>()),
                               state.at("receipt").dump(2) + "\n");

@@ -176,9 +176,9 @@ int tell(const VerifyAll& o, const pool::Work& work, const pool::Made& made, con
   for (std::size_t i = 0; i < sums.wrong.size() && i < k_named; ++i) say(msg("- {}", sums.wrong[i]), 2);
   if (sums.wrong.size() > k_named) say(msg("- and {} more, in the lines of --out", sums.wrong.size() - k_named), 2);
   if (ledger != nullptr) {
-    for (const auto& f : ledger->findings) say(msg("- {}", f), 2);
-    for (const auto& n : ledger->not_checked) say(msg("not checked: {}", n), 2);
-    for (const auto& r : ledger->remarks) say(msg("({})", r), 2);
+    for (const auto& f : ledger->findings) say(msg("- {}", f.what), 2);
+    for (const auto& n : ledger->not_checked) say(msg("not checked: {}", n.what), 2);
+    for (const auto& r : ledger->remarks) say(msg("({})", r.what), 2);
   }
   if (made.spent.core_s > 0)
     say(msg("{} of exams in {} of a core: {} times real time", as_s(session_s, 0), as_s(made.spent.core_s, 1), as_number(real_time, 0)), 2);

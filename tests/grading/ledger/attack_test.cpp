@@ -40,10 +40,10 @@ class Attack : public testing::Test {
     Ledger ledger = school_.ledger();
     return file_session(ledger, path);
   }
-  void expect_refused(const std::string& path, const std::vector<std::string>& words) {
+  void expect_refused(const std::string& path, Kind kind, const std::vector<std::string>& words = {""}) {
     const Filing f = file(path);
     EXPECT_FALSE(f.seq);
-    expect_finding(f.findings, words);
+    expect_finding(f.findings, kind, words);
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
     EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   }
@@ -60,20 +60,25 @@ class Attack : public testing::Test {
     }
     test::tamper(school_.places().database(), drop + sql + ";" + make);
   }
-  void expect_ledger_finding(const std::vector<std::string>& words) {
-    expect_finding(check_ledger(school_.places(), false).findings, words);
+  void expect_ledger_finding(Kind kind, const std::vector<std::string>& words = {""}) {
+    expect_finding(check_ledger(school_.places(), false).findings, kind, words);
     EXPECT_THROW(school_.ledger(), Error) << "nothing is added to a ledger that does not hold";
   }
-  /// Each edit of the ledger as it is now, and what the finding tells; `past_triggers`: they are put back afterwards.
-  void expect_found(const std::vector<std::pair<std::string, std::string>>& edits, bool past_triggers) {
+  struct Edit {
+    std::string sql;
+    Kind kind;
+    std::string told = "";
+  };
+  /// Each edit of the ledger as it is now, and its finding; `past_triggers`: they are put back afterwards.
+  void expect_found(const std::vector<Edit>& edits, bool past_triggers) {
     const Bytes sound = read_file(school_.places().database());
-    for (const auto& [sql, told] : edits) {
+    for (const auto& [sql, kind, told] : edits) {
       SCOPED_TRACE(sql.substr(0, 80));
       if (past_triggers)
         edit_ledger(sql);
       else
         test::tamper(school_.places().database(), sql);
-      expect_ledger_finding({told});
+      expect_ledger_finding(kind, {told});
       write_file(school_.places().database(), sound);
     }
   }
@@ -88,7 +93,7 @@ class Attack : public testing::Test {
 
 TEST_F(Attack, NoneIsFiledAndHolds) {
   const Filing f = file(session_);
-  ASSERT_TRUE(f.seq) << testing_basics::text_of(f.findings);
+  ASSERT_TRUE(f.seq) << testing_basics::text_of(words_of(f.findings));
   EXPECT_TRUE(f.findings.empty());
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
   const auto registry = read_registry(read_ledger(school_.places()));
@@ -118,7 +123,7 @@ TEST_F(Attack, EveryEditOfARecording) {
     const std::string edited = school_.file("edited.cavum");
     std::filesystem::copy_file(session_, edited, std::filesystem::copy_options::overwrite_existing);
     test::tamper(edited, sql);
-    expect_refused(edited, {told});
+    expect_refused(edited, Kind::recording_unsound, {told});
   }
 }
 
@@ -126,36 +131,38 @@ TEST_F(Attack, ASessionSubmittedTwice) {
   ASSERT_TRUE(file(session_).seq);
   const Filing again = file(session_);
   EXPECT_FALSE(again.seq);
-  expect_finding(again.findings, {"4"});
+  expect_finding(again.findings, Kind::submitted_twice, {"4"});
 }
 TEST_F(Attack, ATicketUsedForASecondAttempt) {
   ASSERT_TRUE(file(session_).seq);
   const Filing second = file(school_.sit(ticket_, "novice"));
   EXPECT_FALSE(second.seq);
-  expect_finding(second.findings, {"4"});
+  expect_finding(second.findings, Kind::ticket_used, {"4"});
 }
 TEST_F(Attack, AnOldTicket) {
   const std::string old = school_.ticket("4712", [](Ticket& t) {
     t.not_before_utc_ns -= 48 * k_hour_ns;
     t.not_after_utc_ns -= 48 * k_hour_ns;
   });
-  expect_refused(school_.sit(old), {});
+  expect_refused(school_.sit(old), Kind::ticket_time);
 }
 TEST_F(Attack, AnotherCandidatesSession) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), {"C-AAAA-BBBB-CCCC"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.candidate = "C-AAAA-BBBB-CCCC"; }), Kind::ticket_candidate,
+                 {"C-AAAA-BBBB-CCCC"});
 }
 TEST_F(Attack, MoreTimeThanWasGranted) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), {});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.grant.extra_time_percent = 50; }), Kind::ticket_accommodations);
 }
 TEST_F(Attack, AnotherForceModel) {
-  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), {"force_model.toml"});
+  expect_refused(school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.force_model = "paper"; }), Kind::ticket_model,
+                 {"force_model.toml"});
 }
 TEST_F(Attack, ATicketMadeByAnotherKey) {
   const Ticket t = parse_ticket(ticket_, "", "ticket");
   Ticket forged = t;
   const SigningKey forger = load_signing_key(school_.file("forger.key"), "school");
   forged.public_key = to_hex(forger.public_key);
-  expect_refused(school_.sit(sign_ticket(forged, forger).text), {});
+  expect_refused(school_.sit(sign_ticket(forged, forger).text), Kind::ticket_other_school);
 }
 TEST_F(Attack, ATicketChangedAfterSigning) {
   auto j = nlohmann::json::parse(ticket_);
@@ -166,11 +173,11 @@ TEST_F(Attack, ATicketChangedAfterSigning) {
 TEST_F(Attack, ATicketThatWasNeverIssued) {
   Ticket own = parse_ticket(ticket_, "", "ticket");
   own.nonce = random_hex(16);
-  expect_refused(school_.sit(sign_ticket(own, School::key()).text), {});
+  expect_refused(school_.sit(sign_ticket(own, School::key()).text), Kind::ticket_unknown);
 }
 TEST_F(Attack, ASimulatedOperatorInTheCandidatesPlace) {
   const std::string simulated = school_.sit(ticket_, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("operator", "expert"); });
-  expect_refused(simulated, {"'expert'"});
+  expect_refused(simulated, Kind::no_hand, {"'expert'"});
   Ledger ledger = school_.ledger();
   ASSERT_TRUE(file_session(ledger, simulated, {.simulated = true}).seq);
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).simulated, "expert") << "it stays marked";
@@ -181,7 +188,7 @@ TEST_F(Attack, APseudonymWithoutItsTicket) {
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session, {.without_ticket = true});
   EXPECT_FALSE(f.seq);
-  expect_finding(f.findings, {});
+  expect_finding(f.findings, Kind::ticket_missing);
 }
 TEST_F(Attack, NamesExchangedAmongTheIdentities) {
   school_.ticket("4712");
@@ -198,42 +205,44 @@ TEST_F(Attack, AResultThatIsNone) {
     std::filesystem::remove(path);
     const Simulation simulation = make_simulation(setup, "test");
     Recorder::create(path, setup).close(save_tooth(drilled_tooth(simulation)), result);
-    expect_refused(path, {" 0"});
+    expect_refused(path, Kind::result_differs, {" 0"});
   }
 }
-TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), {}); }
+TEST_F(Attack, NoTicketAtAll) { expect_refused(school_.sit(""), Kind::ticket_missing); }
 
 TEST_F(Attack, EveryEditOfAFiledEntry) {
   ASSERT_TRUE(file(session_).seq);
   std::string text = read_ledger(school_.places()).entries.at(4).text;
   text.replace(text.find("\"findings\":[]"), 13, "\"findings\":[7]");
   const std::span<const std::uint8_t> bytes(reinterpret_cast<const std::uint8_t*>(text.data()), text.size());
-  expect_found({{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", " 4"},
-                {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4", " 4"},
-                {"DELETE FROM opening", " 4"},
-                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4", " 5"},
-                {"DELETE FROM entry WHERE seq = 4", ""},
-                {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", " 5"}},
+  expect_found({{"UPDATE opening SET text = replace(text, '\"verdict\":\"pass\"', '\"verdict\":\"fail\"')", Kind::part_changed, " 4"},
+                {"UPDATE entry SET text = replace(text, '\"findings\":[]', '\"findings\":[1]') WHERE seq = 4", Kind::entry_changed, " 4"},
+                {"DELETE FROM opening", Kind::part_missing, " 4"},
+                {"UPDATE entry SET text = CAST(" + blob(bytes) + " AS TEXT), leaf_sha256 = " + blob(leaf_hash(bytes)) + " WHERE seq = 4",
+                 Kind::tree_differs, " 5"},
+                {"DELETE FROM entry WHERE seq = 4", Kind::entry_missing},
+                {"DELETE FROM entry WHERE seq = 4; DELETE FROM note WHERE size = 5", Kind::older_copy, " 5"}},
                true);
 }
 TEST_F(Attack, EveryEditOfTheLedgersTables) {
-  expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", "000"},
-                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))", " 4"}},
+  expect_found({{"INSERT INTO opening VALUES ('" + std::string(64, '0') + "', '{\"salt\":\"\",\"value\":1}')", Kind::foreign, "000"},
+                {"INSERT INTO entry VALUES (4, '{\"body\":{\"results\":[2]},\"kind\":\"release\",\"seq\":4,\"utc_ns\":1}', zeroblob(32))",
+                 Kind::entry_changed, " 4"}},
                true);
   const std::string changed = "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq; ",
                     own = "CREATE TABLE notes (x); INSERT INTO notes VALUES (1); CREATE INDEX by_text ON entry (text)";
-  expect_found({{changed, "entry_stays"},
-                {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END", "entry_stays"},
-                {changed + "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry", "session"},
-                {own, "notes"},
-                {own, "by_text"}},
+  expect_found({{changed, Kind::schema_differs, "entry_stays"},
+                {changed + "CREATE TRIGGER entry_stays BEFORE UPDATE ON entry BEGIN SELECT 1; END", Kind::schema_differs, "entry_stays"},
+                {changed + "DROP VIEW session; CREATE VIEW session AS SELECT seq, 'pass' AS verdict FROM entry", Kind::schema_differs, "session"},
+                {own, Kind::schema_differs, "notes"},
+                {own, Kind::schema_differs, "by_text"}},
                false);
 }
 TEST_F(Attack, ALedgerPutBackToAnOlderCopy) {
   const Bytes old = read_file(school_.places().database());
   ASSERT_TRUE(file(session_).seq);
   write_file(school_.places().database(), old);
-  expect_ledger_finding({" 4 ", " 5"});
+  expect_ledger_finding(Kind::older_copy, {" 4 ", " 5"});
 }
 TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   const std::string witness = witness_path(read_ledger(school_.places()).id);
@@ -247,18 +256,18 @@ TEST_F(Attack, ALedgerPutBackAndGrownAgain) {
   school_.ticket("4713");
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "nothing on this computer remembers";
   const LedgerContent now = read_ledger(school_.places());
-  expect_findings(check_receipt(receipt, now.public_key, &now), 1);
+  expect_kinds(check_receipt(receipt, now.public_key, &now), {Kind::rewritten});
   write_file(witness, full_witness);
-  expect_ledger_finding({});
+  expect_ledger_finding(Kind::rewritten);
 }
 TEST_F(Attack, AFiledSessionChangedInItsFolder) {
   ASSERT_TRUE(file(session_).seq);
   const auto filed = read_registry(read_ledger(school_.places())).sessions.at(0);
   std::filesystem::copy_file(school_.sit(ticket_, "novice"), school_.places().session(filed.file_sha256),
                              std::filesystem::copy_options::overwrite_existing);
-  expect_finding(check_ledger(school_.places(), false).findings, {"4"});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::file_changed, {"4"});
   std::filesystem::remove(school_.places().session(filed.file_sha256));
-  expect_finding(check_ledger(school_.places(), false).findings, {"4"});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::file_gone, {"4"});
 }
 TEST_F(Attack, AReceiptThatWasImproved) {
   const Filing filed = file(session_);
@@ -270,13 +279,13 @@ TEST_F(Attack, AReceiptThatWasImproved) {
   EXPECT_EQ(entry.find("verdict"), std::string::npos) << "a receipt shows no marks";
   entry.replace(entry.find("\"findings\":[]"), 13, "\"findings\":[7]");
   better["entry"] = entry;
-  expect_findings(check_receipt(better, "", nullptr), 1);
+  expect_kinds(check_receipt(better, "", nullptr), {Kind::tree_differs});
   auto other = receipt;
   std::string note = other["checkpoint"];
   note.replace(note.find("\nutc_ns ") - 4, 3, "AAA");  // the root's end
   other["checkpoint"] = note;
-  expect_findings(check_receipt(other, "", nullptr), 2);
-  expect_findings(check_receipt(nlohmann::json::array(), "", nullptr), 1);
+  expect_kinds(check_receipt(other, "", nullptr), {Kind::signature_invalid, Kind::tree_differs});
+  expect_kinds(check_receipt(nlohmann::json::array(), "", nullptr), {Kind::malformed});
 }
 TEST_F(Attack, ExportedResultsThatWereImproved) {
   ASSERT_TRUE(file(session_).seq);
@@ -285,14 +294,14 @@ TEST_F(Attack, ExportedResultsThatWereImproved) {
   const std::string& key = ledger.content().public_key;
   EXPECT_TRUE(check_results(text, key, &ledger.content()).empty());
   EXPECT_TRUE(check_results(text + "\n", "", nullptr).empty());
-  expect_findings(check_results(text, std::string(64, '0'), nullptr), 1);
+  expect_kinds(check_results(text, std::string(64, '0'), nullptr), {Kind::other_school});
   // a second list of results, which some programs read and others do not
   std::string twice = text;
   twice.insert(1, "\"results\":[],");
-  expect_findings(check_results(twice, key, nullptr), 1);
-  expect_findings(check_results("[]", key, nullptr), 1);
+  expect_kinds(check_results(twice, key, nullptr), {Kind::malformed});
+  expect_kinds(check_results("[]", key, nullptr), {Kind::malformed});
   text.replace(text.find("\"pass\""), 6, "\"fail\"");
-  expect_findings(check_results(text, key, &ledger.content()), 1);
+  expect_kinds(check_results(text, key, &ledger.content()), {Kind::signature_invalid});
 }
 /// A copy of a closed session as somebody makes it who wants a better end: without the end, and not closed.
 std::string cut_back(const School& school, const std::string& session, const std::string& name) {
@@ -319,15 +328,15 @@ TEST_F(Attack, AnExamCutBackAndEndedAgainAtAnotherStation) {
   setenv("CAVUM_HOME", home.c_str(), 1);
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_FALSE(told.holds);
-  expect_finding(told.findings, {"4000"});
-  expect_refused(cut, {"4000"});
+  expect_finding(told.findings, Kind::station_changed, {"4000"});
+  expect_refused(cut, Kind::station_changed, {"4000"});
 }
 TEST_F(Attack, AnExamTakenUpAgainWhereTheMemoryOfUsedTicketsIsGone) {
   const std::string cut = cut_back(school_, session_, "cut.cavum");
   std::filesystem::remove(used_tickets_path());
   close_again(cut);
-  expect_findings(explain_session(cut, "").findings, 1);
-  expect_refused(cut, {});
+  expect_kinds(explain_session(cut, "").findings, {Kind::station_changed});
+  expect_refused(cut, Kind::station_changed);
 }
 TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   // the same file, at a station that began it and did not close it: what a crash leaves. A memory that was put back to that looks alike.
@@ -338,12 +347,12 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   EXPECT_TRUE(open.interrupted);
   close_again(cut);
   const Filing f = file(cut);
-  EXPECT_TRUE(f.seq) << testing_basics::text_of(f.findings);
+  EXPECT_TRUE(f.seq) << testing_basics::text_of(words_of(f.findings));
   EXPECT_TRUE(f.findings.empty());
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_TRUE(told.holds);
   EXPECT_FALSE(told.interrupted);
-  expect_finding(told.remarks, {"4000"});
+  expect_told(told.remarks, {"4000"});
 }
 TEST_F(Attack, TwoEndingsOfOneExam) {
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");
@@ -354,7 +363,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   // whoever holds the other ending can show it
   const Filing other = file(session_);
   EXPECT_FALSE(other.seq);
-  expect_finding(other.findings, {"4", "4000"});
+  expect_finding(other.findings, Kind::ticket_used, {"4", "4000"});
   EXPECT_FALSE(read_registry(read_ledger(school_.places())).sessions.at(0).doubtful());
   Ledger ledger = school_.ledger();
   const Filing contest = file_session(ledger, session_, {.with_findings = true});
@@ -363,7 +372,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   ASSERT_EQ(registry.sessions.size(), 2u);
   EXPECT_EQ(registry.sessions[0].contested_by, std::vector<std::uint64_t>{*contest.seq});
   EXPECT_TRUE(registry.sessions[0].doubtful()) << "what was filed as sound goes to a person, too";
-  expect_finding(check_ledger(school_.places(), false).remarks, {"4", "5"});
+  expect_finding(check_ledger(school_.places(), false).remarks, Kind::contested, {"4", "5"});
 
   // a person chooses one, by its entry, and that one alone counts
   const std::string candidate = registry.sessions[0].candidate;
@@ -382,7 +391,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   // both at once is no choice
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{4, 5}}; });
   for (const auto& s : read_registry(ledger.content()).sessions) EXPECT_TRUE(s.shown->is_null() && s.doubtful()) << s.seq;
-  expect_finding(check_ledger(school_.places(), false).remarks, {"4", "5"});
+  expect_finding(check_ledger(school_.places(), false).remarks, Kind::release_void, {"4", "5"});
   EXPECT_EQ(release_results(ledger, {.with_findings = true, .sessions = {4}}).results, std::vector<std::uint64_t>{4});
   const auto again = thrown_by([&] { release_results(ledger, {.with_findings = true, .sessions = {5}}); });
   EXPECT_EQ(code_of(again), LedgerError::contested);
@@ -392,7 +401,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
   ledger.append([](const LedgerContent&) { return ReleaseEntry{{5}}; });
   const Registry chosen = read_registry(ledger.content());
   EXPECT_TRUE(chosen.findings.empty());
-  expect_finding(check_ledger(school_.places(), false).remarks, {"5", "4"});
+  expect_finding(check_ledger(school_.places(), false).remarks, Kind::release_void, {"5", "4"});
   EXPECT_FALSE(chosen.sessions[0].doubtful()) << "it counts in a class's figures";
   EXPECT_TRUE(chosen.sessions[1].doubtful());
   EXPECT_TRUE(chosen.sessions[1].shown->is_null());
@@ -439,15 +448,14 @@ TEST_F(Attack, ABeginningThatIsSaidToBeAnotherStations) {
   }
   test::tamper(cut, sql);
   const auto findings = check_chain(SessionReader(cut));
-  ASSERT_EQ(findings.size(), 1u);
-  expect_finding(findings, {});
+  EXPECT_EQ(findings.size(), 1u);
 }
 TEST_F(Attack, AnAppealFilesWhatDoesNotHoldAndNeverReleasesItUnseen) {
   test::tamper(session_, "UPDATE chunk SET utc_ns = utc_ns - 60000000000 WHERE seq = 2");
   Ledger ledger = school_.ledger();
   const Filing f = file_session(ledger, session_, {.with_findings = true});
   ASSERT_TRUE(f.seq);
-  expect_finding(f.findings, {" 2"});
+  expect_finding(f.findings, Kind::recording_unsound, {" 2"});
   EXPECT_EQ(read_registry(ledger.content()).sessions.at(0).findings, f.findings);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }

@@ -43,7 +43,7 @@ class BackedUp : public testing::Test {
   json file_later() const {
     Ledger ledger = school_.ledger();
     const auto filed = file_session(ledger, school_.file(*shared_later_));
-    EXPECT_TRUE(filed.seq) << testing_basics::text_of(filed.findings);
+    EXPECT_TRUE(filed.seq) << testing_basics::text_of(words_of(filed.findings));
     return ledger.receipt(*filed.seq);
   }
   std::string later() const { return school_.file(*shared_later_); }
@@ -115,7 +115,7 @@ TEST_F(BackedUp, WhileThreeProgramsAddToIt) {
     [&] {
       const Backup b = back_up();
       const LedgerContent copy = read_ledger({backup()}, AskWitness::no);
-      ASSERT_TRUE(copy.findings.empty()) << copy.findings[0];
+      ASSERT_TRUE(copy.findings.empty()) << copy.findings[0].what;
       ASSERT_EQ(copy.entries.size(), b.checkpoint.size);
       grown += copies.empty() || copies.back().size < b.checkpoint.size ? 1 : 0;
       copies.push_back(b.checkpoint);
@@ -173,7 +173,7 @@ TEST_F(BackedUp, ASessionThatIsGoneIsNamed) {
   restore(backup(), restored().folder, plan, "", School::key());
   const LedgerContent c = read_ledger(restored());
   EXPECT_EQ(c.entries.back().as<RestoreEntry>()->missing_sessions, std::vector<std::string>{filed.file_sha256});
-  expect_findings(check_ledger(restored(), false).findings, 1);
+  expect_kinds(check_ledger(restored(), false).findings, {Kind::file_gone});
 }
 
 TEST_F(BackedUp, NothingIsLostWhenNothingWasAdded) {
@@ -183,8 +183,8 @@ TEST_F(BackedUp, NothingIsLostWhenNothingWasAdded) {
   EXPECT_TRUE(plan.findings.empty() && plan.lost_entries.empty() && plan.missing_sessions.empty());
   restore(backup(), restored().folder, plan, "", School::key());
   const auto check = check_ledger(restored(), true);
-  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
-  expect_finding(check.remarks, {"6", "6"});
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0].what;
+  expect_finding(check.remarks, Kind::restored, {"6", "6"});
   Ledger ledger(restored().folder, School::key());
   EXPECT_TRUE(file_session(ledger, later()).seq) << "it goes on";
 }
@@ -201,14 +201,14 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   ASSERT_TRUE(plan.findings.empty());
   ASSERT_TRUE(plan.last_seen);
   EXPECT_EQ(plan.last_seen->checkpoint.size, 10u) << "the witness has seen more than the receipt";
-  expect_finding(plan.lost_entries, {"6", "9"});
-  expect_finding(plan.lost_entries, {"7", read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
+  expect_told(plan.lost_entries, {"6", "9"});
+  expect_told(plan.lost_entries, {"7", read_registry(read_ledger(school_.places())).sessions.at(1).candidate, "r.json"});
   EXPECT_THROW(restore(backup(), restored().folder, plan, "", School::key()), Error) << "a person accepts the loss";
   EXPECT_FALSE(fs::exists(restored().folder));
 
   restore(backup(), restored().folder, plan, "the disk died", School::key());
   const LedgerContent c = read_ledger(restored());
-  ASSERT_TRUE(c.findings.empty()) << c.findings[0];
+  ASSERT_TRUE(c.findings.empty()) << c.findings[0].what;
   const LedgerEntry& e = c.entries.at(6);
   const auto* said = e.as<RestoreEntry>();
   ASSERT_NE(said, nullptr);
@@ -217,18 +217,18 @@ TEST_F(BackedUp, AnOlderOneSaysWhatIsMissingAndGoesOn) {
   EXPECT_EQ(said->lost[3].root, lost.root);
   EXPECT_EQ(said->backup.size, 6u);
   EXPECT_TRUE(read_registry(c).findings.empty());
-  expect_finding(check_ledger(restored(), false).remarks, {"4", "the disk died"});
+  expect_finding(check_ledger(restored(), false).remarks, Kind::restored, {"4", "the disk died"});
 
   // the lost session's receipt is heard until the session is filed again
-  expect_finding(check_receipt(receipt, c.public_key, &c), {"6"});
+  expect_finding(check_receipt(receipt, c.public_key, &c), Kind::restored, {"6"});
   Ledger ledger(restored().folder, School::key());
   ASSERT_TRUE(file_session(ledger, later()).seq);
   EXPECT_TRUE(check_receipt(receipt, c.public_key, &ledger.content()).empty());
   // the witness remembers both, and the ledger that was left is no longer added to
-  std::vector<Message> findings;
+  Findings findings;
   EXPECT_EQ(read_witness(c.id, findings).size(), 12u) << "ten of before, the restore and what was added since";
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
-  expect_findings(check_ledger(school_.places(), false).findings, 1);
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::rewritten});
   EXPECT_THROW(school_.ledger(), Error);
 }
 
@@ -267,7 +267,7 @@ TEST_F(BackedUp, OfAnotherHistoryIsNotRestored) {
   write_file(school_.places().database(), old);
   add(2);
   const RestorePlan plan = plan_restore(backup(), {}, {});
-  expect_findings(plan.findings, 1);
+  expect_kinds(plan.findings, {Kind::rewritten});
   EXPECT_THROW(restore(backup(), restored().folder, plan, "r", School::key()), Error);
   EXPECT_FALSE(fs::exists(restored().folder));
 }
@@ -295,7 +295,7 @@ TEST_F(BackedUp, OneWhoseLastEntriesWereCutOffIsNotTheOneThatWasTaken) {
       "DROP TRIGGER entry_is_kept; DROP TRIGGER note_is_kept; DELETE FROM entry WHERE seq = (SELECT max(seq) FROM entry); DELETE FROM note WHERE "
       "size = (SELECT max(size) FROM note); CREATE TRIGGER entry_is_kept BEFORE DELETE ON entry BEGIN SELECT RAISE(ABORT, 'the ledger is append "
       "only'); END; CREATE TRIGGER note_is_kept BEFORE DELETE ON note BEGIN SELECT RAISE(ABORT, 'the ledger is append only'); END;");
-  expect_findings(plan_restore(backup(), {}, {}).findings, 1);
+  expect_kinds(plan_restore(backup(), {}, {}).findings, {Kind::tree_differs});
 }
 
 TEST_F(BackedUp, ASecondOneCutOffBeforeItSaysWhatItHoldsIsStillABackup) {
@@ -305,7 +305,7 @@ TEST_F(BackedUp, ASecondOneCutOffBeforeItSaysWhatItHoldsIsStillABackup) {
   const Backup second = back_up();
   write_text_file(backup() + "/checkpoint", said);
   const RestorePlan plan = plan_restore(backup(), {}, {});
-  EXPECT_TRUE(plan.findings.empty()) << plan.findings[0];
+  EXPECT_TRUE(plan.findings.empty()) << plan.findings[0].what;
   EXPECT_EQ(plan.content.entries.size(), second.checkpoint.size);
   restore(backup(), restored().folder, plan, "", School::key());
   EXPECT_TRUE(check_ledger(restored(), false).findings.empty());
@@ -333,9 +333,9 @@ TEST_F(BackedUp, ACosignerRefusesARestoredLedgerUntilAPersonMovesWhatItRemembers
   ASSERT_TRUE(cosign(cosigner, cosign_request(read_ledger(school_.places()), 0), "request", 1).findings.empty());
   restore(backup(), restored().folder, plan_restore(backup(), {}, {}), "the disk died", School::key());
   Ledger ledger(restored().folder, School::key());
-  expect_findings(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings, 1);
+  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 7), "request", 1).findings, {Kind::older_copy});
   for (int i = 0; i < 3; ++i) ledger.append([](const LedgerContent&) { return ForgetEntry{"C-a", {}}; });
-  expect_findings(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings, 1);
+  expect_kinds(cosign(cosigner, cosign_request(ledger.content(), 8), "request", 1).findings, {Kind::rewritten});
   fs::rename(school_.file("memory/" + id), school_.file("kept"));
   EXPECT_TRUE(cosign(cosigner, cosign_request(ledger.content(), 0), "request", 1).findings.empty());
   const auto check =

@@ -79,14 +79,14 @@ TEST_F(Cosigning, ACheckpointIsANoteOfFourLines) {
 
 TEST_F(Cosigning, GoesOnFromWhatWasSignedBefore) {
   const Cosigned first = sign(cosign_request(content(), 0), school_key());
-  ASSERT_TRUE(first.findings.empty()) << first.findings[0];
+  ASSERT_TRUE(first.findings.empty()) << first.findings[0].what;
   EXPECT_EQ(first.size, 1u);
   std::uint64_t before = 1;
   for (const int more : {1, 2, 5, 0, 9}) {
     add(more);
     const Cosigned next = sign(cosign_request(content(), before));
     before = next.size;
-    ASSERT_TRUE(next.findings.empty()) << next.findings[0];
+    ASSERT_TRUE(next.findings.empty()) << next.findings[0].what;
     EXPECT_EQ(next.size, content().entries.size());
     const CosignedNoteCheck check = check_cosigned(next.note, known(), content());
     EXPECT_TRUE(check.findings.empty() && check.not_checked.empty());
@@ -105,11 +105,11 @@ TEST_F(Cosigning, AForkIsRefused) {
   add(4);  // another history, which the school's own key has signed, and which its witness knows nothing against
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   const std::string request = cosign_request(content(), 6);
-  expect_findings(sign(request).findings, 1);
+  expect_kinds(sign(request).findings, {Kind::rewritten});
   // nor with a proof that is left out, or is somebody's own
   std::string bare = request;
   bare.erase(bare.find('\n') + 1, bare.find("\n\n") - bare.find('\n'));
-  expect_findings(sign(bare).findings, 1);
+  expect_kinds(sign(bare).findings, {Kind::rewritten});
   EXPECT_EQ(read_text_file(school_.file("memory/" + content().id)), memory) << "what was refused is not remembered";
 }
 
@@ -119,7 +119,7 @@ TEST_F(Cosigning, AnotherRootOfTheSameSizeIsRefused) {
   ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
   put_back(old);
   add(2);
-  expect_findings(sign(cosign_request(content(), 3)).findings, 1);
+  expect_kinds(sign(cosign_request(content(), 3)).findings, {Kind::rewritten});
 }
 
 TEST_F(Cosigning, ASmallerOneIsRefused) {
@@ -128,16 +128,16 @@ TEST_F(Cosigning, ASmallerOneIsRefused) {
   const std::string request = cosign_request(content(), 0);
   add(1);
   ASSERT_TRUE(sign(cosign_request(content(), 0), school_key()).findings.empty());
-  expect_finding(sign(request).findings, {"3", "4"});
+  expect_finding(sign(request).findings, Kind::older_copy, {"3", "4"});
   put_back(old);
-  expect_finding(sign(cosign_request(content(), 3)).findings, {"3", "4"});
+  expect_finding(sign(cosign_request(content(), 3)).findings, Kind::older_copy, {"3", "4"});
 }
 
 TEST_F(Cosigning, TrustsNoKeyThatTheFileItselfNames) {
   const std::string request = cosign_request(content(), 0);
   const auto why = [&](const std::string& text, const std::string& key = "") { return code_of([&] { static_cast<void>(sign(text, key)); }); };
   EXPECT_EQ(why(request), LedgerError::unknown);
-  expect_findings(sign(request, std::string(64, 'a')).findings, 1);  // not signed by that key
+  expect_kinds(sign(request, std::string(64, 'a')).findings, {Kind::signature_invalid});  // not signed by that key
   ASSERT_TRUE(sign(request, school_key()).findings.empty());
   EXPECT_EQ(why(request, std::string(64, 'a')), LedgerError::another_key) << "than that by which it was cosigned before";
   EXPECT_EQ(why(request), LedgerError::another_state) << "the proof has to begin where this cosigner stopped";
@@ -160,7 +160,7 @@ TEST_F(Cosigning, AMemoryThatWasPutBackIsNotNoticed) {
   ASSERT_TRUE(sign(cosign_request(content(), 1)).findings.empty());
   put_back(old);
   add(3);
-  expect_findings(sign(cosign_request(content(), 3)).findings, 1);
+  expect_kinds(sign(cosign_request(content(), 3)).findings, {Kind::rewritten});
   write_text_file(path, memory);
   EXPECT_TRUE(sign(cosign_request(content(), 1)).findings.empty()) << "its own backups are the cosigner's affair";
 }
@@ -229,34 +229,34 @@ TEST_F(Cosigning, ALedgerPutBackWithItsWitnessIsFoundByACosignedNoteOrAReceiptAn
   const json receipt = make_receipt(content(), 2);
   put_back(old);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty()) << "the cosignature in the ledger went with it";
-  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, {"2", "3"});
+  expect_finding(check_cosigned(cosigned.note, known(), content()).findings, Kind::older_copy, {"2", "3"});
   LedgerContent now = content();
-  expect_finding(check_receipt(receipt, school_key(), &now), {"2", "3"});
+  expect_finding(check_receipt(receipt, school_key(), &now), Kind::older_copy, {"2", "3"});
   add(3);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  expect_findings(check_cosigned(cosigned.note, known(), content()).findings, 1);
+  expect_kinds(check_cosigned(cosigned.note, known(), content()).findings, {Kind::rewritten});
   now = content();
-  expect_findings(check_receipt(receipt, school_key(), &now), 1);
+  expect_kinds(check_receipt(receipt, school_key(), &now), {Kind::rewritten});
   std::filesystem::remove(witness_path(now.id));
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
-  expect_findings(check_ledger(school_.places(), false).not_checked, 1);  // there is no witness
+  expect_kinds(check_ledger(school_.places(), false).not_checked, {Kind::older_copy});  // there is no witness
 }
 
 TEST_F(Cosigning, ANoteThatNobodyKnownCosignedIsNotTakenForOne) {
   const Cosigned cosigned = sign(cosign_request(content(), 0), school_key());
   const auto unknown = check_cosigned(cosigned.note, {}, content());
   EXPECT_TRUE(unknown.findings.empty() && unknown.cosignatures.empty());
-  EXPECT_EQ(unknown.not_checked.size(), 1u);
+  expect_kinds(unknown.not_checked, {Kind::cosignature_unknown});
   SignedNote changed = parse_note(cosigned.note, "note");
   changed.signatures.at(1).signature[20] ^= 1;
-  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, {"cosigner.example/one"});
+  expect_finding(check_cosigned(write_note(changed), known(), content()).findings, Kind::cosignature_invalid, {"cosigner.example/one"});
   changed = parse_note(cosigned.note, "note");
   changed.signatures.erase(changed.signatures.begin());
-  expect_findings(check_cosigned(write_note(changed), known(), content()).findings, 1);
+  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings, {Kind::signature_invalid});
   changed = parse_note(cosigned.note, "note");
   changed.signatures.at(0).signature[20] ^= 1;
-  expect_findings(check_cosigned(write_note(changed), known(), content()).findings, 1);
-  expect_findings(check_cosigned("no note", known(), content()).findings, 1);
+  expect_kinds(check_cosigned(write_note(changed), known(), content()).findings, {Kind::signature_invalid});
+  expect_kinds(check_cosigned("no note", known(), content()).findings, {Kind::malformed});
 }
 
 TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
@@ -269,19 +269,19 @@ TEST_F(Cosigning, WhatIsKeptStandsInReceiptsAndIsChecked) {
   }
   const std::string note = make_receipt(content(), 0).at("checkpoint");
   EXPECT_EQ(check_note(parse_note(note, "receipt"), known()[0]), NoteVerdict::holds);
-  std::vector<Message> findings, not_checked;
+  Findings findings, not_checked;
   check_cosignatures(content(), known(), findings, not_checked);
   EXPECT_TRUE(findings.empty() && not_checked.empty());
   check_cosignatures(content(), {}, findings, not_checked);
-  EXPECT_EQ(not_checked.size(), 1u);
+  expect_kinds(not_checked, {Kind::cosignature_unknown});
   NoteSignature other = check.cosignatures[0];
   other.signature[30] ^= 1;
   Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(1, {{other}});
   check_cosignatures(content(), known(), findings, not_checked);
-  expect_finding(findings, {"cosigner.example/one"});
+  expect_finding(findings, Kind::cosignature_invalid, {"cosigner.example/one"});
   Ledger(school_.ledger_folder(), School::key()).keep_cosignatures(7, check.cosignatures);
   check_cosignatures(content(), known(), findings, not_checked);
-  expect_finding(findings, {"7"});
+  expect_finding(findings, Kind::cosignature_invalid, {"7"});
 }
 
 TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
@@ -292,10 +292,10 @@ TEST_F(Cosigning, AnEarlierBeginningIsProvedAndNoOther) {
     EXPECT_TRUE(check_receipt(r, school_key(), nullptr).empty()) << from;
     json other = r;
     other["consistency"]["from"] = make_receipt(c, 4, from == 7 ? 6 : from + 1)["consistency"]["from"];
-    expect_findings(check_receipt(other, school_key(), nullptr), 1);
+    expect_kinds(check_receipt(other, school_key(), nullptr), {Kind::tree_differs});
     other = r;
     other["consistency"]["proof"].push_back(std::string(64, '0'));
-    expect_findings(check_receipt(other, school_key(), nullptr), 1);
+    expect_kinds(check_receipt(other, school_key(), nullptr), {Kind::tree_differs});
   }
   EXPECT_THROW(static_cast<void>(make_receipt(c, 4, 8)), std::out_of_range);
 }
@@ -306,12 +306,12 @@ TEST_F(Cosigning, TheWitnessRemembersWhatWasSigned) {
   const std::string sound = read_text_file(path);
   // a line of somebody else's making accuses nobody
   write_text_file(path, sound + "9 " + std::string(64, '1') + " 1 " + to_base64(Bytes(64, 7)) + "\n");
-  expect_finding(content().findings, {"9", path});
+  expect_finding(content().findings, Kind::witness_changed, {"9", path});
   // a line that a power cut left short, and what was told after it
   write_text_file(path, sound.substr(0, sound.size() - 40));
   EXPECT_TRUE(content().findings.empty());
   add(1);
-  std::vector<Message> findings;
+  Findings findings;
   const auto seen = read_witness(content().id, findings);
   ASSERT_EQ(seen.size(), 3u);
   EXPECT_EQ(seen.back().size, 4u);

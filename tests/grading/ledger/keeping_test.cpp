@@ -39,7 +39,7 @@ class Kept : public testing::Test {
         shared_->sit(ticket, "expert", [](scenarios::ExamOptions& o) { o.notes.emplace_back("accommodation.extra_time_percent", "37"); });
     Ledger ledger = shared_->ledger();
     const Filing filing = file_session(ledger, path);
-    for (const auto& f : filing.findings) ADD_FAILURE() << f;
+    for (const auto& f : filing.findings) ADD_FAILURE() << f.what;
     session_ = filing.seq.value_or(0);
     std::filesystem::remove(path);
   }
@@ -50,9 +50,9 @@ class Kept : public testing::Test {
   /// Everything that proves: entries, tree, signatures, witness, a receipt from before.
   void expect_proofs_hold(const json& receipt) {
     const LedgerCheck check = check_ledger(school_.places(), true);
-    for (const auto& f : check.findings) ADD_FAILURE() << f;
+    for (const auto& f : check.findings) ADD_FAILURE() << f.what;
     const LedgerContent now = content();
-    for (const auto& f : check_receipt(receipt, now.public_key, &now)) ADD_FAILURE() << f;
+    for (const auto& f : check_receipt(receipt, now.public_key, &now)) ADD_FAILURE() << f.what;
   }
 
   static inline School* shared_ = nullptr;
@@ -82,13 +82,13 @@ TEST_F(Kept, WhoIsForgottenAndComesBackWithAnOldFileIsNamedAndRemoved) {
   write_file(names, old);
   LedgerCheck check = check_ledger(school_.places(), false);
   check_owner(check, school_.places(), content(), school_key_path(), school_public_key_path());
-  expect_finding(check.findings, {candidate});
+  expect_finding(check.findings, Kind::erased_still_there, {candidate});
   Identities back(names);
   EXPECT_EQ(remove_forgotten(content(), back), 1u);
   EXPECT_FALSE(back.of_pseudonym(candidate));
   LedgerCheck again = check_ledger(school_.places(), false);
   check_owner(again, school_.places(), content(), school_key_path(), school_public_key_path());
-  EXPECT_TRUE(again.findings.empty()) << again.findings[0];
+  EXPECT_TRUE(again.findings.empty()) << again.findings[0].what;
 }
 
 TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
@@ -100,7 +100,7 @@ TEST_F(Kept, WhoIsTakenOutOfTheIdentitiesWithoutAnEntryIsNamed) {
   };
   EXPECT_TRUE(findings().empty());
   Identities(names).forget(candidate);
-  expect_finding(findings(), {candidate});
+  expect_finding(findings(), Kind::identity_missing, {candidate});
   EXPECT_EQ(findings().size(), 1u) << "once, however many tickets";
   Ledger ledger = school_.ledger();
   forget(ledger, {candidate}, {});
@@ -127,7 +127,7 @@ TEST_F(Kept, ForgettingCancelsTicketsThatWereNotUsed) {
   EXPECT_TRUE(tickets.back().cancelled_by);
   const Filing filing = file_session(ledger, sat);
   EXPECT_FALSE(filing.seq);
-  expect_findings(filing.findings, 1);
+  expect_kinds(filing.findings, {Kind::ticket_cancelled});
 }
 
 TEST_F(Kept, AnErasedResultIsNotReleased) {
@@ -151,7 +151,7 @@ TEST_F(Kept, ErasedMotionIsGoneAndEveryProofHolds) {
   EXPECT_EQ(erase(ledger, {.sessions = {session_}, .motion = true}, "five years are over").size(), 1u);
   EXPECT_FALSE(std::filesystem::exists(path));
   expect_proofs_hold(receipt);
-  expect_finding(check_ledger(school_.places(), true).not_checked, {"1"});
+  expect_finding(check_ledger(school_.places(), true).not_checked, Kind::not_simulated, {"1"});
   const FiledSession s = read_registry(content()).sessions.at(0);
   EXPECT_EQ(s.motion_erased_by, content().entries.size() - 1);
   EXPECT_TRUE(s.result->is_object()) << "the result is kept";
@@ -183,9 +183,9 @@ TEST_F(Kept, AnErasedResultIsNowhereAndEveryProofHolds) {
 TEST_F(Kept, WhatIsTakenOutWithoutAnEntryIsFound) {
   const std::string path = recording();
   test::tamper(school_.places().database(), "DELETE FROM opening");
-  expect_findings(check_ledger(school_.places(), false).findings, 1);
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_missing});
   std::filesystem::remove(path);
-  expect_findings(check_ledger(school_.places(), false).findings, 2);
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_missing, Kind::file_gone});
 }
 
 TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
@@ -202,11 +202,11 @@ TEST_F(Kept, WhatWasErasedAndComesBackIsFound) {
     static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true, .results = true}, "asked for"));
   }
   write_file(path, image);
-  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(session_)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there, {std::to_string(session_)});
   EXPECT_EQ(remove_erased_recordings(content(), school_.places()), 1u) << "as after a crash between entry and removal";
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
   test::tamper(school_.places().database(), opening);
-  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(session_)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::erased_still_there, {std::to_string(session_)});
 }
 
 TEST_F(Kept, AReaderThatKeepsTheLogInUseIsNamedAndTheLogIsWipedLater) {
@@ -274,7 +274,7 @@ TEST_F(Kept, AnEntryErasesOnlyWhatIsThereBeforeIt) {
   EXPECT_THROW(static_cast<void>(erase(ledger, {.sessions = {session_}, .motion = true}, "")), Error) << "no reason";
   EXPECT_TRUE(std::filesystem::exists(recording()));
   EXPECT_THROW(ledger.append([](const LedgerContent& now) { return EraseEntry{{{now.entries.size() + 3, Part::motion}}}; }, "forged"), Error);
-  expect_findings(content().findings, 1);
+  expect_kinds(content().findings, {Kind::entry_contradicts});
 }
 
 TEST(Pseudonyms, AreDrawnForEachExamAndBoundToTheirRow) {

@@ -39,11 +39,11 @@ TEST(Ledger, EveryReceiptHoldsForEveryLaterLedger) {
     receipts.push_back(ledger.receipt(seq));
   }
   const LedgerContent content = read_ledger(school.places());
-  ASSERT_TRUE(content.findings.empty()) << content.findings[0];
+  ASSERT_TRUE(content.findings.empty()) << content.findings[0].what;
   EXPECT_EQ(content.entries.size(), 20u + k_first_entries);
   for (const auto& r : receipts) {
     const auto findings = check_receipt(r, content.public_key, &content);
-    EXPECT_TRUE(findings.empty()) << findings[0];
+    EXPECT_TRUE(findings.empty()) << findings[0].what;
   }
   EXPECT_FALSE(check_receipt(receipts[3], std::string(64, '0'), nullptr).empty()) << "another school's key";
 }
@@ -357,7 +357,7 @@ TEST_F(Released, ARegradeStandsBesideTheOldResultAndWaitsForItsRelease) {
   ledger.append([&](const LedgerContent&) { return ReleaseEntry{{registry.sessions.at(0).result_seq}}; });
   EXPECT_TRUE(read_registry(ledger.content()).sessions.at(0).released);
   ledger.append([&](const LedgerContent&) { return ReleaseEntry{{99}}; });
-  EXPECT_EQ(check_ledger(school_.places(), false).findings.size(), 1u) << "it releases a result that does not count";
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::entry_contradicts});  // it releases a result that does not count
 }
 
 /// What is said of `check` of a school's ledger, with what is at hand.
@@ -375,22 +375,21 @@ TEST(CheckLedger, SaysWhatItCouldNotCheckAndChecksTheRest) {
   const std::string identities = school.places().identities(), key = school_key_path(), known = school_public_key_path();
   std::filesystem::rename(identities, identities + ".away");
   LedgerCheck check = check_all(school);
-  EXPECT_TRUE(check.findings.empty()) << check.findings[0];
-  ASSERT_EQ(check.not_checked.size(), 1u);
-  EXPECT_TRUE(tells(check.not_checked, identities));
+  EXPECT_TRUE(check.findings.empty()) << check.findings[0].what;
+  expect_finding(check.not_checked, Kind::identities_changed, {identities});
   test::tamper(school.places().database(), "DROP TRIGGER entry_stays; UPDATE entry SET seq = seq");
-  expect_finding(check_all(school).findings, {"entry_stays"});  // the rest is checked all the same
+  expect_finding(check_all(school).findings, Kind::schema_differs, {"entry_stays"});  // the rest is checked all the same
   write_text_file(identities, "no database");
-  expect_finding(check_all(school).findings, {"identities.db"});
+  expect_finding(check_all(school).findings, Kind::file_unreadable, {"identities.db"});
   std::filesystem::remove(identities);
   std::filesystem::rename(identities + ".away", identities);
 
   std::filesystem::rename(key, key + ".away");
-  EXPECT_EQ(check_all(school).not_checked.size(), 1u) << "the key that made the pseudonyms; whose the ledger is, school.pub says";
+  expect_kinds(check_all(school).not_checked, {Kind::identities_changed});  // whose the ledger is, school.pub says
   std::filesystem::remove(known);
-  EXPECT_EQ(check_all(school).not_checked.size(), 2u) << "and whether the ledger is this school's";
+  expect_kinds(check_all(school).not_checked, {Kind::other_school, Kind::identities_changed});
   std::filesystem::remove_all(std::filesystem::path(witness_path(read_ledger(school.places()).id)).parent_path());
-  EXPECT_EQ(check_all(school).not_checked.size(), 3u) << "and there is no witness";
+  expect_kinds(check_all(school).not_checked, {Kind::older_copy, Kind::other_school, Kind::identities_changed});
 }
 
 TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
@@ -403,10 +402,11 @@ TEST(CheckLedger, ATableThatWasTakenOutIsNamedAndTheRestIsChecked) {
       db.run(("DROP TABLE " + table).c_str());
     }
     const LedgerCheck check = check_all(school);
-    expect_finding(check.findings, {"table " + table});
-    EXPECT_EQ(text_of(check.findings).find("no such table"), std::string::npos) << "in the database's own words";
+    expect_finding(check.findings, Kind::schema_differs, {"table " + table});
+    EXPECT_EQ(text_of(words_of(check.findings)).find("no such table"), std::string::npos) << "in the database's own words";
     EXPECT_EQ(read_ledger(school.places()).entries.size(), table == "entry" ? 0u : k_first_entries + 1) << table;
-    EXPECT_EQ(text_of(check.remarks).find("stray") != std::string::npos, table != "entry") << "without entries nothing is said of the files";
+    EXPECT_EQ(text_of(words_of(check.remarks)).find("stray") != std::string::npos, table != "entry")
+        << "without entries nothing is said of the files";
     const auto adding = thrown_by([&] { static_cast<void>(school.ledger()); }),
                telling = thrown_by([&] { static_cast<void>(Ledger(school.ledger_folder(), School::key(), LedgerUse::tell)); });
     for (const auto& refused : {adding, telling}) {
@@ -424,8 +424,8 @@ TEST(CheckLedger, AColumnThatWasRenamedIsToldAsATableThatWasAltered) {
     db.run("ALTER TABLE document RENAME COLUMN bytes TO b");
   }
   const LedgerCheck check = check_all(school);
-  expect_findings(check.findings, 1);
-  expect_finding(check.findings, {"table document"});
+  expect_kinds(check.findings, {Kind::schema_differs});
+  expect_finding(check.findings, Kind::schema_differs, {"table document"});
   EXPECT_EQ(code_of([&] { static_cast<void>(school.ledger()); }), LedgerError::damaged);
 }
 
@@ -434,7 +434,7 @@ TEST(CheckLedger, WithoutItsFirstEntryNothingIsSaidOfWitnessAndKey) {
   test::tamper(school.places().database(), "DROP TRIGGER entry_is_kept; DELETE FROM entry");
   const LedgerCheck check = check_all(school);
   EXPECT_FALSE(check.findings.empty());
-  EXPECT_EQ(check.not_checked.size(), 2u) << "the ledger's id and key could not be read: " << text_of(check.not_checked);
+  expect_kinds(check.not_checked, {Kind::older_copy, Kind::other_school});
 }
 
 TEST(Ledger, ThatIsGoneOrEmptyIsRestoredAndNotBegunAnew) {
@@ -454,17 +454,17 @@ TEST(Ledger, ThatIsGoneOrEmptyIsRestoredAndNotBegunAnew) {
 TEST(CheckLedger, ASchoolsPublicKeyThatIsAnothersIsAFinding) {
   const School school;
   write_text_file(school_public_key_path(), std::string(64, 'a') + "\n");
-  expect_finding(check_all(school).findings, {"school.pub", std::string(64, 'a')});
+  expect_finding(check_all(school).findings, Kind::other_school, {"school.pub", std::string(64, 'a')});
   write_text_file(school_public_key_path(), "not a key\n");
   std::filesystem::remove(school_key_path());
-  expect_finding(check_all(school).findings, {"school.pub", "64"});
+  expect_finding(check_all(school).findings, Kind::key_unreadable, {"school.pub", "64"});
 }
 
 TEST(Receipt, ThatIsNoneIsAFinding) {
   for (const json& none : {json::parse("not json", nullptr, false), json("text"), json::array(), json::object(), json{{"ledger", 7}}}) {
     const auto findings = check_receipt(none, "", nullptr);
-    ASSERT_EQ(findings.size(), 1u);
-    EXPECT_EQ(english_text(findings[0]).find("json.exception"), std::string::npos) << findings[0];
+    expect_kinds(findings, {Kind::malformed});
+    EXPECT_EQ(english_text(findings.at(0).what).find("json.exception"), std::string::npos) << findings[0].what;
   }
 }
 

@@ -20,10 +20,10 @@ class Promised : public testing::Test {
     Ledger ledger = school_.ledger();
     return file_session(ledger, path);
   }
-  void expect_refused(const std::string& path, const std::vector<std::string>& words) {
+  void expect_refused(const std::string& path, Kind kind) {
     const Filing f = file(path);
     EXPECT_FALSE(f.seq);
-    expect_finding(f.findings, words);
+    expect_finding(f.findings, kind);
   }
   std::string let_begin(const std::string& ticket, const std::string& again = "") {
     Ledger ledger = school_.ledger();
@@ -65,7 +65,7 @@ TEST_F(Promised, ACancelledTicketIsNotLiveAndItsExamIsAFinding) {
   EXPECT_EQ(read_registry(ledger.content()).live_ticket(parse_ticket(ticket, "", "t").candidate, parse_ticket(ticket, "", "t").exam, 0), nullptr);
   EXPECT_THROW(cancel_ticket(ledger, seq, "again"), Error);
   EXPECT_THROW(cancel_ticket(ledger, 0, "no ticket"), Error);
-  expect_refused(path, {});
+  expect_refused(path, Kind::ticket_cancelled);
   EXPECT_TRUE(check_ledger(school_.places(), false).findings.empty());
 }
 
@@ -89,14 +89,14 @@ TEST_F(Promised, WhoHasSatAnExamGetsNoOtherTicketForItUnlessAPersonSaysSo) {
 TEST_F(Promised, AnExamThatTheLedgerLetBeginIsFiled) {
   const std::string ticket = school_.ticket("4711", [](Ticket& t) { t.begun_at_ledger = true; });
   const Filing f = file(sit(ticket, let_begin(ticket)));
-  for (const auto& finding : f.findings) ADD_FAILURE() << finding;
+  for (const auto& finding : f.findings) ADD_FAILURE() << finding.what;
   EXPECT_TRUE(f.seq);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
 }
 
 TEST_F(Promised, WithoutTheWordThatItsTicketAsksForItIsAFinding) {
   const std::string ticket = school_.ticket("4711", [](Ticket& t) { t.begun_at_ledger = true; });
-  expect_refused(sit(ticket, ""), {});
+  expect_refused(sit(ticket, ""), Kind::begin_missing);
 }
 
 TEST_F(Promised, AnExamBegunAtTwoStationsCountsWithTheLastWordAlone) {
@@ -104,8 +104,8 @@ TEST_F(Promised, AnExamBegunAtTwoStationsCountsWithTheLastWordAlone) {
   const std::string first = sit(ticket, let_begin(ticket));
   EXPECT_EQ(code_of([&] { static_cast<void>(let_begin(ticket)); }), LedgerError::twice);
   const std::string second = sit(ticket, let_begin(ticket, "the first station broke"));
-  expect_refused(first, {});
-  expect_refused(sit(ticket, ""), {});
+  expect_refused(first, Kind::begin_invalid);
+  expect_refused(sit(ticket, ""), Kind::begin_missing);
   EXPECT_TRUE(file(second).seq);
 }
 
@@ -139,15 +139,15 @@ TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
     const auto graded = grading::load_for_grading(SessionReader(dated), exam->tooth_now());
     exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
   }
-  expect_refused(dated, {});
+  expect_refused(dated, Kind::clock);
 }
 
 TEST_F(Promised, TheWordOfAnotherTicketOrLedgerIsNone) {
   const std::string mine = school_.ticket("4711"), other = school_.ticket("4712");
-  expect_refused(sit(mine, let_begin(other)), {});
+  expect_refused(sit(mine, let_begin(other)), Kind::begin_invalid);
   std::string changed = let_begin(mine);
   changed.replace(changed.find("\"utc_ns\":") + 9, 1, "2");
-  expect_refused(sit(mine, changed), {});
+  expect_refused(sit(mine, changed), Kind::begin_invalid);
 }
 
 TEST_F(Promised, TheLedgerLetsNothingBeginThatItDidNotPromiseNow) {

@@ -55,7 +55,7 @@ TEST_F(KeptRegrade, IsFoundAgainByteForByteAndKeptOnce) {
   enter_regrade(ledger, session_, better(), basis_, "the limit was misprinted");
   enter_regrade(ledger, session_, sealed_, basis_, "and again");
   const LedgerContent content = read_ledger(school_.places());
-  EXPECT_TRUE(content.findings.empty()) << content.findings[0];
+  EXPECT_TRUE(content.findings.empty()) << content.findings[0].what;
   EXPECT_EQ(content.documents.size(), 1u);
   EXPECT_EQ(ledger.content().documents, content.documents);
   const FiledSession s = read_registry(content).sessions.at(0);
@@ -91,14 +91,14 @@ TEST_F(KeptRegrade, WhatIsDoneToItIsFound) {
   }
   const Bytes sound = read_file(school_.places().database());
   tamper("UPDATE document SET bytes = CAST(replace(CAST(bytes AS TEXT), 'full = 50', 'full = 90') AS BLOB)");
-  expect_findings(check_ledger(school_.places(), false).findings, 1);
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::part_changed});
   EXPECT_THROW(school_.ledger(), Error);
   write_file(school_.places().database(), sound);
   tamper("DELETE FROM document");
-  expect_finding(check_ledger(school_.places(), false).findings, {"rubric.toml"});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::part_missing, {"rubric.toml"});
   write_file(school_.places().database(), sound);
   tamper("INSERT INTO document VALUES (x'" + to_hex(sha256(std::string("x"))) + "', x'78')");
-  expect_findings(check_ledger(school_.places(), false).findings, 1);
+  expect_kinds(check_ledger(school_.places(), false).findings, {Kind::foreign});
 }
 
 TEST_F(KeptRegrade, AReasonIsALineOfText) {

@@ -7,8 +7,9 @@
 #include <algorithm>
 #include <filesystem>
 #include <functional>
-#include <iostream>
+#include <iterator>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "engine/base/file.h"
@@ -112,20 +113,33 @@ class School {
   test::Folder folder_;
 };
 
-/// Expects one of `findings` to tell all of `parts`: names and figures, however the sentence goes. Without parts: that there is one.
-inline void expect_finding(const std::vector<Message>& findings, const std::vector<std::string>& parts) {
-  std::string all;
-  for (const auto& f : findings) {
-    all += "  " + english_text(f) + "\n";
-    if (std::all_of(parts.begin(), parts.end(), [&](const std::string& p) { return english_text(f).find(p) != std::string::npos; })) return;
-  }
-  ADD_FAILURE() << "no finding with '" << (parts.empty() ? "" : parts.front()) << "' among\n" << all;
+using Kind = ledger::FindingKind;
+
+inline std::string_view name_of(Kind kind) { return names_of(kind)[static_cast<std::size_t>(kind)]; }
+
+/// Expects one of `messages` to tell all of `parts`: names and figures, however the sentence goes.
+inline void expect_told(const std::vector<Message>& messages, const std::vector<std::string>& parts) {
+  const auto tells_all = [&](const std::string& text) {
+    return std::all_of(parts.begin(), parts.end(), [&](const std::string& p) { return text.find(p) != std::string::npos; });
+  };
+  EXPECT_TRUE(std::any_of(messages.begin(), messages.end(), [&](const Message& m) { return tells_all(english_text(m)); }))
+      << "none with '" << parts.front() << "' among\n"
+      << testing_basics::text_of(messages);
 }
 
-/// Expects so many, and prints them where there are others.
-inline void expect_findings(const std::vector<Message>& findings, std::size_t n) {
-  EXPECT_EQ(findings.size(), n);
-  if (findings.size() != n) std::cout << testing_basics::text_of(findings);
+/// Expects a finding of this kind that tells all of `parts`.
+inline void expect_finding(const ledger::Findings& findings, Kind kind, const std::vector<std::string>& parts = {""}) {
+  ledger::Findings of_kind;
+  std::copy_if(findings.begin(), findings.end(), std::back_inserter(of_kind), [&](const ledger::Finding& f) { return f.kind == kind; });
+  EXPECT_FALSE(of_kind.empty()) << "no " << name_of(kind) << " among\n" << testing_basics::text_of(words_of(findings));
+  if (!of_kind.empty()) expect_told(words_of(of_kind), parts);
+}
+
+/// Expects findings of these kinds, in this order, and no others.
+inline void expect_kinds(const ledger::Findings& findings, const std::vector<Kind>& kinds) {
+  std::vector<Kind> found;
+  for (const auto& f : findings) found.push_back(f.kind);
+  EXPECT_EQ(found, kinds) << testing_basics::text_of(words_of(findings));
 }
 
 }  // namespace cavum::testing_ledger

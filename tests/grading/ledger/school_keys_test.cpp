@@ -33,7 +33,7 @@ class SchoolKeys : public testing::Test {
  protected:
   void expect_holds() {
     const LedgerCheck check = check_ledger(school_.places(), false);
-    for (const auto& f : check.findings) ADD_FAILURE() << f;
+    for (const auto& f : check.findings) ADD_FAILURE() << f.what;
   }
   std::string replace(std::int64_t until_utc_ns = 0) {
     return replace_school_key(school_.ledger_folder(), school_key_path(), until_utc_ns, "yearly");
@@ -55,15 +55,15 @@ TEST_F(SchoolKeys, ReplacedThenTheNewOneSignsAndAllOfBeforeStaysProved) {
   ASSERT_EQ(c.keys.size(), 2u);
   EXPECT_EQ(c.key_of(c.entries.size() - 1), first);
   EXPECT_EQ(c.key_of(c.entries.size()), now) << "the entry that introduces it is signed by it";
-  for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f;
-  for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f;
+  for (const auto& f : check_receipt(receipt, c.public_key, &c)) ADD_FAILURE() << f.what;
+  for (const auto& f : check_results(results, c.public_key, &c)) ADD_FAILURE() << f.what;
   EXPECT_TRUE(Identities(school_.places().identities()).check(School::key()).empty()) << "identities are sealed by the new one";
   Ledger ledger = school_.ledger();
   EXPECT_TRUE(check_receipt(ledger.receipt(3), now, nullptr).empty()) << "a new receipt of an old entry needs the new key alone";
   const Filing filing = file_session(ledger, school_.sit(old_ticket));
-  for (const auto& f : filing.findings) ADD_FAILURE() << f << " (a ticket of before is still good)";
+  for (const auto& f : filing.findings) ADD_FAILURE() << f.what << " (a ticket of before is still good)";
   const Filing newer = file_session(ledger, school_.sit(school_.ticket("4712")));
-  for (const auto& f : newer.findings) ADD_FAILURE() << f;
+  for (const auto& f : newer.findings) ADD_FAILURE() << f.what;
   expect_holds();
 }
 
@@ -81,7 +81,7 @@ TEST_F(SchoolKeys, ResultsSignedByTheOldKeyAfterItWasReplacedAreFound) {
   const Checkpoint forged = sign_checkpoint(c.id, last.size, last.root, last.utc_ns, old);
   facts["checkpoint"] = checkpoint_note(c.id, to_hex(old.public_key), forged);
   facts["signature"] = to_hex(old.sign(ledger_bytes("CVRESULT" + facts.dump())));
-  expect_findings(check_results(facts.dump(), c.public_key, &c), 1);
+  expect_kinds(check_results(facts.dump(), c.public_key, &c), {Kind::other_school});
 }
 
 TEST_F(SchoolKeys, TheOldKeySignsNothingMore) {
@@ -94,7 +94,7 @@ TEST_F(SchoolKeys, AKeyThatNoKeyBeforeItHasSignedIsFound) {
   const SigningKey stranger = load_signing_key(school_.file("stranger.key"), "school");
   Ledger ledger = school_.ledger();
   ledger.append([&](const LedgerContent& now) { return school_key_entry(now, stranger, stranger, 0); }, "mine now");
-  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(k_first_entries)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid, {std::to_string(k_first_entries)});
   EXPECT_EQ(read_ledger(school_.places()).public_key, to_hex(School::key().public_key));
 }
 
@@ -108,7 +108,7 @@ TEST_F(SchoolKeys, AWordOfAnotherLedgerIntroducesNoKey) {
   }
   Ledger ledger = school_.ledger();
   ledger.append([&](const LedgerContent&) { return word; });
-  expect_finding(check_ledger(school_.places(), false).findings, {std::to_string(k_first_entries)});
+  expect_finding(check_ledger(school_.places(), false).findings, Kind::signature_invalid, {std::to_string(k_first_entries)});
 }
 
 TEST_F(SchoolKeys, OneThatRanOutEntersNothingUntilItIsReplaced) {
@@ -145,7 +145,7 @@ TEST_F(SchoolKeys, AnOlderCopyPutBackFromBeforeTheReplacementIsFound) {
   static_cast<void>(replace());
   school_.ticket("4711");
   write_file(school_.places().database(), old);
-  expect_finding(read_ledger(school_.places()).findings, {witness_path(read_ledger(school_.places()).id)});
+  expect_finding(read_ledger(school_.places()).findings, Kind::witness_changed, {witness_path(read_ledger(school_.places()).id)});
 }
 
 TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
@@ -155,14 +155,14 @@ TEST_F(SchoolKeys, ACosignerGoesOnWithTheNewKeyWhenTheOldOneHasSignedForIt) {
   static_cast<void>(replace());
   const LedgerContent c = read_ledger(school_.places());
   cosigner.school_key.clear();
-  expect_findings(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings, 1);
+  expect_kinds(cosign(cosigner, cosign_request(c, k_first_entries), "request", 2).findings, {Kind::signature_invalid});
   cosigner.key_entries = {c.entries.at(k_first_entries - 1).text, c.entries.at(k_first_entries).text};
   const Cosigned signed_now = cosign(cosigner, cosign_request(c, k_first_entries), "request", 3);
   EXPECT_TRUE(signed_now.findings.empty());
   cosigner.key_entries.clear();
   EXPECT_TRUE(cosign(cosigner, cosign_request(c, c.entries.size()), "request", 4).findings.empty()) << "and remembers it";
   const auto check = check_cosigned(signed_now.note, {{cosigner.name, NoteKind::cosignature, cosigner.key.public_key}}, c);
-  for (const auto& f : check.findings) ADD_FAILURE() << f;
+  for (const auto& f : check.findings) ADD_FAILURE() << f.what;
 }
 
 }  // namespace

@@ -67,7 +67,7 @@ class SchoolMarks : public testing::Test {
     Ledger ledger = school_.ledger();
     return file_session(ledger, path, options);
   }
-  std::vector<Message> refused(const std::string& path) {
+  Findings refused(const std::string& path) {
     const Filing f = file(path);
     EXPECT_FALSE(f.seq);
     EXPECT_TRUE(read_registry(read_ledger(school_.places())).sessions.empty());
@@ -91,7 +91,7 @@ TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
   const std::string again = forged(school_, session_, {});
   grading::ExamGrounds grounds;
   const grading::SchoolMark mark = grading::mark_again(SessionReader(again), grounds);
-  EXPECT_TRUE(mark.holds()) << testing_basics::text_of(mark.findings);
+  EXPECT_TRUE(mark.holds()) << testing_basics::text_of(mark.findings());
   EXPECT_EQ(mark.result, json::parse(SessionReader(session_).result_json()));
   EXPECT_TRUE(mark.sealed_otherwise.is_null());
   EXPECT_TRUE(file(again).seq);
@@ -103,9 +103,9 @@ TEST_F(SchoolMarks, PointsThatWereSetAndAKeyThatNobodyKnows) {
     const std::string path = forged(school_, session_, better ? Forgery{.result = improve} : Forgery{});
     forger.reset();
     const auto findings = refused(path);
-    expect_findings(findings, (better ? 1u : 0u) + (new_key ? 1u : 0u));
-    if (better) expect_finding(findings, {"pass", "fail", "100", "damage", "removed"});
-    if (new_key) expect_finding(findings, {to_hex(SessionReader(path).seal()->public_key)});
+    EXPECT_EQ(findings.size(), (better ? 1u : 0u) + (new_key ? 1u : 0u));
+    if (better) expect_finding(findings, Kind::result_differs, {"pass", "fail", "100", "damage", "removed"});
+    if (new_key) expect_finding(findings, Kind::station_unknown, {to_hex(SessionReader(path).seal()->public_key)});
   }
 }
 TEST_F(SchoolMarks, AResultOfAnotherVersionOrOfNoneAndEventsThatWereNotSo) {
@@ -124,13 +124,13 @@ TEST_F(SchoolMarks, AResultOfAnotherVersionOrOfNoneAndEventsThatWereNotSo) {
                    e.insert(e.begin() + 1, {3000, Finished{Finish::ended}});
                  }},
             {" 3000"}}})  // which hides what came after it
-    expect_finding(refused(forged(school_, session_, how)), told);
+    expect_finding(refused(forged(school_, session_, how)), how.events ? Kind::exam_differs : Kind::result_differs, told);
 }
 TEST_F(SchoolMarks, WhateverMovedItButAHand) {
   for (const SourceKind kind :
        {SourceKind::simulated_operator, SourceKind::motion_file, SourceKind::practice, SourceKind::pointer, SourceKind::program}) {
     const std::string path = forged(school_, session_, {.setup = [&](SessionSetup& s) { s.source = {kind, "somewhat"}; }});
-    expect_finding(refused(path), {"somewhat"});
+    expect_finding(refused(path), Kind::no_hand, {"somewhat"});
     const AtStation here(school_.file("station"));
     const School other(school_);
     Ledger ledger = other.ledger();
@@ -140,7 +140,7 @@ TEST_F(SchoolMarks, WhateverMovedItButAHand) {
 }
 TEST_F(SchoolMarks, ANoteOfAnOperatorBesideADeviceAlsoOneThatSaysNothing) {
   for (const std::string& note : {std::string("expert"), std::string()})
-    EXPECT_EQ(refused(forged(school_, session_, {.setup = [&](SessionSetup& s) { s.notes.emplace_back("operator", note); }})).size(), 1u) << note;
+    expect_kinds(refused(forged(school_, session_, {.setup = [&](SessionSetup& s) { s.notes.emplace_back("operator", note); }})), {Kind::no_hand});
 }
 TEST_F(SchoolMarks, ANameThatIsNoTextIsAFindingAndTheExamIsNotLost) {
   const std::string path = forged(school_, session_, {.setup = [](SessionSetup& s) {
@@ -148,7 +148,7 @@ TEST_F(SchoolMarks, ANameThatIsNoTextIsAFindingAndTheExamIsNotLost) {
                                         "\xff"
                                         "A";
                                   }});
-  EXPECT_EQ(refused(path).size(), 1u);
+  expect_kinds(refused(path), {Kind::text_unclean});
   const Filing filed = file(path, {.with_findings = true});
   ASSERT_TRUE(filed.seq);
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty());
@@ -161,9 +161,9 @@ TEST_F(SchoolMarks, AServoThatRunsOtherwiseThanTheExams) {
                     setup.servo_toml.replace(at, was.size(), is);
                   }});
   };
-  expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), {"tick_s", "0.002"});
-  expect_finding(refused(with("max_rpm = 2", "max_rpm = 4")), {"max_rpm", "400000", "200000"});
-  expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), {"spin_up_s", "0.0"});
+  expect_finding(refused(with("tick_s = 0.001", "tick_s = 0.002")), Kind::exam_differs, {"tick_s", "0.002"});
+  expect_finding(refused(with("max_rpm = 2", "max_rpm = 4")), Kind::exam_differs, {"max_rpm", "400000", "200000"});
+  expect_finding(refused(with("spin_up_s = 0.1", "spin_up_s = 0.0")), Kind::exam_differs, {"spin_up_s", "0.0"});
 }
 
 TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
@@ -174,7 +174,7 @@ TEST_F(SchoolMarks, AStylusThatTheStationDoesNotHave) {
   ledger.refresh();
   static_cast<void>(
       enrol_station(ledger, station_request(key, ledger.content().public_key, {{SourceKind::device, "falcon", "F7"}}, code), 0, "request"));
-  expect_finding(file_session(ledger, school_.sit(ticket)).findings, {"emulated stylus", "E1"});
+  expect_finding(file_session(ledger, school_.sit(ticket)).findings, Kind::device_other, {"emulated stylus", "E1"});
 }
 TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
   const std::string fast = school_.file("fast.cavum");
@@ -186,7 +186,7 @@ TEST_F(SchoolMarks, AnExamSatFasterThanTime) {
     recorder.append(input, make_tick_record(output), simulation.state.removed, state_hash(simulation.state));
   }
   recorder.close(save_tooth(drilled_tooth(simulation)), real.result_json());
-  expect_finding(refused(fast), {" 1000"});  // from that tick on its clock is behind
+  expect_finding(refused(fast), Kind::clock, {" 1000"});  // from that tick on its clock is behind
 }
 TEST_F(SchoolMarks, AnExamHandedInAfterItsTime) {
   const SessionReader session(session_);
@@ -194,9 +194,9 @@ TEST_F(SchoolMarks, AnExamHandedInAfterItsTime) {
   const std::int64_t now = read_clocks().utc_ns;
   EXPECT_TRUE(check_claims(content, session, now).empty());
   const std::int64_t late = now + 13 * 24 * k_hour_ns;
-  expect_findings(check_claims(content, session, late), 1);
-  expect_finding(check_claims(content, session, late), {utc_text(late)});
-  expect_findings(check_claims(content, session, now - k_hour_ns), 1);  // it ended after it was handed in
+  expect_kinds(check_claims(content, session, late), {Kind::handed_in_late});
+  expect_finding(check_claims(content, session, late), Kind::handed_in_late, {utc_text(late)});
+  expect_kinds(check_claims(content, session, now - k_hour_ns), {Kind::clock});  // it ended after it was handed in
 }
 TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
   // a program that was killed between sealing and checkpoint leaves the seal in the log; so does who plants one
@@ -213,7 +213,7 @@ TEST_F(SchoolMarks, ALogThatLiesBesideTheFileIsCheckedAndKeptWithIt) {
   };
   leave_log("UPDATE result SET json = replace(json, '\"verdict\":\"fail\"', '\"verdict\":\"pass\"') WHERE 0; PRAGMA user_version = 1");
   const Filing sound = file(path);
-  ASSERT_TRUE(sound.seq) << sound.findings[0];
+  ASSERT_TRUE(sound.seq) << sound.findings[0].what;
   EXPECT_TRUE(check_ledger(school_.places(), true).findings.empty()) << "what was kept is what was checked";
   const AtStation here(school_.file("station"));
   const School other(school_);
@@ -256,18 +256,19 @@ TEST(Stations, AKeyThatWasRevokedReplacedOrRanOut) {
   const SigningKey first = load_station_key(station_key_path()), second = load_signing_key(school.file("second.key"), "station");
   const auto now = [] { return read_clocks().utc_ns; };
   const auto problem = [&](const SigningKey& key, std::int64_t closed, std::int64_t received) {
-    return read_registry(ledger.content()).stations.problem(to_hex(key.public_key), closed, received);
+    const auto found = read_registry(ledger.content()).stations.problem(to_hex(key.public_key), closed, received);
+    return found ? std::optional(found->kind) : std::nullopt;
   };
-  EXPECT_TRUE(problem(first, now(), now()).empty());
-  EXPECT_FALSE(problem(second, now(), now()).empty());
+  EXPECT_FALSE(problem(first, now(), now()));
+  EXPECT_EQ(problem(second, now(), now()), Kind::station_unknown);
   static_cast<void>(enrol_station(ledger, station_request(second, us, {}, first), now() + 48 * k_hour_ns, "request"));
-  EXPECT_TRUE(problem(second, now(), now()).empty());
-  EXPECT_TRUE(problem(first, now(), now()).empty()) << "what was sat under the old key may still come in";
-  EXPECT_FALSE(problem(first, now(), now() + 25 * k_hour_ns).empty()) << "it was replaced";
-  EXPECT_FALSE(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns).empty()) << "it ran out";
-  EXPECT_FALSE(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns).empty()) << "a clock that was set back";
+  EXPECT_FALSE(problem(second, now(), now()));
+  EXPECT_FALSE(problem(first, now(), now())) << "what was sat under the old key may still come in";
+  EXPECT_EQ(problem(first, now(), now() + 25 * k_hour_ns), Kind::station_revoked) << "it was replaced";
+  EXPECT_EQ(problem(second, now() + 49 * k_hour_ns, now() + 49 * k_hour_ns), Kind::station_run_out) << "it ran out";
+  EXPECT_EQ(problem(second, now() - k_hour_ns, now() + 73 * k_hour_ns), Kind::station_run_out) << "a clock that was set back";
   static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "stolen"));
-  EXPECT_FALSE(problem(second, now() - k_hour_ns, now() + 1'000'000'000).empty()) << "whenever it says to have been sat";
+  EXPECT_EQ(problem(second, now() - k_hour_ns, now() + 1'000'000'000), Kind::station_revoked) << "whenever it says to have been sat";
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, to_hex(second.public_key), "again")), Error);
   EXPECT_THROW(static_cast<void>(revoke_station(ledger, std::string(64, 'a'), "unknown")), Error);
   EXPECT_TRUE(check_ledger(school.places(), false).findings.empty());

@@ -195,7 +195,7 @@ TEST_F(OverTheNetwork, WhatIsNoExamIsRefusedAndSaidSoAlsoAfterARestart) {
   const std::string hash = to_hex(sha256(nonsense));
   const json refused = Opened::outcome(station, hash);
   EXPECT_EQ(refused["state"], "refused");
-  EXPECT_FALSE(refused["findings"].empty());
+  EXPECT_EQ(refused["findings"].at(0)["kind"], "file_unreadable");
   const auto shown = [&] { return officer_.get("/api/board").json()["inbox"]["refused"][0]; };
   EXPECT_EQ(shown()["sha256"], hash);
   EXPECT_EQ(shown()["station"], "Seat 1") << "who handed it in, for the file says nothing";

@@ -84,7 +84,7 @@ export async function board(may: May): Promise<View> {
     if (what.inbox.trouble !== "") inbox.append(make("p", { class: "wrong" }, what.inbox.trouble));
     if (what.inbox.refused.length > 0)
       inbox.append(table(tr("Refused"), [tr("Station"), tr("Candidate"), tr("Why"), tr("Recording")], what.inbox.refused.map((r) =>
-        [r.station === "" ? tr("unknown") : r.station, r.candidate, r.findings.join("; "), make("code", {}, r.sha256.slice(0, 16))])));
+        [r.station === "" ? tr("unknown") : r.station, r.candidate, r.findings.map((f) => f.text).join("; "), make("code", {}, r.sha256.slice(0, 16))])));
     revocation?.take(what.stations);
     placing?.take(what.stations);
     pauses.take(what.holds, what.stations);
