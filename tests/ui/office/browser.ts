@@ -99,7 +99,7 @@ export async function open_office(...seats: string[]): Promise<void> {
   });
   let said = "";
   server.stdout!.on("data", (text: Buffer) => (said += text.toString()));
-  await until(async () => /https:[^\s⟩]+:\d+[\s⟩]/.test(said), "the server says where it is");
+  await until(async () => /https:\S+:\d+\D/.test(said), "the server says where it is");
   address = /https:\S+:\d+/.exec(said)![0];
   browser = await launch("--ignore-certificate-errors");
   if (language === "en") return;
