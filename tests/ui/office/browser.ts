@@ -167,6 +167,11 @@ export async function said(page: Page, words: string): Promise<void> {
   const text = (): Promise<string> => page.$eval("body", (b) => b.innerText);
   await until(async () => (await text()).includes(words), `'${words}' on the page`, async () => `, where there is: ${await text()}`);
 }
+/** Waits for a refusal in which all these names stand. */
+export async function refused(page: Page, ...names: string[]): Promise<void> {
+  const told = (): Promise<string> => page.$eval("#said", (s) => (s.classList.contains("wrong-said") ? s.textContent! : ""));
+  await until(async () => { const words = await told(); return words !== "" && names.every((n) => words.includes(n)); }, `a refusal: ${names.join()}`);
+}
 
 /** A station of this folder and name is enrolled, by an officer at the board. */
 export async function invite(page: Page, home: string, name: string): Promise<void> {
