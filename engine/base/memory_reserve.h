@@ -2,15 +2,18 @@
 // out of it (a JSON value asks for memory even to be taken down). Nothing that counts is entered from then on.
 #pragma once
 
+#include <cstdint>
 #include <string>
 
 namespace cavum {
+
+enum class MemoryError : std::uint8_t { ran_out };
 
 /// Sets 16 MB aside, which `new` takes when it finds nothing else; and again, once they were taken. For programs and their longer works.
 void keep_memory_reserve() noexcept;
 /// True since the reserve was taken.
 [[nodiscard]] bool memory_ran_out() noexcept;
-/// Throws Error(`where`, ...) when it was.
+/// Throws Error(MemoryError::ran_out, `where`, ...) when it was.
 void require_memory(const std::string& where);
 
 }  // namespace cavum

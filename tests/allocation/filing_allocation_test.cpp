@@ -50,6 +50,8 @@ class FilingWithoutMemory : public testing::Test {
       filing = ledger::file_session(ledger, exam, {}, grounds);
     } catch (const std::bad_alloc&) {
       said = "memory: there is not enough; close other programs, and try again";
+    } catch (const Error& e) {
+      said = (e.code() == MemoryError::ran_out ? "memory: " : "") + std::string(e.what());
     } catch (const std::exception& e) {
       said = e.what();
     }

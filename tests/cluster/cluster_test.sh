@@ -21,7 +21,7 @@ for ((i = 0; i < count; i++)); do cp "${known[i % ${#known[@]}]}" "$work/s/$(pri
 
 for k in 1 2 3; do "$cavum" verify-all "$work/s" --shard $k/3 --out "$work/$k.part" >/dev/null; done
 "$cavum" verify-all "$work/s" --merge "$work/1.part" "$work/3.part" --out "$work/two" >/dev/null 2>"$work/said" && fail "a part that is missing went unnoticed"
-grep -q "$(((count + 1) / 3)) of $count sessions have no line: the parts of --shard 2/3 are missing" "$work/said" || fail "the part that is missing is not named"
+grep -q "$(((count + 1) / 3)) .*$count .* 2/3" "$work/said" || fail "the part that is missing is not named"
 "$cavum" verify-all "$work/s" --merge "$work"/[123].part --out "$work/merged" >/dev/null
 cmp "$work/threads" "$work/merged" || fail "three shards give other lines"
 echo "three shards: the same bytes"
@@ -37,7 +37,7 @@ not_whole() { # NAME OPTIONS...
   local name=$1 code=0
   shift
   "$cavum" verify-all "$work/L" --out "$work/ledger-$name" "$@" >"$work/said" 2>/dev/null || code=$?
-  ((code == 1)) && grep -q "its file is gone" "$work/said" && grep -q "its file was changed" "$work/said" || { cat "$work/said"; fail "$name: a damaged ledger is called whole"; }
+  ((code == 1)) && grep -qF "${filed[1]##*/}" "$work/said" && grep -qF "${filed[3]##*/}" "$work/said" || { cat "$work/said"; fail "$name: a damaged ledger is called whole"; }
   cmp "$work/ledger-threads" "$work/ledger-$name" || fail "$name: the ledger's lines are others"
 }
 not_whole threads

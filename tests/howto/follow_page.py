@@ -56,6 +56,7 @@ def insert(path, block, where, line):
 def run(block, work, bin_dir, fails):
     """What the commands print. The last of them must fail when `fails`."""
     env = dict(os.environ, PATH=f"{bin_dir}{os.pathsep}{os.environ['PATH']}" if bin_dir else os.environ["PATH"])
+    env.pop("CAVUM_ALTER_SENTENCES", None)  # a page quotes the program
     done = subprocess.run(["bash", "-ec", block], cwd=work, env=env, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False)
     if (done.returncode != 0) != fails:
         raise Wrong(f"ended with {done.returncode}:\n{block}{done.stdout}")

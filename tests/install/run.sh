@@ -24,7 +24,7 @@ done
 for file in share/man/man1/cavum.1 share/bash-completion/completions/cavum share/applications/cavum.desktop lib/udev/rules.d/60-cavum.rules share/cavum/schemas/result.schema.json share/doc/*/copyright; do
   [ -s moved/$file ] || { echo "not installed: $file"; exit 1; }
 done
-for verb in $("$cavum" --help | sed -n '/^Subcommands:/,$p' | awk '/^  [a-z]/ {print $1}'); do
+for verb in $("$cavum" --help | awk '/^  [a-z]/ {print $1}'); do
   grep -qF "cavum ${verb//-/\\-}" moved/share/man/man1/cavum.1 || { echo "the manual page lacks the verb $verb"; exit 1; }
 done
 bash -c 'source moved/share/bash-completion/completions/cavum; COMP_WORDS=(cavum ledger can); COMP_CWORD=2; _cavum; [[ " ${COMPREPLY[*]} " == *" cancel "* ]]' ||

@@ -2,6 +2,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdlib>
 #include <stdexcept>
 
 #include "engine/base/file.h"
@@ -11,6 +12,7 @@ namespace cavum::grading {
 namespace {
 
 TEST(MeasuresPage, IsTheOneInTheManual) {
+  if (std::getenv("CAVUM_ALTER_SENTENCES") != nullptr) GTEST_SKIP() << "asks for words";
   EXPECT_EQ(measures_page(), read_text_file(CAVUM_SOURCE_DIR "/docs/measures.md")) << "write it anew: cavum grade --measures > docs/measures.md";
 }
 

@@ -138,8 +138,9 @@ TEST(Picture, InALanguageOfLongWordsNoEntryOfAKeyRunsIntoTheNext) {
     for (std::size_t at = key.find("<text"); at != std::string::npos; at = key.find("<text", at + 1)) {
       double x = 0, y = 0;
       ASSERT_EQ(std::sscanf(key.c_str() + at, "<text x='%lf' y='%lf'", &x, &y), 2);
-      const std::size_t from = key.find('>', at) + 1;
-      entries.push_back({x, y, x + k_letter_px * static_cast<double>(key.find('<', from) - from)});
+      double letters = 0;
+      for (std::size_t i = key.find('>', at) + 1; key[i] != '<'; ++i) letters += (key[i] & 0xC0) != 0x80 ? 1 : 0;  // of UTF-8
+      entries.push_back({x, y, x + k_letter_px * letters});
     }
     ASSERT_FALSE(entries.empty());
     for (std::size_t i = 0; i < entries.size(); ++i) {

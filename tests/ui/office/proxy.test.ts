@@ -4,7 +4,7 @@ import { writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip } from "../report_test/chromium.ts";
-import { add_account, address, browser, close_office, look, open_office, press, said, serve_with, type } from "./browser.ts";
+import { add_account, address, browser, close_office, look, open_office, press, refused, serve_with, type } from "./browser.ts";
 
 const secret = "0123456789abcdef0123456789abcdef";
 before(async () => {
@@ -29,7 +29,7 @@ test("a sign-in by the school's account", { skip: k_skip }, async () => {
   await page.waitForSelector("form");
   await look({ page, complaints }, "sign-in-by-proxy");
   await press(page, "Sign in with the school's account");
-  await said(page, "this office has no account for you");
+  await refused(page);
   await by_proxy("eva.stein@uni.example");
   await page.focus("main button.main");
   await page.keyboard.press("Enter");

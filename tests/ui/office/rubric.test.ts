@@ -4,7 +4,7 @@ import { readdirSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 import { after, before, test } from "node:test";
 import { k_skip } from "../report_test/chromium.ts";
-import { add_account, close_office, code_of, control, desk, folder, go, invite, look, open_office, run, said, station, task, type } from "./browser.ts";
+import { add_account, close_office, code_of, control, desk, folder, go, invite, look, open_office, refused, run, said, station, task, type } from "./browser.ts";
 import { issue } from "./hall.ts";
 
 before(async () => { if (!k_skip) await open_office("seat"); });
@@ -47,7 +47,7 @@ test("a new rubric over a class by keys", { skip: k_skip }, async () => {
   await type(eva.page, "Reason", "question 3 was misprinted");
   await type(eva.page, "Code of your app", "000000");
   await eva.page.keyboard.press("Enter");
-  await said(eva.page, "is not good");
+  await refused(eva.page);
   await type(eva.page, "Code of your app", code_of(secret));
   await eva.page.keyboard.press("Enter");
   await said(eva.page, "Entered: 2 results, which wait for their release.");

@@ -8,6 +8,7 @@
 #include <unistd.h>
 
 #include <chrono>
+#include <regex>
 #include <string>
 #include <thread>
 
@@ -38,8 +39,8 @@ class Served {
     for (int i = 0; i < 600 && port_.empty(); ++i) {
       std::this_thread::sleep_for(std::chrono::milliseconds(50));
       const std::string said = std::filesystem::exists(out_) ? read_text_file(out_) : "";
-      const auto at = said.find("https://127.0.0.1:");
-      if (at != std::string::npos && said.find('\n', at) != std::string::npos) port_ = said.substr(at + 18, said.find('\n', at) - at - 18);
+      std::smatch address;
+      if (std::regex_search(said, address, std::regex("https://127\\.0\\.0\\.1:(\\d+)\\D"))) port_ = address[1];
     }
     EXPECT_FALSE(port_.empty()) << read_text_file(out_);
   }
