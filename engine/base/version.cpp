@@ -3,6 +3,6 @@
 
 namespace cavum {
 
-const char* version() noexcept { return "0.2.0"; }
+const char* version() noexcept { return "1.0.0"; }
 
 }  // namespace cavum

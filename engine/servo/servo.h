@@ -24,7 +24,7 @@
 namespace cavum {
 
 /// The version of the physics: a recording replays bit for bit under the version that made it.
-inline constexpr int k_physics_version = 5;
+inline constexpr int k_physics_version = 1;
 
 /// Everything constant during an exam.
 struct ServoModel {

@@ -107,14 +107,14 @@ void add_tickets(LedgerCommand& ledger) {
 void add_cancel(LedgerCommand& ledger) {
   const auto& o = ledger.options;
   auto* v = ledger.verb("cancel", tr("Cancel a ticket that was not used"), done(ledger_cancel));
-  v->add_option("--ticket", o->session_seq, tr("its entry"))->required();
+  v->add_option("--ticket", o->ticket_entry, tr("its entry"))->required();
   v->add_option("--reason", o->reason, tr("why, in one line; it is kept for ever, so no names"))->required();
 }
 
 void add_begin(LedgerCommand& ledger) {
   const auto& o = ledger.options;
   auto* v = ledger.verb("begin", tr("Let the exam of a ticket begin now: by the ledger's clock, and once"), done(ledger_begin));
-  v->add_option("--ticket", o->scenario, tr("the ticket's file"))->required();
+  v->add_option("--ticket", o->ticket_file, tr("the ticket's file"))->required();
   v->add_option("--again", o->again, tr("why an exam that was let begin before begins anew, in one line; only the last one counts"));
   v->add_option("--out", o->out, tr("file to write (default: beside the ticket, NAME.begin)"));
   v->add_flag("--overwrite", o->overwrite, tr("write over a file that is there"));
@@ -128,7 +128,7 @@ void add_add(LedgerCommand& ledger) {
   v->add_flag("--simulated", o->simulated,
               tr("also what no candidate's hand moved: simulated operators, motion files, practice; it stays marked as that"));
   v->add_flag("--with-findings", o->with_findings, tr("also what does not hold, with what was found: for an appeal"));
-  v->add_option("--receipts", o->out, tr("folder for receipts: what a candidate can show without the ledger"));
+  v->add_option("--receipts", o->receipts_folder, tr("folder for receipts: what a candidate can show without the ledger"));
   ledger.json_flag(v);
 }
 
@@ -218,7 +218,7 @@ void add_export(LedgerCommand& ledger) {
 void add_receipt(LedgerCommand& ledger) {
   const auto& o = ledger.options;
   auto* v = ledger.verb("receipt", tr("Write an entry's receipt again: it proves without the ledger that the entry is in it"), done(ledger_receipt));
-  v->add_option("--entry", o->session_seq, tr("its number"))->required();
+  v->add_option("--entry", o->entry, tr("its number"))->required();
   v->add_option("--from-size", o->from_size, tr("prove also that the ledger's first entries, this many, are the beginning of it"));
   v->add_option("--out", o->out, tr("file to write"))->required();
   v->add_flag("--overwrite", o->overwrite, tr("write over a file that is there"));
@@ -275,7 +275,7 @@ void add_cosign(LedgerCommand& ledger) {
   v->add_option("--key", o->key, tr("the cosigner's own key, made when there is none (default: $CAVUM_HOME/cosigner.key)"));
   v->add_option("--name", o->name_of_cosigner, tr("name that stands in the signature (default: cavum.cosigner/ and the key's first digits)"));
   v->add_option("--school-key", o->school_key, tr("the school's public key, the first time: 64 hexadecimal digits, from the school itself"));
-  v->add_option("--key-receipt", o->receipts,
+  v->add_option("--key-receipt", o->key_receipts,
                 tr("receipt of the entry by which the school replaced its key (`cavum ledger receipt`); may be repeated"));
   v->add_option("--state", o->state, tr("folder that remembers what was signed (default: $CAVUM_HOME/cosigned)"));
   v->add_option("--out", o->out, tr("the note with the cosignature, to write"))->required();

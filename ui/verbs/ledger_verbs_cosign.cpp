@@ -39,7 +39,7 @@ int ledger_cosign(const LedgerOptions& o) {
   ledger::Cosigner cosigner;
   cosigner.memory = o.state.empty() ? ledger::cosigner_memory_path() : o.state;
   cosigner.school_key = o.school_key.empty() ? "" : parse_public_key(o.school_key, "--school-key");
-  for (const auto& path : o.receipts) {
+  for (const auto& path : o.key_receipts) {
     const json receipt = parse_json_or_null(read_text_file(path));
     cosigner.key_entries.push_back(text_in(receipt, "entry"));
     if (cosigner.key_entries.back().empty())

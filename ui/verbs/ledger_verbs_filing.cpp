@@ -76,9 +76,9 @@ void ledger_init(const LedgerOptions& o) {
 
 int ledger_add(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
-  if (!o.out.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
-    make_private_folder(o.out);
-    require_writable(o.out + "/receipt.json");
+  if (!o.receipts_folder.empty()) {  // before anything is entered: a receipt that cannot be written is no receipt
+    make_private_folder(o.receipts_folder);
+    require_writable(o.receipts_folder + "/receipt.json");
   }
   json printed = json::array();
   bool all = true;
@@ -102,7 +102,7 @@ int ledger_add(const LedgerOptions& o) {
     json one = {{"file", path}, {"filed", filing.seq.has_value()}, {"findings", filing.findings}};
     if (filing.seq) {
       one["receipt"] = ledger.receipt(*filing.seq);
-      if (!o.out.empty()) write_private_text_file(fmt::format("{}/receipt-{}.json", o.out, *filing.seq), one["receipt"].dump(2) + "\n");
+      if (!o.receipts_folder.empty()) write_private_text_file(fmt::format("{}/receipt-{}.json", o.receipts_folder, *filing.seq), one["receipt"].dump(2) + "\n");
     }
     if (!o.as_json) {
       say(filing.seq ? msg("{}: entry {}", path, *filing.seq) : msg("{}: NOT FILED", path));
@@ -116,13 +116,13 @@ int ledger_add(const LedgerOptions& o) {
 
 void ledger_receipt(const LedgerOptions& o) {
   const ledger::Ledger ledger(o.folder, key_of(o), ledger::LedgerUse::tell);
-  if (o.session_seq < 0 || o.session_seq >= static_cast<std::int64_t>(ledger.content().entries.size()))
-    throw Error(Name{fmt::format("--entry {}", o.session_seq)}, msg("is no entry of this ledger"), msg("see `cavum ledger show {}`", o.folder));
+  if (o.entry < 0 || o.entry >= static_cast<std::int64_t>(ledger.content().entries.size()))
+    throw Error(Name{fmt::format("--entry {}", o.entry)}, msg("is no entry of this ledger"), msg("see `cavum ledger show {}`", o.folder));
   if (o.from_size < 0 || o.from_size > static_cast<std::int64_t>(ledger.content().entries.size()))
     throw Error(Name{fmt::format("--from-size {}", o.from_size)}, msg("is no number of entries that this ledger has had"),
                 msg("give 1 to {}", ledger.content().entries.size()));
   require_new(o, o.out);
-  const json receipt = ledger::make_receipt(ledger.content(), static_cast<std::uint64_t>(o.session_seq), static_cast<std::uint64_t>(o.from_size));
+  const json receipt = ledger::make_receipt(ledger.content(), static_cast<std::uint64_t>(o.entry), static_cast<std::uint64_t>(o.from_size));
   write_school_file(o, o.out, receipt.dump(2) + "\n");
   say(msg("written: {}", o.out));
 }

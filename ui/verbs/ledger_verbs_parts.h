@@ -16,12 +16,12 @@ namespace cavum::ui {
 struct LedgerOptions {
   std::string folder, key, school = "school", scenario, candidate, name, candidates, from, until, out, tooth, rubric, model = "consistent", format,
                            results, reason, invite, enrol, revoke, name_of_cosigner, state, school_key, cosigners, accept_loss, again, before,
-                           verdict, person, outcome, exam;
-  std::vector<std::string> sessions, chosen, receipts, cosigned, passed_over;
+                           verdict, person, outcome, exam, ticket_file, receipts_folder;
+  std::vector<std::string> sessions, chosen, receipts, key_receipts, cosigned, passed_over;
   scenarios::Grant grant;
   PoolOptions pool;
   std::vector<std::uint64_t> chosen_sessions;
-  std::int64_t session_seq = -1, since = -1, from_size = 0;
+  std::int64_t session_seq = -1, ticket_entry = -1, entry = -1, since = -1, from_size = 0;
   bool as_json = false, without_ticket = false, with_findings = false, simulated = false, all = false, replay = false, overwrite = false,
        another_task = false, with_simulated = false, with_identities = false, another = false, begin_at_ledger = false, keep_motion = false,
        keep_results = false, erase_motion = false, erase_results = false, replace = false, undecided = false, preview = false;

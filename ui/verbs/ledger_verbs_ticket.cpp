@@ -101,17 +101,17 @@ void ledger_tickets(const LedgerOptions& o) {
 }
 
 void ledger_cancel(const LedgerOptions& o) {
-  if (o.session_seq < 0) throw Error(Name{"--ticket"}, msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
+  if (o.ticket_entry < 0) throw Error(Name{"--ticket"}, msg("is no entry's number"), msg("see `cavum ledger tickets {}`", o.folder));
   ledger::Ledger ledger(o.folder, key_of(o));
-  const auto& entry = ledger::cancel_ticket(ledger, static_cast<std::uint64_t>(o.session_seq), o.reason);
+  const auto& entry = ledger::cancel_ticket(ledger, static_cast<std::uint64_t>(o.ticket_entry), o.reason);
   say(msg("entry {}: the ticket of entry {} does not count any more; an exam that is begun with it is filed with findings only", entry.seq,
-          o.session_seq));
+          o.ticket_entry));
 }
 
 void ledger_begin(const LedgerOptions& o) {
   ledger::Ledger ledger(o.folder, key_of(o));
-  const std::string out = o.out.empty() ? ledger::begin_path(o.scenario) : o.out;
-  const ledger::Ticket ticket = ledger::parse_ticket(read_text_file(o.scenario), "", o.scenario);
+  const std::string out = o.out.empty() ? ledger::begin_path(o.ticket_file) : o.out;
+  const ledger::Ticket ticket = ledger::parse_ticket(read_text_file(o.ticket_file), "", o.ticket_file);
   LedgerOptions writing = o;
   writing.overwrite = o.overwrite || !o.again.empty();  // the word before does not count any more
   require_new(writing, out);
