@@ -63,11 +63,6 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Exa
                    [&](const ExamGround& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }
 
-std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after) {
-  ExamGrounds grounds;
-  return load_for_grading(reader, std::move(after), grounds);
-}
-
 std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamGrounds& grounds) {
   return load_with(reader, grounds, [&](const ExamGround&) { return std::move(after); });
 }

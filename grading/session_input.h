@@ -55,7 +55,6 @@ struct GradedSession : scenarios::ExamTask {
 /// The same of a session that was read already.
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, ExamGrounds& grounds);
 /// The same for an exam that is just ending, with the tooth as it is now.
-[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after);
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the

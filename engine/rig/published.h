@@ -12,7 +12,6 @@ inline constexpr double k_paper_intercept_n = 0.673;  ///< of eq. 6, at k = 0
 inline constexpr double k_paper_tooth_n = 1.071;      ///< mean cutting force of a real tooth
 inline constexpr double k_paper_k_n_per_mm = 0.8;     ///< chosen for hard tissue
 inline constexpr double k_paper_damping_h = 1.0;      ///< h of eq. 5
-inline constexpr double k_paper_largest_k = 1.2;      ///< stiffest cube
 
 /// Eq. 5 with the paper's "m = 1": c = 2 h √k, N·s/mm.
 [[nodiscard]] inline double paper_damping_n_s_per_mm(double k_n_per_mm) noexcept { return 2.0 * k_paper_damping_h * std::sqrt(k_n_per_mm); }
