@@ -23,7 +23,7 @@ ServoConfig parse_servo_config(const std::string& text, const std::string& where
   c.tick_s = in.number("tick_s", 1e-5, 0.01);
   c.max_rpm = in.number("max_rpm", 1, 1e6);
   c.spin_up_s = in.number("spin_up_s", 0, 10);
-  c.position_quantum_mm = in.number_or("position_quantum_mm", 0, 1, 0.0);  // sessions of physics 1 and 2 have none
+  c.position_quantum_mm = in.number("position_quantum_mm", 0, 1);
   const auto* limits = in.table("limits");
   if (limits == nullptr) in.fail("limits", msg("is missing"), msg("add [limits]"));
   TomlReader l(*limits, where);

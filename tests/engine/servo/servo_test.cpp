@@ -299,9 +299,6 @@ TEST(Servo, ConfigSurvivesItsTomlAndRefusesOddValues) {
   EXPECT_EQ(to_toml(back), text);
   EXPECT_EQ(back.limits.peak_n, config.limits.peak_n) << "to the last bit";
   EXPECT_EQ(back.position_quantum_mm, config.position_quantum_mm);
-  std::string older = text;  // of physics 1 and 2
-  older.erase(older.find("position_quantum_mm"), older.find("\n\n[limits]") - older.find("position_quantum_mm"));
-  EXPECT_EQ(parse_servo_config(older, "c.toml").position_quantum_mm, 0.0);
   for (const auto& [from, to] : {std::pair<std::string, std::string>{"spin_up_s", "spin_s"},
                                  {"[limits]", "[limit]"},
                                  {"quantum_mm = ", "quantum_mm = -"},
