@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/statistics/independent_runs.h"
+#include "engine/base/independent_runs.h"
 #include "engine/tooth/make/make_block.h"
 
 namespace cavum {

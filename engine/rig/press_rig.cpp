@@ -3,8 +3,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/independent_runs.h"
 #include "engine/rig/published.h"
-#include "engine/statistics/independent_runs.h"
 #include "engine/statistics/statistics.h"
 #include "engine/tooth/make/make_block.h"
 

@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/error.h"
+#include "engine/base/independent_runs.h"
 #include "engine/rig/rig_error.h"
-#include "engine/statistics/independent_runs.h"
 
 namespace cavum {
 namespace {

@@ -3,16 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <chrono>
 #include <cmath>
-#include <exception>
-#include <functional>
-#include <mutex>
 #include <optional>
 #include <set>
 #include <thread>
 
+#include "engine/base/independent_runs.h"
 #include "engine/base/text.h"
 #include "grading/battery/coarse_tooth.h"
 #include "grading/battery/growing_errors.h"
@@ -25,30 +22,9 @@ namespace cavum::grading {
 namespace {
 
 constexpr std::int64_t k_most_wait_ticks = std::int64_t{600} * k_ticks_per_second;  // 60 MB of ticks
-constexpr unsigned k_most_threads = 4;                                              // each holds a tooth of its own
 
-/// Calls `work(i)` for each of 0..n-1, on some threads. What one throws is thrown when all have ended.
-void for_each_at_once(std::size_t n, const std::function<void(std::size_t)>& work) {
-  std::atomic<std::size_t> next{0};
-  std::exception_ptr failed;
-  std::mutex one;
-  const auto run = [&] {
-    for (std::size_t i = next++; i < n; i = next++) {
-      try {
-        work(i);
-      } catch (...) {
-        const std::lock_guard lock(one);
-        failed = std::current_exception();
-        next = n;
-      }
-    }
-  };
-  std::vector<std::jthread> others;
-  for (unsigned t = 1; t < std::min(k_most_threads, std::thread::hardware_concurrency()); ++t) others.emplace_back(run);
-  run();
-  others.clear();
-  if (failed) std::rethrow_exception(failed);
-}
+/// Not more than these: each holds a tooth of its own.
+std::size_t threads() { return std::min(4U, std::thread::hardware_concurrency()); }
 
 /// What only a hand on a stylus makes.
 bool needs_physics(const std::string& metric) {
@@ -231,12 +207,13 @@ class BatteryRun {
 void BatteryRun::try_works() {
   const std::size_t n = fine_.works.size();
   std::vector<std::optional<Result>> results(n);
-  for_each_at_once(n, [&](std::size_t i) {
+  const auto try_one = [&](std::size_t i) {
     // the same list on both: what applies follows from the scenario, and what is below the floor from both teeth
     const bool there = coarse_ && i < coarse_->works.size() && coarse_->works[i].name == fine_.works[i].name;
     if (there) results[i] = coarse_->of(i, wait_, limit_);
     if (!there || !surely_fails(*results[i], scenario_.rubric)) results[i] = fine_.of(i, wait_, limit_);
-  });
+  };
+  independent_runs(n, try_one, threads());
   for (std::size_t i = 0; i < n; ++i) put(fine_.works[i], *results[i]);
 }
 
@@ -266,10 +243,10 @@ void BatteryRun::grow_errors() {
   const bool screened = coarse_ && coarse_->errors.size() == n;
   std::optional<Result> honest;
   if (screened) honest = coarse_->honest(wait_);
-  for_each_at_once(n, [&](std::size_t l) {
-    if (screened && growth(*coarse_, l, *honest).empty()) return;
-    problems[l] = growth(fine_, l, honest_);
-  });
+  const auto grow = [&](std::size_t l) {
+    if (!screened || !growth(*coarse_, l, *honest).empty()) problems[l] = growth(fine_, l, honest_);
+  };
+  independent_runs(n, grow, threads());
   for (auto& list : problems)
     for (auto& p : list) battery_.problems.push_back(std::move(p));
 }

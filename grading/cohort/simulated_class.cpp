@@ -3,14 +3,13 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
 #include "grading/close_exam.h"
 #include "grading/ledger/filing.h"
@@ -67,36 +66,19 @@ ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, le
 
   ClassSat out;
   grading::ExamGrounds grounds;  // of the class
-  std::mutex mutex;              // of everything below
-  std::size_t next = 0;
-  std::exception_ptr failed;
-  const auto work = [&] {
-    while (true) {
-      std::size_t mine = 0;
-      {
-        const std::lock_guard lock(mutex);
-        if (failed || next == students.size()) return;
-        mine = next++;
-      }
-      try {
-        sit(students[mine], wanted.scenario);
-        const ledger::MarkedRecording marked(students[mine].path, grounds);
+  std::mutex mutex;              // of `out` and the ledger
+  independent_runs(
+      students.size(),
+      [&](std::size_t i) {
+        sit(students[i], wanted.scenario);
+        const ledger::MarkedRecording marked(students[i].path, grounds);
         const std::lock_guard lock(mutex);
         ++out.sat;
-        out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[mine].path));
+        out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[i].path));
         if (ledger::file_session(ledger, marked, {.simulated = true}).seq) ++out.filed;
         done(out.sat);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failed) failed = std::current_exception();
-        return;
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 0; i < std::clamp(wanted.at_once, 1, 16); ++i) threads.emplace_back(work);
-  for (auto& thread : threads) thread.join();
-  if (failed) std::rethrow_exception(failed);
+      },
+      static_cast<std::size_t>(std::clamp(wanted.at_once, 1, 16)));
   return out;
 }
 

@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/statistics/independent_runs.h"
+#include "engine/base/independent_runs.h"
 
 namespace cavum::explain {
 namespace {

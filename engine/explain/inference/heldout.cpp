@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
 #include "engine/explain/inference/search.h"
-#include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {

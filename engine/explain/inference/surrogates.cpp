@@ -6,8 +6,8 @@
 #include <numbers>
 #include <unsupported/Eigen/FFT>
 
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
-#include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {

@@ -3,9 +3,9 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/independent_runs.h"
 #include "engine/explain/model/lines.h"
 #include "engine/explain/model/term_fits.h"
-#include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {

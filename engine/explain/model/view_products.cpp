@@ -1,8 +1,8 @@
 #include <algorithm>
 
+#include "engine/base/independent_runs.h"
 #include "engine/explain/model/lines.h"
 #include "engine/explain/model/view.h"
-#include "engine/statistics/independent_runs.h"
 
 namespace cavum::explain {
 namespace {

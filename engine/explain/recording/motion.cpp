@@ -4,11 +4,11 @@
 #include <cmath>
 #include <vector>
 
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
 #include "engine/explain/recording/as_recorded.h"
 #include "engine/explain/recording/holds.h"
 #include "engine/explain/recording/slopes.h"
-#include "engine/statistics/independent_runs.h"
 #include "engine/statistics/order.h"
 #include "engine/statistics/statistics.h"
 

@@ -13,16 +13,15 @@
 
 #include <algorithm>
 #include <array>
-#include <atomic>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <iomanip>
 #include <iostream>
 #include <sstream>
-#include <thread>
 #include <utility>
 
+#include "engine/base/independent_runs.h"
 #include "grading/breakthrough/breakthrough.h"
 #include "tests/engine/support/engine_testing.h"
 #include "tests/grading/drawn_drilling.h"
@@ -124,26 +123,20 @@ constexpr std::int64_t k_early_ticks = 200;
 std::vector<Outcome> run_sessions(std::uint64_t seed, int sessions, Drawn drawn) {
   (void)draw_session(seed, drawn);  // loads the teeth before the threads start
   std::vector<Outcome> all(static_cast<std::size_t>(sessions));
-  std::atomic<int> next{0};
-  const auto work = [&] {
-    for (int i = next++; i < sessions; i = next++) {
-      const DrawnSession s = draw_session(seed + 1 + static_cast<std::uint64_t>(i), drawn);
-      BreakthroughSettings any;
-      any.sure_from = 1e-3;
-      Outcome& o = all[static_cast<std::size_t>(i)];
-      o = {s.what, s.touched >= 0, s.felt >= 0, s.grazed_elsewhere, s.least_share, 0, 0, 0, s.story};
-      for (const auto& e : find_breakthroughs(s.inputs, s.records, any)) {
-        if (o.touched && e.seen_tick < s.touched - k_early_ticks) continue;
-        if (e.sureness <= o.sureness) continue;
-        o.sureness = e.sureness;
-        o.dated_ms = static_cast<double>(e.tick - s.touched);
-        o.told_ms = static_cast<double>(e.seen_tick - s.felt);
-      }
+  independent_runs(all.size(), [&](std::size_t i) {
+    const DrawnSession s = draw_session(seed + 1 + i, drawn);
+    BreakthroughSettings any;
+    any.sure_from = 1e-3;
+    Outcome& o = all[i];
+    o = {s.what, s.touched >= 0, s.felt >= 0, s.grazed_elsewhere, s.least_share, 0, 0, 0, s.story};
+    for (const auto& e : find_breakthroughs(s.inputs, s.records, any)) {
+      if (o.touched && e.seen_tick < s.touched - k_early_ticks) continue;
+      if (e.sureness <= o.sureness) continue;
+      o.sureness = e.sureness;
+      o.dated_ms = static_cast<double>(e.tick - s.touched);
+      o.told_ms = static_cast<double>(e.seen_tick - s.felt);
     }
-  };
-  std::thread other(work);
-  work();
-  other.join();
+  });
   return all;
 }
 
