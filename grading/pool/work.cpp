@@ -33,18 +33,6 @@ json on_lines(const std::vector<Message>& texts) {
   return list;
 }
 
-Bytes from_hex(const std::string& text, const std::string& where) {
-  const auto digit = [&](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
-  };
-  if (text.size() % 2 != 0) throw Error(where, msg("holds half a byte of a surface"), msg("make the work anew"));
-  Bytes bytes(text.size() / 2);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(digit(text[2 * i]) << 4 | digit(text[2 * i + 1]));
-  return bytes;
-}
-
 /// An error speaks of the file without its folder, which is another one on each machine.
 Bytes image_below(const std::string& folder, const std::string& name, std::vector<Message>& findings) {
   try {
@@ -101,7 +89,11 @@ Work parse_work(const std::string& text, const std::string& where) {
   }
   work.rubric_toml = text_in(j, "rubric");
   work.scenario_toml = text_in(j, "scenario");
-  for (const auto& s : surfaces) work.surfaces.emplace_back(text_in(s, "name"), from_hex(text_in(s, "hex"), where));
+  for (const auto& s : surfaces) {
+    auto bytes = from_hex(text_in(s, "hex"));
+    if (!bytes) throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
+    work.surfaces.emplace_back(text_in(s, "name"), std::move(*bytes));
+  }
   work.another_task = another.get<bool>();
   return work;
 }

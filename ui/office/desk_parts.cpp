@@ -1,9 +1,8 @@
 #include "ui/office/desk_parts.h"
 
-#include <sodium.h>
-
 #include <algorithm>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
@@ -33,14 +32,9 @@ std::vector<std::string> shown_each(const std::vector<Message>& messages) {
 }
 
 Roster roster_of(const ClassList& asked) {
-  const std::string& packed = asked.base64;
-  std::string bytes(packed.size() / 4 * 3 + 3, '\0');
-  std::size_t size = 0;
-  if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), packed.data(), packed.size(), nullptr, &size, nullptr,
-                        sodium_base64_VARIANT_ORIGINAL) != 0)
-    throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
-  bytes.resize(size);
-  return read_roster(bytes, {asked.answers.begin(), asked.answers.end()});
+  const auto bytes = from_base64(asked.base64);
+  if (!bytes) throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
+  return read_roster({bytes->begin(), bytes->end()}, {asked.answers.begin(), asked.answers.end()});
 }
 
 Preview shown_roster(const Roster& roster) {

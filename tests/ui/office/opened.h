@@ -6,6 +6,7 @@
 #include <string>
 #include <thread>
 
+#include "engine/base/encoding.h"
 #include "grading/ledger/station_ticket.h"
 #include "tests/grading/ledger/school.h"
 #include "tests/ui/office/web.h"
@@ -79,14 +80,7 @@ class Opened {
   }
   /// A class list as the page sends it.
   [[nodiscard]] static nlohmann::json list(const std::string& text, const std::vector<std::string>& answers = {}) {
-    static constexpr char k_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); i += 3) {
-      const auto at = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-      const unsigned three = at(i) << 16U | at(i + 1) << 8U | at(i + 2);
-      for (unsigned k = 0; k < 4; ++k) out += i + k <= text.size() ? k_digits[(three >> (18U - 6U * k)) & 63U] : '=';
-    }
-    return {{"base64", out}, {"answers", answers}};
+    return {{"base64", to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})}, {"answers", answers}};
   }
   /// Tickets of an hour around now for these numbers.
   [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers, bool begin_at_office = false, bool another = false) const {

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
@@ -116,7 +117,7 @@ std::string LtiLogins::sealed(const std::string& text) const {
   static_assert(crypto_auth_KEYBYTES == k_random_bytes);
   const Bytes key = ledger::from_hex(secret_, k_random_bytes, msg("the secret"));
   crypto_auth(seal, reinterpret_cast<const unsigned char*>(text.data()), text.size(), key.data());
-  return text + "." + to_base64url({reinterpret_cast<const char*>(seal), sizeof seal});
+  return text + "." + to_base64(seal, Base64::in_address);
 }
 
 LtiLogin LtiLogins::begin(const LtiPlatforms& platforms, const std::map<std::string, std::string>& fields, std::int64_t now_s) const {
