@@ -115,6 +115,15 @@ void filter(Session& s) {
   }
 }
 
+/// Of a row filtered as `f` before one predicted as `p`: A = P Fᵀ, and the smoother's gain G = A P'⁻¹.
+struct Gain {
+  double axx, axv, avx, avv, gxx, gxv, gvx, gvv;
+  Gain(const State& f, const State& p, double dt) : axx(f.xx + dt * f.xv), axv(f.xv), avx(f.xv + dt * f.vv), avv(f.vv) {
+    const double det = p.xx * p.vv - p.xv * p.xv, ixx = p.vv / det, ixv = -p.xv / det, ivv = p.xx / det;
+    gxx = axx * ixx + axv * ixv, gxv = axx * ixv + axv * ivv, gvx = avx * ixx + avv * ixv, gvv = avx * ixv + avv * ivv;
+  }
+};
+
 /// Backwards; also what the walk did between rows: E[(v' − v)²] per second.
 void smooth(Session& s, std::vector<double>& moved) {
   const auto n = static_cast<std::size_t>(s.n);
@@ -122,19 +131,16 @@ void smooth(Session& s, std::vector<double>& moved) {
   for (std::size_t i = n - 1; i-- > 0;) {
     const double dt = s.t[i + 1] - s.t[i];
     const State &f = s.filtered[i], &p = s.predicted[i + 1], &next = s.smoothed[i + 1];
-    const double det = p.xx * p.vv - p.xv * p.xv;
-    const double ixx = p.vv / det, ixv = -p.xv / det, ivv = p.xx / det;
-    const double axx = f.xx + dt * f.xv, axv = f.xv, avx = f.xv + dt * f.vv, avv = f.vv;  // P Fᵀ
-    const double gxx = axx * ixx + axv * ixv, gxv = axx * ixv + axv * ivv, gvx = avx * ixx + avv * ixv, gvv = avx * ixv + avv * ivv;
+    const Gain g(f, p, dt);
     const double ex = next.x - p.x, ev = next.v - p.v;
     const double dxx = next.xx - p.xx, dxv = next.xv - p.xv, dvv = next.vv - p.vv;
     State& o = s.smoothed[i];
-    o.x = f.x + gxx * ex + gxv * ev;
-    o.v = f.v + gvx * ex + gvv * ev;
-    o.xx = f.xx + gxx * (gxx * dxx + gxv * dxv) + gxv * (gxx * dxv + gxv * dvv);
-    o.xv = f.xv + gvx * (gxx * dxx + gxv * dxv) + gvv * (gxx * dxv + gxv * dvv);
-    o.vv = f.vv + gvx * (gvx * dxx + gvv * dxv) + gvv * (gvx * dxv + gvv * dvv);
-    const double lag = gvx * next.xv + gvv * next.vv;  // Cov(v, v')
+    o.x = f.x + g.gxx * ex + g.gxv * ev;
+    o.v = f.v + g.gvx * ex + g.gvv * ev;
+    o.xx = f.xx + g.gxx * (g.gxx * dxx + g.gxv * dxv) + g.gxv * (g.gxx * dxv + g.gxv * dvv);
+    o.xv = f.xv + g.gvx * (g.gxx * dxx + g.gxv * dxv) + g.gvv * (g.gxx * dxv + g.gxv * dvv);
+    o.vv = f.vv + g.gvx * (g.gvx * dxx + g.gvv * dxv) + g.gvv * (g.gvx * dxv + g.gvv * dvv);
+    const double lag = g.gvx * next.xv + g.gvv * next.vv;  // Cov(v, v')
     const double dv = next.v - o.v;
     moved[i] = std::max(0.0, dv * dv + next.vv + o.vv - 2 * lag) / dt;
   }
@@ -227,20 +233,11 @@ void draw_backwards(const Session& s, Random& random, double* x, double* v) {
   for (auto i = static_cast<std::size_t>(s.n); i-- > 0;) {
     State at = s.filtered[i];
     if (i + 1 < static_cast<std::size_t>(s.n)) {
-      const double dt = s.t[i + 1] - s.t[i];
-      const State &f = at, &p = s.predicted[i + 1];
-      const double det = p.xx * p.vv - p.xv * p.xv;
-      const double ixx = p.vv / det, ixv = -p.xv / det, ivv = p.xx / det;
-      const double axx = f.xx + dt * f.xv, axv = f.xv, avx = f.xv + dt * f.vv, avv = f.vv;
-      const double gxx = axx * ixx + axv * ixv, gxv = axx * ixv + axv * ivv, gvx = avx * ixx + avv * ixv, gvv = avx * ixv + avv * ivv;
+      const State &f = s.filtered[i], &p = s.predicted[i + 1];
+      const Gain g(f, p, s.t[i + 1] - s.t[i]);
       const double ex = to_x - p.x, ev = to_v - p.v;
-      State o;
-      o.x = f.x + gxx * ex + gxv * ev;
-      o.v = f.v + gvx * ex + gvv * ev;
-      o.xx = f.xx - (gxx * axx + gxv * axv);
-      o.xv = f.xv - (gxx * avx + gxv * avv);
-      o.vv = f.vv - (gvx * avx + gvv * avv);
-      at = o;
+      at = {f.x + g.gxx * ex + g.gxv * ev, f.v + g.gvx * ex + g.gvv * ev, f.xx - (g.gxx * g.axx + g.gxv * g.axv),
+            f.xv - (g.gxx * g.avx + g.gxv * g.avv), f.vv - (g.gvx * g.avx + g.gvv * g.avv)};
     }
     const double sx = std::sqrt(std::max(0.0, at.xx)), by = random.normal();
     const double slope = at.xx > 0.0 ? at.xv / at.xx : 0.0, rest = std::sqrt(std::max(0.0, at.vv - slope * at.xv));
