@@ -12,15 +12,12 @@
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/bench/thread_clock.h"
+#include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
 namespace {
 
-struct Ball {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
-};
+using testing_tooth::Ball;
 
 double share(std::vector<double> v, double of) {
   std::sort(v.begin(), v.end());

@@ -1,5 +1,6 @@
 // What must hold whatever is cut: grading twice is identical; turning tooth, scenario and cut together changes nothing beyond the bound;
 // cutting more of the target never lowers the target's criteria; cutting outside the target raises none. Random cuts, a new seed each run.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <array>
@@ -48,12 +49,6 @@ struct Motion {
   }
 };
 
-std::string number(double v) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.15g", v);
-  return text;
-}
-
 /// A block with a hollow in one corner, the target an oblong one, both moved; `where` is the motion.
 Carved moved_scene(const Motion& where, double leaf) {
   const auto pulp = [](Vec3 p) { return p.x > 0.4 && p.x < 2.0 && p.y > -1.1 && p.y < 0.3 && p.z > -3.5 && p.z < -2.3; };
@@ -67,7 +62,7 @@ Carved moved_scene(const Motion& where, double leaf) {
   std::string points;
   for (const Vec3 p : {Vec3{-1.5, -1, 0}, {1.5, -1, 0}, {1.5, 0.8, 0}, {-1.5, 1.2, 0}}) {
     const Vec3 q = where.there(p);
-    points += (points.empty() ? "[" : ", [") + number(q.x) + ", " + number(q.y) + "]";
+    points += fmt::format("{}[{:.15g}, {:.15g}]", points.empty() ? "" : ", ", q.x, q.y);
   }
   return {scenario_text("[[zones.target]]\nshape = \"column\"\noutline = { kind = \"polygon\", points_mm = [" + points +
                             "] }\nbottom = { kind = \"level\", z_mm = -2 }\n",

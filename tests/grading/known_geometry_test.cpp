@@ -1,5 +1,6 @@
 // Cylinder, box, cone and ball cavities cut in a block of 0.05 mm leaves at 20 random poses each, against closed forms that know nothing of
 // leaves: volumes, wall distances, taper and outline, each within its limit and within the bound that the result states.
+#include <fmt/core.h>
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -41,11 +42,7 @@ struct Pose {
   [[nodiscard]] Vec3 world(Vec3 q) const { return at + x * q.x + y * q.y + z * q.z; }
 };
 
-std::string plain(double v) {
-  char text[40];
-  std::snprintf(text, sizeof text, "%.15g", v);
-  return text;
-}
+std::string plain(double v) { return fmt::format("{:.15g}", v); }
 std::string vector(Vec3 v) { return "[" + plain(v.x) + ", " + plain(v.y) + ", " + plain(v.z) + "]"; }
 
 double meet(double a, double b) { return a > 0 && b > 0 ? std::sqrt(a * a + b * b) : std::max(a, b); }

@@ -24,6 +24,7 @@ namespace {
 
 using nlohmann::json;
 using testing_basics::tells;
+using testing_basics::text_of;
 
 constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
 constexpr std::int64_t k_patience_ns = 300 * k_s_ns, k_margin_ns = 60 * k_s_ns;
@@ -47,12 +48,6 @@ bool names_clock(const std::vector<Message>& findings, const SatExam& exam) {
       return f.values().size() == 2 && std::holds_alternative<std::int64_t>(f.values()[0]) && std::holds_alternative<Message>(f.values()[1]);
     return tells(f, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
   });
-}
-
-std::string all(const std::vector<Message>& findings) {
-  std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
-  return out;
 }
 
 }  // namespace
@@ -238,7 +233,7 @@ void SchoolDay::file_exam() {
     filed_files_[filed->file_sha256] = filed->candidate;
     ++counts_["filed clean"];
   }
-  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
+  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + text_of(filing.findings));
   if (changes != office.clock_changes) return;
   const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns, least_late_ns = before_utc_ns - exam.closed_utc_ns;
   if (exam.clock != WrongClock::none) {
@@ -368,7 +363,7 @@ void SchoolDay::cosign_here() {
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
       // an older request that was overtaken by a newer one: the sizes of both are told, and where what was signed is kept
-      if (signed_note.findings[0].values().size() != 3) wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      if (signed_note.findings[0].values().size() != 3) wrong("the cosigner refused an honest ledger: " + text_of(signed_note.findings));
       return;
     }
     cosigned_size_ = std::max(cosigned_size_, signed_note.size);
@@ -388,7 +383,7 @@ void SchoolDay::keep_cosignature() {
   const std::string note = to_office_;
   ledger::Ledger ledger = open_ledger();
   const auto checked = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), ledger.content());
-  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + all(checked.findings));
+  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + text_of(checked.findings));
   ledger.keep_cosignatures(checked.checkpoint->size, checked.cosignatures);
   for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, ledger::signature_line(s));
 }
@@ -400,7 +395,8 @@ void SchoolDay::verify() {
     if (s.motion_erased_by)
       std::erase_if(check.findings, [&](const Message& f) { return tells(f, ledger::LedgerPlaces{k_ledger}.session(s.file_sha256)); });
   // a disk that fails meanwhile may well be in the way of looking
-  if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
+  if (!check.findings.empty() && !world_.process().computer->had_faults)
+    wrong("while others work the ledger does not hold: " + text_of(check.findings));
 }
 
 void SchoolDay::put_right() {

@@ -13,20 +13,16 @@
 #include "grading/ledger/registry.h"
 #include "grading/ledger/school_keys.h"
 #include "grading/ledger/witness.h"
+#include "tests/engine/support/basics.h"
 #include "tests/simulation/school_day.h"
 
 namespace cavum::simulation {
 namespace {
 
 using nlohmann::json;
+using testing_basics::text_of;
 
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
-
-std::string all(const std::vector<Message>& findings) {
-  std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f);
-  return out;
-}
 
 std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("utc_ns").get<std::int64_t>(); }
 
@@ -46,7 +42,7 @@ void SchoolDay::check_end() {
     content = ledger::read_ledger({k_ledger});
     ledger::remove_erased_recordings(content, {k_ledger});  // an erasure that was cut off is a finding until somebody runs `cavum ledger erase`
     const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("the ledger does not hold: " + all(check.findings));
+    if (!check.findings.empty()) wrong("the ledger does not hold: " + text_of(check.findings));
     if (!content.witnessed) wrong("the witness is gone");
     check_entries(content);
     check_clocks(check.remarks);
@@ -54,7 +50,7 @@ void SchoolDay::check_end() {
     check_backup();
     std::vector<Message> findings, not_checked;
     ledger::check_cosignatures(content, ledger::read_cosigners(ledger::known_cosigners_path()), findings, not_checked);
-    if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
+    if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + text_of(findings) + text_of(not_checked));
   });
   check_cosigner(content);
   world_.calmly("office", [&] {  // and work goes on
@@ -62,7 +58,7 @@ void SchoolDay::check_end() {
     ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
     entered(ledger, ledger.content().entries.size() - 1);
     const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
+    if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + text_of(check.findings));
   });
   counts_["acknowledged"] += entries_.size();
   if (replaces_key_ && !loses_ledger_) replace_key();
@@ -72,7 +68,7 @@ void SchoolDay::check_end() {
 void SchoolDay::check_entries(const ledger::LedgerContent& content) {
   std::vector<Message> findings;
   const auto witnessed = ledger::read_witness(content.id, findings);
-  if (!findings.empty()) wrong("the witness: " + all(findings));
+  if (!findings.empty()) wrong("the witness: " + text_of(findings));
   std::set<std::uint64_t> seen;
   for (const Entered& e : entries_) {
     const std::string name = "entry " + std::to_string(e.seq);
@@ -82,7 +78,7 @@ void SchoolDay::check_entries(const ledger::LedgerContent& content) {
       continue;
     }
     if (const auto why = ledger::check_receipt(e.receipt, content.public_key, &content); !why.empty())
-      wrong(name + ": its receipt does not hold: " + all(why));
+      wrong(name + ": its receipt does not hold: " + text_of(why));
     if (std::none_of(witnessed.begin(), witnessed.end(), [&](const ledger::Checkpoint& p) { return p.size == e.seq + 1; }))
       wrong(name + ", which was acknowledged, is not with the witness");
   }
@@ -140,13 +136,13 @@ void SchoolDay::check_identities() {
       wrong("an identity that was enrolled is lost: " + id + " " + pseudonym);
   for (const auto& pseudonym : forgotten_)
     if (identities.of_pseudonym(pseudonym)) wrong("an identity that was forgotten is known: " + pseudonym);
-  if (const auto why = identities.check(ledger::load_school_key(ledger::school_key_path())); !why.empty()) wrong(all(why));
+  if (const auto why = identities.check(ledger::load_school_key(ledger::school_key_path())); !why.empty()) wrong(text_of(why));
 }
 
 void SchoolDay::check_backup() {
   if (!backed_up_) return;
   const ledger::RestorePlan plan = ledger::plan_restore(k_backup, {}, {});
-  if (!plan.findings.empty()) return wrong("the backup does not hold: " + all(plan.findings));
+  if (!plan.findings.empty()) return wrong("the backup does not hold: " + text_of(plan.findings));
   for (const auto& hash : plan.missing_sessions) wrong("the backup lacks a session: " + hash);
   const ledger::History history(plan.content);
   const auto size = static_cast<std::size_t>(backed_up_->size);
@@ -168,7 +164,7 @@ void SchoolDay::check_cosigner(const ledger::LedgerContent& content) {
     std::string words;
     try {
       const ledger::Cosigned now = ledger::cosign(cosigner, ledger::cosign_request(content, cosigned_size_), "request", 1);
-      words = all(now.findings);
+      words = text_of(now.findings);
     } catch (const Error& e) {  // it signed a later state, and was killed before it could say so
       if (!(e.code() == ledger::LedgerError::another_state)) words = e.what();
     }
@@ -177,7 +173,7 @@ void SchoolDay::check_cosigner(const ledger::LedgerContent& content) {
   world_.calmly("office", [&] {
     for (const auto& note : notes_)
       if (const auto c = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), content); !c.findings.empty())
-        wrong("a cosigned note does not hold: " + all(c.findings));
+        wrong("a cosigned note does not hold: " + text_of(c.findings));
   });
 }
 
@@ -202,7 +198,7 @@ void SchoolDay::replace_key() {
   world_.cut_power(world_.computer("office"));
   world_.calmly("office", [&] {
     const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + all(check.findings));
+    if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + text_of(check.findings));
     const ledger::LedgerContent content = ledger::read_ledger({k_ledger});
     check_entries(content);
     check_identities();
@@ -217,7 +213,7 @@ void SchoolDay::restore_from_backup() {
     std::vector<std::string> paths;
     for (const auto& [path, receipt] : receipts_) paths.push_back(path);
     const ledger::RestorePlan plan = ledger::plan_restore(k_backup, paths, {});
-    if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + all(plan.findings));
+    if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + text_of(plan.findings));
     ledger::restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", ledger::load_school_key(ledger::school_key_path()));
   };
   std::string folder = "/sim/office/restored";
@@ -246,7 +242,7 @@ void SchoolDay::restore_from_backup() {
   world_.calmly("office", [&] {
     const ledger::LedgerContent content = ledger::read_ledger({folder});
     const ledger::LedgerCheck check = ledger::check_ledger({folder}, false);
-    if (!check.findings.empty()) wrong("the restored ledger does not hold: " + all(check.findings));
+    if (!check.findings.empty()) wrong("the restored ledger does not hold: " + text_of(check.findings));
     const ledger::History history(content);
     for (const Entered& e : entries_) {
       if (e.seq < backed_up_->size) {

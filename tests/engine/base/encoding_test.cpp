@@ -3,22 +3,24 @@
 
 #include <gtest/gtest.h>
 
+#include "tests/engine/support/basics.h"
+
 namespace cavum {
 namespace {
 
-Bytes of(const std::string& text) { return {text.begin(), text.end()}; }
+using testing_basics::bytes_of;
 
 TEST(Encoding, IsAsRfc4648Prints) {
   const char* examples[][3] = {
       {"", "", ""}, {"f", "Zg==", "66"}, {"fo", "Zm8=", "666f"}, {"foo", "Zm9v", "666f6f"}, {"foob", "Zm9vYg==", "666f6f62"}};
   for (const auto& [text, base64, hex] : examples) {
-    EXPECT_EQ(to_base64(of(text)), base64);
-    EXPECT_EQ(from_base64(base64), of(text));
-    EXPECT_EQ(to_hex(of(text)), hex);
-    EXPECT_EQ(from_hex(hex), of(text));
+    EXPECT_EQ(to_base64(bytes_of(text)), base64);
+    EXPECT_EQ(from_base64(base64), bytes_of(text));
+    EXPECT_EQ(to_hex(bytes_of(text)), hex);
+    EXPECT_EQ(from_hex(hex), bytes_of(text));
   }
-  EXPECT_EQ(to_base64(of("\xfb\xff"), Base64::in_address), "-_8");
-  EXPECT_EQ(from_base64("-_8", Base64::in_address), of("\xfb\xff"));
+  EXPECT_EQ(to_base64(bytes_of("\xfb\xff"), Base64::in_address), "-_8");
+  EXPECT_EQ(from_base64("-_8", Base64::in_address), bytes_of("\xfb\xff"));
 }
 
 TEST(Encoding, RefusesEveryOtherText) {

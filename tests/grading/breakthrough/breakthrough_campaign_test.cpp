@@ -22,6 +22,7 @@
 #include <utility>
 
 #include "engine/base/independent_runs.h"
+#include "engine/statistics/order.h"
 #include "grading/breakthrough/breakthrough.h"
 #include "tests/engine/support/engine_testing.h"
 #include "tests/grading/drawn_drilling.h"
@@ -57,12 +58,6 @@ int bound(int n, double p) {
     ++k;
   }
   return k;
-}
-
-double median(std::vector<double> v) {
-  if (v.empty()) return 0;
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 /// Order statistics with the true median between them but for bad luck on either side: of n values the number below the median is binomial.
@@ -188,7 +183,8 @@ void judge(const std::vector<Outcome>& all, const Promise& promise, const char* 
   const int missed = sum.perforated - sum.found, most_missed = bound(sum.perforated, promise.missed),
             most_alarmed = bound(sum.clean, promise.alarmed);
   std::cout << "recall " << double(sum.found) / std::max(1, sum.perforated) << ", false alarms " << double(sum.alarmed) / std::max(1, sum.clean)
-            << "; medians: told " << median(told) << " ms after it could be felt, dated " << median(dated) << " ms after the first leaf\n"
+            << "; medians: told " << (told.empty() ? 0.0 : median(told)) << " ms after it could be felt, dated "
+            << (dated.empty() ? 0.0 : median(dated)) << " ms after the first leaf\n"
             << "held against " << 1 - promise.missed << " and " << promise.alarmed << " at 1 in 100000: missed " << missed << " of at most "
             << most_missed << ", alarmed " << sum.alarmed << " of at most " << most_alarmed
             << "\ntouched but not to be felt, by the least share of the force that was left (seen):";

@@ -9,6 +9,7 @@
 #include "engine/explain/report/model_file.h"
 #include "engine/explain/report/protocol.h"
 #include "tests/engine/explain/made_recording.h"
+#include "tests/engine/support/engine_testing.h"
 
 namespace cavum::explain {
 namespace {
@@ -19,11 +20,6 @@ const Interval& parameter(const Explanation& e, const std::string& name) {
   for (const auto& [n, i] : e.causes.at(0).parameters)
     if (n == name) return i;
   throw std::runtime_error("no parameter " + name);
-}
-
-ForceModel paper() {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/materials/paper.toml";
-  return parse_force_model(read_text_file(path), path);
 }
 
 TEST(Explain, ARecordingOfTheLawItselfIsClean) {
@@ -48,7 +44,7 @@ TEST(Explain, FrictionIsNamedAndItsModelLeavesNothing) {
   EXPECT_GT(parameter(e, "fc_n").high, 0.03);
   EXPECT_GT(e.gain.percent.low, 0.0);
 
-  const ForceModel extended = parse_force_model(extended_model_toml(e, paper()), "extended.toml");
+  const ForceModel extended = parse_force_model(extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
   ASSERT_EQ(extended.terms.size(), 1u);
   EXPECT_NEAR(extended.materials.at("dentin").voigt.stiffness_n_per_mm, made::k_k, 0.02);
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");
@@ -62,7 +58,7 @@ TEST(Explain, ABiasStaysInTheMeasurementAndIsTakenOff) {
   const Explanation e = explain(r);
   ASSERT_EQ(first_cause(e), "bias") << english_text(to_text(e));
   EXPECT_NEAR(parameter(e, "bias_n").value, -0.02, 0.002);
-  const ForceModel extended = parse_force_model(extended_model_toml(e, paper()), "extended.toml");
+  const ForceModel extended = parse_force_model(extended_model_toml(e, testing_engine::shipped_model("paper")), "extended.toml");
   EXPECT_TRUE(extended.terms.empty());
   ASSERT_EQ(extended.measurement.size(), 1u);
   const Series added = added_force_n(extended, "dentin", r, "extended.toml");

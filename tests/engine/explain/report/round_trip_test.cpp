@@ -8,16 +8,12 @@
 #include "engine/base/file.h"
 #include "engine/explain/report/model_file.h"
 #include "tests/engine/explain/made_recording.h"
+#include "tests/engine/support/engine_testing.h"
 
 namespace cavum::explain {
 namespace {
 
 constexpr double k_turn = 6.283185307179586;
-
-ForceModel paper() {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/materials/paper.toml";
-  return parse_force_model(read_text_file(path), path);
-}
 
 /// Columns of the rig as functions of session and time.
 double wet(int, double t) { return std::fmod(t, 20.0) < 9.0 ? 1.0 : 0.0; }
@@ -119,7 +115,7 @@ TEST_P(RoundTrip, TheExtendedModelLeavesNothing) {
   EXPECT_TRUE(std::none_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == found; }))
       << english_text(to_text(e));
 
-  const std::string toml = extended_model_toml(e, paper());
+  const std::string toml = extended_model_toml(e, testing_engine::shipped_model("paper"));
   const ForceModel extended = parse_force_model(toml, "extended.toml");
   if (found == c.name) {
     EXPECT_EQ(extended.terms.size(), c.live ? 1u : 0u) << toml;
