@@ -13,17 +13,6 @@ Sha256 sha256(std::span<const std::uint8_t> bytes) {
 
 Sha256 sha256(const std::string& text) { return sha256(std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size())); }
 
-std::string to_hex(std::span<const std::uint8_t> bytes) {
-  static constexpr char k_digits[] = "0123456789abcdef";
-  std::string out;
-  out.reserve(bytes.size() * 2);
-  for (const auto b : bytes) {
-    out += k_digits[b >> 4];
-    out += k_digits[b & 15];
-  }
-  return out;
-}
-
 std::uint64_t fast_hash(const void* data, std::size_t size, std::uint64_t seed) noexcept { return XXH3_64bits_withSeed(data, size, seed); }
 
 }  // namespace cavum

@@ -6,6 +6,8 @@
 #include <span>
 #include <string>
 
+#include "engine/base/encoding.h"
+
 namespace cavum {
 
 using Sha256 = std::array<std::uint8_t, 32>;
@@ -13,8 +15,6 @@ using Sha256 = std::array<std::uint8_t, 32>;
 /// SHA-256 of `bytes` (libsodium).
 [[nodiscard]] Sha256 sha256(std::span<const std::uint8_t> bytes);
 [[nodiscard]] Sha256 sha256(const std::string& text);
-/// Lower-case hexadecimal of any bytes.
-[[nodiscard]] std::string to_hex(std::span<const std::uint8_t> bytes);
 
 /// XXH3, 64 bits, of `size` bytes at `data`; not for evidence.
 [[nodiscard]] std::uint64_t fast_hash(const void* data, std::size_t size, std::uint64_t seed) noexcept;

@@ -13,7 +13,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<std::string_view, 17> k_signs{"",    "mm", "mm²", "mm³", "µm", "N",    "N·s",  "°",    "s",
+constexpr std::array<std::string_view, 16> k_signs{"",    "mm", "mm²", "mm³", "µm", "N",    "°",    "s",
                                                    "min", "ms", "rpm", "%",   "Hz", "mm/s", "N/mm", "bytes"};
 static_assert(k_signs.size() == static_cast<std::size_t>(Unit::byte) + 1);
 

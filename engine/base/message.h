@@ -19,7 +19,7 @@
 
 namespace cavum {
 
-enum class Unit : std::uint8_t { none, mm, mm2, mm3, um, newton, newton_second, deg, second, minute, ms, rpm, percent, hz, mm_per_s, n_per_mm, byte };
+enum class Unit : std::uint8_t { none, mm, mm2, mm3, um, newton, deg, second, minute, ms, rpm, percent, hz, mm_per_s, n_per_mm, byte };
 /// "mm³", "N", "%"; empty for none.
 [[nodiscard]] std::string_view unit_sign(Unit unit) noexcept;
 

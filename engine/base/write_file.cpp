@@ -12,6 +12,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
 #include "engine/base/text.h"
@@ -97,12 +98,7 @@ std::string temporary_name_beside(const std::string& path) {
   std::array<unsigned char, 12> drawn{};
   if (::getrandom(drawn.data(), drawn.size(), 0) != static_cast<ssize_t>(drawn.size()))
     throw Error(path, msg("the system gives no random numbers ({})", words_of(errno)), msg("try again"));
-  std::string name = ".cavum-";
-  for (const unsigned char c : drawn) {
-    constexpr char k_digits[] = "0123456789abcdef";
-    name += {k_digits[c >> 4], k_digits[c & 15]};
-  }
-  return (fs::path(path).parent_path() / (name + ".part")).string();
+  return (fs::path(path).parent_path() / fmt::format(".cavum-{}.part", to_hex(drawn))).string();
 }
 
 void write_file(const std::string& path, std::span<const std::uint8_t> bytes, const Writing& how) {

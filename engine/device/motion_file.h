@@ -13,7 +13,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
-#include "engine/servo/tick.h"
+#include "engine/physics/servo/tick.h"
 
 namespace cavum {
 

@@ -7,7 +7,7 @@
 #include <cstdint>
 
 #include "engine/device/simulated_omni.h"
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/servo_device.h"
 
 namespace cavum {
 

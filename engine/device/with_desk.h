@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <atomic>
 
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/servo_device.h"
 
 namespace cavum {
 

@@ -2,7 +2,7 @@
 #pragma once
 
 #include "engine/device/pedal.h"
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/servo_device.h"
 
 namespace cavum {
 

@@ -4,7 +4,7 @@
 #include <cstdlib>
 
 #include "engine/base/text.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/station_key.h"
 

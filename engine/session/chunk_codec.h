@@ -10,7 +10,7 @@
 
 #include "engine/base/bytes.h"
 #include "engine/base/where.h"
-#include "engine/servo/tick.h"
+#include "engine/physics/servo/tick.h"
 
 namespace cavum {
 

@@ -15,7 +15,7 @@
 #include "engine/base/text.h"
 #include "engine/base/vec.h"
 #include "engine/base/where.h"
-#include "engine/servo/real_time.h"
+#include "engine/physics/servo/real_time.h"
 #include "engine/session/motion_source.h"
 
 namespace cavum {

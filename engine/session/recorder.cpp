@@ -16,7 +16,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/version.h"
 #include "engine/base/write_file.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/chain.h"
 #include "engine/session/schema.h"
 #include "engine/session/session_error.h"

@@ -12,7 +12,7 @@
 #include "engine/base/bytes.h"
 #include "engine/base/hash.h"
 #include "engine/base/vec.h"
-#include "engine/servo/tick.h"
+#include "engine/physics/servo/tick.h"
 #include "engine/session/event.h"
 
 namespace cavum {

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "engine/base/error.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/schema.h"
 #include "engine/session/session_error.h"
 #include "engine/session/session_image.h"

@@ -10,7 +10,7 @@
 #include <thread>
 #include <vector>
 
-#include "engine/servo/tick_stream.h"
+#include "engine/physics/servo/tick_stream.h"
 #include "engine/session/recorder.h"
 
 namespace cavum {

@@ -4,7 +4,7 @@
 
 #include <functional>
 
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/session.h"
 
 namespace cavum {

@@ -99,7 +99,7 @@ std::string parse_public_key(const std::string& text, const Where& where) {
   std::string key = text;
   for (char& c : key)
     if (c >= 'A' && c <= 'F') c = static_cast<char>(c - 'A' + 'a');
-  if (key.size() != 64 || key.find_first_not_of("0123456789abcdef") != std::string::npos)
+  if (key.size() != 64 || !from_hex(key))
     throw Error(where, msg("is no public key: 64 hexadecimal digits"),
                 msg("copy it from what `cavum replay --verify` says of a session of that station"));
   return key;

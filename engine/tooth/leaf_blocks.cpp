@@ -120,9 +120,4 @@ void LeafBlocks::copy_cube(IVec3 low, int edge, std::uint8_t* tissue, std::int8_
       }
 }
 
-std::size_t LeafBlocks::memory_bytes() const noexcept {
-  const auto held = std::count_if(all_.begin(), all_.end(), [](const Block& b) { return b.leaves != nullptr; });
-  return all_.size() * sizeof(Block) + static_cast<std::size_t>(held) * sizeof(Leaves);
-}
-
 }  // namespace cavum

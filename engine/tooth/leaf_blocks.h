@@ -31,7 +31,6 @@ class LeafBlocks {
   [[nodiscard]] IVec3 size() const noexcept { return size_; }  ///< leaves
   /// Copies the leaves of a cube of `edge` leaves from `low`, x fastest: tissues and distance codes; air beyond the tooth.
   void copy_cube(IVec3 low, int edge, std::uint8_t* tissue, std::int8_t* code) const noexcept;
-  [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
   static constexpr std::size_t k_leaves = static_cast<std::size_t>(k_edge) * k_edge * k_edge;

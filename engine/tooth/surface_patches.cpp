@@ -213,10 +213,4 @@ std::size_t SurfacePatches::triangle_count() const noexcept {
   return n;
 }
 
-std::size_t SurfacePatches::memory_bytes() const noexcept {
-  std::size_t n = patches_.size() * (sizeof(SurfacePatch) + 1) + sizeof(Maker);
-  for (const auto& p : patches_) n += p.vertices.capacity() * sizeof(PatchVertex) + p.triangles.capacity() * sizeof p.triangles[0];
-  return n;
-}
-
 }  // namespace cavum

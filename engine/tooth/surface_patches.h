@@ -52,7 +52,6 @@ class SurfacePatches {
   [[nodiscard]] IVec3 size() const noexcept { return size_; }
   [[nodiscard]] const SurfacePatch& patch(std::size_t number) const { return patches_.at(number); }
   [[nodiscard]] std::size_t triangle_count() const noexcept;
-  [[nodiscard]] std::size_t memory_bytes() const noexcept;
 
  private:
   struct Maker;  // room to work in

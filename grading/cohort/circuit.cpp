@@ -60,7 +60,7 @@ std::vector<std::string> not_told_from(const SeverityStudy& study) {
 /// What the exams of the ledger say of one class.
 class Collected {
  public:
-  Collected(const ledger::Registry& registry, ledger::Identities& identities, CircuitFigures& figures)
+  Collected(const records::Registry& registry, records::Identities& identities, CircuitFigures& figures)
       : registry_(registry), identities_(identities), figures_(figures) {}
 
   void add(const std::string& exam, const std::vector<HumanMark>& by_people) {
@@ -111,8 +111,8 @@ class Collected {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::string> verdict;
 
  private:
-  const ledger::Registry& registry_;
-  ledger::Identities& identities_;
+  const records::Registry& registry_;
+  records::Identities& identities_;
   CircuitFigures& figures_;
   std::vector<std::optional<double>> pass_percent_;  // by exam
 };
@@ -141,7 +141,7 @@ void put_roster(CircuitFigures& f, const Collected& all, const std::optional<Sev
 
 }  // namespace
 
-CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
+CircuitFigures circuit_figures(const records::Registry& registry, records::Identities& identities, const std::vector<std::string>& exams,
                                const std::map<std::string, std::vector<HumanMark>>& marks) {
   if (exams.size() < 2) throw Error(msg("a circuit"), msg("has two exams at least"), msg("name them with --exams A,B"));
   if (std::set<std::string>(exams.begin(), exams.end()).size() != exams.size())

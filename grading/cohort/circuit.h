@@ -50,8 +50,8 @@ struct CircuitFigures {
 };
 
 /// `marks`: people's, by exam. Throws Error with fewer than two exams, with one twice, or when nobody sat one.
-[[nodiscard]] CircuitFigures circuit_figures(const ledger::Registry& registry, ledger::Identities& identities, const std::vector<std::string>& exams,
-                                             const std::map<std::string, std::vector<HumanMark>>& marks);
+[[nodiscard]] CircuitFigures circuit_figures(const records::Registry& registry, records::Identities& identities,
+                                             const std::vector<std::string>& exams, const std::map<std::string, std::vector<HumanMark>>& marks);
 [[nodiscard]] nlohmann::ordered_json to_json(const CircuitFigures& figures);
 [[nodiscard]] Lines to_text(const CircuitFigures& figures);
 /// candidate, each exam's percent and verdict, raw and adjusted mean; a row each.

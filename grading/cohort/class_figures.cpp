@@ -13,7 +13,7 @@
 #include "engine/base/file_error.h"
 #include "engine/base/text.h"
 #include "grading/cohort/judge_names.h"
-#include "grading/ledger/exam_scale.h"
+#include "grading/records/exam_scale.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::cohort {
@@ -27,10 +27,11 @@ constexpr int k_shuffles = 9999;
 double max_in(const json& result) { return result.at("score").at("max").get<double>(); }
 
 /// As the exam was sat; of an exam without any sealed result, as the first who counts was marked.
-ledger::ExamScale scale_of(const ledger::Registry& registry, const std::string& exam, const std::map<std::string, const ledger::FiledSession*>& sat) {
-  const auto own = ledger::own_scales(registry);
+records::ExamScale scale_of(const records::Registry& registry, const std::string& exam,
+                            const std::map<std::string, const records::FiledSession*>& sat) {
+  const auto own = records::own_scales(registry);
   const auto at = own.find(exam);
-  return at != own.end() ? at->second : ledger::scale_in(*sat.begin()->second->result);
+  return at != own.end() ? at->second : records::scale_in(*sat.begin()->second->result);
 }
 
 /// On the scale of the class.
@@ -46,7 +47,7 @@ struct GivenMarks {
   std::vector<double> ratings, rated;  // each rating, and the program's points of the same candidate
 };
 
-GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const std::vector<HumanMark>& marks) {
+GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const std::vector<HumanMark>& marks) {
   GivenMarks given;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
@@ -73,7 +74,7 @@ struct MarkPairs {
   [[nodiscard]] std::size_t incomplete() const { return program.size() - by_judge.size(); }
 };
 
-MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const ledger::FiledSession*>& sat, const ClassFigures& f, double band) {
+MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const records::FiledSession*>& sat, const ClassFigures& f, double band) {
   MarkPairs pairs;
   for (const auto& [candidate, by_judge] : given.by_candidate) {
     const double own = points_in(*sat.at(candidate)->result, f.max_points);
@@ -112,7 +113,7 @@ void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs
 }
 
 /// Candidates whom program and people see further apart than the others.
-void look_at_disagreements(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const GivenMarks& given,
+void look_at_disagreements(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const GivenMarks& given,
                            const MarkPairs& pairs) {
   const auto& limits = f.agreement.limits;
   if (!limits || limits->sd <= 0) return;
@@ -126,7 +127,7 @@ void look_at_disagreements(ClassFigures& f, const std::map<std::string, const le
   }
 }
 
-std::vector<WallFigures> walls_of(const std::map<std::string, const ledger::FiledSession*>& sat) {
+std::vector<WallFigures> walls_of(const std::map<std::string, const records::FiledSession*>& sat) {
   std::vector<WallFigures> out;
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     WallFigures f;
@@ -148,7 +149,7 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const ledger::File
 }
 
 /// Of the sessions that count: what a person should see for himself, whatever the points say; and those that do not count, with the reason.
-void look_at_sessions(ClassFigures& f, const ledger::Registry& registry, const std::map<std::string, const ledger::FiledSession*>& sat) {
+void look_at_sessions(ClassFigures& f, const records::Registry& registry, const std::map<std::string, const records::FiledSession*>& sat) {
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
     if (!s.findings.empty()) {
@@ -187,7 +188,7 @@ std::vector<std::string> criteria_of(const json& result) {
 }
 
 /// A result marked as most were.
-const json& result_by(const MarkedBy& most, const std::map<std::string, const ledger::FiledSession*>& sat) {
+const json& result_by(const MarkedBy& most, const std::map<std::string, const records::FiledSession*>& sat) {
   return *std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return criteria_of(*s.second->result) == most.criteria; })->second->result;
 }
 
@@ -199,7 +200,7 @@ struct ClassPoints {
 };
 
 /// Counts the verdicts, too. `any`: whose criteria are compared.
-ClassPoints points_of(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const json& any) {
+ClassPoints points_of(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const json& any) {
   ClassPoints all;
   for (const auto& [candidate, s] : sat) {
     const double points = points_in(*s->result, f.max_points);
@@ -217,7 +218,7 @@ ClassPoints points_of(ClassFigures& f, const std::map<std::string, const ledger:
 }
 
 /// Mean and spread, and who lies far from them.
-void put_points(ClassFigures& f, const std::map<std::string, const ledger::FiledSession*>& sat, const std::vector<double>& in_order) {
+void put_points(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const std::vector<double>& in_order) {
   f.n = in_order.size();
   f.mean = cohort::mean(in_order);
   if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
@@ -253,7 +254,7 @@ void put_criteria(ClassFigures& f, const json& any, const Matrix& table) {
   }
 }
 
-void put_stations(ClassFigures& f, const ledger::Registry& registry, const std::map<std::string, std::vector<double>>& by_station) {
+void put_stations(ClassFigures& f, const records::Registry& registry, const std::map<std::string, std::vector<double>>& by_station) {
   std::vector<std::vector<double>> groups;
   for (const auto& [key, points] : by_station) {
     f.stations.push_back({key, station_label(registry, key), points.size(), cohort::mean(points)});
@@ -275,7 +276,7 @@ void put_few(ClassFigures& f, const Matrix& by_criterion) {
 
 }  // namespace
 
-std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& identities, const std::string& exam, const std::string& where,
+std::vector<HumanMark> parse_marks(const std::string& text, records::Identities& identities, const std::string& exam, const std::string& where,
                                    double max_points) {
   const auto rows = parse_csv(text, where);
   const auto at = [&](const CsvRow& row) { return FilePlace{where, row.line, 0}; };
@@ -316,8 +317,8 @@ std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& 
   return out;
 }
 
-std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam) {
-  std::map<std::string, const ledger::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
+std::map<std::string, const records::FiledSession*> counting_sessions(const records::Registry& registry, const std::string& exam) {
+  std::map<std::string, const records::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result->is_object()) sat[s.candidate] = &s;
   if (sat.empty())
@@ -325,11 +326,11 @@ std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledge
   return sat;
 }
 
-std::vector<MarkedBy> marked_by(const std::map<std::string, const ledger::FiledSession*>& sat) {
+std::vector<MarkedBy> marked_by(const std::map<std::string, const records::FiledSession*>& sat) {
   std::vector<MarkedBy> out;
   for (const auto& [candidate, s] : sat) {
-    const ledger::ExamScale scale = ledger::scale_in(*s->result);
-    const ledger::Regrade* regrade = s->regrade(s->result_seq);
+    const records::ExamScale scale = records::scale_in(*s->result);
+    const records::Regrade* regrade = s->regrade(s->result_seq);
     MarkedBy by{0,
                 scale.pass_percent,
                 scale.borderline_percent,
@@ -358,25 +359,25 @@ std::optional<double> one_pass_percent(const std::vector<MarkedBy>& by) {
   return one ? std::optional(by[0].pass_percent) : std::nullopt;
 }
 
-std::string station_label(const ledger::Registry& registry, const std::string& key) {
+std::string station_label(const records::Registry& registry, const std::string& key) {
   constexpr std::size_t k_shown = 8;
   std::string beginning = key.size() > k_shown ? key.substr(0, k_shown) + "…" : key;
-  const ledger::Station* own = registry.stations.of(key);
+  const records::Station* own = registry.stations.of(key);
   if (own == nullptr || own->name.empty()) return beginning;
   const auto& all = registry.stations.stations;
-  const bool twice = std::any_of(all.begin(), all.end(), [&](const ledger::Station& s) { return s.name == own->name && s.public_key != key; });
+  const bool twice = std::any_of(all.begin(), all.end(), [&](const records::Station& s) { return s.name == own->name && s.public_key != key; });
   return twice ? fmt::format("{} ({})", own->name, beginning) : own->name;
 }
 
-double points_of_exam(const ledger::Registry& registry, const std::string& exam) {
+double points_of_exam(const records::Registry& registry, const std::string& exam) {
   return scale_of(registry, exam, counting_sessions(registry, exam)).max;
 }
 
-ClassFigures class_figures(const ledger::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
+ClassFigures class_figures(const records::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks, double borderline) {
   ClassFigures f;
   f.exam = exam;
   const auto sat = counting_sessions(registry, exam);
-  const ledger::ExamScale scale = scale_of(registry, exam, sat);
+  const records::ExamScale scale = scale_of(registry, exam, sat);
   f.max_points = scale.max;
   f.marked_by = marked_by(sat);
   if (const auto percent = one_pass_percent(f.marked_by)) f.pass_points = scale.max * *percent / 100;

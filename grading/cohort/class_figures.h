@@ -9,8 +9,8 @@
 
 #include "engine/base/lines.h"
 #include "grading/cohort/statistics.h"
-#include "grading/ledger/filing.h"
-#include "grading/ledger/identities.h"
+#include "grading/records/filing.h"
+#include "grading/records/identities.h"
 
 namespace cavum::cohort {
 
@@ -23,7 +23,7 @@ struct HumanMark {
 };
 /// CSV `candidate,judge,points[,rating]`, candidates by pseudonym or the school's own number. Throws Error(where:line: column …) for anything else,
 /// and for points below 0 or above `max_points`: nothing of such a file is taken.
-[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, ledger::Identities& identities, const std::string& exam,
+[[nodiscard]] std::vector<HumanMark> parse_marks(const std::string& text, records::Identities& identities, const std::string& exam,
                                                  const std::string& where, double max_points);
 
 struct CriterionFigures {
@@ -102,19 +102,19 @@ struct ClassFigures {
 /// How results were marked differently, in a sentence; empty where all were marked alike.
 [[nodiscard]] Message marked_by_words(const std::vector<MarkedBy>& marked_by);
 /// A station's name in the ledger, with the beginning of its key where two have it; the beginning of its key where it has none.
-[[nodiscard]] std::string station_label(const ledger::Registry& registry, const std::string& key);
+[[nodiscard]] std::string station_label(const records::Registry& registry, const std::string& key);
 
 /// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
 /// sat it.
-[[nodiscard]] std::map<std::string, const ledger::FiledSession*> counting_sessions(const ledger::Registry& registry, const std::string& exam);
+[[nodiscard]] std::map<std::string, const records::FiledSession*> counting_sessions(const records::Registry& registry, const std::string& exam);
 /// What each of `sat` was marked by, the most frequent first.
-[[nodiscard]] std::vector<MarkedBy> marked_by(const std::map<std::string, const ledger::FiledSession*>& sat);
+[[nodiscard]] std::vector<MarkedBy> marked_by(const std::map<std::string, const records::FiledSession*>& sat);
 /// The pass mark, percent, by which all of them were marked; none where there are several.
 [[nodiscard]] std::optional<double> one_pass_percent(const std::vector<MarkedBy>& marked_by);
 /// The scale on which the exam was sat.
-[[nodiscard]] double points_of_exam(const ledger::Registry& registry, const std::string& exam);
+[[nodiscard]] double points_of_exam(const records::Registry& registry, const std::string& exam);
 /// Over the sessions that count. `borderline`: the rating that means so. Throws Error when nobody sat the exam.
-[[nodiscard]] ClassFigures class_figures(const ledger::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks,
+[[nodiscard]] ClassFigures class_figures(const records::Registry& registry, const std::string& exam, const std::vector<HumanMark>& marks,
                                          double borderline);
 [[nodiscard]] nlohmann::json to_json(const ClassFigures& figures);
 /// The same for people to read.

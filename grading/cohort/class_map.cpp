@@ -11,7 +11,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session_reader.h"
 #include "grading/cohort/class_figures.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/zones/placed.h"
@@ -84,7 +84,7 @@ std::vector<IVec3> counted_leaves(const SessionReader& reader) {
 
 }  // namespace
 
-std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const ledger::LedgerPlaces& places, const std::string& exam) {
+std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry, const records::LedgerPlaces& places, const std::string& exam) {
   auto out = std::make_unique<ClassTooth>();
   struct Task {
     std::string path;  // of one of its sessions
@@ -93,7 +93,7 @@ std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const 
   std::map<std::string, Task> tasks;
   for (const auto& [candidate, session] : counting_sessions(registry, exam)) {
     try {
-      const std::string path = ledger::recording_of(places, *session);
+      const std::string path = records::recording_of(places, *session);
       if (to_hex(sha256(read_file(path))) != session->file_sha256)
         throw Error(path, msg("was changed since it was filed"), msg("put an intact copy back"));
       const SessionReader reader(path);

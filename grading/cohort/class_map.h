@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/ledger/filing.h"
+#include "grading/records/filing.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::cohort {
@@ -47,6 +47,7 @@ struct ClassTooth {
   std::vector<Message> findings;  ///< sessions whose files are gone or changed: they are not in the map
 };
 /// Reads the filed sessions that count for one exam (counting_sessions). Throws Error when none of them can be read.
-[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const ledger::Registry& registry, const ledger::LedgerPlaces& places, const std::string& exam);
+[[nodiscard]] std::unique_ptr<ClassTooth> class_tooth(const records::Registry& registry, const records::LedgerPlaces& places,
+                                                      const std::string& exam);
 
 }  // namespace cavum::cohort

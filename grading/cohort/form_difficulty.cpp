@@ -5,8 +5,8 @@
 #include <numeric>
 
 #include "engine/base/error.h"
+#include "engine/base/order.h"
 #include "engine/base/random.h"
-#include "engine/statistics/order.h"
 
 namespace cavum::cohort {
 namespace {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <bit>
 #include <map>
+#include <numeric>
 #include <set>
 
 #include "grading/cohort/square_matrix.h"
@@ -68,10 +69,10 @@ Interactions estimate_interactions(std::span<const StudyMark> marks, double free
   out.list[n - 1].freedom = std::max(1.0, rest_freedom);
 
   // expected[i][k]: how much of interaction k of variance 1 stands in the residuals' squares by the groups of i.
-  SquareMatrix expected(n, std::vector<double>(n));
-  std::vector<double> squares(n);
+  Eigen::MatrixXd expected = Eigen::MatrixXd::Zero(n, n);
+  Eigen::VectorXd squares(n);
   for (std::size_t i = 0; i < n; ++i) squares[i] = squares_by(out.list[i], left);
-  expected[n - 1][n - 1] = free;
+  expected(n - 1, n - 1) = free;
   for (std::size_t k = 0; k + 1 < n; ++k) {
     const auto& group = out.list[k].group;
     const std::uint32_t groups = 1 + *std::max_element(group.begin(), group.end());
@@ -81,25 +82,21 @@ Interactions estimate_interactions(std::span<const StudyMark> marks, double free
       for (std::size_t i = 0; i < group.size(); ++i)
         if (group[i] == g) one[i] = 1, size += 1;
       const std::vector<double> seen = residuals(one);
-      for (std::size_t i = 0; i < n; ++i) expected[i][k] += squares_by(out.list[i], seen);
+      for (std::size_t i = 0; i < n; ++i) expected(i, k) += squares_by(out.list[i], seen);
       for (std::size_t i = 0; i < group.size(); ++i)
-        if (group[i] == g) expected[k][n - 1] += seen[i] / size;
+        if (group[i] == g) expected(k, n - 1) += seen[i] / size;
     }
   }
   // Those below 0 leave, the lowest first; what is left of them is the rest's.
   std::vector<std::size_t> in(n);
-  for (std::size_t i = 0; i < n; ++i) in[i] = i;
+  std::iota(in.begin(), in.end(), 0U);
   while (true) {
-    SquareMatrix a(in.size(), std::vector<double>(in.size()));
-    for (std::size_t i = 0; i < in.size(); ++i)
-      for (std::size_t k = 0; k < in.size(); ++k) a[i][k] = expected[in[i]][in[k]];
-    const auto inverse = inverted(a);
+    const auto inverse = ScaledRows(expected(in, in)).inverse();
     std::size_t worst = in.size() - 1;
-    std::vector<double> variance(in.size());
-    for (std::size_t k = 0; inverse && k < in.size(); ++k) {
-      for (std::size_t i = 0; i < in.size(); ++i) variance[k] += (*inverse)[k][i] * squares[in[i]];
-      if (k + 1 < in.size() && variance[k] < std::min(0.0, worst + 1 == in.size() ? 0.0 : variance[worst])) worst = k;
-    }
+    Eigen::VectorXd variance;
+    if (inverse) variance = *inverse * squares(in);
+    for (std::size_t k = 0; inverse && k + 1 < in.size(); ++k)
+      if (variance[k] < std::min(0.0, worst + 1 == in.size() ? 0.0 : variance[worst])) worst = k;
     if (!inverse) worst = in.size() > 1 ? in.size() - 2 : 0;
     if (inverse && worst + 1 == in.size()) {
       for (std::size_t k = 0; k < in.size(); ++k) out.list[in[k]].variance = std::max(0.0, variance[k]);

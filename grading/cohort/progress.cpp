@@ -4,7 +4,7 @@
 #include <boost/math/distributions/students_t.hpp>
 #include <cmath>
 
-#include "engine/statistics/statistics.h"
+#include "engine/base/statistics.h"
 
 namespace cavum::cohort {
 namespace {

@@ -51,24 +51,23 @@ class Model {
       if (m.level[0] >= count_.size()) count_.resize(m.level[0] + 1);
       count_[m.level[0]] += 1;
     }
-    shares_.assign(count_.size(), std::vector<double>(n));
+    shares_ = Eigen::MatrixXd::Zero(count_.size(), n);
     marks_of_.resize(n);
-    SquareMatrix normal(n, std::vector<double>(n));
+    Eigen::MatrixXd normal = Eigen::MatrixXd::Zero(n, n);
     for (const StudyMark& m : marks)
       for (std::size_t f = 1; f < m.level.size(); ++f) {
         const std::size_t i = columns_.of(m, f);
-        shares_[m.level[0]][i] += 1 / count_[m.level[0]];
+        shares_(m.level[0], i) += 1 / count_[m.level[0]];
         marks_of_[i] += 1;
-        for (std::size_t g = 1; g < m.level.size(); ++g) normal[i][columns_.of(m, g)] += 1;
+        for (std::size_t g = 1; g < m.level.size(); ++g) normal(i, columns_.of(m, g)) += 1;
       }
     // Each candidate's mean is taken off: what is left tells of conditions alone.
-    for (std::size_t p = 0; p < count_.size(); ++p)
-      for (std::size_t i = 0; i < n; ++i)
-        for (std::size_t k = 0; k < n; ++k) normal[i][k] -= count_[p] * shares_[p][i] * shares_[p][k];
-    for (std::size_t f = 0; f + 1 < columns_.first.size(); ++f)
-      for (std::size_t i = columns_.first[f]; i < columns_.first[f + 1]; ++i)
-        for (std::size_t k = columns_.first[f]; k < columns_.first[f + 1]; ++k) normal[i][k] += 1;
-    auto inverse = inverted(std::move(normal));
+    normal -= shares_.transpose() * Eigen::Map<const Eigen::VectorXd>(count_.data(), shares_.rows()).asDiagonal() * shares_;
+    for (std::size_t f = 0; f + 1 < columns_.first.size(); ++f) {
+      const auto from = columns_.first[f], size = columns_.first[f + 1] - from;
+      normal.block(from, from, size, size).array() += 1;
+    }
+    auto inverse = ScaledRows(normal).inverse();
     if (!inverse)
       throw Error(msg("these marks"),
                   msg("do not compare all stations and raters: some share no candidates with the others, or stand for one exam alone"),
@@ -79,17 +78,15 @@ class Model {
   [[nodiscard]] std::size_t persons() const noexcept { return count_.size(); }
   [[nodiscard]] double marks_of_person(std::size_t p) const { return count_[p]; }
   [[nodiscard]] double marks_of(std::size_t column) const { return marks_of_[column]; }
-  [[nodiscard]] std::vector<double> effects(std::span<const double> values) const {
+  [[nodiscard]] Eigen::VectorXd effects(std::span<const double> values) const {
     const std::vector<double> means = means_of(values);
-    std::vector<double> right(inverse_.size()), effect(inverse_.size());
+    Eigen::VectorXd right = Eigen::VectorXd::Zero(inverse_.cols());
     for (std::size_t m = 0; m < marks_.size(); ++m)
       for (std::size_t f = 1; f < marks_[m].level.size(); ++f) right[columns_.of(marks_[m], f)] += values[m] - means[marks_[m].level[0]];
-    for (std::size_t i = 0; i < effect.size(); ++i)
-      for (std::size_t k = 0; k < effect.size(); ++k) effect[i] += inverse_[i][k] * right[k];
-    return effect;
+    return inverse_ * right;
   }
   [[nodiscard]] std::vector<double> residuals(std::span<const double> values) const {
-    const std::vector<double> effect = effects(values);
+    const Eigen::VectorXd effect = effects(values);
     std::vector<double> left(values.begin(), values.end());
     for (std::size_t m = 0; m < left.size(); ++m)
       for (std::size_t f = 1; f < marks_[m].level.size(); ++f) left[m] -= effect[columns_.of(marks_[m], f)];
@@ -99,10 +96,8 @@ class Model {
   }
   /// What each mark adds to the effect of a column.
   [[nodiscard]] std::vector<double> weights(std::size_t column) const {
-    const std::vector<double>& row = inverse_[column];
-    std::vector<double> of_person(count_.size()), weights(marks_.size());
-    for (std::size_t p = 0; p < count_.size(); ++p)
-      for (std::size_t k = 0; k < row.size(); ++k) of_person[p] += row[k] * shares_[p][k];
+    const Eigen::VectorXd row = inverse_.row(column), of_person = shares_ * row;
+    std::vector<double> weights(marks_.size());
     for (std::size_t m = 0; m < marks_.size(); ++m) {
       weights[m] = -of_person[marks_[m].level[0]];
       for (std::size_t f = 1; f < marks_[m].level.size(); ++f) weights[m] += row[columns_.of(marks_[m], f)];
@@ -120,7 +115,7 @@ class Model {
   std::span<const StudyMark> marks_;
   Columns columns_;
   std::vector<double> count_, marks_of_;  // marks of a person, of a column
-  SquareMatrix shares_, inverse_;         // shares: of a person's marks in each column
+  Eigen::MatrixXd shares_, inverse_;      // shares: of a person's marks in each column
 };
 
 }  // namespace
@@ -132,7 +127,8 @@ SeverityStudy study_severity(std::span<const StudyMark> marks) {
   const std::size_t facets = marks[0].level.size();
   std::vector<double> values;
   for (const StudyMark& m : marks) values.push_back(m.value);
-  const std::vector<double> effect = model.effects(values), left = model.residuals(values);
+  const Eigen::VectorXd effect = model.effects(values);
+  const std::vector<double> left = model.residuals(values);
 
   SeverityStudy study;
   study.persons.resize(model.persons());

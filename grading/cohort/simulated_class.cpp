@@ -3,19 +3,18 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <exception>
 #include <filesystem>
 #include <mutex>
-#include <thread>
 #include <vector>
 
 #include "engine/base/file.h"
 #include "engine/base/file_name.h"
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
-#include "grading/close_exam.h"
-#include "grading/ledger/filing.h"
-#include "grading/ledger/issue.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "grading/marking/close_exam.h"
+#include "grading/records/filing.h"
+#include "grading/records/issue.h"
+#include "scenarios/operators/simulated_exam.h"
 
 namespace cavum::cohort {
 namespace {
@@ -33,7 +32,7 @@ void sit(const Student& student, const std::string& scenario) {
   options.device = "simulated Omni, operator " + student.skill;
   options.source = {SourceKind::simulated_operator, student.skill};
   options.position_quantum_mm = OmniModel{}.quantum_mm;
-  options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {ledger::k_ticket_note, student.ticket}};
+  options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {records::k_ticket_note, student.ticket}};
   const auto setup = scenarios::prepare_exam(scenario, options);
   auto hands = scenarios::make_simulated_candidate(*setup, student.skill, student.seed, OmniModel{});
   const auto exam = scenarios::Exam::start(*setup, student.path, hands.start_mm());
@@ -43,11 +42,12 @@ void sit(const Student& student, const std::string& scenario) {
 
 }  // namespace
 
-ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, ledger::Identities& identities, const std::function<void(int)>& done) {
+ClassSat simulate_class(const SimulatedClass& wanted, records::Ledger& ledger, records::Identities& identities,
+                        const std::function<void(int)>& done) {
   make_private_folder(wanted.sessions);
   const auto setup = scenarios::prepare_exam(wanted.scenario, {});
   const std::int64_t now = read_clocks().utc_ns;
-  const ledger::Ticket ticket = ledger::promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
+  const records::Ticket ticket = records::promise(*setup, ledger.content(), now - k_day_ns, now + k_day_ns);
 
   Random random(wanted.seed);
   std::vector<int> level(static_cast<std::size_t>(wanted.n));
@@ -61,42 +61,25 @@ ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, le
     s.candidate = identities.enrol(fmt::format("simulated-{}-{}", wanted.seed, i + 1), "", ticket.exam, ledger.key());
     s.path = fmt::format("{}/{}.cavum", wanted.sessions, file_name_of(s.candidate));
     if (std::filesystem::exists(s.path)) throw Error(s.path, msg("is there already"), msg("name another folder, or another --seed"));
-    s.ticket = ledger::issue(ledger, ticket, s.candidate);
+    s.ticket = records::issue(ledger, ticket, s.candidate);
     students.push_back(std::move(s));
   }
 
   ClassSat out;
   grading::ExamGrounds grounds;  // of the class
-  std::mutex mutex;              // of everything below
-  std::size_t next = 0;
-  std::exception_ptr failed;
-  const auto work = [&] {
-    while (true) {
-      std::size_t mine = 0;
-      {
-        const std::lock_guard lock(mutex);
-        if (failed || next == students.size()) return;
-        mine = next++;
-      }
-      try {
-        sit(students[mine], wanted.scenario);
-        const ledger::MarkedRecording marked(students[mine].path, grounds);
+  std::mutex mutex;              // of `out` and the ledger
+  independent_runs(
+      students.size(),
+      [&](std::size_t i) {
+        sit(students[i], wanted.scenario);
+        const records::MarkedRecording marked(students[i].path, grounds);
         const std::lock_guard lock(mutex);
         ++out.sat;
-        out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[mine].path));
-        if (ledger::file_session(ledger, marked, {.simulated = true}).seq) ++out.filed;
+        out.bytes += static_cast<std::int64_t>(std::filesystem::file_size(students[i].path));
+        if (records::file_session(ledger, marked, {.simulated = true}).seq) ++out.filed;
         done(out.sat);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failed) failed = std::current_exception();
-        return;
-      }
-    }
-  };
-  std::vector<std::thread> threads;
-  for (int i = 0; i < std::clamp(wanted.at_once, 1, 16); ++i) threads.emplace_back(work);
-  for (auto& thread : threads) thread.join();
-  if (failed) std::rethrow_exception(failed);
+      },
+      static_cast<std::size_t>(std::clamp(wanted.at_once, 1, 16)));
   return out;
 }
 

@@ -6,8 +6,8 @@
 #include <functional>
 #include <string>
 
-#include "grading/ledger/identities.h"
-#include "grading/ledger/ledger.h"
+#include "grading/records/identities.h"
+#include "grading/records/ledger.h"
 
 namespace cavum::cohort {
 
@@ -24,6 +24,6 @@ struct ClassSat {
 };
 /// Student i has a skill level between 0 and 1, spread evenly and drawn by the seed (operator `student-LEVEL`, in percent). Each gets a ticket, sits
 /// the exam, and the session is filed. `done(i)` after each. Throws Error; what was filed by then stays.
-ClassSat simulate_class(const SimulatedClass& wanted, ledger::Ledger& ledger, ledger::Identities& identities, const std::function<void(int)>& done);
+ClassSat simulate_class(const SimulatedClass& wanted, records::Ledger& ledger, records::Identities& identities, const std::function<void(int)>& done);
 
 }  // namespace cavum::cohort

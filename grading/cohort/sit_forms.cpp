@@ -3,18 +3,17 @@
 #include <fmt/core.h>
 
 #include <algorithm>
-#include <atomic>
 #include <filesystem>
 #include <memory>
 #include <mutex>
-#include <thread>
 
 #include "engine/base/error.h"
+#include "engine/base/independent_runs.h"
 #include "engine/base/random.h"
 #include "engine/base/scratch_folder.h"
-#include "grading/grade.h"
-#include "grading/session_input.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "grading/marking/grade.h"
+#include "grading/marking/session_input.h"
+#include "scenarios/operators/simulated_exam.h"
 
 namespace cavum::cohort {
 namespace {
@@ -79,15 +78,13 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
 
   const ScratchFolder scratch;
   std::mutex one;  // of what follows, and of `sat`
-  std::atomic<std::size_t> next{0};
   int ended = 0;
-  std::exception_ptr failed;
   grading::ExamGrounds grounds;  // of all
-  const auto work = [&] {
-    for (std::size_t i = next++; i < n * k; i = next++) {
-      const std::size_t form = i / n, student = i % n;
-      const std::string session = scratch.file(fmt::format("{}.cavum", i));
-      try {
+  independent_runs(
+      n * k,
+      [&](std::size_t i) {
+        const std::size_t form = i / n, student = i % n;
+        const std::string session = scratch.file(fmt::format("{}.cavum", i));
         const auto r = result_of(*forms[form], sat.level[student], sat.seed[student], session, grounds);
         std::error_code ignored;
         std::filesystem::remove(session, ignored);
@@ -95,18 +92,8 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
         sat.percent[student][form] = r.max_points > 0 ? 100.0 * r.points / r.max_points : 0.0;
         sat.passed[form] += r.verdict == grading::Verdict::pass ? 1 : 0;
         done(++ended);
-      } catch (...) {
-        const std::lock_guard lock(one);
-        if (!failed) failed = std::current_exception();
-        next = n * k;
-      }
-    }
-  };
-  {
-    std::vector<std::jthread> threads;
-    for (int t = 0; t < std::clamp(wanted.at_once, 1, 16); ++t) threads.emplace_back(work);
-  }
-  if (failed) std::rethrow_exception(failed);
+      },
+      static_cast<std::size_t>(std::clamp(wanted.at_once, 1, 16)));
   return sat;
 }
 

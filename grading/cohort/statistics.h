@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "engine/statistics/statistics.h"
+#include "engine/base/statistics.h"
 
 namespace cavum::cohort {
 

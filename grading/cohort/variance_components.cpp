@@ -8,9 +8,9 @@
 #include <utility>
 
 #include "engine/base/error.h"
+#include "engine/base/order.h"
 #include "engine/base/random.h"
-#include "engine/statistics/order.h"
-#include "engine/statistics/statistics.h"
+#include "engine/base/statistics.h"
 #include "grading/cohort/square_matrix.h"
 
 namespace cavum::cohort {
@@ -63,34 +63,14 @@ StudyDesign with_names(StudyDesign design) {
   return design;
 }
 
-/// Of rows of any scale, to 1 in 10¹⁰.
-std::size_t rank_of(SquareMatrix rows) {
-  std::size_t rank = 0;
-  for (std::size_t c = 0; !rows.empty() && c < rows[0].size() && rank < rows.size(); ++c) {
-    std::size_t p = rank;
-    for (std::size_t r = rank; r < rows.size(); ++r)
-      if (std::fabs(rows[r][c]) > std::fabs(rows[p][c])) p = r;
-    double scale = 0;
-    for (const double v : rows[p]) scale = std::max(scale, std::fabs(v));
-    if (!(std::fabs(rows[p][c]) > 1e-10 * scale)) continue;
-    std::swap(rows[p], rows[rank]);
-    for (std::size_t r = rank + 1; r < rows.size(); ++r) {
-      const double f = rows[r][c] / rows[rank][c];
-      for (std::size_t k = c; k < rows[r].size(); ++k) rows[r][k] = k == c ? 0 : rows[r][k] - f * rows[rank][k];
-    }
-    ++rank;
-  }
-  return rank;
-}
-
 /// The names of effects whose sums of squares depend on one another. Column k stands for effect k, the last for the mean.
-List dependent_effects(const SquareMatrix& a, const std::vector<std::string>& names) {
-  const std::size_t rank = rank_of(a);
+List dependent_effects(const Eigen::MatrixXd& a, const std::vector<std::string>& names) {
   List list;
   for (std::size_t k = 0; k < names.size(); ++k) {
-    SquareMatrix without = a;
-    for (auto& row : without) row.erase(row.begin() + static_cast<std::ptrdiff_t>(k));
-    if (rank_of(without) == rank) list.items.push_back(msg("{}", Term{names[k]}));
+    std::vector<Eigen::Index> others;
+    for (Eigen::Index other = 0; other < a.cols(); ++other)
+      if (other != static_cast<Eigen::Index>(k)) others.push_back(other);
+    if (ScaledRows(a(Eigen::all, others)).rank() == ScaledRows(a).rank()) list.items.push_back(msg("{}", Term{names[k]}));
   }
   return list;
 }
@@ -114,11 +94,9 @@ StudyDesign nested_design(const std::string& persons, const std::string& outer, 
 
 namespace {
 
-std::vector<double> times(const SquareMatrix& matrix, std::span<const double> column) {
-  std::vector<double> out(matrix.size());
-  for (std::size_t i = 0; i < out.size(); ++i)
-    for (std::size_t k = 0; k < column.size(); ++k) out[i] += matrix[i][k] * column[k];
-  return out;
+std::vector<double> times(const Eigen::MatrixXd& matrix, std::span<const double> column) {
+  const Eigen::VectorXd out = matrix * Eigen::Map<const Eigen::VectorXd>(column.data(), matrix.cols());
+  return {out.begin(), out.end()};
 }
 
 StudyDesign fitting(StudyDesign design, std::span<const StudyMark> marks) {
@@ -167,17 +145,15 @@ VarianceStudy::VarianceStudy(StudyDesign design, std::span<const StudyMark> mark
   const std::size_t n = design_.effects.size();
   const std::vector<std::uint32_t> all(marks_, 0);
   const std::vector<double> all_size{static_cast<double>(marks_)};
-  SquareMatrix a(n + 1, std::vector<double>(n + 1, static_cast<double>(marks_)));
+  Eigen::MatrixXd a = Eigen::MatrixXd::Constant(n + 1, n + 1, static_cast<double>(marks_));
   for (std::size_t i = 0; i <= n; ++i)
-    for (std::size_t k = 0; k < n; ++k) a[i][k] = i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
-  expected_.resize(n);
+    for (std::size_t k = 0; k < n; ++k) a(i, k) = i < n ? expected(group_[i], size_[i], group_[k]) : expected(all, all_size, group_[k]);
+  expected_.resize(n, n);
   for (std::size_t k = 0; k < n; ++k) {
-    std::vector<double> column;
-    for (std::size_t i = 0; i <= n; ++i) column.push_back(a[i][k]);
-    const std::vector<double> own = own_squares(std::move(column));
-    for (std::size_t i = 0; i < n; ++i) expected_[i].push_back(own[i]);
+    const std::vector<double> own = own_squares({a.col(k).begin(), a.col(k).end()});
+    expected_.col(k) = Eigen::Map<const Eigen::VectorXd>(own.data(), expected_.rows());
   }
-  auto inverse = inverted(expected_);
+  auto inverse = ScaledRows(expected_).inverse();
   if (!inverse)
     throw Error(StudyError::effects_not_apart, msg("these marks"), msg("cannot tell these effects apart: {}", dependent_effects(a, design_.names)),
                 msg("a study needs two conditions of each facet, and candidates who share them"));

@@ -4,6 +4,7 @@
 // mark.
 #pragma once
 
+#include <Eigen/Core>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -60,8 +61,8 @@ class VarianceStudy {
   std::vector<std::pair<std::string, std::string>> merged_;
   std::vector<std::vector<std::uint32_t>> group_;  // by effect, of each mark
   std::vector<std::vector<double>> size_;          // by effect, of each group: how many marks
-  std::vector<std::vector<double>> expected_;      // of `squares`, by effect and variance
-  std::vector<std::vector<double>> of_squares_;    // its inverse
+  Eigen::MatrixXd expected_;                       // of `squares`, by effect and variance
+  Eigen::MatrixXd of_squares_;                     // its inverse
   Marking marking_;
 };
 

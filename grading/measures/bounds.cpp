@@ -4,8 +4,8 @@
 #include <cmath>
 
 #include "engine/base/det_math.h"
-#include "engine/statistics/order.h"
-#include "engine/statistics/statistics.h"
+#include "engine/base/order.h"
+#include "engine/base/statistics.h"
 #include "grading/measures/cut_surface.h"
 
 namespace cavum::grading {

@@ -13,7 +13,7 @@
 
 namespace cavum::grading {
 
-class KnownTooth;  // grading/breakthrough/known_tooth.h
+class KnownTooth;  // grading/perforation/known_tooth.h
 
 /// What stands beside the tooth, and all of what was seen, cut and removed.
 struct GradeBeside {
@@ -36,7 +36,7 @@ struct GradeInput {
   std::span<const TimedEvent> events;
   std::int64_t sat_under_ticks = -1;    ///< time limit that the exam ran under when `scenario` came later; -1 = that of `scenario`
   const SessionSetup* again = nullptr;  ///< to simulate the motion once more; nullptr: it was recorded under other physics, or there is none
-  const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (breakthrough/exposure.h); nullptr: to be found out
+  const std::array<bool, 256>* around = nullptr;  ///< by tissue id: it lies around the tooth (perforation/exposure.h); nullptr: to be found out
   const GradeBeside* beside = nullptr;            ///< nullptr: the tooth stands alone
   /// As the candidate saw it.
   [[nodiscard]] const Tooth& seen_before() const noexcept { return beside != nullptr ? beside->before : before; }

@@ -23,8 +23,8 @@ struct Share {
 };
 
 /// Of a leaf at a border, what is not known of it: a half where leaves count whole. Where they count by parts, by the octree's own distance, volumes
-/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/known_geometry_test.cpp), and four times that is promised; but
-/// where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
+/// of known cavities at 80 poses are true to 0.008 of a leaf at each (tests/grading/marking/known_geometry_test.cpp), and four times that is
+/// promised; but where the cut and a zone's border pass through one leaf, a thin zone may be off by a fifth of it, and a quarter is promised.
 constexpr double k_whole = 0.5, k_by_parts = 0.03, k_two_borders = 0.25;
 
 /// The leaf lies where what is beyond the target's bottom meets what is beyond its sides: leaves go whole to one or the other.

@@ -3,12 +3,12 @@
 
 #include <algorithm>
 #include <chrono>
-#include <deque>
 #include <filesystem>
 #include <memory>
 #include <mutex>
 #include <thread>
 
+#include "engine/base/independent_runs.h"
 #include "engine/base/write_file.h"
 #include "grading/pool/makers.h"
 
@@ -30,52 +30,33 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 /// Makes the lines of `wanted`, some at the same time; `take` gets each. Returns those that could not be made.
 std::vector<std::size_t> make(const Work& work, const std::vector<std::size_t>& wanted, std::size_t threads, const Run& run,
                               const std::function<void(std::size_t, std::string, const Spent&)>& take) {
-  struct Wanted {
-    std::size_t index = 0;
-    int attempt = 1;
-  };
   grading::ExamGrounds grounds;  // of the whole class
   std::mutex mutex;              // of what follows, and of `take`
-  std::deque<Wanted> queue;
-  for (const auto i : wanted) queue.push_back({i});
-  std::vector<std::size_t> missing;
-  std::exception_ptr failed;
-  const auto go_on = [&] {
-    while (true) {
-      Wanted mine;
+  std::vector<std::size_t> missing = wanted;
+  for (int attempt = 0; attempt < k_attempts && !missing.empty(); ++attempt) {
+    std::vector<std::size_t> again;
+    const auto one = [&](std::size_t i) {
+      const std::size_t index = missing[i];
       {
         const std::lock_guard lock(mutex);
-        if (queue.empty() || failed || (run.stop && run.stop())) return;
-        mine = queue.front();
-        queue.pop_front();
+        if (run.stop && run.stop()) return again.push_back(index);
       }
       try {
         const auto begin = std::chrono::steady_clock::now();
         const double core_s = core_s_of_thread();
-        std::string line = line_of(work, mine.index, grounds);
+        std::string line = line_of(work, index, grounds);
         const Spent spent{seconds_since(begin), core_s_of_thread() - core_s};
         const std::lock_guard lock(mutex);
-        take(mine.index, std::move(line), spent);
+        take(index, std::move(line), spent);
       } catch (const std::bad_alloc&) {  // perhaps when others have ended
         const std::lock_guard lock(mutex);
-        if (mine.attempt < k_attempts)
-          queue.push_back({mine.index, mine.attempt + 1});
-        else
-          missing.push_back(mine.index);
-      } catch (...) {
-        const std::lock_guard lock(mutex);
-        if (!failed) failed = std::current_exception();
+        again.push_back(index);
       }
-    }
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < threads; ++t) others.emplace_back(go_on);
-    go_on();
+    };
+    independent_runs(missing.size(), one, threads);
+    std::sort(again.begin(), again.end());
+    missing = std::move(again);
   }
-  if (failed) std::rethrow_exception(failed);
-  for (const auto& w : queue) missing.push_back(w.index);  // it was stopped
-  std::sort(missing.begin(), missing.end());
   return missing;
 }
 

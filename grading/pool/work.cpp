@@ -9,12 +9,12 @@
 #include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/session_image.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
+#include "grading/marking/school_mark.h"
+#include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
-#include "grading/school_mark.h"
-#include "grading/session_input.h"
 #include "scenarios/file/parse.h"
 
 namespace cavum::pool {
@@ -31,18 +31,6 @@ json on_lines(const std::vector<Message>& texts) {
   json list = json::array();
   for (const auto& t : texts) list.push_back(one_line(english_text(t)));
   return list;
-}
-
-Bytes from_hex(const std::string& text, const std::string& where) {
-  const auto digit = [&](char c) {
-    if (c >= '0' && c <= '9') return c - '0';
-    if (c >= 'a' && c <= 'f') return c - 'a' + 10;
-    throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
-  };
-  if (text.size() % 2 != 0) throw Error(where, msg("holds half a byte of a surface"), msg("make the work anew"));
-  Bytes bytes(text.size() / 2);
-  for (std::size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::uint8_t>(digit(text[2 * i]) << 4 | digit(text[2 * i + 1]));
-  return bytes;
 }
 
 /// An error speaks of the file without its folder, which is another one on each machine.
@@ -101,7 +89,11 @@ Work parse_work(const std::string& text, const std::string& where) {
   }
   work.rubric_toml = text_in(j, "rubric");
   work.scenario_toml = text_in(j, "scenario");
-  for (const auto& s : surfaces) work.surfaces.emplace_back(text_in(s, "name"), from_hex(text_in(s, "hex"), where));
+  for (const auto& s : surfaces) {
+    auto bytes = from_hex(text_in(s, "hex"));
+    if (!bytes) throw Error(where, msg("holds a surface that is not hexadecimal"), msg("make the work anew"));
+    work.surfaces.emplace_back(text_in(s, "name"), std::move(*bytes));
+  }
   work.another_task = another.get<bool>();
   return work;
 }

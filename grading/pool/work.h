@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/exam_ground.h"
+#include "grading/marking/exam_ground.h"
 #include "scenarios/file/surface_files.h"
 
 namespace cavum::pool {

@@ -151,7 +151,7 @@ struct PerforationEvent {
 enum class DropSeverity : std::uint8_t { not_felt, faint, felt, felt_and_cut_on };
 inline constexpr std::array k_drop_severities{"not_felt", "faint", "felt", "felt_and_cut_on"};
 
-/// The force that a cavity took away; see grading/breakthrough/drop.h. Of all stretches of 1.5 s where it was opened the one furthest beyond (or
+/// The force that a cavity took away; see grading/perforation/drop.h. Of all stretches of 1.5 s where it was opened the one furthest beyond (or
 /// least below) 0.1 N and 0.3 of the filled tooth's force. Forces are those rendered to the hand, means over 30 ms.
 struct ForceDrop {
   double missing_n = 0.0;       ///< how much more is missing at its end than at its beginning
@@ -169,7 +169,7 @@ struct ForceDrop {
   }
 };
 
-/// What was laid open from the cavity of all tissues of a kind; see grading/breakthrough/exposure.h.
+/// What was laid open from the cavity of all tissues of a kind; see grading/perforation/exposure.h.
 struct PerforationTruth {
   bool perforated = false;  ///< some face of such a tissue lies open to the cavity, or some of it was removed from there
   Trace first;

@@ -4,11 +4,11 @@
 #include <cmath>
 
 #include "engine/base/error.h"
-#include "engine/scan/read_scan.h"
-#include "engine/scan/scale_fit.h"
-#include "engine/scan/smoothed.h"
+#include "engine/lab/scan/read_scan.h"
+#include "engine/lab/scan/scale_fit.h"
+#include "engine/lab/scan/smoothed.h"
 #include "engine/tooth/mesh/mesh_units.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 
 namespace cavum::grading {
 namespace {

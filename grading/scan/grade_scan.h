@@ -5,9 +5,9 @@
 #include <string>
 #include <vector>
 
-#include "engine/scan/cut_by_scan.h"
-#include "engine/scan/register_scan.h"
-#include "engine/scan/scan_fit.h"
+#include "engine/lab/scan/cut_by_scan.h"
+#include "engine/lab/scan/register_scan.h"
+#include "engine/lab/scan/scan_fit.h"
 #include "grading/measures/grade_input.h"
 #include "grading/result/mark.h"
 #include "scenarios/file/scenario.h"

@@ -11,7 +11,7 @@
 #include <utility>
 #include <vector>
 
-#include "engine/servo/real_time.h"
+#include "engine/physics/servo/real_time.h"
 #include "engine/session/session_writer.h"
 #include "scenarios/exam/exam.h"
 

@@ -10,7 +10,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/servo/tick.h"
+#include "engine/physics/servo/tick.h"
 #include "engine/session/event.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/file/expression.h"

@@ -1,6 +1,6 @@
 // The measures that a criterion of a rubric may use: one record each. Parser, checks, advice, marking, `grade --why`, the JSON of a result and
 // docs/measures.md are made of them. A room above adds what it knows of a measure by the record's key: grading/result/measure_marking.h value, bound
-// and reason, grading/words/moments_of_measure.h moments. `require_row_for_each` holds both tables against this one.
+// and reason, grading/feedback/moments_of_measure.h moments. `require_row_for_each` holds both tables against this one.
 #pragma once
 
 #include <optional>

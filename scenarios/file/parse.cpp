@@ -326,8 +326,6 @@ ReadScenario read_scenario(const std::string& text, const std::string& path) {
   return read;
 }
 
-std::vector<Problem> check_scenario(const std::string& text, const std::string& path) { return read_scenario(text, path).problems; }
-
 Scenario parse_scenario(const std::string& text, const std::string& path) {
   ReadScenario read = read_scenario(text, path);
   throw_first(read.problems);

@@ -37,11 +37,9 @@ class ProblemsError : public Error {
 /// Throws ProblemsError unless the list is empty.
 void require_none(std::vector<Problem> problems);
 
-/// All mistakes of a scenario file, in the order of the file; empty when it is sound. `path` names the file in them.
-[[nodiscard]] std::vector<Problem> check_scenario(const std::string& text, const std::string& path);
-/// Throws Error naming the first mistake, and how many there are.
+/// Throws Error naming the first mistake, and how many there are. `path` names the file in it.
 [[nodiscard]] Scenario parse_scenario(const std::string& text, const std::string& path);
-/// Both at once: what could be read of a file, and its mistakes.
+/// What could be read of a file, and all its mistakes in the order of the file; none when it is sound.
 struct ReadScenario {
   Scenario scenario;
   std::vector<Problem> problems;

@@ -9,8 +9,6 @@
 
 #include "engine/base/text.h"
 #include "engine/tooth/beside.h"
-#include "scenarios/candidates/expert_time.h"
-#include "scenarios/candidates/operator.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/condition.h"
@@ -18,6 +16,8 @@
 #include "scenarios/file/measures.h"
 #include "scenarios/file/names.h"
 #include "scenarios/file/rubric_check.h"
+#include "scenarios/operators/expert_time.h"
+#include "scenarios/operators/operator.h"
 #include "scenarios/zones/relief.h"
 
 namespace cavum::scenarios {

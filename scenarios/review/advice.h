@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include "engine/instrument/diamond_point.h"
+#include "engine/physics/bur/diamond_point.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/zones/zone_map.h"
 

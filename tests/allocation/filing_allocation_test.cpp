@@ -11,15 +11,15 @@
 #include "engine/base/memory_reserve.h"
 #include "engine/base/random.h"
 #include "tests/allocation/failing_memory.h"
-#include "tests/grading/ledger/school.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "tests/grading/records/school.h"
+#include "tests/grading/records/short_exam.h"
 
 namespace cavum {
 namespace {
 
 using namespace testing_ledger;
 
-std::vector<std::string> texts_of(const ledger::LedgerContent& c) {
+std::vector<std::string> texts_of(const records::LedgerContent& c) {
   std::vector<std::string> out;
   for (const auto& e : c.entries) out.push_back(e.text);
   return out;
@@ -31,7 +31,7 @@ class FilingWithoutMemory : public testing::Test {
     school_.emplace();
     exam_ = school_->file("short.cavum");
     sit_shortly(k_scenario, exam_, school_->ticket("4711"));
-    before_ = texts_of(ledger::read_ledger(school_->places()));
+    before_ = texts_of(records::read_ledger(school_->places()));
   }
 
   /// One filing, as `cavum ledger add` does it, with the n-th request refused. What is wrong, in words; the requests that there were.
@@ -39,15 +39,15 @@ class FilingWithoutMemory : public testing::Test {
     const School copy(*school_);
     const std::string exam = copy.file("short.cavum");
     std::string said;
-    std::optional<ledger::Filing> filing;
-    const ledger::LedgerPlaces places = copy.places();
+    std::optional<records::Filing> filing;
+    const records::LedgerPlaces places = copy.places();
     const std::string folder = copy.ledger_folder();
     keep_memory_reserve();
     testing_allocation::begin_counting(n);
     try {
-      ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
+      records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
       grading::ExamGrounds grounds;
-      filing = ledger::file_session(ledger, exam, {}, grounds);
+      filing = records::file_session(ledger, exam, {}, grounds);
     } catch (const std::bad_alloc&) {
       said = "memory: there is not enough; close other programs, and try again";
     } catch (const Error& e) {
@@ -60,18 +60,18 @@ class FilingWithoutMemory : public testing::Test {
     if (filing && !filing->findings.empty()) return {at + "a sound exam is refused: " + english_text(filing->findings[0].what), requests};
     if (!filing && said.find("; ") == std::string::npos) return {at + "does not say what to do: " + said, requests};
     if (!filing && said.find("memory") == std::string::npos) return {at + "does not say that memory is short: " + said, requests};
-    const ledger::LedgerCheck check = ledger::check_ledger(places, false);
+    const records::LedgerCheck check = records::check_ledger(places, false);
     if (!check.findings.empty()) return {at + "the ledger does not hold: " + english_text(check.findings[0].what) + " (" + said + ")", requests};
-    auto now = texts_of(ledger::read_ledger(places));
+    auto now = texts_of(records::read_ledger(places));
     if (!filing && now != before_) return {at + "the ledger was changed, and yet: " + said, requests};
     if (!filing) {
       keep_memory_reserve();  // the next program
-      ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
-      const ledger::Filing again = ledger::file_session(ledger, exam, {}, grounds_);
+      records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
+      const records::Filing again = records::file_session(ledger, exam, {}, grounds_);
       if (!again.seq) return {at + "afterwards it cannot be filed: " + english_text(again.findings[0].what), requests};
-      now = texts_of(ledger::read_ledger(places));
+      now = texts_of(records::read_ledger(places));
     }
-    if (now.size() != before_.size() + 1 || !ledger::check_ledger(places, false).findings.empty()) return {at + "it was not filed", requests};
+    if (now.size() != before_.size() + 1 || !records::check_ledger(places, false).findings.empty()) return {at + "it was not filed", requests};
     return {"", requests};
   }
 

@@ -9,9 +9,9 @@
 #include "engine/base/file.h"
 #include "engine/session/verify.h"
 #include "grading/cohort/simulated_class.h"
-#include "grading/ledger/filing.h"
-#include "grading/ledger/identities.h"
-#include "grading/ledger/issue.h"
+#include "grading/records/filing.h"
+#include "grading/records/identities.h"
+#include "grading/records/issue.h"
 #include "scenarios/exam/exam.h"
 
 namespace {
@@ -33,22 +33,22 @@ int main(int argc, char** argv) {
   ::setenv("CAVUM_HOME", home.c_str(), 1);
   int code = 0;
   try {
-    const SigningKey key = ledger::load_school_key(ledger::school_key_path(), true);
+    const SigningKey key = records::load_school_key(records::school_key_path(), true);
     cohort::SimulatedClass wanted;
     wanted.scenario = argv[1];
     wanted.sessions = home + "/sessions";
     wanted.n = argc == 3 ? std::atoi(argv[2]) : 200;
     {
-      ledger::Ledger::create(home + "/sat", "school", key);
-      ledger::Ledger ledger(home + "/sat", key);
-      ledger::Identities identities(home + "/sat/identities.db", true);
+      records::Ledger::create(home + "/sat", "school", key);
+      records::Ledger ledger(home + "/sat", key);
+      records::Identities identities(home + "/sat/identities.db", true);
       static_cast<void>(cohort::simulate_class(wanted, ledger, identities, [](int) {}));
     }
     // filed in a ledger that has promised as many exams; these are another ledger's, so each is filed with that finding
-    ledger::Ledger::create(home + "/filed", "school", key);
-    ledger::Ledger ledger(home + "/filed", key);
-    const ledger::Ticket ticket = ledger::promise(*scenarios::prepare_exam(wanted.scenario, {}), ledger.content(), 0, 1);
-    for (int i = 0; i < wanted.n; ++i) static_cast<void>(ledger::issue(ledger, ticket, "C-" + std::to_string(i)));
+    records::Ledger::create(home + "/filed", "school", key);
+    records::Ledger ledger(home + "/filed", key);
+    const records::Ticket ticket = records::promise(*scenarios::prepare_exam(wanted.scenario, {}), ledger.content(), 0, 1);
+    for (int i = 0; i < wanted.n; ++i) static_cast<void>(records::issue(ledger, ticket, "C-" + std::to_string(i)));
     std::set<std::string> files;
     for (const auto& f : std::filesystem::directory_iterator(wanted.sessions)) files.insert(f.path().string());
     double replay = 0, filing = 0;
@@ -57,7 +57,7 @@ int main(int argc, char** argv) {
       const double a = cpu_seconds();
       if (!verify_session(file).verified) throw Error(file, msg("is not verified"), msg("this is a defect"));
       const double b = cpu_seconds();
-      if (!ledger::file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, msg("was not filed"), msg("this is a defect"));
+      if (!records::file_session(ledger, file, {true, true, true}, grounds).seq) throw Error(file, msg("was not filed"), msg("this is a defect"));
       replay += b - a;
       filing += cpu_seconds() - b;
     }

@@ -12,7 +12,7 @@
 #include <fstream>
 
 #include "engine/base/error.h"
-#include "grading/session_input.h"
+#include "grading/marking/session_input.h"
 
 namespace {
 

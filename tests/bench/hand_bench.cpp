@@ -7,7 +7,7 @@
 #include <cstdio>
 #include <cstdlib>
 
-#include "engine/rig/servo_rig.h"
+#include "engine/lab/rig/servo_rig.h"
 #include "engine/session/simulation.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"

@@ -2,25 +2,18 @@
 //   octree_bench [any]   with an argument the leaf of 0.05 mm alone, for profilers
 #include <cstdio>
 
-#include "engine/cutting/carve_head.h"
+#include "engine/base/order.h"
+#include "engine/physics/cutting/carve_head.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/octree_edit.h"
 #include "tests/bench/thread_clock.h"
 #include "tests/engine/support/engine_testing.h"
+#include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
 namespace {
 
-struct Ball {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
-};
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
-}
+using testing_tooth::Ball;
 
 /// Median time of one ball out of a solid block, each at a new place.
 double carve_ball_us(const Tooth& block, double radius, std::size_t* leaves) {

@@ -12,15 +12,12 @@
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/surface_patches.h"
 #include "tests/bench/thread_clock.h"
+#include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
 namespace {
 
-struct Ball {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
-};
+using testing_tooth::Ball;
 
 double share(std::vector<double> v, double of) {
   std::sort(v.begin(), v.end());
@@ -52,11 +49,9 @@ void run(Tooth tooth, int cuts) {
       if (hard.patch(p).vertices[v].position_mm[2] > 0) places.emplace_back(p, v);
   }
   std::printf("%s, leaf %.3f mm\n", tooth.name.c_str(), tree.leaf_mm());
-  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches, %.1f MB; copy of the leaves %.1f MB; octree %.1f MB\n",
-              hard.triangle_count(), vertices, full, 1e-6 * static_cast<double>(hard.memory_bytes()),
-              1e-6 * static_cast<double>(blocks.memory_bytes()), 1e-6 * static_cast<double>(tree.memory_bytes()));
-  std::printf("  enamel, dentin, pulp: %zu, %zu, %zu triangles, %.1f MB\n", enamel.triangle_count(), dentin.triangle_count(), pulp.triangle_count(),
-              1e-6 * static_cast<double>(enamel.memory_bytes() + dentin.memory_bytes() + pulp.memory_bytes()));
+  std::printf("  hard tissue: %zu triangles, %zu vertices in %zu patches; octree %.1f MB\n", hard.triangle_count(), vertices, full,
+              1e-6 * static_cast<double>(tree.memory_bytes()));
+  std::printf("  enamel, dentin, pulp: %zu, %zu, %zu triangles\n", enamel.triangle_count(), dentin.triangle_count(), pulp.triangle_count());
   std::printf("  whole: leaves copied %.0f us, hard tissue made %.0f us, three tissues %.0f us\n", copying, whole, tissues);
   begin = thread_us();
   const TriangleMesh tetrahedra = surface_mesh(tooth, "solid");

@@ -9,8 +9,8 @@
 #include <string>
 #include <utility>
 
-#include "engine/selfcheck/check_rule.h"
-#include "tests/engine/selfcheck/arm_families.h"
+#include "engine/device/selfcheck/check_rule.h"
+#include "tests/engine/device/selfcheck/arm_families.h"
 
 namespace {
 

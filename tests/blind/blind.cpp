@@ -5,7 +5,6 @@
 //   [--keep DIR]   one recording again
 // CAVUM_TEST_SEED repeats a run; without it the seed is drawn anew. Cases are the same for any number of --jobs.
 #include <algorithm>
-#include <atomic>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -14,8 +13,8 @@
 #include <mutex>
 #include <random>
 #include <stdexcept>
-#include <thread>
 
+#include "engine/base/independent_runs.h"
 #include "tests/blind/measured.h"
 #include "tests/blind/score.h"
 
@@ -108,27 +107,21 @@ Outcome run(const Options& o, const Request& request, const std::filesystem::pat
 
 std::vector<Outcome> run_all(const Options& o, const std::vector<Request>& list, const std::filesystem::path& scratch) {
   std::vector<Outcome> done;
-  std::atomic<std::size_t> next{0};
   std::mutex guard;
   std::ofstream log;
   if (!o.log.empty()) log.open(o.log);
-  const auto work = [&](int job) {
-    const std::filesystem::path folder = scratch / std::to_string(job);
-    for (;;) {
-      const std::size_t i = next++;
-      if (i >= list.size()) return;
-      Outcome outcome = run(o, list[i], folder);
-      const std::scoped_lock lock(guard);
-      const std::string line = line_of(outcome);
-      std::printf("%zu/%zu %s\n", done.size() + 1, list.size(), line.c_str());
-      std::fflush(stdout);
-      if (log) log << line << std::endl;
-      done.push_back(std::move(outcome));
-    }
+  const auto one = [&](std::size_t i) {
+    const std::filesystem::path folder = scratch / std::to_string(i);
+    Outcome outcome = run(o, list[i], folder);
+    std::filesystem::remove_all(folder);
+    const std::scoped_lock lock(guard);
+    const std::string line = line_of(outcome);
+    std::printf("%zu/%zu %s\n", done.size() + 1, list.size(), line.c_str());
+    std::fflush(stdout);
+    if (log) log << line << std::endl;
+    done.push_back(std::move(outcome));
   };
-  std::vector<std::thread> threads;
-  for (int job = 0; job < o.jobs; ++job) threads.emplace_back(work, job);
-  for (std::thread& t : threads) t.join();
+  cavum::independent_runs(list.size(), one, static_cast<std::size_t>(o.jobs));
   return done;
 }
 

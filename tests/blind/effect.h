@@ -1,5 +1,5 @@
 // What can be hidden in a recording: each mechanism of docs/laws.md and what no mechanism explains, as force added to the base force
-// F = max(0, k·X + c·V) in contact, 0 in air. Written from the formulae alone; shares no code with engine/explain.
+// F = max(0, k·X + c·V) in contact, 0 in air. Written from the formulae alone; shares no code with engine/lab/explain.
 #pragma once
 
 #include <functional>

@@ -6,18 +6,14 @@
 #include <map>
 #include <sstream>
 
+#include "engine/base/order.h"
+
 namespace cavum::blind {
 namespace {
 
 bool among(const std::string& item, const std::string& list) { return ("|" + list + "|").find("|" + item + "|") != std::string::npos; }
 bool contains(const std::vector<std::string>& list, const std::string& item) { return std::find(list.begin(), list.end(), item) != list.end(); }
 bool same(double a, double b) { return std::abs(a - b) < 1e-9; }
-
-double median(std::vector<double> values) {
-  if (values.empty()) return std::nan("");
-  std::sort(values.begin(), values.end());
-  return values[values.size() / 2];
-}
 
 void compare_parameters(const std::vector<Parameter>& truth, const Cause& cause, Mark& m) {
   for (const auto& [name, estimate] : cause.parameters)
@@ -190,9 +186,9 @@ void print_table(const std::vector<Outcome>& outcomes) {
       else
         std::printf("  %g@%-5g %d/%d (%d)", -at.first, at.second, cell.found, cell.n, cell.exact);
     }
-    if (!row.errors.empty()) std::printf("  error %.0f %%", 100.0 * median(row.errors));
+    if (!row.errors.empty()) std::printf("  error %.0f %%", 100.0 * cavum::median(row.errors));
     if (row.intervals > 0) std::printf("  cover %d/%d", row.covered, row.intervals);
-    if (!row.gains.empty()) std::printf("  gain %.2f", median(row.gains));
+    if (!row.gains.empty()) std::printf("  gain %.2f", cavum::median(row.gains));
     std::printf("\n");
     for (const auto& [text, count] : row.otherwise) std::printf("%34s %d x %s\n", "instead", count, text.c_str());
   }

@@ -15,7 +15,7 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum::testing_device {
 namespace {

@@ -10,7 +10,7 @@
 #include <thread>
 
 #include "engine/base/file.h"
-#include "engine/servo/real_time.h"
+#include "engine/physics/servo/real_time.h"
 #include "engine/session/clock_check.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"

@@ -9,7 +9,7 @@
 #include "engine/base/file.h"
 #include "engine/device/hardware/falcon_stylus.h"
 #include "engine/device/hardware/open_stylus.h"
-#include "engine/rig/servo_rig.h"
+#include "engine/lab/rig/servo_rig.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/session_writer.h"
 #include "engine/session/simulation.h"

@@ -9,16 +9,11 @@
 
 #include "engine/device/hardware/inverse3_stylus.h"
 #include "tests/device/emulated_inverse3.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::testing_device {
 
-/// Within 20 s, or as told.
-inline bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = std::chrono::seconds(20)) {
-  using Clock = std::chrono::steady_clock;
-  for (const auto end = Clock::now() + within; Clock::now() < end; std::this_thread::sleep_for(std::chrono::milliseconds(1)))
-    if (condition()) return true;
-  return condition();
-}
+using testing_basics::comes_true;
 
 /// In the device's own frame: what goes in comes out.
 inline StationStylus own_frame(const EmulatedInverse3& service, const std::string& device = {}, const std::string& grip = {}) {

@@ -8,7 +8,7 @@
 #include <cstdlib>
 #include <thread>
 
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 #include "tests/device/inverse3_hands.h"
 
 namespace cavum {

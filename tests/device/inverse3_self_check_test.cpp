@@ -7,7 +7,7 @@
 
 #include "engine/base/file.h"
 #include "engine/device/hardware/station_pedal.h"
-#include "engine/selfcheck/check_note.h"
+#include "engine/device/selfcheck/check_note.h"
 #include "engine/session/session_reader.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/tooth.h"

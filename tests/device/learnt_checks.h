@@ -3,7 +3,7 @@
 
 #include <random>
 
-#include "engine/selfcheck/check_history.h"
+#include "engine/device/selfcheck/check_history.h"
 
 namespace cavum::testing_device {
 

@@ -8,8 +8,8 @@
 #include <mutex>
 #include <thread>
 
-#include "engine/servo/scheduling.h"
-#include "tests/engine/selfcheck/free_arm.h"
+#include "engine/physics/servo/scheduling.h"
+#include "tests/engine/device/selfcheck/free_arm.h"
 
 namespace cavum::testing_device {
 

@@ -18,15 +18,10 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing_basics::code_of;
+using testing_basics::comes_true;
 using testing_basics::tells;
 using testing_basics::text_of;
 using testing_basics::thrown_by;
-
-bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 20000ms) {
-  for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
-    if (condition()) return true;
-  return condition();
-}
 
 /// The test's hands on the library that the stylus has loaded.
 struct Hands {

@@ -8,7 +8,7 @@
 #include "engine/device/hardware/hid_pedal.h"
 #include "engine/device/simulated_stylus.h"
 #include "engine/device/with_pedal.h"
-#include "engine/rig/servo_rig.h"
+#include "engine/lab/rig/servo_rig.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/session_writer.h"
 #include "engine/session/simulation.h"

@@ -18,14 +18,9 @@ namespace {
 
 using namespace std::chrono_literals;
 using testing_basics::code_of;
+using testing_basics::comes_true;
 using testing_basics::text_of;
 using EmulatedPedal = testing_device::ThePedal;
-
-bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = 3000ms) {
-  for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end; std::this_thread::sleep_for(1ms))
-    if (condition()) return true;
-  return condition();
-}
 
 class PedalTest : public ::testing::Test {
  protected:

@@ -41,7 +41,7 @@ def problems(root):
         out.append("CHANGELOG.md: its newest version is not that of engine/base/version.cpp")
     first = text[HEADING.search(text).end():].lstrip("\n").split("\n", 1)[0] if headings else ""
     formats = FORMATS.fullmatch(first)
-    physics = constant(root, "engine/servo/servo.h", "k_physics_version")
+    physics = constant(root, "engine/physics/servo/servo.h", "k_physics_version")
     session = constant(root, "engine/session/session.h", "k_session_format")
     if not formats or (int(formats.group(1)), int(formats.group(2))) != (physics, session):
         out.append(f"CHANGELOG.md: the line below its first heading does not say 'Physics version {physics} · session format {session} · tooth file version N.'")

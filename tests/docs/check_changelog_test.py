@@ -14,7 +14,7 @@ class CheckChangelog(unittest.TestCase):
         self.folder = tempfile.TemporaryDirectory()
         self.root = Path(self.folder.name)
         self.write("engine/base/version.cpp", 'return "0.2.0";\n')
-        self.write("engine/servo/servo.h", "inline constexpr int k_physics_version = 3;\n")
+        self.write("engine/physics/servo/servo.h", "inline constexpr int k_physics_version = 3;\n")
         self.write("engine/session/session.h", "inline constexpr int k_session_format = 1;\n")
 
     def tearDown(self):
@@ -36,7 +36,7 @@ class CheckChangelog(unittest.TestCase):
         self.assertEqual(len(self.found(GOOD + "\n## Unreleased\n")), 1)
 
     def test_physics_that_nobody_wrote_down(self):
-        self.write("engine/servo/servo.h", "inline constexpr int k_physics_version = 4;\n")
+        self.write("engine/physics/servo/servo.h", "inline constexpr int k_physics_version = 4;\n")
         self.assertIn("Physics version 4", self.found(GOOD)[0])
 
     def test_a_format_that_nobody_wrote_down(self):

@@ -26,7 +26,7 @@ EXCEPTIONS = {
     "data/*/NAME.toml": "stands for any of that folder",
     "data/scenarios/mine.toml": "written by the reader of the tour",
     "data/scenarios/x.toml": "an example of a path",
-    "tests/engine/explain/model/suction_test.cpp": "written by the reader of a recipe",
+    "tests/engine/lab/explain/model/suction_test.cpp": "written by the reader of a recipe",
     "tests/grading/result/removal_rate_test.cpp": "written by the reader of a recipe",
     "folder/recording.csv": "written by the generator of recordings",
 }

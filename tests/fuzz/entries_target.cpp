@@ -3,11 +3,11 @@
 #include <sstream>
 
 #include "engine/base/json_reader.h"
-#include "grading/ledger/entry_text.h"
-#include "grading/ledger/exports.h"
-#include "grading/ledger/registry.h"
-#include "grading/ledger/release.h"
-#include "grading/ledger/stations.h"
+#include "grading/records/entry_text.h"
+#include "grading/records/exports.h"
+#include "grading/records/registry.h"
+#include "grading/records/release.h"
+#include "grading/records/stations.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 
@@ -29,8 +29,8 @@ void sign_request(json& asked) {
 }  // namespace
 
 void fuzz_entries(Data data) {
-  static ledger::Identities identities(work_folder() + "/entries-identities.db", true);
-  ledger::LedgerContent content = school_ledger();
+  static records::Identities identities(work_folder() + "/entries-identities.db", true);
+  records::LedgerContent content = school_ledger();
   std::istringstream lines(text_of(data));
   for (std::string line; std::getline(lines, line) && content.entries.size() < 40;) {
     const auto space = line.find(' ');
@@ -44,19 +44,19 @@ void fuzz_entries(Data data) {
         json{{"body", body}, {"kind", line.substr(0, space)}, {"seq", content.entries.size()}, {"utc_ns", 1'800'000'000'000'000'000}}.dump(
             -1, ' ', false, json::error_handler_t::replace);
     try {
-      ledger::LedgerEntry e = ledger::read_entry(text, "entry");
-      for (const auto& [part, opening] : ledger::openings_of(*e.what)) opening->value = opened;
-      static_cast<void>(ledger::entry_text(e));
+      records::LedgerEntry e = records::read_entry(text, "entry");
+      for (const auto& [part, opening] : records::openings_of(*e.what)) opening->value = opened;
+      static_cast<void>(records::entry_text(e));
       content.entries.push_back(std::move(e));
     } catch (const Error&) {
     }
   }
   try {
-    const ledger::Registry registry = ledger::read_registry(content);
+    const records::Registry registry = records::read_registry(content);
     int left_out = 0;
-    static_cast<void>(ledger::moodle_csv(registry, identities, left_out, english_text, true));
-    static_cast<void>(ledger::lti_scores(registry, identities, english_text, true).dump(-1, ' ', false, json::error_handler_t::replace));
-    static_cast<void>(ledger::tidy_csv(registry));
+    static_cast<void>(records::moodle_csv(registry, identities, left_out, english_text, true));
+    static_cast<void>(records::lti_scores(registry, identities, english_text, true).dump(-1, ' ', false, json::error_handler_t::replace));
+    static_cast<void>(records::tidy_csv(registry));
   } catch (const Error&) {
   }
 }
@@ -90,7 +90,7 @@ std::vector<Bytes> entries_seeds() {
   const auto release = [](std::uint64_t seq) { return "release " + json{{"results", {seq}}}.dump() + "\n"; };
   const std::string invited = "invite " + json{{"name", "Seat 3"}, {"code_key", key}, {"until_utc_ns", 1'900'000'000'000'000'000}}.dump() + "\n";
   const auto asked =
-      parse_json_or_null(ledger::station_request(station_key(), school, {{SourceKind::device, "Omni", "7"}}, ledger::new_station_code()));
+      parse_json_or_null(records::station_request(station_key(), school, {{SourceKind::device, "Omni", "7"}}, records::new_station_code()));
   const std::string enrolled = "enrol " + json{{"asked", asked}, {"until_utc_ns", 0}}.dump() + "\n";
   const std::string revoked = "revoke " + json{{"public_key", key}, {"reason", "lost"}}.dump() + "\n";
   return {bytes_of("ticket " + ticket.dump() + "\n" + filed + release(3)), bytes_of(filed + regraded + release(2) + release(3)),

@@ -1,8 +1,8 @@
 // What a rig recorded: a table with a position, a table of force alone, the rig's own description, a table with options and all that is judged of it,
 // or a time stamp, by the first byte.
-#include "engine/explain/recording/date_time.h"
-#include "engine/explain/recording/overview.h"
-#include "engine/explain/recording/recording.h"
+#include "engine/lab/explain/recording/date_time.h"
+#include "engine/lab/explain/recording/overview.h"
+#include "engine/lab/explain/recording/recording.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 

@@ -9,9 +9,9 @@
 
 #include "engine/base/file.h"
 #include "engine/session/session_image.h"
-#include "grading/ledger/check_ledger.h"
-#include "grading/ledger/registry.h"
-#include "grading/ledger/stations.h"
+#include "grading/records/check_ledger.h"
+#include "grading/records/registry.h"
+#include "grading/records/stations.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 
@@ -25,10 +25,10 @@ struct Files {
 const Files& sound_files() {
   static const Files k_files = [] {
     const std::string folder = work_folder() + "/logged";
-    ledger::Ledger::create(folder, "School", school_key());
-    ledger::Ledger ledger(folder, school_key());  // while it is open its log stays
-    ledger.append([](const ledger::LedgerContent&) { return *school_ledger().entries.at(1).what; });
-    static_cast<void>(ledger::invite_station(ledger, "Seat 3", 1'900'000'000'000'000'000));
+    records::Ledger::create(folder, "School", school_key());
+    records::Ledger ledger(folder, school_key());  // while it is open its log stays
+    ledger.append([](const records::LedgerContent&) { return *school_ledger().entries.at(1).what; });
+    static_cast<void>(records::invite_station(ledger, "Seat 3", 1'900'000'000'000'000'000));
     const std::string path = ledger.places().database();
     return Files{read_file(path), read_file(path + "-wal")};
   }();
@@ -100,7 +100,7 @@ void fuzz_ledger(Data data) {
     data = data.subspan(k_head + length);
   }
   if ((flags & 1) != 0) right_checksums(files.log);
-  const ledger::LedgerPlaces places{work_folder() + "/read"};
+  const records::LedgerPlaces places{work_folder() + "/read"};
   std::filesystem::create_directories(places.folder);
   std::filesystem::remove(places.database() + "-shm");
   write(places.database(), files.database);
@@ -109,9 +109,9 @@ void fuzz_ledger(Data data) {
     if ((flags & 2) != 0) {
       std::vector<Message> findings;
       Database copy = Database::from_image(read_session_image(places.database(), findings), places.database());
-      static_cast<void>(ledger::read_registry(ledger::read_content(copy, places.database(), ledger::AskWitness::no)));
+      static_cast<void>(records::read_registry(records::read_content(copy, places.database(), records::AskWitness::no)));
     } else {
-      static_cast<void>(ledger::read_registry(ledger::read_ledger(places, ledger::AskWitness::no)));
+      static_cast<void>(records::read_registry(records::read_ledger(places, records::AskWitness::no)));
     }
   } catch (const Error&) {
   }

@@ -1,6 +1,6 @@
 // What people hand to the ledger as text: tickets, receipts, the class, marks.
 #include "grading/cohort/class_figures.h"
-#include "grading/ledger/issue.h"
+#include "grading/records/issue.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 
@@ -11,9 +11,9 @@ void fuzz_ticket(Data data) {
   const std::string text = text_of(data);
   for (const std::string& school : {std::string(), to_hex(school_key().public_key)}) {
     try {
-      const ledger::Ticket ticket = ledger::parse_ticket(text, school, "ticket");
-      static_cast<void>(ledger::check_ticket(ticket, k_setup, ticket.not_before_utc_ns));
-      static_cast<void>(ledger::sign_ticket(ticket, school_key()));
+      const records::Ticket ticket = records::parse_ticket(text, school, "ticket");
+      static_cast<void>(records::check_ticket(ticket, k_setup, ticket.not_before_utc_ns));
+      static_cast<void>(records::sign_ticket(ticket, school_key()));
     } catch (const Error&) {
     }
   }
@@ -24,9 +24,9 @@ void fuzz_ticket(Data data) {
     mine["public_key"] = to_hex(school_key().public_key);
     const std::string signed_text = "CVTICKET" + mine.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace);
     const auto signature = school_key().sign(bytes_of(signed_text));
-    const ledger::Ticket ticket = ledger::parse_ticket(
+    const records::Ticket ticket = records::parse_ticket(
         nlohmann::json{{"grant", facts.value("grant", "")}, {"signature", to_hex(signature)}, {"ticket", mine}}.dump(), "", "ticket");
-    static_cast<void>(ledger::check_ticket(ticket, k_setup, ticket.not_after_utc_ns));
+    static_cast<void>(records::check_ticket(ticket, k_setup, ticket.not_after_utc_ns));
   } catch (const Error&) {
   } catch (const nlohmann::json::exception&) {  // our own writing of a text that is no UTF-8
   }
@@ -34,19 +34,19 @@ void fuzz_ticket(Data data) {
 
 void fuzz_receipt(Data data) {
   const auto receipt = nlohmann::json::parse(data.begin(), data.end(), nullptr, false);
-  for (const ledger::LedgerContent* ledger : {static_cast<const ledger::LedgerContent*>(nullptr), &school_ledger()})
-    static_cast<void>(ledger::check_receipt(receipt, to_hex(school_key().public_key), ledger));
+  for (const records::LedgerContent* ledger : {static_cast<const records::LedgerContent*>(nullptr), &school_ledger()})
+    static_cast<void>(records::check_receipt(receipt, to_hex(school_key().public_key), ledger));
 }
 
 void fuzz_candidates(Data data) {
   try {
-    static_cast<void>(ledger::parse_people(text_of(data), "class.csv"));
+    static_cast<void>(records::parse_people(text_of(data), "class.csv"));
   } catch (const Error&) {
   }
 }
 
 void fuzz_marks(Data data) {
-  static ledger::Identities identities(work_folder() + "/identities.db", true);
+  static records::Identities identities(work_folder() + "/identities.db", true);
   try {
     static_cast<void>(cohort::parse_marks(text_of(data), identities, "exam", "marks.csv", 20));
   } catch (const Error&) {
@@ -57,7 +57,7 @@ std::vector<Bytes> ticket_seeds() { return {bytes_of(small_ticket())}; }
 
 std::vector<Bytes> receipt_seeds() {
   static_cast<void>(school_ledger());
-  const ledger::Ledger ledger(work_folder() + "/ledger", school_key());
+  const records::Ledger ledger(work_folder() + "/ledger", school_key());
   return {bytes_of(ledger.receipt(0).dump()), bytes_of(ledger.receipt(1).dump())};
 }
 

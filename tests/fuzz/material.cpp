@@ -7,10 +7,10 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/recorder.h"
 #include "engine/session/simulation.h"
-#include "grading/ledger/ledger.h"
+#include "grading/records/ledger.h"
 
 namespace cavum::fuzz {
 namespace {
@@ -100,7 +100,7 @@ Tooth small_tooth() {
 SessionSetup small_setup() {
   static_cast<void>(work_folder());
   SessionSetup setup;
-  setup.candidate = ledger::parse_ticket(small_ticket(), "", "ticket").candidate;
+  setup.candidate = records::parse_ticket(small_ticket(), "", "ticket").candidate;
   setup.device = "none";
   setup.scenario_toml = "title = \"drill\"\n";
   setup.force_model_toml = data_text("materials/paper.toml");
@@ -108,7 +108,7 @@ SessionSetup small_setup() {
   setup.points_toml = {data_text("points/round-1.0.toml")};
   setup.tooth = save_tooth(small_tooth());
   setup.first_tip_nm = motion_at(0).tip_nm;
-  setup.notes = {{"room", "4"}, {ledger::k_ticket_note, small_ticket()}};
+  setup.notes = {{"room", "4"}, {records::k_ticket_note, small_ticket()}};
   return setup;
 }
 
@@ -123,13 +123,13 @@ const SigningKey& station_key() {
 }
 
 const SigningKey& school_key() {
-  static const SigningKey k_key = ledger::load_school_key(work_folder() + "/school.key", true);
+  static const SigningKey k_key = records::load_school_key(work_folder() + "/school.key", true);
   return k_key;
 }
 
-const ledger::SignedTicket& signed_ticket() {
-  static const ledger::SignedTicket k_ticket = [] {
-    ledger::Ticket t;
+const records::SignedTicket& signed_ticket() {
+  static const records::SignedTicket k_ticket = [] {
+    records::Ticket t;
     t.ledger = std::string(32, '1');
     t.exam = "drill";
     t.candidate = "C-7K3M-92PQ-XD4V";
@@ -139,18 +139,18 @@ const ledger::SignedTicket& signed_ticket() {
     t.artifacts = {{"scenario.toml", std::string(64, '3')}};
     t.grant = {{"extra_time_percent", "25"}};
     t.public_key = to_hex(school_key().public_key);
-    return ledger::sign_ticket(t, school_key());
+    return records::sign_ticket(t, school_key());
   }();
   return k_ticket;
 }
 const std::string& small_ticket() { return signed_ticket().text; }
 
-const ledger::LedgerContent& school_ledger() {
-  static const ledger::LedgerContent k_content = [] {
+const records::LedgerContent& school_ledger() {
+  static const records::LedgerContent k_content = [] {
     const std::string folder = work_folder() + "/ledger";
-    ledger::Ledger::create(folder, "School", school_key());
-    ledger::Ledger ledger(folder, school_key());
-    ledger.append([](const ledger::LedgerContent&) { return ledger::TicketEntry{signed_ticket().ticket, signed_ticket().signature, {}}; });
+    records::Ledger::create(folder, "School", school_key());
+    records::Ledger ledger(folder, school_key());
+    ledger.append([](const records::LedgerContent&) { return records::TicketEntry{signed_ticket().ticket, signed_ticket().signature, {}}; });
     return ledger.content();
   }();
   return k_content;

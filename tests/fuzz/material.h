@@ -6,8 +6,8 @@
 #include "engine/session/session.h"
 #include "engine/session/session_reader.h"
 #include "engine/tooth/tooth.h"
-#include "grading/ledger/ledger.h"
-#include "grading/ledger/ticket.h"
+#include "grading/records/ledger.h"
+#include "grading/records/ticket.h"
 
 namespace cavum::fuzz {
 
@@ -22,9 +22,9 @@ void read_all_ticks(const SessionReader& session);
 [[nodiscard]] const SigningKey& station_key();
 /// The school that issued the ticket, and what its ledger holds.
 [[nodiscard]] const SigningKey& school_key();
-[[nodiscard]] const ledger::LedgerContent& school_ledger();
+[[nodiscard]] const records::LedgerContent& school_ledger();
 [[nodiscard]] const std::string& small_ticket();
-[[nodiscard]] const ledger::SignedTicket& signed_ticket();
+[[nodiscard]] const records::SignedTicket& signed_ticket();
 /// A result as grading writes it, with two criteria.
 [[nodiscard]] std::string small_result();
 /// A folder in memory (/dev/shm, else the usual one for temporary files) that goes with the process.

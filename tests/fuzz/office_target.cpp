@@ -13,7 +13,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
-#include "grading/ledger/stations.h"
+#include "grading/records/stations.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 #include "ui/office/http_talk.h"
@@ -76,11 +76,11 @@ class OpenOffice {
   OpenOffice() : home_(work_folder() + "/office-" + std::to_string(++number_)) {
     std::filesystem::create_directories(home_);
     const std::string folder = home_ + "/ledger";
-    ledger::Ledger::create(folder, "School", school_key());
+    records::Ledger::create(folder, "School", school_key());
     {
-      ledger::Ledger ledger(folder, school_key());
-      const std::string code = ledger::invite_station(ledger, "Seat 3", 4'000'000'000'000'000'000);
-      static_cast<void>(ledger::enrol_station(ledger, ledger::station_request(station_key(), ledger.content().public_key, {}, code), 0, "request"));
+      records::Ledger ledger(folder, school_key());
+      const std::string code = records::invite_station(ledger, "Seat 3", 4'000'000'000'000'000'000);
+      static_cast<void>(records::enrol_station(ledger, records::station_request(station_key(), ledger.content().public_key, {}, code), 0, "request"));
       id_ = ledger.content().id;
     }
     office::OfficeOptions o;

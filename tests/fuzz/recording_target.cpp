@@ -12,7 +12,7 @@
 #include "engine/session/chain.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/clock_check.h"
-#include "grading/ledger/filing.h"
+#include "grading/records/filing.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"
 
@@ -183,7 +183,7 @@ void seal_anew(Copy& copy) {
 void question(const SessionReader& session, int what) {
   if (what != 1) static_cast<void>(check_chain(session));
   if (what != 1) static_cast<void>(check_clocks(session));
-  if (what != 1 && what != 3) static_cast<void>(ledger::check_claims(school_ledger(), session, {}));
+  if (what != 1 && what != 3) static_cast<void>(records::check_claims(school_ledger(), session, {}));
   static_cast<void>(session.setup());
   if (what > 1) return;
   read_all_ticks(session);

@@ -1,5 +1,5 @@
 // The small texts that a session holds beside its motion: force model, servo settings, diamond point and landmarks, by the first byte.
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/tooth/anatomy/landmarks_file.h"
 #include "tests/fuzz/material.h"
 #include "tests/fuzz/targets.h"

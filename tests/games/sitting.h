@@ -5,7 +5,7 @@
 #include <memory>
 #include <string>
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "tests/games/task.h"
 
 namespace cavum::games {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "engine/tooth/octree_edit.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/zones/zone_map.h"
 #include "tests/scenarios/test_teeth.h"

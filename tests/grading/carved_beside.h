@@ -3,7 +3,7 @@
 
 #include <memory>
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "tests/grading/carved.h"
 
 namespace cavum::testing {

@@ -40,12 +40,6 @@ const Tooth& tooth_named(const std::string& name) {
   return name == "lesion" ? lesion : block;
 }
 
-/// The shortest turn from the handle's upright to `axis` (unit, towards the handle).
-Quat turn_to(Vec3 axis) {
-  const Vec3 across = cross(Vec3{0, 0, 1}, axis);
-  return normalized(Quat{1.0 + axis.z, across.x, across.y, across.z});
-}
-
 bool is_void(const Octree& o, std::uint8_t t) { return t != k_air && !o.is_solid(t); }
 
 /// A straight way in: from the surface at `top` along `into`.
@@ -166,7 +160,7 @@ void Session::draw() {
         << soft << ", c " << damping << ", noise " << noise_n_ << ", friction " << omni_.coulomb_n << ", tremor " << tremor_mm_ << ", hand "
         << hand_.stiffness_n_per_mm << ", void at " << way_.void_at_mm;
   out_.story = story.str();
-  turned_ = turn_to(-way_.into);
+  turned_ = rotation_between({0, 0, 1}, -way_.into);
   ServoConfig config;
   config.position_quantum_mm = omni_.quantum_mm;
   model_ = make_servo_model(*tooth_, out_.tray, force, config);

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 
 namespace cavum::testing_grading {
 

@@ -55,11 +55,6 @@ const KnownTooth& tooth_named(const std::string& name) {
   return known.emplace(name, std::move(k)).first->second;
 }
 
-Quat turn_to(Vec3 axis) {
-  const Vec3 across = cross(Vec3{0, 0, 1}, axis);
-  return normalized(Quat{1.0 + axis.z, across.x, across.y, across.z});
-}
-
 struct Way {
   Vec3 entry, into;
   double void_at_mm = 0.0;  // along the axis; 0: it meets none within 6 mm
@@ -174,7 +169,7 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
   OmniState omni_state = make_omni_state(out.first_tip_mm);
   auto hand = kind.make(task, Random(r.next()));
   Random noise(r.next());
-  TickInput input = make_tick_input({out.first_tip_mm, turn_to(-task.into)}, 0.0, 0, 0, {});
+  TickInput input = make_tick_input({out.first_tip_mm, rotation_between({0, 0, 1}, -task.into)}, 0.0, 0, 0, {});
   TickOutput last;
   for (std::int64_t tick = 0; tick < k_longest_ticks; ++tick) {
     Felt felt{static_cast<double>(tick) * k_tick_s, last.rendered_force_n, state.contact.proxy_mm, omni_state.position_mm, last.rpm, last.cutting};
@@ -184,7 +179,8 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
     grip.stiffness_n_per_mm = std::clamp(doing.stiffness_n_per_mm, 0.05, 4.0);
     grip.damping_n_s_per_mm = std::clamp(doing.damping_n_s_per_mm, 0.01, 0.5);
     const Vec3 tip = advance_omni(omni, grip, omni_state, last.rendered_force_n, doing.wanted_mm, k_tick_s);
-    input = make_tick_input({tip, turn_to(normalized(doing.handle))}, std::clamp(doing.pedal, 0.0, 1.0), k_stylus_fresh | k_pedal_fresh, 0, input);
+    input = make_tick_input({tip, rotation_between({0, 0, 1}, normalized(doing.handle))}, std::clamp(doing.pedal, 0.0, 1.0),
+                            k_stylus_fresh | k_pedal_fresh, 0, input);
     last = step(model, state, input);
     TickRecord record = make_tick_record(last);
     out.true_records.push_back(record);

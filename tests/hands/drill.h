@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "engine/session/session_reader.h"
 #include "tests/hands/hand.h"
 

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "grading/breakthrough/exposure.h"
+#include "grading/perforation/exposure.h"
 
 namespace cavum::hands {
 namespace {

@@ -4,8 +4,8 @@
 #include <string>
 #include <vector>
 
-#include "grading/breakthrough/breakthrough.h"
-#include "grading/breakthrough/drop.h"
+#include "grading/perforation/breakthrough.h"
+#include "grading/perforation/drop.h"
 #include "tests/hands/drill.h"
 
 namespace cavum::hands {

@@ -1,14 +1,13 @@
 // The detector against hands by others: hand_campaign [--sessions N] [--first SEED] [--hands A,B] [--log FILE.csv] [--jobs N]
 // A table by hand, and one line a session in the log, for whoever wants to look further. See README.md.
-#include <atomic>
 #include <cstdlib>
 #include <fstream>
 #include <iostream>
 #include <string>
-#include <thread>
 #include <utility>
 #include <vector>
 
+#include "engine/base/independent_runs.h"
 #include "tests/hands/examine.h"
 #include "tests/hands/table.h"
 
@@ -30,13 +29,8 @@ int main(int argc, char** argv) {
     if (only.empty() || ("," + only + ",").find("," + std::string(k.name) + ",") != std::string::npos)
       for (int i = 0; i < sessions; ++i) tasks.emplace_back(&k, first + static_cast<std::uint64_t>(i));
   std::vector<hands::Examined> all(tasks.size());
-  std::atomic<std::size_t> next{0};
-  std::vector<std::thread> threads;
-  for (int j = 0; j < jobs; ++j)
-    threads.emplace_back([&] {
-      for (std::size_t i = next++; i < tasks.size(); i = next++) all[i] = hands::examine(hands::drill(*tasks[i].first, tasks[i].second));
-    });
-  for (auto& t : threads) t.join();
+  independent_runs(
+      tasks.size(), [&](std::size_t i) { all[i] = hands::examine(hands::drill(*tasks[i].first, tasks[i].second)); }, static_cast<std::size_t>(jobs));
   if (!log.empty()) {
     std::ofstream out(log);
     out << hands::log_head() << "\n";

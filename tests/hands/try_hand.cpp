@@ -3,7 +3,7 @@
 #include <cstdlib>
 #include <string>
 
-#include "grading/breakthrough/drop.h"
+#include "grading/perforation/drop.h"
 #include "tests/hands/drill.h"
 
 int main(int argc, char** argv) {

@@ -8,8 +8,8 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_reader.h"
 #include "engine/session/verify.h"
+#include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
-#include "grading/session_input.h"
 
 int main(int argc, char** argv) {
   bool good = argc > 1;

@@ -15,10 +15,10 @@ FORWARD = re.compile(r"^namespace [\w:]+ \{\n((class|struct) \w+;\n)+\}(  // nam
 TOPS = ("engine", "scenarios", "grading", "ui")
 # what stands in a folder and below it, unless a folder further down says otherwise
 NAMESPACES = {
-    "engine": "cavum", "engine/explain": "cavum::explain", "scenarios": "cavum::scenarios", "grading": "cavum::grading", "grading/ledger": "cavum::ledger",
+    "engine": "cavum", "engine/lab/explain": "cavum::explain", "scenarios": "cavum::scenarios", "grading": "cavum::grading", "grading/records": "cavum::records",
     "grading/cohort": "cavum::cohort", "grading/pool": "cavum::pool", "ui": "cavum::ui", "ui/language": "cavum", "ui/report": "cavum::report", "ui/station": "cavum::station", "ui/office": "cavum::office",
 }
-PROGRAMS = {"ui/verbs/main.cpp", "ui/office/routes_ts.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
+PROGRAMS = {"ui/cli/main.cpp", "ui/office/routes_ts.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
 # rooms that some builds leave out; their sources are then nobody's
 OPTIONAL = {"engine/tooth/volume", "engine/tooth/volume/itk", "engine/tooth/import"}
 

@@ -9,6 +9,7 @@
 
 #include "engine/base/file.h"
 #include "scenarios/review/check.h"
+#include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -17,14 +18,6 @@ namespace fs = std::filesystem;
 
 const std::string k_source(CAVUM_SOURCE_DIR);
 const std::string k_folder = k_source + "/tests/scenarios/broken";
-
-std::vector<std::string> names() {
-  std::vector<std::string> list;
-  for (const auto& entry : fs::directory_iterator(k_folder))
-    if (entry.path().extension() == ".toml") list.push_back(entry.path().stem().string());
-  std::sort(list.begin(), list.end());
-  return list;
-}
 
 constexpr std::array k_mistakes{"other",       "not_toml",     "missing",  "wrong_type",  "out_of_range",  "too_large",
                                 "unknown_key", "unknown_name", "bad_name", "duplicate",   "contradictory", "condition",
@@ -72,10 +65,10 @@ TEST_P(Broken, HasTheProblemsOfItsGoldenFile) {
   EXPECT_EQ(found, read_text_file(golden));
 }
 
-INSTANTIATE_TEST_SUITE_P(Scenarios, Broken, ::testing::ValuesIn(names()), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Scenarios, Broken, ::testing::ValuesIn(testing_basics::toml_names(k_folder)), [](const auto& test) { return test.param; });
 
 TEST(BrokenScenarios, AreAtLeastFortyAndNoGoldenFileIsLeftOver) {
-  EXPECT_GE(names().size(), 40u);
+  EXPECT_GE(testing_basics::toml_names(k_folder).size(), 40u);
   for (const auto& entry : fs::directory_iterator(k_folder))
     EXPECT_TRUE(fs::exists(fs::path(entry.path()).replace_extension(".toml"))) << entry.path();
 }

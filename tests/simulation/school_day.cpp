@@ -5,18 +5,18 @@
 #include <algorithm>
 
 #include "engine/base/file.h"
-#include "grading/ledger/backup.h"
-#include "grading/ledger/begin.h"
-#include "grading/ledger/check_ledger.h"
-#include "grading/ledger/claims.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/filing.h"
-#include "grading/ledger/identities.h"
-#include "grading/ledger/issue.h"
-#include "grading/ledger/ledger_error.h"
-#include "grading/ledger/registry.h"
-#include "grading/ledger/release.h"
-#include "grading/ledger/stations.h"
+#include "grading/records/backup.h"
+#include "grading/records/begin.h"
+#include "grading/records/check_ledger.h"
+#include "grading/records/claims.h"
+#include "grading/records/erasure.h"
+#include "grading/records/filing.h"
+#include "grading/records/identities.h"
+#include "grading/records/issue.h"
+#include "grading/records/ledger_error.h"
+#include "grading/records/registry.h"
+#include "grading/records/release.h"
+#include "grading/records/stations.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::simulation {
@@ -24,13 +24,14 @@ namespace {
 
 using nlohmann::json;
 using testing_basics::tells;
+using testing_basics::text_of;
 
 constexpr std::int64_t k_s_ns = 1'000'000'000, k_hour_ns = 3600 * k_s_ns;
 constexpr std::int64_t k_patience_ns = 300 * k_s_ns, k_margin_ns = 60 * k_s_ns;
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
 
-ledger::Ledger open_ledger(ledger::LedgerUse use = ledger::LedgerUse::add) {
-  return ledger::Ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()), use);
+records::Ledger open_ledger(records::LedgerUse use = records::LedgerUse::add) {
+  return records::Ledger(k_ledger, records::load_school_key(records::school_key_path()), use);
 }
 
 /// The tooth and its zones, made once: days differ in other things.
@@ -41,19 +42,13 @@ grading::ExamGrounds& grounds() {
 
 /// Whether one of `findings` names the clock of a station: by the exam's beginning or end, as the station says, or by the tick from which it was
 /// uneven.
-bool names_clock(const ledger::Findings& findings, const SatExam& exam) {
-  using Kind = ledger::FindingKind;
-  return std::any_of(findings.begin(), findings.end(), [&](const ledger::Finding& f) {
+bool names_clock(const records::Findings& findings, const SatExam& exam) {
+  using Kind = records::FindingKind;
+  return std::any_of(findings.begin(), findings.end(), [&](const records::Finding& f) {
     if (exam.clock == WrongClock::uneven) return f.kind == Kind::clock;
     return (f.kind == Kind::clock || f.kind == Kind::handed_in_late || f.kind == Kind::ticket_time) &&
            tells(f.what, utc_text(exam.clock == WrongClock::behind ? exam.begun_utc_ns : exam.closed_utc_ns));
   });
-}
-
-std::string all(const ledger::Findings& findings) {
-  std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f.what);
-  return out;
 }
 
 }  // namespace
@@ -188,19 +183,19 @@ void SchoolDay::perform(Task task) {
 }
 
 /// Called before anything else can happen: between a function's return and this there is no call to the system.
-void SchoolDay::entered(const ledger::Ledger& ledger, std::uint64_t seq) {
+void SchoolDay::entered(const records::Ledger& ledger, std::uint64_t seq) {
   entries_.push_back({seq, ledger.content().entries.at(seq).text, world_.utc_ns(), ledger.receipt(seq)});
 }
 
 void SchoolDay::issue_ticket() {
-  ledger::Ledger ledger = open_ledger();
-  ledger::Identities identities(ledger.places().identities());
+  records::Ledger ledger = open_ledger();
+  records::Identities identities(ledger.places().identities());
   const std::string id = "student-" + std::to_string(world_.random().below(6));  // two people may well enrol one student
   const std::string pseudonym = identities.enrol(id, "Name", morning_.promise.exam, ledger.key());
   known_[id] = pseudonym;
   try {
-    static_cast<void>(ledger::issue(ledger, morning_.promise, pseudonym));
-  } catch (const ledger::AnotherTicket&) {
+    static_cast<void>(records::issue(ledger, morning_.promise, pseudonym));
+  } catch (const records::AnotherTicket&) {
     ++counts_["second live ticket refused"];
     return;
   }
@@ -208,18 +203,18 @@ void SchoolDay::issue_ticket() {
 }
 
 void SchoolDay::enrol_station() {
-  ledger::Ledger ledger = open_ledger();
+  records::Ledger ledger = open_ledger();
   const int changes = world_.process().computer->clock_changes;
-  const std::string code = ledger::invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
+  const std::string code = records::invite_station(ledger, "Seat", read_clocks().utc_ns + 24 * k_hour_ns);
   entered(ledger, ledger.content().entries.size() - 1);
   // the station's own computer is not here: its key is
-  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + ledger::random_hex(8), "station");
-  const std::string request = ledger::station_request(key, ledger.content().public_key, {}, code);
+  const SigningKey key = load_signing_key("/sim/office/tmp/station-" + records::random_hex(8), "station");
+  const std::string request = records::station_request(key, ledger.content().public_key, {}, code);
   try {
-    const ledger::LedgerEntry& e = ledger::enrol_station(ledger, request, 0, "request");
+    const records::LedgerEntry& e = records::enrol_station(ledger, request, 0, "request");
     entered(ledger, e.seq);
   } catch (const Error& e) {
-    if (changes == world_.process().computer->clock_changes || !(e.code() == ledger::LedgerError::ended)) throw;
+    if (changes == world_.process().computer->clock_changes || !(e.code() == records::LedgerError::ended)) throw;
   }
 }
 
@@ -231,15 +226,15 @@ void SchoolDay::file_exam() {
   Computer& office = *world_.process().computer;
   const int changes = office.clock_changes;
   const std::int64_t before_utc_ns = world_.utc_ns();
-  ledger::Ledger ledger = open_ledger();
-  const ledger::Filing filing = ledger::file_session(ledger, exam.path, {}, grounds());
+  records::Ledger ledger = open_ledger();
+  const records::Filing filing = records::file_session(ledger, exam.path, {}, grounds());
   if (filing.seq) {
     entered(ledger, *filing.seq);
-    const auto* filed = ledger.content().entries.at(*filing.seq).as<ledger::SessionEntry>();
+    const auto* filed = ledger.content().entries.at(*filing.seq).as<records::SessionEntry>();
     filed_files_[filed->file_sha256] = filed->candidate;
     ++counts_["filed clean"];
   }
-  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + all(filing.findings));
+  const std::string what = exam.path + " filed " + (filing.seq ? "clean" : "not: " + text_of(filing.findings));
   if (changes != office.clock_changes) return;
   const std::int64_t late_ns = world_.utc_ns() - exam.closed_utc_ns, least_late_ns = before_utc_ns - exam.closed_utc_ns;
   if (exam.clock != WrongClock::none) {
@@ -254,17 +249,17 @@ void SchoolDay::file_exam() {
   if (too_late && (filing.seq || !names_clock(filing.findings, exam))) wrong("the office's clock, ahead, was not named: " + what);
   const bool fits = late_ns > -k_patience_ns + k_margin_ns && late_ns < 24 * k_hour_ns;
   // cancelled: that of a candidate whom somebody forgot meanwhile
-  const std::string nonce = ledger::ticket_nonce_in(SessionReader(exam.path).setup());
-  const auto tickets = ledger::read_registry(ledger.content()).tickets;
-  const auto ticket = std::find_if(tickets.begin(), tickets.end(), [&](const ledger::IssuedTicket& t) { return t.ticket.nonce == nonce; });
+  const std::string nonce = records::ticket_nonce_in(SessionReader(exam.path).setup());
+  const auto tickets = records::read_registry(ledger.content()).tickets;
+  const auto ticket = std::find_if(tickets.begin(), tickets.end(), [&](const records::IssuedTicket& t) { return t.ticket.nonce == nonce; });
   const bool gone = ticket != tickets.end() && (ticket->cancelled_by || ticket->used_by);
   if (fits && !filing.seq && !begun_before && !gone) wrong("a sound exam was refused: " + what);
   if (too_early || too_late) ++counts_["office's clock named at filing"];
 }
 
 void SchoolDay::release_all() {
-  ledger::Ledger ledger = open_ledger();
-  const ledger::Release released = ledger::release_results(ledger, {.all = true});
+  records::Ledger ledger = open_ledger();
+  const records::Release released = records::release_results(ledger, {.all = true});
   if (!released.results.empty()) entered(ledger, ledger.content().entries.size() - 1);
 }
 
@@ -273,8 +268,8 @@ void SchoolDay::forget_somebody() {
   auto who = known_.begin();
   std::advance(who, static_cast<long>(world_.random().below(known_.size())));
   const auto [id, pseudonym] = *who;
-  ledger::Ledger ledger = open_ledger();
-  ledger::Identities identities(ledger.places().identities());
+  records::Ledger ledger = open_ledger();
+  records::Identities identities(ledger.places().identities());
   const auto known = identities.of_pseudonym(pseudonym);
   if (!known) {
     if (!to_forget_.contains(pseudonym)) wrong("an enrolled candidate is unknown: " + id + " " + pseudonym);
@@ -283,37 +278,37 @@ void SchoolDay::forget_somebody() {
   to_forget_.insert(pseudonym);
   for (const auto& [hash, of] : filed_files_)
     if (of == pseudonym) to_erase_.insert(hash);
-  ledger::forget(ledger, {pseudonym}, {.motion = true, .results = true});
+  records::forget(ledger, {pseudonym}, {.motion = true, .results = true});
   entered(ledger, ledger.content().entries.size() - 1);
   identities.forget(pseudonym);
   forgotten_.insert(pseudonym);
 }
 
 void SchoolDay::cancel_some_ticket() {
-  ledger::Ledger ledger = open_ledger();
-  const ledger::Registry registry = ledger::read_registry(ledger.content());
-  const auto live = [](const ledger::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && !t.ticket.candidate.empty(); };
+  records::Ledger ledger = open_ledger();
+  const records::Registry registry = records::read_registry(ledger.content());
+  const auto live = [](const records::IssuedTicket& t) { return !t.used_by && !t.cancelled_by && !t.ticket.candidate.empty(); };
   // those of the morning are sat meanwhile: an exam that was filed clean may not be taken back
   const auto t = std::find_if(registry.tickets.rbegin(), registry.tickets.rend(), live);
   if (t == registry.tickets.rend() || static_cast<std::size_t>(registry.tickets.rend() - t) <= morning_.exams.size()) return;
   try {
-    entered(ledger, ledger::cancel_ticket(ledger, t->seq, "drawn").seq);
+    entered(ledger, records::cancel_ticket(ledger, t->seq, "drawn").seq);
   } catch (const Error& e) {  // somebody was quicker
-    if (!(e.code() == ledger::LedgerError::ended)) throw;
+    if (!(e.code() == records::LedgerError::ended)) throw;
   }
 }
 
 void SchoolDay::let_some_exam_begin() {
-  ledger::Ledger ledger = open_ledger();
-  const ledger::Registry registry = ledger::read_registry(ledger.content());
+  records::Ledger ledger = open_ledger();
+  const records::Registry registry = records::read_registry(ledger.content());
   if (registry.tickets.size() <= morning_.exams.size()) return;
-  const ledger::IssuedTicket& t = registry.tickets.back();
+  const records::IssuedTicket& t = registry.tickets.back();
   try {
-    const std::string word = ledger::let_begin(ledger, t.ticket.nonce, "drawn");
+    const std::string word = records::let_begin(ledger, t.ticket.nonce, "drawn");
     entered(ledger, ledger.content().entries.size() - 1);
-    static_cast<void>(ledger::parse_begin(word, ledger.content().public_key, "word"));
+    static_cast<void>(records::parse_begin(word, ledger.content().public_key, "word"));
   } catch (const Error& e) {
-    const bool clock = e.code() == ledger::LedgerError::not_now, cancelled = e.code() == ledger::LedgerError::ended;
+    const bool clock = e.code() == records::LedgerError::not_now, cancelled = e.code() == records::LedgerError::ended;
     if (!clock && !cancelled) throw;
     ++counts_[clock ? "no word outside the ticket's time" : "no word for a cancelled ticket"];
   }
@@ -321,15 +316,15 @@ void SchoolDay::let_some_exam_begin() {
 
 void SchoolDay::erase_some_session() {
   if (filed_files_.empty()) return;
-  ledger::Ledger ledger = open_ledger();
+  records::Ledger ledger = open_ledger();
   auto some = filed_files_.begin();
   std::advance(some, static_cast<long>(world_.random().below(filed_files_.size())));
   const std::string hash = some->first;
   for (const auto& e : ledger.content().entries) {
-    if (const auto* filed = e.as<ledger::SessionEntry>(); filed == nullptr || filed->file_sha256 != hash) continue;
+    if (const auto* filed = e.as<records::SessionEntry>(); filed == nullptr || filed->file_sha256 != hash) continue;
     to_erase_.insert(hash);
     const std::uint64_t seq = e.seq;
-    if (ledger::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
+    if (records::erase(ledger, {.sessions = {seq}, .motion = true, .results = true}, "drawn").empty()) return;
     entered(ledger, ledger.content().entries.size() - 1);
     erased_.insert(hash);
     return;
@@ -337,47 +332,47 @@ void SchoolDay::erase_some_session() {
 }
 
 void SchoolDay::write_receipt() {
-  const ledger::Ledger ledger = open_ledger(ledger::LedgerUse::tell);
+  const records::Ledger ledger = open_ledger(records::LedgerUse::tell);
   const auto seq = world_.random().below(ledger.content().entries.size());
   const json receipt = ledger.receipt(seq);
-  const std::string path = "/sim/office/receipts/" + ledger::random_hex(8) + ".json";
+  const std::string path = "/sim/office/receipts/" + records::random_hex(8) + ".json";
   write_private_text_file(path, receipt.dump());
   receipts_[path] = receipt;
 }
 
 void SchoolDay::take_backup() {
-  const ledger::Backup made = ledger::back_up({k_ledger}, k_backup, true);
+  const records::Backup made = records::back_up({k_ledger}, k_backup, true);
   if (!made.missing.empty()) wrong("a backup lacks sessions that were filed: " + made.missing.front());
   if (!backed_up_ || made.checkpoint.size > backed_up_->size) backed_up_ = made.checkpoint;
 }
 
 void SchoolDay::ask_cosigner() {
-  const ledger::Ledger ledger = open_ledger(ledger::LedgerUse::tell);
-  const auto since = cosigner_asks_since_.value_or(ledger::last_cosigned(ledger.content()));
-  to_cosigner_ = ledger::cosign_request(ledger.content(), since);
+  const records::Ledger ledger = open_ledger(records::LedgerUse::tell);
+  const auto since = cosigner_asks_since_.value_or(records::last_cosigned(ledger.content()));
+  to_cosigner_ = records::cosign_request(ledger.content(), since);
 }
 
 void SchoolDay::cosign_here() {
   for (int i = 0; i < 50 && to_cosigner_.empty(); ++i) world_.sleep(20'000'000);
   if (to_cosigner_.empty()) return;
   const std::string request = to_cosigner_;
-  ledger::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), ledger::cosigner_memory_path(),
-                            morning_.promise.public_key};
+  records::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), records::cosigner_memory_path(),
+                             morning_.promise.public_key};
   try {
-    const ledger::Cosigned signed_note = ledger::cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
+    const records::Cosigned signed_note = records::cosign(cosigner, request, "request", static_cast<std::uint64_t>(read_clocks().utc_ns / k_s_ns));
     to_cosigner_.clear();
     cosigner_asks_since_.reset();
     if (!signed_note.findings.empty()) {
       // an older request that was overtaken by a newer one
-      if (signed_note.findings[0].kind != ledger::FindingKind::older_copy)
-        wrong("the cosigner refused an honest ledger: " + all(signed_note.findings));
+      if (signed_note.findings[0].kind != records::FindingKind::older_copy)
+        wrong("the cosigner refused an honest ledger: " + text_of(signed_note.findings));
       return;
     }
     cosigned_size_ = std::max(cosigned_size_, signed_note.size);
     notes_.push_back(signed_note.note);
     to_office_ = signed_note.note;
   } catch (const Error& e) {
-    if (!(e.code() == ledger::LedgerError::another_state)) throw;
+    if (!(e.code() == records::LedgerError::another_state)) throw;
     const auto signed_last = std::get<Message>(e.problem().values().at(1));  // "3 entries"
     cosigner_asks_since_ = static_cast<std::uint64_t>(std::get<std::int64_t>(signed_last.values().at(0)));
     to_cosigner_.clear();
@@ -388,20 +383,21 @@ void SchoolDay::keep_cosignature() {
   for (int i = 0; i < 50 && to_office_.empty(); ++i) world_.sleep(20'000'000);
   if (to_office_.empty()) return;
   const std::string note = to_office_;
-  ledger::Ledger ledger = open_ledger();
-  const auto checked = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), ledger.content());
-  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + all(checked.findings));
+  records::Ledger ledger = open_ledger();
+  const auto checked = records::check_cosigned(note, records::read_cosigners(records::known_cosigners_path()), ledger.content());
+  if (!checked.findings.empty()) return wrong("a cosigned note does not hold: " + text_of(checked.findings));
   ledger.keep_cosignatures(checked.checkpoint->size, checked.cosignatures);
-  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, ledger::signature_line(s));
+  for (const auto& s : checked.cosignatures) kept_cosignatures_.emplace(checked.checkpoint->size, records::signature_line(s));
 }
 
 void SchoolDay::verify() {
-  ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
+  records::LedgerCheck check = records::check_ledger({k_ledger}, false);
   // between an erasure's entry and the removal of the file somebody else sees both
-  for (const auto& s : ledger::read_registry(ledger::read_ledger({k_ledger})).sessions)
-    if (s.motion_erased_by) std::erase_if(check.findings, [&](const ledger::Finding& f) { return f.entry == s.seq; });
+  for (const auto& s : records::read_registry(records::read_ledger({k_ledger})).sessions)
+    if (s.motion_erased_by) std::erase_if(check.findings, [&](const records::Finding& f) { return f.entry == s.seq; });
   // a disk that fails meanwhile may well be in the way of looking
-  if (!check.findings.empty() && !world_.process().computer->had_faults) wrong("while others work the ledger does not hold: " + all(check.findings));
+  if (!check.findings.empty() && !world_.process().computer->had_faults)
+    wrong("while others work the ledger does not hold: " + text_of(check.findings));
 }
 
 void SchoolDay::put_right() {

@@ -11,11 +11,20 @@
 #include <string>
 #include <vector>
 
-#include "grading/exam_ground.h"
-#include "grading/ledger/cosign.h"
-#include "grading/ledger/ledger.h"
-#include "grading/ledger/ticket.h"
+#include "grading/marking/exam_ground.h"
+#include "grading/records/cosign.h"
+#include "grading/records/ledger.h"
+#include "grading/records/ticket.h"
 #include "tests/simulation/sim_world.h"
+
+namespace cavum::records {
+/// What a day that went wrong is told by.
+inline std::string text_of(const Findings& findings) {
+  std::string all;
+  for (const Finding& f : findings) all += english_text(f.what) + "\n";
+  return all;
+}
+}  // namespace cavum::records
 
 namespace cavum::simulation {
 
@@ -34,7 +43,7 @@ struct Morning {
   std::map<std::string, Disk> disks;
   std::int64_t true_ns = 0;
   std::vector<SatExam> exams;
-  ledger::Ticket promise;  ///< of the exam, for nobody yet
+  records::Ticket promise;  ///< of the exam, for nobody yet
 };
 /// Makes ledger, station, cosigner and exams, in a world of its own.
 [[nodiscard]] Morning make_morning();
@@ -94,14 +103,14 @@ class SchoolDay {
   void cosign_here();
   void keep_cosignature();
   void verify();
-  void entered(const ledger::Ledger& ledger, std::uint64_t seq);
+  void entered(const records::Ledger& ledger, std::uint64_t seq);
   void wrong(const std::string& what);
   void check_end();
-  void check_entries(const ledger::LedgerContent& content);
-  void check_clocks(const ledger::Findings& remarks);
+  void check_entries(const records::LedgerContent& content);
+  void check_clocks(const records::Findings& remarks);
   void check_identities();
   void check_backup();
-  void check_cosigner(const ledger::LedgerContent& content);
+  void check_cosigner(const records::LedgerContent& content);
   void restore_from_backup();
   void replace_key();
   void put_right();
@@ -123,7 +132,7 @@ class SchoolDay {
   std::map<std::string, std::string> known_;        ///< pseudonym by the school's own number
   std::set<std::string> to_forget_, forgotten_;     ///< pseudonyms: begun, and acknowledged
   std::map<std::string, nlohmann::json> receipts_;  ///< by path
-  std::optional<ledger::Checkpoint> backed_up_;
+  std::optional<records::Checkpoint> backed_up_;
   std::vector<std::string> notes_;  ///< cosigned
   std::set<std::pair<std::uint64_t, std::string>> kept_cosignatures_;
   std::string to_cosigner_, to_office_;

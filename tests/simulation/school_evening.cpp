@@ -3,74 +3,70 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "grading/ledger/backup.h"
-#include "grading/ledger/check_ledger.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/history.h"
-#include "grading/ledger/identities.h"
-#include "grading/ledger/ledger_error.h"
-#include "grading/ledger/ledger_key.h"
-#include "grading/ledger/registry.h"
-#include "grading/ledger/school_keys.h"
-#include "grading/ledger/witness.h"
+#include "grading/records/backup.h"
+#include "grading/records/check_ledger.h"
+#include "grading/records/erasure.h"
+#include "grading/records/history.h"
+#include "grading/records/identities.h"
+#include "grading/records/ledger_error.h"
+#include "grading/records/ledger_key.h"
+#include "grading/records/registry.h"
+#include "grading/records/school_keys.h"
+#include "grading/records/witness.h"
+#include "tests/engine/support/basics.h"
 #include "tests/simulation/school_day.h"
 
 namespace cavum::simulation {
 namespace {
 
 using nlohmann::json;
+using testing_basics::text_of;
 
 const std::string k_ledger = "/sim/office/ledger", k_backup = "/sim/office/backup";
-
-std::string all(const ledger::Findings& findings) {
-  std::string out;
-  for (const auto& f : findings) out += (out.empty() ? "" : " | ") + english_text(f.what);
-  return out;
-}
 
 std::int64_t utc_in(const std::string& entry) { return json::parse(entry).at("utc_ns").get<std::int64_t>(); }
 
 /// Whether a remark is of this kind, on an entry from `first` to `last`.
-bool names_clock(const ledger::Findings& remarks, ledger::FindingKind kind, std::uint64_t first, std::uint64_t last) {
+bool names_clock(const records::Findings& remarks, records::FindingKind kind, std::uint64_t first, std::uint64_t last) {
   return std::any_of(remarks.begin(), remarks.end(),
-                     [&](const ledger::Finding& r) { return r.kind == kind && r.entry && *r.entry >= first && *r.entry <= last; });
+                     [&](const records::Finding& r) { return r.kind == kind && r.entry && *r.entry >= first && *r.entry <= last; });
 }
 
 }  // namespace
 
 void SchoolDay::check_end() {
-  ledger::LedgerContent content;
+  records::LedgerContent content;
   world_.calmly("office", [&] {
-    content = ledger::read_ledger({k_ledger});
-    ledger::remove_erased_recordings(content, {k_ledger});  // an erasure that was cut off is a finding until somebody runs `cavum ledger erase`
-    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("the ledger does not hold: " + all(check.findings));
+    content = records::read_ledger({k_ledger});
+    records::remove_erased_recordings(content, {k_ledger});  // an erasure that was cut off is a finding until somebody runs `cavum ledger erase`
+    const records::LedgerCheck check = records::check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("the ledger does not hold: " + text_of(check.findings));
     if (!content.witnessed) wrong("the witness is gone");
     check_entries(content);
     check_clocks(check.remarks);
     check_identities();
     check_backup();
-    ledger::Findings findings, not_checked;
-    ledger::check_cosignatures(content, ledger::read_cosigners(ledger::known_cosigners_path()), findings, not_checked);
-    if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + all(findings) + all(not_checked));
+    records::Findings findings, not_checked;
+    records::check_cosignatures(content, records::read_cosigners(records::known_cosigners_path()), findings, not_checked);
+    if (!findings.empty() || !not_checked.empty()) wrong("cosignatures: " + text_of(findings) + text_of(not_checked));
   });
   check_cosigner(content);
   world_.calmly("office", [&] {  // and work goes on
-    ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
+    records::Ledger ledger(k_ledger, records::load_school_key(records::school_key_path()));
+    ledger.append([](const records::LedgerContent&) { return records::ForgetEntry{"nobody", {}}; });
     entered(ledger, ledger.content().entries.size() - 1);
-    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + all(check.findings));
+    const records::LedgerCheck check = records::check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("after the day the ledger does not go on: " + text_of(check.findings));
   });
   counts_["acknowledged"] += entries_.size();
   if (replaces_key_ && !loses_ledger_) replace_key();
   if (loses_ledger_ && backed_up_) restore_from_backup();
 }
 
-void SchoolDay::check_entries(const ledger::LedgerContent& content) {
-  ledger::Findings findings;
-  const auto witnessed = ledger::read_witness(content.id, findings);
-  if (!findings.empty()) wrong("the witness: " + all(findings));
+void SchoolDay::check_entries(const records::LedgerContent& content) {
+  records::Findings findings;
+  const auto witnessed = records::read_witness(content.id, findings);
+  if (!findings.empty()) wrong("the witness: " + text_of(findings));
   std::set<std::uint64_t> seen;
   for (const Entered& e : entries_) {
     const std::string name = "entry " + std::to_string(e.seq);
@@ -79,9 +75,9 @@ void SchoolDay::check_entries(const ledger::LedgerContent& content) {
       wrong(name + ", which was acknowledged, is lost: " + e.text.substr(0, 80));
       continue;
     }
-    if (const auto why = ledger::check_receipt(e.receipt, content.public_key, &content); !why.empty())
-      wrong(name + ": its receipt does not hold: " + all(why));
-    if (std::none_of(witnessed.begin(), witnessed.end(), [&](const ledger::Checkpoint& p) { return p.size == e.seq + 1; }))
+    if (const auto why = records::check_receipt(e.receipt, content.public_key, &content); !why.empty())
+      wrong(name + ": its receipt does not hold: " + text_of(why));
+    if (std::none_of(witnessed.begin(), witnessed.end(), [&](const records::Checkpoint& p) { return p.size == e.seq + 1; }))
       wrong(name + ", which was acknowledged, is not with the witness");
   }
   for (const auto& [path, receipt] : receipts_) try {
@@ -90,25 +86,25 @@ void SchoolDay::check_entries(const ledger::LedgerContent& content) {
       wrong("a receipt that was written is lost: " + std::string(e.what()));
     }
   for (const auto& hash : erased_)
-    if (std::filesystem::exists(ledger::LedgerPlaces{k_ledger}.session(hash))) wrong("a recording that was erased is there: " + hash);
+    if (std::filesystem::exists(records::LedgerPlaces{k_ledger}.session(hash))) wrong("a recording that was erased is there: " + hash);
   for (const auto& [hash, who] : filed_files_) try {
       if (to_erase_.contains(hash)) continue;
-      if (to_hex(sha256(read_file(ledger::LedgerPlaces{k_ledger}.session(hash)))) != hash)
+      if (to_hex(sha256(read_file(records::LedgerPlaces{k_ledger}.session(hash)))) != hash)
         wrong("a filed session's file is not what was filed: " + hash);
     } catch (const std::exception& e) {
       wrong("a filed session's file is lost: " + std::string(e.what()));
     }
-  const ledger::Registry registry = ledger::read_registry(content);
+  const records::Registry registry = records::read_registry(content);
   std::set<std::string> nonces;
   for (const auto& s : registry.sessions)
     if (s.findings.empty() && !nonces.insert(s.nonce).second) wrong("a ticket was used twice: entry " + std::to_string(s.seq));
   for (const auto& [size, line] : kept_cosignatures_)
     if (std::none_of(content.cosignatures.begin(), content.cosignatures.end(),
-                     [&, s = size, l = line](const ledger::Cosignature& c) { return c.size == s && ledger::signature_line(c.by) == l; }))
+                     [&, s = size, l = line](const records::Cosignature& c) { return c.size == s && records::signature_line(c.by) == l; }))
       wrong("a cosignature that was kept is lost, under " + std::to_string(size) + " entries");
 }
 
-void SchoolDay::check_clocks(const ledger::Findings& remarks) {
+void SchoolDay::check_clocks(const records::Findings& remarks) {
   std::vector<std::pair<std::uint64_t, std::int64_t>> times;
   for (const Entered& e : entries_) times.emplace_back(e.seq, utc_in(e.text));
   std::sort(times.begin(), times.end());
@@ -116,7 +112,7 @@ void SchoolDay::check_clocks(const ledger::Findings& remarks) {
     for (std::size_t j = i + 1; j < times.size(); ++j)
       if (times[j].second < times[i].second) {
         ++counts_["ledger's clock set back"];
-        if (!names_clock(remarks, ledger::FindingKind::clock_set_back, times[i].first + 1, times[j].first))
+        if (!names_clock(remarks, records::FindingKind::clock_set_back, times[i].first + 1, times[j].first))
           wrong("the clock was set back between entries " + std::to_string(times[i].first) + " and " + std::to_string(times[j].first) +
                 ", and nothing says so");
       }
@@ -124,62 +120,62 @@ void SchoolDay::check_clocks(const ledger::Findings& remarks) {
   for (const auto& [seq, utc_ns] : times)
     if (utc_ns > k_begin_utc_ns + world_.true_ns() + k_patience_ns) {
       ++counts_["ledger's clock ahead"];
-      if (!names_clock(remarks, ledger::FindingKind::clock_ahead, seq, seq))
+      if (!names_clock(remarks, records::FindingKind::clock_ahead, seq, seq))
         wrong("entry " + std::to_string(seq) + " bears a time that is still to come, and nothing says so");
     }
 }
 
 void SchoolDay::check_identities() {
-  ledger::Identities identities(ledger::LedgerPlaces{k_ledger}.identities());
+  records::Identities identities(records::LedgerPlaces{k_ledger}.identities());
   for (const auto& [id, pseudonym] : known_)
     if (!to_forget_.contains(pseudonym) && !identities.of_pseudonym(pseudonym))
       wrong("an identity that was enrolled is lost: " + id + " " + pseudonym);
   for (const auto& pseudonym : forgotten_)
     if (identities.of_pseudonym(pseudonym)) wrong("an identity that was forgotten is known: " + pseudonym);
-  if (const auto why = identities.check(ledger::load_school_key(ledger::school_key_path())); !why.empty()) wrong(all(why));
+  if (const auto why = identities.check(records::load_school_key(records::school_key_path())); !why.empty()) wrong(text_of(why));
 }
 
 void SchoolDay::check_backup() {
   if (!backed_up_) return;
-  const ledger::RestorePlan plan = ledger::plan_restore(k_backup, {}, {});
-  if (!plan.findings.empty()) return wrong("the backup does not hold: " + all(plan.findings));
+  const records::RestorePlan plan = records::plan_restore(k_backup, {}, {});
+  if (!plan.findings.empty()) return wrong("the backup does not hold: " + text_of(plan.findings));
   for (const auto& hash : plan.missing_sessions) wrong("the backup lacks a session: " + hash);
-  const ledger::History history(plan.content);
+  const records::History history(plan.content);
   const auto size = static_cast<std::size_t>(backed_up_->size);
   if (history.roots().size() < size || history.roots()[size - 1] != backed_up_->root)
     wrong("a backup of " + std::to_string(size) + " entries was acknowledged, and has " + std::to_string(history.roots().size()));
   if (!plan.identities) wrong("the backup's identities are lost");
 }
 
-void SchoolDay::check_cosigner(const ledger::LedgerContent& content) {
+void SchoolDay::check_cosigner(const records::LedgerContent& content) {
   if (cosigned_size_ == 0) return;
   world_.calmly("cosigner", [&] {
-    ledger::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), ledger::cosigner_memory_path(),
-                              morning_.promise.public_key};
+    records::Cosigner cosigner{"cosigner.example", load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner"), records::cosigner_memory_path(),
+                               morning_.promise.public_key};
     // an older state than it has signed must be refused: whoever restores an old copy would ask for just that
-    ledger::LedgerContent older = content;
+    records::LedgerContent older = content;
     older.entries.resize(std::min<std::size_t>(older.entries.size(), cosigned_size_ - 1));
-    std::erase_if(older.checkpoints, [&](const ledger::Checkpoint& p) { return p.size > older.entries.size(); });
-    if (ledger::cosign(cosigner, ledger::cosign_request(older, 0), "request", 1).findings.empty()) wrong("the cosigner forgot what it had signed");
+    std::erase_if(older.checkpoints, [&](const records::Checkpoint& p) { return p.size > older.entries.size(); });
+    if (records::cosign(cosigner, records::cosign_request(older, 0), "request", 1).findings.empty()) wrong("the cosigner forgot what it had signed");
     std::string words;
     try {
-      const ledger::Cosigned now = ledger::cosign(cosigner, ledger::cosign_request(content, cosigned_size_), "request", 1);
-      words = all(now.findings);
+      const records::Cosigned now = records::cosign(cosigner, records::cosign_request(content, cosigned_size_), "request", 1);
+      words = text_of(now.findings);
     } catch (const Error& e) {  // it signed a later state, and was killed before it could say so
-      if (!(e.code() == ledger::LedgerError::another_state)) words = e.what();
+      if (!(e.code() == records::LedgerError::another_state)) words = e.what();
     }
     if (!words.empty()) wrong("the cosigner refuses the honest ledger: " + words);
   });
   world_.calmly("office", [&] {
     for (const auto& note : notes_)
-      if (const auto c = ledger::check_cosigned(note, ledger::read_cosigners(ledger::known_cosigners_path()), content); !c.findings.empty())
-        wrong("a cosigned note does not hold: " + all(c.findings));
+      if (const auto c = records::check_cosigned(note, records::read_cosigners(records::known_cosigners_path()), content); !c.findings.empty())
+        wrong("a cosigned note does not hold: " + text_of(c.findings));
   });
 }
 
 void SchoolDay::replace_key() {
   bool replaced = false;
-  const auto replace = [&] { static_cast<void>(ledger::replace_school_key(k_ledger, ledger::school_key_path(), 0, "yearly")); };
+  const auto replace = [&] { static_cast<void>(records::replace_school_key(k_ledger, records::school_key_path(), 0, "yearly")); };
   if (interrupt_key_ > 0) {
     world_.plan({world_.calls() + interrupt_key_, Event::Kind::power_cut, "office", 0});
     world_.start("office", "keeper", [&] {
@@ -197,14 +193,14 @@ void SchoolDay::replace_key() {
   ++counts_[replaced || interrupt_key_ == 0 ? "key replaced" : "key replaced after a power cut"];
   world_.cut_power(world_.computer("office"));
   world_.calmly("office", [&] {
-    const ledger::LedgerCheck check = ledger::check_ledger({k_ledger}, false);
-    if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + all(check.findings));
-    const ledger::LedgerContent content = ledger::read_ledger({k_ledger});
+    const records::LedgerCheck check = records::check_ledger({k_ledger}, false);
+    if (!check.findings.empty()) wrong("after the key was replaced the ledger does not hold: " + text_of(check.findings));
+    const records::LedgerContent content = records::read_ledger({k_ledger});
     check_entries(content);
     check_identities();
     if (content.keys.size() < 2) wrong("the key was replaced, and the ledger does not know it");
-    ledger::Ledger ledger(k_ledger, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
+    records::Ledger ledger(k_ledger, records::load_school_key(records::school_key_path()));
+    ledger.append([](const records::LedgerContent&) { return records::ForgetEntry{"nobody", {}}; });
   });
 }
 
@@ -212,9 +208,9 @@ void SchoolDay::restore_from_backup() {
   const auto restore_into = [&](const std::string& folder) {
     std::vector<std::string> paths;
     for (const auto& [path, receipt] : receipts_) paths.push_back(path);
-    const ledger::RestorePlan plan = ledger::plan_restore(k_backup, paths, {});
-    if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + all(plan.findings));
-    ledger::restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", ledger::load_school_key(ledger::school_key_path()));
+    const records::RestorePlan plan = records::plan_restore(k_backup, paths, {});
+    if (!plan.findings.empty()) return wrong("the backup cannot be restored: " + text_of(plan.findings));
+    records::restore(k_backup, folder, plan, plan.last_seen ? "the disk is broken" : "", records::load_school_key(records::school_key_path()));
   };
   std::string folder = "/sim/office/restored";
   if (interrupt_restore_ > 0) {
@@ -240,10 +236,10 @@ void SchoolDay::restore_from_backup() {
     ++counts_["restored"];
   }
   world_.calmly("office", [&] {
-    const ledger::LedgerContent content = ledger::read_ledger({folder});
-    const ledger::LedgerCheck check = ledger::check_ledger({folder}, false);
-    if (!check.findings.empty()) wrong("the restored ledger does not hold: " + all(check.findings));
-    const ledger::History history(content);
+    const records::LedgerContent content = records::read_ledger({folder});
+    const records::LedgerCheck check = records::check_ledger({folder}, false);
+    if (!check.findings.empty()) wrong("the restored ledger does not hold: " + text_of(check.findings));
+    const records::History history(content);
     for (const Entered& e : entries_) {
       if (e.seq < backed_up_->size) {
         if (e.seq >= content.entries.size() || content.entries[e.seq].text != e.text)
@@ -251,11 +247,11 @@ void SchoolDay::restore_from_backup() {
         continue;
       }
       if (e.seq < content.entries.size() && content.entries[e.seq].text == e.text) continue;
-      const ledger::Checkpoint seen = ledger::checkpoint_in(e.receipt.at("checkpoint"), content.id, content.public_key, "receipt");
+      const records::Checkpoint seen = records::checkpoint_in(e.receipt.at("checkpoint"), content.id, content.public_key, "receipt");
       if (history.recorded_loss(seen) == nullptr) wrong("entry " + std::to_string(e.seq) + " is lost, and no restore entry says so");
     }
-    ledger::Ledger ledger(folder, ledger::load_school_key(ledger::school_key_path()));
-    ledger.append([](const ledger::LedgerContent&) { return ledger::ForgetEntry{"nobody", {}}; });
+    records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
+    ledger.append([](const records::LedgerContent&) { return records::ForgetEntry{"nobody", {}}; });
   });
 }
 

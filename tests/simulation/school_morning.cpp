@@ -2,10 +2,10 @@
 #include <filesystem>
 
 #include "engine/base/file.h"
-#include "grading/ledger/identities.h"
-#include "grading/ledger/issue.h"
-#include "grading/ledger/stations.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "grading/records/identities.h"
+#include "grading/records/issue.h"
+#include "grading/records/stations.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/simulation/school_day.h"
 
 namespace cavum::simulation {
@@ -28,23 +28,23 @@ Morning make_morning() {
   World world(1, empty, 0);
   Morning out;
   std::string school_key, code;
-  const auto ledger = [] { return ledger::Ledger("/sim/office/ledger", ledger::load_school_key(ledger::school_key_path())); };
+  const auto ledger = [] { return records::Ledger("/sim/office/ledger", records::load_school_key(records::school_key_path())); };
   world.calmly("office", [&] {
     make_private_folder("/sim/office/home");
     make_private_folder("/sim/office/exams");
     make_private_folder("/sim/office/receipts");
     make_private_folder("/sim/office/tmp");
-    ledger::Ledger::create("/sim/office/ledger", "School of Dentistry", ledger::load_school_key(ledger::school_key_path(), true));
-    ledger::Identities("/sim/office/ledger/identities.db", true);
-    ledger::Ledger l = ledger();
+    records::Ledger::create("/sim/office/ledger", "School of Dentistry", records::load_school_key(records::school_key_path(), true));
+    records::Identities("/sim/office/ledger/identities.db", true);
+    records::Ledger l = ledger();
     school_key = l.content().public_key;
-    code = ledger::invite_station(l, "Seat 1", read_clocks().utc_ns + k_hour_ns);
+    code = records::invite_station(l, "Seat 1", read_clocks().utc_ns + k_hour_ns);
   });
   std::string request;
   world.calmly("station", [&] {
     make_private_folder("/sim/station/home");
     make_private_folder("/sim/station/tmp");
-    request = ledger::station_request(load_station_key(station_key_path()), school_key, {}, code);
+    request = records::station_request(load_station_key(station_key_path()), school_key, {}, code);
   });
   const std::vector<Seat> clocks = {{},
                                     {},
@@ -56,13 +56,13 @@ Morning make_morning() {
                                     {{0, 0, 100 * k_s_ns}, WrongClock::uneven}};
   std::vector<std::string> tickets;
   world.calmly("office", [&] {
-    ledger::Ledger l = ledger();
-    static_cast<void>(ledger::enrol_station(l, request, 0, "request"));
+    records::Ledger l = ledger();
+    static_cast<void>(records::enrol_station(l, request, 0, "request"));
     const std::int64_t now = read_clocks().utc_ns;
-    out.promise = ledger::promise(*scenarios::prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
-    ledger::Identities identities(l.places().identities());
+    out.promise = records::promise(*scenarios::prepare_exam(k_scenario, {}), l.content(), now - 3 * k_hour_ns, now + 3 * k_hour_ns);
+    records::Identities identities(l.places().identities());
     for (std::size_t i = 0; i < clocks.size(); ++i)
-      tickets.push_back(ledger::issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
+      tickets.push_back(records::issue(l, out.promise, identities.enrol("morning-" + std::to_string(i), "", out.promise.exam, l.key())));
   });
   std::vector<Bytes> files;
   world.calmly("station", [&] {
@@ -80,10 +80,10 @@ Morning make_morning() {
   world.calmly("cosigner", [&] {
     make_private_folder("/sim/cosigner/home");
     const SigningKey key = load_signing_key("/sim/cosigner/home/cosigner.key", "cosigner");
-    const std::string line = ledger::key_line({"cosigner.example", ledger::NoteKind::cosignature, key.public_key});
+    const std::string line = records::key_line({"cosigner.example", records::NoteKind::cosignature, key.public_key});
     code = line;
   });
-  world.calmly("office", [&] { write_text_file(ledger::known_cosigners_path(), code + "\n"); });
+  world.calmly("office", [&] { write_text_file(records::known_cosigners_path(), code + "\n"); });
   for (auto& [name, computer] : world.computers()) {
     computer.disk.settle();
     out.disks.emplace(name, computer.disk.copy());

@@ -10,9 +10,9 @@
 
 #include "engine/base/text.h"
 #include "engine/session/sqlite.h"
+#include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
-#include "grading/session_input.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/operators/simulated_exam.h"
 #include "tests/ui/program.h"
 
 namespace cavum::ui {

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
+#include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
-#include "grading/session_input.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/operators/simulated_exam.h"
 #include "scenarios/review/check.h"
 #include "tests/engine/support/basics.h"
 
@@ -20,14 +20,6 @@ namespace {
 namespace fs = std::filesystem;
 
 const std::string k_folder = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios";
-
-std::vector<std::string> tasks() {
-  std::vector<std::string> list;
-  for (const auto& entry : fs::directory_iterator(k_folder))
-    if (entry.path().extension() == ".toml") list.push_back(entry.path().stem().string());
-  std::sort(list.begin(), list.end());
-  return list;
-}
 
 /// For what a failed test prints.
 std::string told(const grading::Result& r) {
@@ -116,8 +108,8 @@ TEST_P(Library, AnyPerforationThatIsAFaultIsCritical) {
   EXPECT_FALSE(against_perforation(s).empty()) << "who perforates would pass";
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(tasks()), [](const auto& test) { return test.param; });
-INSTANTIATE_TEST_SUITE_P(Tasks, TakenTask, ::testing::ValuesIn(testing_basics::some_of(tasks(), 3, "TakenTask")),
+INSTANTIATE_TEST_SUITE_P(Tasks, Library, ::testing::ValuesIn(testing_basics::toml_names(k_folder)), [](const auto& test) { return test.param; });
+INSTANTIATE_TEST_SUITE_P(Tasks, TakenTask, ::testing::ValuesIn(testing_basics::some_of(testing_basics::toml_names(k_folder), 3, "TakenTask")),
                          [](const auto& test) { return test.param; });
 
 /// Where nobody would look for a pulp.

@@ -13,7 +13,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"
 #include "engine/base/text.h"
-#include "grading/ledger/decision.h"
+#include "grading/records/decision.h"
 #include "ui/office/one_time_code.h"
 
 namespace cavum::office {
@@ -83,13 +83,13 @@ std::optional<Account> Accounts::called(const std::string& known_as) const {
 }
 
 Account Accounts::set(const std::string& name, Role role, const std::string& password, bool second_factor, const std::string& known_as) {
-  if (name.empty() || name.size() > ledger::k_longest_person || !is_plain_text(name))
+  if (name.empty() || name.size() > records::k_longest_person || !is_plain_text(name))
     throw Error(msg("the account's name"), msg("is no line of text of at most 200 bytes"),
                 msg("give the person's name: entries of the ledger will bear it"));
   if (password.size() < k_shortest_password || password.size() > k_longest_password)
     throw Error(msg("the password"), msg("has {} bytes", password.size()),
                 msg("give {} to {}: four words that do not belong together", k_shortest_password, k_longest_password));
-  if (known_as.size() > ledger::k_longest_person || (!known_as.empty() && !is_plain_text(known_as)))
+  if (known_as.size() > records::k_longest_person || (!known_as.empty() && !is_plain_text(known_as)))
     throw Error("--known-as", msg("is no line of text of at most 200 bytes"), msg("write it as the school's sign-on says it"));
   if (const auto other = called(known_as); other && other->name != name)
     throw Error("--known-as " + one_line(known_as), msg("is another account's"), msg("give each person one of his own"));

@@ -6,17 +6,17 @@
 #include "engine/base/file.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "grading/ledger/begin.h"
-#include "grading/ledger/decision.h"
-#include "grading/ledger/entry_text.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/exports.h"
-#include "grading/ledger/identities.h"
-#include "grading/ledger/issue.h"
-#include "grading/ledger/makeup.h"
-#include "grading/ledger/regrade.h"
-#include "grading/ledger/release.h"
-#include "grading/ledger/ticket_state.h"
+#include "grading/records/begin.h"
+#include "grading/records/decision.h"
+#include "grading/records/entry_text.h"
+#include "grading/records/erasure.h"
+#include "grading/records/exports.h"
+#include "grading/records/identities.h"
+#include "grading/records/issue.h"
+#include "grading/records/makeup.h"
+#include "grading/records/regrade.h"
+#include "grading/records/release.h"
+#include "grading/records/ticket_state.h"
 #include "scenarios/file/parse.h"
 #include "ui/language/language.h"
 #include "ui/language/say.h"
@@ -37,8 +37,8 @@ Grants grants_of(const Roster& roster) {
 }
 
 /// Made up by a ticket that can still be cancelled: then this one is good again.
-bool comes_back(const ledger::Registry& registry, const ledger::IssuedTicket& first, std::int64_t now_utc_ns) {
-  const ledger::IssuedTicket* makeup = first.made_up_by ? registry.ticket(*first.made_up_by) : nullptr;
+bool comes_back(const records::Registry& registry, const records::IssuedTicket& first, std::int64_t now_utc_ns) {
+  const records::IssuedTicket* makeup = first.made_up_by ? registry.ticket(*first.made_up_by) : nullptr;
   return makeup != nullptr && makeup->begins.empty() && makeup->live(now_utc_ns);
 }
 
@@ -77,8 +77,8 @@ Preview Desk::preview(const ClassList& asked) {
   Roster roster = roster_of(asked);
   try {
     Turn turn(*this);
-    ledger::Identities identities = ledger::sound_identities(turn.book);
-    static_cast<void>(ledger::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
+    records::Identities identities = records::sound_identities(turn.book);
+    static_cast<void>(records::stations_of(turn.book.registry(), identities, roster.people, {}, k_list));
   } catch (const Error& wrong) {
     roster.people.clear();
     roster.problems = mistakes_of(wrong);
@@ -103,10 +103,10 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
   if (at_once < roster.people.size() && !asked.overlap) require_apart(wish, apart_ns, time_limit_s(wish.scenario, grants_of(roster)));
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   Turn turn(*this, {by.name, asked.reason, ""});
-  ledger::Identities identities = ledger::sound_identities(turn.book);
-  ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
+  records::Identities identities = records::sound_identities(turn.book);
+  records::Ticket ticket = records::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = asked.begin_at_office;
-  std::vector<ledger::TimeSpan> times;
+  std::vector<records::TimeSpan> times;
   for (std::size_t i = 0; i < roster.people.size(); ++i) {
     const std::int64_t later_ns = static_cast<std::int64_t>(i / at_once) * apart_ns;
     times.push_back({wish.from_utc_ns + later_ns, wish.until_utc_ns + later_ns});
@@ -114,11 +114,11 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
   Issued out{{}, {}, 0, roster.people.size()};
   const std::size_t first = std::min(asked.first, out.of);
   out.done = first + std::min(asked.most.value_or(out.of), out.of - first);
-  const auto keep = [&](const ledger::Issued& one, const std::string& text) {
+  const auto keep = [&](const records::Issued& one, const std::string& text) {
     write_private_text_file(places_.ticket(one.ticket.nonce), text + "\n");
   };
-  const auto another = asked.another ? ledger::Another::allow : ledger::Another::refuse;
-  for (const auto& one : ledger::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
+  const auto another = asked.another ? records::Another::allow : records::Another::refuse;
+  for (const auto& one : records::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
     if (one.refused)
       out.refused.push_back({one.person.id, one.person.name, tr(one.refused->without_advice())});
     else
@@ -141,41 +141,41 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
   Message why_not;
   if (const auto* t = turn.book.registry().ticket(first);  // before what is granted: of one that has a makeup nothing may be kept
-      t != nullptr && ledger::makeup_reasons(turn.book.registry(), *t, read_clocks().utc_ns, why_not).empty())
+      t != nullptr && records::makeup_reasons(turn.book.registry(), *t, read_clocks().utc_ns, why_not).empty())
     throw Error(msg("the ticket of entry {}", first), why_not, msg("look at the list of tickets again"));
   if (!grant) grant = first_grant(turn.book, first);
-  ledger::Ticket ticket = ledger::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
+  records::Ticket ticket = records::promise(*setup, turn.book.content(), wish.from_utc_ns, wish.until_utc_ns);
   ticket.begun_at_ledger = asked.begin_at_office;
   ticket.grant = *grant;
-  const std::string text =
-      ledger::issue_makeup(turn.book, ticket, {first, ledger::of_word<ledger::FirstSitting>(asked.became, "what became of the first"), asked.reason});
-  const ledger::Ticket issued = ledger::parse_ticket(text, "", msg("the ticket"));
+  const std::string text = records::issue_makeup(
+      turn.book, ticket, {first, records::of_word<records::FirstSitting>(asked.became, "what became of the first"), asked.reason});
+  const records::Ticket issued = records::parse_ticket(text, "", msg("the ticket"));
   write_private_text_file(places_.ticket(issued.nonce), text + "\n");
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {turn.book.content().entries.size() - 1, issued.candidate,
           tr(scenarios::accommodations_text(scenarios::granted({}, issued.grant, msg("the ticket"))))};
 }
 
-bool Desk::keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& t) const {
+bool Desk::keeps_grant(const records::Registry& registry, const records::IssuedTicket& t) const {
   if (std::filesystem::exists(places_.ticket(t.ticket.nonce))) return true;
-  const ledger::FiledSession* sat = t.used_by ? registry.session(*t.used_by) : nullptr;
+  const records::FiledSession* sat = t.used_by ? registry.session(*t.used_by) : nullptr;
   return sat != nullptr && !sat->motion_erased_by;
 }
 
-std::vector<std::pair<std::string, std::string>> Desk::first_grant(ledger::Ledger& book, std::uint64_t ticket) const {
+std::vector<std::pair<std::string, std::string>> Desk::first_grant(records::Ledger& book, std::uint64_t ticket) const {
   const auto& registry = book.registry();
-  const ledger::IssuedTicket* t = registry.ticket(ticket);
+  const records::IssuedTicket* t = registry.ticket(ticket);
   if (t == nullptr || !keeps_grant(registry, *t))
     throw Error(msg("the accommodations"), msg("of the first ticket are not kept any more"), msg("say them again"));
   if (const std::string file = places_.ticket(t->ticket.nonce); std::filesystem::exists(file))
-    return ledger::parse_ticket(read_text_file(file), "", msg("the first ticket")).grant;
-  const ledger::FiledSession* sat = registry.session(*t->used_by);
-  return ledger::accommodations_in(SessionReader(ledger::recording_of(book.places(), *sat)).setup());
+    return records::parse_ticket(read_text_file(file), "", msg("the first ticket")).grant;
+  const records::FiledSession* sat = registry.session(*t->used_by);
+  return records::accommodations_in(SessionReader(records::recording_of(book.places(), *sat)).setup());
 }
 
 std::vector<std::pair<std::string, std::string>> Desk::grant_on(const std::string& nonce) const {
   if (!std::filesystem::exists(places_.ticket(nonce))) return {};
-  return ledger::parse_ticket(read_text_file(places_.ticket(nonce)), "", msg("the ticket")).grant;
+  return records::parse_ticket(read_text_file(places_.ticket(nonce)), "", msg("the ticket")).grant;
 }
 
 std::string Desk::granted_on(const std::string& nonce) const {
@@ -191,18 +191,18 @@ Tickets Desk::tickets(bool grants, const std::set<std::string>& seen) {
   Tickets out;
   std::map<std::string, Grants> granted;  // by exam
   for (const auto& t : turn.book.registry().tickets) {
-    const ledger::TicketState state = ledger::state_of(t, now);
+    const records::TicketState state = records::state_of(t, now);
     TicketRow row{.entry = t.seq, .candidate = t.ticket.candidate, .exam = t.ticket.exam, .state = tr(state.words), .seat = t.seat, .why = t.why};
     row.not_before = utc_text(t.ticket.not_before_utc_ns);
     row.not_after = utc_text(t.ticket.not_after_utc_ns);
     row.live = t.live(now);
     row.at_station = std::filesystem::exists(places_.ticket(t.ticket.nonce));
     row.grant_kept = keeps_grant(turn.book.registry(), t);
-    row.begun = state.group == ledger::TicketGroup::begun || seen.contains(t.ticket.candidate);
+    row.begun = state.group == records::TicketGroup::begun || seen.contains(t.ticket.candidate);
     Message why_not;
     if (const auto* makeup = t.made_up_by ? turn.book.registry().ticket(*t.made_up_by) : nullptr)
-      row.became = ledger::word_of(makeup->makes_up->became);
-    for (const auto became : ledger::makeup_reasons(turn.book.registry(), t, now, why_not)) row.makeup.emplace_back(ledger::word_of(became));
+      row.became = records::word_of(makeup->makes_up->became);
+    for (const auto became : records::makeup_reasons(turn.book.registry(), t, now, why_not)) row.makeup.emplace_back(records::word_of(became));
     put_name(row, people);
     if (grants) row.accommodations = granted_on(t.ticket.nonce);
     if (row.live) granted[t.ticket.exam].push_back(grant_on(t.ticket.nonce));
@@ -223,33 +223,33 @@ Entered Desk::cancel(const CancelTicket& asked, const Account& by, const std::se
       t != nullptr && (!t->begins.empty() || seen.contains(t->ticket.candidate)) && !asked.begun)
     throw Error(one_line(t->ticket.candidate), msg("has begun, and what is handed in would be refused"),
                 msg("say that it is meant; a makeup keeps what was sat on record"));
-  const auto seq = ledger::cancel_ticket(turn.book, asked.entry, asked.reason).seq;
+  const auto seq = records::cancel_ticket(turn.book, asked.entry, asked.reason).seq;
   remove_dead_tickets(turn.book, read_clocks().utc_ns);
   return {seq};
 }
 
 BoardShown Desk::board(const Board& board, const Inbox& inbox) {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   const std::int64_t now = read_clocks().utc_ns;
   const auto said = board.stations();
   const auto begun = begun_at(turn.book.content(), registry);
   BoardShown out{now, {}, {}, shown_holds(registry.day), shown_announcements(registry.day, now), {inbox.waiting(), tr(inbox.trouble()), {}}};
   for (const auto& s : registry.stations.stations) {
     if (!s.replaced_by.empty()) continue;
-    const ledger::Hold* hold = registry.day.hold_of(s.public_key);
+    const records::Hold* hold = registry.day.hold_of(s.public_key);
     StationShown row{s.name, s.public_key, s.room, s.seq, hold == nullptr ? 0 : hold->seq, s.revoked_utc_ns.has_value()};
     row.unread = unread_by(registry.day, s.public_key, said, now);
     row.twins = twins_of(registry.stations, begun, s.public_key, said, now);
     if (const auto found = said.find(s.public_key); found != said.end()) row.said = found->second;
     out.stations.push_back(std::move(row));
   }
-  for (const auto& t : registry.tickets) ++out.tickets[std::string(ledger::name_of(ledger::state_of(t, now).group))];
+  for (const auto& t : registry.tickets) ++out.tickets[std::string(records::name_of(records::state_of(t, now).group))];
   for (const auto& [hash, exam] : inbox.refused()) {
-    const auto is_it = [&sha256 = hash](const ledger::FiledSession& s) { return s.file_sha256 == sha256; };
+    const auto is_it = [&sha256 = hash](const records::FiledSession& s) { return s.file_sha256 == sha256; };
     if (std::any_of(registry.sessions.begin(), registry.sessions.end(), is_it)) continue;  // and filed later
     const auto& all = registry.stations.stations;
-    const auto from = std::find_if(all.begin(), all.end(), [&key = exam.station](const ledger::Station& s) { return s.public_key == key; });
+    const auto from = std::find_if(all.begin(), all.end(), [&key = exam.station](const records::Station& s) { return s.public_key == key; });
     out.inbox.refused.push_back({hash, exam.candidate, from == all.end() ? "" : from->name, shown_each(exam.findings)});
   }
   return out;
@@ -259,12 +259,12 @@ InviteCode Desk::invite(const Invite& asked, const Account& by) {
   constexpr std::int64_t k_week_of_ns = 7 * 86'400'000'000'000;
   const std::int64_t until = read_clocks().utc_ns + k_week_of_ns;
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::invite_station(turn.book, asked.value, until), utc_text(until)};
+  return {records::invite_station(turn.book, asked.value, until), utc_text(until)};
 }
 
 Entered Desk::revoke(const RevokeStation& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::revoke_station(turn.book, parse_public_key(asked.public_key, msg("the station's key")), asked.reason).seq};
+  return {records::revoke_station(turn.book, parse_public_key(asked.public_key, msg("the station's key")), asked.reason).seq};
 }
 
 Message Desk::station_problem(const std::string& public_key) {
@@ -276,17 +276,17 @@ Message Desk::station_problem(const std::string& public_key) {
 
 Enrolled Desk::enrol(const std::string& request) {
   Turn turn(*this);
-  const auto seq = ledger::enrol_station(turn.book, request, 0, "the station's request").seq;
+  const auto seq = records::enrol_station(turn.book, request, 0, "the station's request").seq;
   return {seq, turn.book.registry().stations.stations.back().name};
 }
 
-void Desk::remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) const {
+void Desk::remove_dead_tickets(records::Ledger& book, std::int64_t now_utc_ns) const {
   constexpr std::int64_t k_for_makeups_ns = 60LL * 86'400 * 1'000'000'000;
-  std::optional<std::map<std::string, ledger::Identity>> people;
+  std::optional<std::map<std::string, records::Identity>> people;
   for (const auto& t : book.registry().tickets) {
     const std::string file = places_.ticket(t.ticket.nonce);
     if (t.live(now_utc_ns) || comes_back(book.registry(), t, now_utc_ns) || !std::filesystem::exists(file)) continue;
-    if (ledger::state_of(t, now_utc_ns).group == ledger::TicketGroup::run_out && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
+    if (records::state_of(t, now_utc_ns).group == records::TicketGroup::run_out && now_utc_ns - t.ticket.not_after_utc_ns < k_for_makeups_ns) {
       if (!people) people = people_of(book);
       if (people->contains(t.ticket.candidate)) continue;  // not forgotten
     }
@@ -310,11 +310,11 @@ WordToBegin Desk::begin(const AskBegin& asked, const std::string& station) {
   Turn turn(*this, {"", "", station});
   for (const auto& t : turn.book.registry().tickets) {
     if (t.ticket.nonce != nonce || t.begins.empty() || t.used_by || t.cancelled_by) continue;
-    const ledger::LedgerEntry& before = turn.book.content().entries.at(t.begins.back().seq);
+    const records::LedgerEntry& before = turn.book.content().entries.at(t.begins.back().seq);
     if (before.by.station == station)  // its answer was lost on the way
-      return {ledger::begin_text(*before.as<ledger::BeginEntry>())};
+      return {records::begin_text(*before.as<records::BeginEntry>())};
   }
-  return {ledger::let_begin(turn.book, nonce, "")};
+  return {records::let_begin(turn.book, nonce, "")};
 }
 
 std::string Desk::candidate_of(const std::string& nonce) {

@@ -11,9 +11,9 @@
 #include <utility>
 #include <vector>
 
-#include "grading/ledger/class_regrade.h"
-#include "grading/ledger/ledger.h"
-#include "grading/ledger/passback.h"
+#include "grading/records/class_regrade.h"
+#include "grading/records/ledger.h"
+#include "grading/records/passback.h"
 #include "ui/office/accounts.h"
 #include "ui/office/board.h"
 #include "ui/office/inbox.h"
@@ -91,9 +91,9 @@ class Desk {
   [[nodiscard]] Entered open_appeal(const OpenAppeal& asked, const Account& by);
   [[nodiscard]] Entered answer_appeal(const AnswerAppeal& asked, const Account& by);
   /// Who would be marked anew by `basis`; `entries`: of the ledger then.
-  [[nodiscard]] ledger::ClassRegrade plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries);
+  [[nodiscard]] records::ClassRegrade plan_regrade(const std::string& exam, records::RegradeBasis basis, std::uint64_t& entries);
   /// All of it counts from now on. Returns how many were entered, from entry `first` on.
-  std::size_t count_regrade(const ledger::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first);
+  std::size_t count_regrade(const records::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first);
   /// How many results of an exam this person has entered by this rubric since the ledger had so many entries; `first`: the first of them.
   [[nodiscard]] std::uint64_t counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by,
                                                std::uint64_t entries, std::uint64_t& first);
@@ -110,8 +110,9 @@ class Desk {
   [[nodiscard]] std::size_t entries();
   /// The school's own numbers of all whom the ledger knows.
   [[nodiscard]] std::set<std::string> numbers();
-  [[nodiscard]] std::vector<ledger::ScoreDue> scores_due(const std::string& exam, const std::string& line_item, bool again);
-  void enter_passback(const ledger::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status, const std::string& answer);
+  [[nodiscard]] std::vector<records::ScoreDue> scores_due(const std::string& exam, const std::string& line_item, bool again);
+  void enter_passback(const records::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
+                      const std::string& answer);
   /// Sessions whose last score in this column was accepted, and refused.
   [[nodiscard]] std::pair<int, int> passbacks(const std::string& line_item);
   /// Released results of the candidate of that number, of one exam or all.
@@ -141,17 +142,17 @@ class Desk {
   /// The same for people; empty: none, or the file is not kept any more.
   [[nodiscard]] std::string granted_on(const std::string& nonce) const;
   /// Whether first_grant finds something.
-  [[nodiscard]] bool keeps_grant(const ledger::Registry& registry, const ledger::IssuedTicket& ticket) const;
+  [[nodiscard]] bool keeps_grant(const records::Registry& registry, const records::IssuedTicket& ticket) const;
   /// What a ticket's entry grants, by its file or by the recording that was sat with it. Throws Error when neither is kept.
-  [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_grant(ledger::Ledger& book, std::uint64_t ticket) const;
+  [[nodiscard]] std::vector<std::pair<std::string, std::string>> first_grant(records::Ledger& book, std::uint64_t ticket) const;
   /// Removes the files of tickets that can no longer be used: their accommodations tell of health. Of one that ran out it is kept for 60 days, for a
   /// makeup, as long as the candidate is not forgotten.
-  void remove_dead_tickets(ledger::Ledger& book, std::int64_t now_utc_ns) const;
+  void remove_dead_tickets(records::Ledger& book, std::int64_t now_utc_ns) const;
 
   [[nodiscard]] std::vector<Invited> invited_now();
 
   std::mutex lock_, printing_;
-  ledger::Ledger ledger_;
+  records::Ledger ledger_;
   OfficePlaces places_;
   std::vector<std::string> exams_;
   std::string id_, school_, public_key_;

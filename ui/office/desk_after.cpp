@@ -5,14 +5,14 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/text.h"
-#include "grading/ledger/appeal.h"
-#include "grading/ledger/decision.h"
-#include "grading/ledger/entry_text.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/exam_scale.h"
-#include "grading/ledger/exported_grade.h"
-#include "grading/ledger/exports.h"
-#include "grading/ledger/release.h"
+#include "grading/records/appeal.h"
+#include "grading/records/decision.h"
+#include "grading/records/entry_text.h"
+#include "grading/records/erasure.h"
+#include "grading/records/exam_scale.h"
+#include "grading/records/exported_grade.h"
+#include "grading/records/exports.h"
+#include "grading/records/release.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -24,24 +24,24 @@ using nlohmann::json;
 namespace {
 
 /// By which its report is asked for; empty where the recording was erased.
-std::string recording_sha256(const ledger::FiledSession& s) { return s.motion_erased_by ? "" : s.file_sha256; }
+std::string recording_sha256(const records::FiledSession& s) { return s.motion_erased_by ? "" : s.file_sha256; }
 
 /// The last decision of a person on it.
-std::optional<Decided> decided(const ledger::FiledSession& s) {
-  const ledger::Regrade* r = s.last_decision();
+std::optional<Decided> decided(const records::FiledSession& s) {
+  const records::Regrade* r = s.last_decision();
   if (r == nullptr) return std::nullopt;
   return Decided{r->seq, r->person, text_in(*r->result, "verdict"), r->reason, r->seq == s.result_seq};
 }
 
 /// The station that a ticket was to be sat at; empty: any.
-std::string planned_seat(const ledger::Registry& registry, const std::string& nonce) {
+std::string planned_seat(const records::Registry& registry, const std::string& nonce) {
   const auto t =
-      std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const ledger::IssuedTicket& i) { return i.ticket.nonce == nonce; });
+      std::find_if(registry.tickets.begin(), registry.tickets.end(), [&](const records::IssuedTicket& i) { return i.ticket.nonce == nonce; });
   return nonce.empty() || t == registry.tickets.end() ? "" : station_name(registry, t->seat);
 }
 
 /// What was noted of its candidate on the day.
-std::vector<Noted> noted(const ledger::Registry& registry, const std::string& candidate) {
+std::vector<Noted> noted(const records::Registry& registry, const std::string& candidate) {
   std::vector<Noted> out;
   for (const auto& i : registry.day.incidents)
     if (i.candidate == candidate && !i.erased_by) out.push_back({utc_text(i.utc_ns), station_name(registry, i.station), i.words});
@@ -49,11 +49,11 @@ std::vector<Noted> noted(const ledger::Registry& registry, const std::string& ca
 }
 
 /// Sessions by the entries of their results, as a page showed them. Throws Error when one is another by now.
-std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry, const Entries& results) {
+std::vector<std::uint64_t> sessions_of_results(const records::Registry& registry, const Entries& results) {
   std::vector<std::uint64_t> out;
   for (const std::uint64_t entry : results) {
     const auto found =
-        std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const ledger::FiledSession& s) { return entry == s.result_seq; });
+        std::find_if(registry.sessions.begin(), registry.sessions.end(), [&](const records::FiledSession& s) { return entry == s.result_seq; });
     if (found == registry.sessions.end() || found->released)
       throw Error(msg("the results"), msg("are others by now than the page showed"), msg("look again; nothing was released"));
     out.push_back(found->seq);
@@ -65,10 +65,10 @@ std::vector<std::uint64_t> sessions_of_results(const ledger::Registry& registry,
 
 Queue Desk::queue() {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   Queue out;
-  for (const auto& d : ledger::review_queue(registry)) {
-    const ledger::FiledSession& s = *registry.session(d.session);
+  for (const auto& d : records::review_queue(registry)) {
+    const records::FiledSession& s = *registry.session(d.session);
     out.value.push_back({d.session, d.candidate, d.scenario_id, d.points, d.max, shown_each(d.reasons), decided(s), noted(registry, d.candidate),
                          recording_sha256(s)});
   }
@@ -77,17 +77,17 @@ Queue Desk::queue() {
 
 Entered Desk::decide(const Decide& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  const ledger::Decision decision{ledger::decided_verdict(asked.verdict), by.name, asked.reason};
-  return {ledger::enter_decision(turn.book, asked.session, decision).seq};
+  const records::Decision decision{records::decided_verdict(asked.verdict), by.name, asked.reason};
+  return {records::enter_decision(turn.book, asked.session, decision).seq};
 }
 
 Results Desk::results(bool names) {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
-  const auto people = names ? people_of(turn.book) : std::map<std::string, ledger::Identity>();
+  const records::Registry& registry = turn.book.registry();
+  const auto people = names ? people_of(turn.book) : std::map<std::string, records::Identity>();
   const auto counting = registry.counting();
   const auto otherwise = registry.marked_otherwise();
-  const auto scales = ledger::own_scales(registry);
+  const auto scales = records::own_scales(registry);
   Results out;
   for (const auto& s : registry.sessions) {
     ResultRow row{.session = s.seq, .result = s.result_seq, .candidate = s.candidate, .exam = s.scenario_id, .simulated = s.simulated};
@@ -100,7 +100,7 @@ Results Desk::results(bool names) {
     const json& score = member_of(*s.result, "score");
     row.points = number_in(member_of(score, "points"));
     row.max = number_in(member_of(score, "max"));
-    if (s.shown->is_object()) row.grade = number_in(ledger::exported_grade(s, scales).grade);
+    if (s.shown->is_object()) row.grade = number_in(records::exported_grade(s, scales).grade);
     row.findings = shown_each(s.findings);
     row.decided = decided(s);
     row.shown = s.shown_seq != 0;
@@ -117,7 +117,7 @@ Results Desk::results(bool names) {
 }
 
 Released Desk::release(const ReleaseResults& asked, const Account& by) {
-  ledger::ReleaseWish wish;
+  records::ReleaseWish wish;
   wish.all = asked.all;
   wish.sessions = asked.sessions;
   wish.with_findings = asked.with_findings;
@@ -125,30 +125,30 @@ Released Desk::release(const ReleaseResults& asked, const Account& by) {
   if (asked.results) wish.sessions = sessions_of_results(turn.book.registry(), *asked.results);
   if (wish.all != wish.sessions.empty())
     throw Error(msg("the release"), msg("needs to know whose results"), msg("name all, or results as they were shown"));
-  const ledger::Release done = ledger::release_results(turn.book, wish);
+  const records::Release done = records::release_results(turn.book, wish);
   return {done.results.size(), done.kept_back, done.to_decide};
 }
 
 std::string Desk::gradebook(bool rehearsal) {
   Turn turn(*this);
-  ledger::Identities identities = ledger::sound_identities(turn.book);
+  records::Identities identities = records::sound_identities(turn.book);
   int left_out = 0;
-  return ledger::moodle_csv(turn.book.registry(), identities, left_out, in_words, rehearsal);
+  return records::moodle_csv(turn.book.registry(), identities, left_out, in_words, rehearsal);
 }
 
 std::string Desk::criteria() {
   Turn turn(*this);
-  return ledger::tidy_csv(turn.book.registry());
+  return records::tidy_csv(turn.book.registry());
 }
 
 Entered Desk::retract(const Retract& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::retract_results(turn.book, asked.sessions, asked.reason).seq};
+  return {records::retract_results(turn.book, asked.sessions, asked.reason).seq};
 }
 
 Appeals Desk::appeals() {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   Appeals out;
   for (const auto& s : registry.sessions)
     for (const auto& a : s.appeals) {
@@ -161,7 +161,7 @@ Appeals Desk::appeals() {
                     text_in(*s.result, "verdict"),
                     recording_sha256(s),
                     a.reason,
-                    a.closed_by ? ledger::word_of(a.outcome) : "",
+                    a.closed_by ? records::word_of(a.outcome) : "",
                     a.answer,
                     number_in(member_of(score, "points")),
                     number_in(member_of(score, "max")),
@@ -169,7 +169,7 @@ Appeals Desk::appeals() {
                     noted(registry, s.candidate),
                     s.made_up_by,
                     !a.closed_by.has_value(),
-                    ledger::changed_since(s, a)};
+                    records::changed_since(s, a)};
       out.value.push_back(std::move(row));
     }
   return out;
@@ -177,23 +177,23 @@ Appeals Desk::appeals() {
 
 Entered Desk::open_appeal(const OpenAppeal& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::open_appeal(turn.book, asked.session, asked.reason).seq};
+  return {records::open_appeal(turn.book, asked.session, asked.reason).seq};
 }
 
 Entered Desk::answer_appeal(const AnswerAppeal& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::answer_appeal(turn.book, asked.session, ledger::of_word<ledger::Outcome>(asked.outcome, "the outcome"), asked.reason).seq};
+  return {records::answer_appeal(turn.book, asked.session, records::of_word<records::Outcome>(asked.outcome, "the outcome"), asked.reason).seq};
 }
 
-ledger::ClassRegrade Desk::plan_regrade(const std::string& exam, ledger::RegradeBasis basis, std::uint64_t& entries) {
+records::ClassRegrade Desk::plan_regrade(const std::string& exam, records::RegradeBasis basis, std::uint64_t& entries) {
   Turn turn(*this);
   entries = turn.book.content().entries.size();
-  return ledger::plan_class_regrade(turn.book.registry(), exam, std::move(basis));
+  return records::plan_class_regrade(turn.book.registry(), exam, std::move(basis));
 }
 
-std::size_t Desk::count_regrade(const ledger::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first) {
+std::size_t Desk::count_regrade(const records::ClassRegrade& plan, const std::string& reason, const Account& by, std::uint64_t& first) {
   Turn turn(*this, {by.name, "", ""});
-  const std::size_t entered = ledger::enter_class_regrade(turn.book, plan, reason);
+  const std::size_t entered = records::enter_class_regrade(turn.book, plan, reason);
   first = turn.book.content().entries.size() - entered;
   return entered;
 }
@@ -201,7 +201,7 @@ std::size_t Desk::count_regrade(const ledger::ClassRegrade& plan, const std::str
 std::uint64_t Desk::counted_regrades(const std::string& exam, const std::string& rubric_sha256, const std::string& by, std::uint64_t entries,
                                      std::uint64_t& first) {
   Turn turn(*this);
-  const ledger::LedgerContent& content = turn.book.content();
+  const records::LedgerContent& content = turn.book.content();
   std::uint64_t counted = 0;
   for (const auto& s : turn.book.registry().sessions)
     for (const auto& r : s.regrades) {
@@ -227,7 +227,7 @@ std::vector<FiledExam> Desk::filed_exams() {
 Recording Desk::recording(const std::string& file_sha256) {
   Turn turn(*this);
   for (const auto& s : turn.book.registry().sessions)
-    if (s.file_sha256 == file_sha256) return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
+    if (s.file_sha256 == file_sha256) return {records::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
   throw Error(msg("the session"), msg("is not filed here"), msg("look at the results again"));
 }
 

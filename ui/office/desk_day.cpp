@@ -3,7 +3,7 @@
 #include <set>
 
 #include "engine/session/session.h"
-#include "grading/ledger/issue.h"
+#include "grading/records/issue.h"
 #include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -14,16 +14,16 @@ namespace cavum::office {
 namespace {
 
 /// Gives each ticket of a sitting that has no seat a station that nobody has at that time.
-std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std::string& exam, std::int64_t from, std::int64_t until,
-                                     const std::string& room, std::int64_t now) {
-  std::vector<ledger::Seat> seats;
+std::vector<records::Seat> free_seats(const records::Registry& registry, const std::string& exam, std::int64_t from, std::int64_t until,
+                                      const std::string& room, std::int64_t now) {
+  std::vector<records::Seat> seats;
   std::set<std::string> given;
   for (const auto& t : registry.tickets) {
     if (!t.live(now) || t.ticket.exam != exam || t.ticket.not_before_utc_ns != from || t.ticket.not_after_utc_ns != until || !t.seat.empty())
       continue;
     for (const auto& s : registry.stations.stations) {
       if (s.revoked_utc_ns || !s.replaced_by.empty() || (!room.empty() && s.room != room) || given.contains(s.public_key)) continue;
-      if (ledger::seated_there(registry, s.public_key, {from, until}, t.seq, now) != nullptr) continue;
+      if (records::seated_there(registry, s.public_key, {from, until}, t.seq, now) != nullptr) continue;
       seats.push_back({t.seq, s.public_key});
       given.insert(s.public_key);
       break;
@@ -36,27 +36,27 @@ std::vector<ledger::Seat> free_seats(const ledger::Registry& registry, const std
 
 Entered Desk::announce(const Announce& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::announce(turn.book, asked.text, audience_of(asked.to, turn.book.registry().stations)).seq};
+  return {records::announce(turn.book, asked.text, audience_of(asked.to, turn.book.registry().stations)).seq};
 }
 
 Entered Desk::hold(const Hold& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::hold_exams(turn.book, asked.reason, audience_of(asked.to, turn.book.registry().stations)).seq};
+  return {records::hold_exams(turn.book, asked.reason, audience_of(asked.to, turn.book.registry().stations)).seq};
 }
 
 Entered Desk::go_on(const GoOn& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::let_go_on(turn.book, asked.hold, asked.reason).seq};
+  return {records::let_go_on(turn.book, asked.hold, asked.reason).seq};
 }
 
 Entered Desk::note_incident(const NoteIncident& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::note_incident(turn.book, asked.station, asked.candidate, asked.words).seq};
+  return {records::note_incident(turn.book, asked.station, asked.candidate, asked.words).seq};
 }
 
 Incidents Desk::incidents() {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   const auto people = people_of(turn.book);
   Incidents out;
   for (auto i = registry.day.incidents.rbegin(); i != registry.day.incidents.rend(); ++i) {
@@ -70,7 +70,7 @@ Incidents Desk::incidents() {
 Attendance Desk::attendance(const Board& board) {
   constexpr std::int64_t k_day_ns = 86'400'000'000'000;
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   const auto people = people_of(turn.book);
   const auto seen = board.candidates();
   const std::int64_t now = read_clocks().utc_ns;
@@ -87,18 +87,18 @@ Attendance Desk::attendance(const Board& board) {
 
 Entered Desk::place(const PlaceStation& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  return {ledger::place_station(turn.book, asked.public_key, asked.room).seq};
+  return {records::place_station(turn.book, asked.public_key, asked.room).seq};
 }
 
 Seated Desk::seat(const SeatThem& asked, const Account& by) {
   Turn turn(*this, {by.name, "", ""});
-  const ledger::Registry& registry = turn.book.registry();
-  std::vector<ledger::Seat> seats;
+  const records::Registry& registry = turn.book.registry();
+  std::vector<records::Seat> seats;
   std::size_t left = 0;
   if (asked.sitting) {
     const std::string& exam = asked.sitting->exam;
-    const std::int64_t from = ledger::parse_utc(asked.sitting->not_before, msg("the first moment")),
-                       until = ledger::parse_utc(asked.sitting->not_after, msg("the last moment")), now = read_clocks().utc_ns;
+    const std::int64_t from = records::parse_utc(asked.sitting->not_before, msg("the first moment")),
+                       until = records::parse_utc(asked.sitting->not_after, msg("the last moment")), now = read_clocks().utc_ns;
     seats = free_seats(registry, exam, from, until, asked.room, now);
     for (const auto& t : registry.tickets)
       left +=
@@ -109,7 +109,7 @@ Seated Desk::seat(const SeatThem& asked, const Account& by) {
     if (!asked.ticket) throw Error(msg("'ticket'"), msg("is missing"), msg("name a sitting or a ticket"));
     seats.push_back({*asked.ticket, asked.station});
   }
-  return {ledger::seat_candidates(turn.book, seats).seq, seats.size(), left};
+  return {records::seat_candidates(turn.book, seats).seq, seats.size(), left};
 }
 
 std::vector<Invited> Desk::invited_now() {
@@ -138,13 +138,13 @@ std::string Desk::sign_in_sheet() {
 
 OfficeWord Desk::word_for(const std::string& station, std::uint64_t heard, std::int64_t since_utc_ns) {
   Turn turn(*this);
-  const ledger::Registry& registry = turn.book.registry();
+  const records::Registry& registry = turn.book.registry();
   const std::int64_t now = read_clocks().utc_ns;
   OfficeWord word{now, registry.tickets.size(), {}, {}};
   for (const auto* a : announced_to(registry.day, station, since_utc_ns, now))
     if (a->seq > heard) word.announcements.push_back({a->seq, a->utc_ns, a->words});
   for (const auto& t : registry.tickets) word.tickets += !t.live(now) ? 1 : 0;
-  if (const ledger::Hold* hold = registry.day.hold_of(station); hold != nullptr) word.hold = {hold->seq, hold->reason};
+  if (const records::Hold* hold = registry.day.hold_of(station); hold != nullptr) word.hold = {hold->seq, hold->reason};
   return word;
 }
 

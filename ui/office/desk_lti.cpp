@@ -1,8 +1,8 @@
 // What the desk tells of results to learning platforms, and to whoever comes from one.
 #include "engine/base/json_fields.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/exam_scale.h"
-#include "grading/ledger/exported_grade.h"
+#include "grading/records/erasure.h"
+#include "grading/records/exam_scale.h"
+#include "grading/records/exported_grade.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -11,7 +11,7 @@ namespace cavum::office {
 
 namespace {
 
-bool is_own(ledger::Identities& identities, const ledger::FiledSession& s, const std::string& number) {
+bool is_own(records::Identities& identities, const records::FiledSession& s, const std::string& number) {
   const auto identity = identities.of_pseudonym(s.candidate);
   return !number.empty() && identity && identity->id == number;
 }
@@ -26,20 +26,20 @@ std::size_t Desk::entries() {
 std::set<std::string> Desk::numbers() {
   Turn turn(*this);
   std::set<std::string> out;
-  for (const auto& one : ledger::sound_identities(turn.book).all()) out.insert(one.id);
+  for (const auto& one : records::sound_identities(turn.book).all()) out.insert(one.id);
   return out;
 }
 
-std::vector<ledger::ScoreDue> Desk::scores_due(const std::string& exam, const std::string& line_item, bool again) {
+std::vector<records::ScoreDue> Desk::scores_due(const std::string& exam, const std::string& line_item, bool again) {
   Turn turn(*this);
-  ledger::Identities identities = ledger::sound_identities(turn.book);
-  return ledger::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item, in_words, again);
+  records::Identities identities = records::sound_identities(turn.book);
+  return records::scores_due(turn.book.content(), turn.book.registry(), identities, exam, line_item, in_words, again);
 }
 
-void Desk::enter_passback(const ledger::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
+void Desk::enter_passback(const records::ScoreDue& sent, const std::string& platform, const std::string& line_item, int status,
                           const std::string& answer) {
   Turn turn(*this);
-  ledger::enter_passback(turn.book, sent, platform, line_item, status, answer);
+  records::enter_passback(turn.book, sent, platform, line_item, status, answer);
 }
 
 std::pair<int, int> Desk::passbacks(const std::string& line_item) {
@@ -54,13 +54,13 @@ std::pair<int, int> Desk::passbacks(const std::string& line_item) {
 
 std::vector<OwnResult> Desk::own_results(const std::string& number, const std::string& exam) {
   Turn turn(*this);
-  ledger::Identities identities = ledger::sound_identities(turn.book);
-  const auto scales = ledger::own_scales(turn.book.registry());
+  records::Identities identities = records::sound_identities(turn.book);
+  const auto scales = records::own_scales(turn.book.registry());
   const auto counting = turn.book.registry().counting();
   std::vector<OwnResult> out;
   for (const auto& s : turn.book.registry().sessions) {
     if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
-    const ledger::ExportedGrade grade = ledger::exported_grade(s, scales);
+    const records::ExportedGrade grade = records::exported_grade(s, scales);
     out.push_back({s.scenario_id, text_in(*s.shown, "verdict"), number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
                    local_text(s.released_utc_ns), counting.at({s.candidate, s.scenario_id}) == s.seq, !s.simulated.empty(),
                    s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256});
@@ -70,10 +70,10 @@ std::vector<OwnResult> Desk::own_results(const std::string& number, const std::s
 
 Recording Desk::own_recording(const std::string& number, const std::string& file_sha256) {
   Turn turn(*this);
-  ledger::Identities identities = ledger::sound_identities(turn.book);
+  records::Identities identities = records::sound_identities(turn.book);
   for (const auto& s : turn.book.registry().sessions)
     if (s.file_sha256 == file_sha256 && s.shown->is_object() && is_own(identities, s, number))
-      return {ledger::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
+      return {records::recording_of(turn.book.places(), s), turn.book.content().entries.size()};
   throw Error(msg("this report"), msg("is not there"), msg("open the link on the platform again"));
 }
 

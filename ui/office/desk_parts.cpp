@@ -1,15 +1,14 @@
 #include "ui/office/desk_parts.h"
 
-#include <sodium.h>
-
 #include <algorithm>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/text.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/makeup.h"
-#include "grading/ledger/reason.h"
+#include "grading/records/erasure.h"
+#include "grading/records/makeup.h"
+#include "grading/records/reason.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/file/accommodations.h"
 #include "scenarios/file/parse.h"
@@ -18,9 +17,9 @@
 
 namespace cavum::office {
 
-std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger) {
-  std::map<std::string, ledger::Identity> out;
-  for (auto& one : ledger::sound_identities(ledger).all()) out[one.pseudonym] = one;
+std::map<std::string, records::Identity> people_of(const records::Ledger& ledger) {
+  std::map<std::string, records::Identity> out;
+  for (auto& one : records::sound_identities(ledger).all()) out[one.pseudonym] = one;
   return out;
 }
 
@@ -32,21 +31,16 @@ std::vector<std::string> shown_each(const std::vector<Message>& messages) {
   return texts;
 }
 
-std::vector<ShownFinding> shown_each(const ledger::Findings& findings) {
+std::vector<ShownFinding> shown_each(const records::Findings& findings) {
   std::vector<ShownFinding> shown;
   for (const auto& f : findings) shown.push_back({f.kind, one_line(tr(f.what))});
   return shown;
 }
 
 Roster roster_of(const ClassList& asked) {
-  const std::string& packed = asked.base64;
-  std::string bytes(packed.size() / 4 * 3 + 3, '\0');
-  std::size_t size = 0;
-  if (sodium_base642bin(reinterpret_cast<unsigned char*>(bytes.data()), bytes.size(), packed.data(), packed.size(), nullptr, &size, nullptr,
-                        sodium_base64_VARIANT_ORIGINAL) != 0)
-    throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
-  bytes.resize(size);
-  return read_roster(bytes, {asked.answers.begin(), asked.answers.end()});
+  const auto bytes = from_base64(asked.base64);
+  if (!bytes) throw Error(msg("the list"), msg("did not arrive whole"), msg("send it again"));
+  return read_roster({bytes->begin(), bytes->end()}, {asked.answers.begin(), asked.answers.end()});
 }
 
 Preview shown_roster(const Roster& roster) {
@@ -55,7 +49,7 @@ Preview shown_roster(const Roster& roster) {
   for (const auto& p : roster.people)
     out.people.push_back(
         {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), msg("the list"))))});
-  for (const auto& name : ledger::people_columns()) out.uses.emplace_back(name);
+  for (const auto& name : records::people_columns()) out.uses.emplace_back(name);
   return out;
 }
 
@@ -82,8 +76,8 @@ IssueWish issue_wish(const std::string& exam, const std::string& from, const std
   for (const auto& file : exams)
     if (exam_facts(file).id == exam) wish.scenario = file;
   if (wish.scenario.empty()) throw Error(msg("the exam"), msg("is none that this office offers"), msg("choose one of the list"));
-  wish.from_utc_ns = ledger::parse_utc(from, msg("the first moment"));
-  wish.until_utc_ns = ledger::parse_utc(until, msg("the last moment"));
+  wish.from_utc_ns = records::parse_utc(from, msg("the first moment"));
+  wish.until_utc_ns = records::parse_utc(until, msg("the last moment"));
   if (wish.until_utc_ns <= wish.from_utc_ns)
     throw Error(msg("the last moment"), msg("is not after the first"), msg("give the last moment at which the exam may begin"));
   return wish;
@@ -104,12 +98,12 @@ std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const M
   return notes;
 }
 
-std::string station_name(const ledger::Registry& registry, const std::string& key) {
-  const ledger::Station* s = registry.stations.of(key);
+std::string station_name(const records::Registry& registry, const std::string& key) {
+  const records::Station* s = registry.stations.of(key);
   return s == nullptr ? "" : s->name;
 }
 
-std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& s, const std::set<std::uint64_t>& otherwise) {
+std::string state_of(const records::Registry& registry, const records::FiledSession& s, const std::set<std::uint64_t>& otherwise) {
   if (s.result_erased_by) return "erased";
   if (s.made_up_by) return "made up";
   if (registry.chosen_instead_of(s) != nullptr) return "not chosen";

@@ -9,18 +9,18 @@
 #include <utility>
 #include <vector>
 
-#include "grading/ledger/identities.h"
-#include "grading/ledger/ledger.h"
+#include "grading/records/identities.h"
+#include "grading/records/ledger.h"
 #include "ui/office/roster.h"
 #include "ui/office/wire.h"
 
 namespace cavum::office {
 
 /// Names by pseudonym.
-[[nodiscard]] std::map<std::string, ledger::Identity> people_of(const ledger::Ledger& ledger);
+[[nodiscard]] std::map<std::string, records::Identity> people_of(const records::Ledger& ledger);
 /// `id` and `name` of a row's candidate, empty when nobody is behind it any more.
 template <class Row>
-void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
+void put_name(Row& row, const std::map<std::string, records::Identity>& people) {
   const auto found = people.find(row.candidate);
   row.id = found == people.end() ? "" : found->second.id;
   row.name = found == people.end() ? "" : found->second.name;
@@ -35,7 +35,7 @@ void put_name(Row& row, const std::map<std::string, ledger::Identity>& people) {
 /// In the office's language.
 [[nodiscard]] std::string in_words(const Message& message);
 [[nodiscard]] std::vector<std::string> shown_each(const std::vector<Message>& messages);
-[[nodiscard]] std::vector<ShownFinding> shown_each(const ledger::Findings& findings);
+[[nodiscard]] std::vector<ShownFinding> shown_each(const records::Findings& findings);
 
 /// The list of a request. Throws Error when it is none.
 [[nodiscard]] Roster roster_of(const ClassList& asked);
@@ -61,10 +61,10 @@ struct IssueWish {
 [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const MakeUp& asked);
 
 /// A station's name by its key; empty where the ledger knows none.
-[[nodiscard]] std::string station_name(const ledger::Registry& registry, const std::string& key);
+[[nodiscard]] std::string station_name(const records::Registry& registry, const std::string& key);
 
 /// made up, released, to decide, questioned, taken back, marked otherwise (one of `otherwise`: Registry::marked_otherwise), not chosen, erased, or
 /// ready: it waits for its release.
-[[nodiscard]] std::string state_of(const ledger::Registry& registry, const ledger::FiledSession& session, const std::set<std::uint64_t>& otherwise);
+[[nodiscard]] std::string state_of(const records::Registry& registry, const records::FiledSession& session, const std::set<std::uint64_t>& otherwise);
 
 }  // namespace cavum::office

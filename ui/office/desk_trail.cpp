@@ -4,7 +4,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/session/session.h"
-#include "grading/ledger/entry_text.h"
+#include "grading/records/entry_text.h"
 #include "ui/office/day_parts.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -27,7 +27,7 @@ struct Told {
 /// Whom and which exam an entry is about, by what it names.
 class Trail {
  public:
-  explicit Trail(const ledger::Registry& registry) : registry_(registry) {
+  explicit Trail(const records::Registry& registry) : registry_(registry) {
     for (const auto& t : registry.tickets) {
       people_[t.seq] = t.ticket.candidate;
       for (const auto& b : t.begins) people_[b.seq] = t.ticket.candidate;
@@ -39,8 +39,8 @@ class Trail {
   }
 
   /// Without its people. Of incidents what happened only with `words`.
-  [[nodiscard]] TrailEntry row(const ledger::LedgerEntry& e, bool words) const {
-    const auto* session = e.as<ledger::SessionEntry>();
+  [[nodiscard]] TrailEntry row(const records::LedgerEntry& e, bool words) const {
+    const auto* session = e.as<records::SessionEntry>();
     const Told told = told_of(e, words);
     return {e.seq,     utc_text(e.utc_ns),
             told.what, e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account,
@@ -48,7 +48,7 @@ class Trail {
   }
 
   /// Pseudonyms.
-  [[nodiscard]] std::vector<std::string> people(const ledger::LedgerEntry& e) const {
+  [[nodiscard]] std::vector<std::string> people(const records::LedgerEntry& e) const {
     const Told told = told_of(e, false);
     std::vector<std::string> out;
     if (!told.candidate.empty()) out.push_back(told.candidate);
@@ -59,57 +59,57 @@ class Trail {
   }
 
  private:
-  [[nodiscard]] Told told_of(const ledger::LedgerEntry& e, bool words) const {
-    Told t{e.what ? ledger::kind_name(*e.what) : "", e.by.reason, {}, {}, 0};
-    const auto erased = [&](const std::vector<ledger::ErasedPart>& parts) {
+  [[nodiscard]] Told told_of(const records::LedgerEntry& e, bool words) const {
+    Told t{e.what ? records::kind_name(*e.what) : "", e.by.reason, {}, {}, 0};
+    const auto erased = [&](const std::vector<records::ErasedPart>& parts) {
       t.number = parts.size();
       for (const auto& part : parts) t.about.push_back(part.entry);
     };
     const auto of_station = [&](const std::string& name, const std::string& more) { t.why = more.empty() ? name : name + ": " + more; };
-    const ledger::OfEach say{[](const ledger::InitEntry&) {},
-                             [&](const ledger::TicketEntry& x) {
-                               t.about = {e.seq};
-                               if (x.makes_up) t.what = "makeup";
-                             },
-                             [&](const ledger::CancelEntry& x) { t.about = {x.ticket}; },
-                             [&](const ledger::BeginEntry& x) {
-                               t.about = {e.seq};
-                               if (x.again) t.what = "begin again";
-                             },
-                             [&](const ledger::SessionEntry& x) {
-                               t.candidate = x.candidate;
-                               if (!x.findings.empty()) t.what = "session with findings";
-                             },
-                             [&](const ledger::RegradeEntry& x) {
-                               t.about = {x.session};
-                               if (!x.person.empty()) t.what = "decision";
-                             },
-                             [&](const ledger::ReleaseEntry& x) { t.about = x.results, t.number = x.results.size(); },
-                             [&](const ledger::RetractEntry& x) { t.about = x.results, t.number = x.results.size(); },
-                             [&](const ledger::AppealEntry& x) { t.about = {x.session}; },
-                             [&](const ledger::AnswerEntry& x) { t.about = {x.session}; },
-                             [&](const ledger::AnnounceEntry& x) { t.why = x.text; },
-                             [](const ledger::HoldEntry&) {},
-                             [](const ledger::GoOnEntry&) {},
-                             [&](const ledger::IncidentEntry& x) { t.candidate = x.candidate, t.why = words ? x.words.words() : ""; },
-                             [&](const ledger::SeatsEntry& x) {
-                               t.number = x.seats.size();
-                               for (const auto& seat : x.seats) t.about.push_back(seat.ticket);
-                             },
-                             [&](const ledger::PassbackEntry& x) { t.about = {x.session}, t.why = std::to_string(x.status); },
-                             [&](const ledger::EraseEntry& x) { erased(x.erased); },
-                             [&](const ledger::ForgetEntry& x) { t.candidate = x.candidate, erased(x.erased); },
-                             [](const ledger::KeyEntry&) {},
-                             [](const ledger::RestoreEntry&) {},
-                             [&](const ledger::InviteEntry& x) { of_station(x.name, ""); },
-                             [&](const ledger::EnrolEntry& x) { of_station(station_name(registry_, x.asked.request.public_key), ""); },
-                             [&](const ledger::RevokeEntry& x) { of_station(station_name(registry_, x.public_key), e.by.reason); },
-                             [&](const ledger::RoomEntry& x) { of_station(station_name(registry_, x.public_key), x.room); }};
+    const records::OfEach say{[](const records::InitEntry&) {},
+                              [&](const records::TicketEntry& x) {
+                                t.about = {e.seq};
+                                if (x.makes_up) t.what = "makeup";
+                              },
+                              [&](const records::CancelEntry& x) { t.about = {x.ticket}; },
+                              [&](const records::BeginEntry& x) {
+                                t.about = {e.seq};
+                                if (x.again) t.what = "begin again";
+                              },
+                              [&](const records::SessionEntry& x) {
+                                t.candidate = x.candidate;
+                                if (!x.findings.empty()) t.what = "session with findings";
+                              },
+                              [&](const records::RegradeEntry& x) {
+                                t.about = {x.session};
+                                if (!x.person.empty()) t.what = "decision";
+                              },
+                              [&](const records::ReleaseEntry& x) { t.about = x.results, t.number = x.results.size(); },
+                              [&](const records::RetractEntry& x) { t.about = x.results, t.number = x.results.size(); },
+                              [&](const records::AppealEntry& x) { t.about = {x.session}; },
+                              [&](const records::AnswerEntry& x) { t.about = {x.session}; },
+                              [&](const records::AnnounceEntry& x) { t.why = x.text; },
+                              [](const records::HoldEntry&) {},
+                              [](const records::GoOnEntry&) {},
+                              [&](const records::IncidentEntry& x) { t.candidate = x.candidate, t.why = words ? x.words.words() : ""; },
+                              [&](const records::SeatsEntry& x) {
+                                t.number = x.seats.size();
+                                for (const auto& seat : x.seats) t.about.push_back(seat.ticket);
+                              },
+                              [&](const records::PassbackEntry& x) { t.about = {x.session}, t.why = std::to_string(x.status); },
+                              [&](const records::EraseEntry& x) { erased(x.erased); },
+                              [&](const records::ForgetEntry& x) { t.candidate = x.candidate, erased(x.erased); },
+                              [](const records::KeyEntry&) {},
+                              [](const records::RestoreEntry&) {},
+                              [&](const records::InviteEntry& x) { of_station(x.name, ""); },
+                              [&](const records::EnrolEntry& x) { of_station(station_name(registry_, x.asked.request.public_key), ""); },
+                              [&](const records::RevokeEntry& x) { of_station(station_name(registry_, x.public_key), e.by.reason); },
+                              [&](const records::RoomEntry& x) { of_station(station_name(registry_, x.public_key), x.room); }};
     if (e.what) std::visit(say, *e.what);
     return t;
   }
 
-  const ledger::Registry& registry_;
+  const records::Registry& registry_;
   std::map<std::uint64_t, std::string> people_;  // pseudonyms by entries: of tickets, begins, sessions and regrades
 };
 

@@ -10,7 +10,7 @@ namespace cavum::office {
 
 class Desk::Turn {
  public:
-  explicit Turn(Desk& desk, ledger::Actor actor = {}) : guard_(desk.lock_), book(desk.ledger_) {
+  explicit Turn(Desk& desk, records::Actor actor = {}) : guard_(desk.lock_), book(desk.ledger_) {
     book.refresh();
     book.act_for(std::move(actor));
   }
@@ -22,7 +22,7 @@ class Desk::Turn {
   std::lock_guard<std::mutex> guard_;
 
  public:
-  ledger::Ledger& book;
+  records::Ledger& book;
 };
 
 }  // namespace cavum::office

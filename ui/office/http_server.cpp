@@ -192,9 +192,5 @@ std::uint16_t HttpServer::port() const noexcept {
   error_code wrong;
   return parts_->acceptor.local_endpoint(wrong).port();
 }
-std::size_t HttpServer::connections() const noexcept {
-  const std::lock_guard guard(parts_->lock);
-  return parts_->open.size();
-}
 
 }  // namespace cavum::office

@@ -71,7 +71,6 @@ class HttpServer {
   HttpServer(const HttpServer&) = delete;
   HttpServer& operator=(const HttpServer&) = delete;
   [[nodiscard]] std::uint16_t port() const noexcept;
-  [[nodiscard]] std::size_t connections() const noexcept;
 
  private:
   struct Parts;

@@ -24,8 +24,8 @@
 namespace cavum::office {
 namespace {
 
-using ledger::FindingKind;
 using nlohmann::json;
+using records::FindingKind;
 
 constexpr char k_part[] = ".part";
 constexpr auto k_before_again = std::chrono::seconds(5);
@@ -115,7 +115,7 @@ void Arriving::keep() {
   static_cast<void>(put_in_place(path_, folder_ + "/" + sha256_ + ".cavum"));
 }
 
-Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, ledger::FilingOptions options, std::function<void()> filed)
+Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, records::FilingOptions options, std::function<void()> filed)
     : folder_(std::move(folder)), ledger_folder_(std::move(ledger_folder)), school_(school), options_(options), filed_(std::move(filed)) {
   make_private_folder(folder_ + "/refused");
   for (const auto& file : std::filesystem::directory_iterator(folder_)) {  // of before: sent and not filed, or not sent whole
@@ -133,7 +133,7 @@ Inbox::Inbox(std::string folder, std::string ledger_folder, SigningKey school, l
     if (h.state == Handed::State::waiting) continue;
     h.state = Handed::State::refused;
     try {
-      h.findings = json_value_of<ledger::Findings>(member_of(kept, "findings"), {msg("the inbox"), {}});
+      h.findings = json_value_of<records::Findings>(member_of(kept, "findings"), {msg("the inbox"), {}});
     } catch (const Error&) {
       h.findings = {{FindingKind::file_unreadable, msg("why it was refused cannot be read any more")}};
     }
@@ -222,15 +222,15 @@ bool Inbox::file(const std::string& hash) {
       refuse(hash, std::move(facts));
       return true;
     }
-    if (!ledger_) ledger_ = std::make_unique<ledger::Ledger>(ledger_folder_, school_);
+    if (!ledger_) ledger_ = std::make_unique<records::Ledger>(ledger_folder_, school_);
     ledger_->refresh();
     const auto& sessions = ledger_->registry().sessions;
-    const auto before = std::find_if(sessions.begin(), sessions.end(), [&](const ledger::FiledSession& s) { return s.file_sha256 == hash; });
+    const auto before = std::find_if(sessions.begin(), sessions.end(), [&](const records::FiledSession& s) { return s.file_sha256 == hash; });
     std::optional<std::uint64_t> entry;
     if (before != sessions.end()) {  // killed, or without room for the witness, between the entry and this
       entry = before->seq;
     } else {
-      const ledger::Filing filing = ledger::file_session(*ledger_, path_of(hash), options_, grounds_);
+      const records::Filing filing = records::file_session(*ledger_, path_of(hash), options_, grounds_);
       if (!filing.seq) {
         facts.findings = filing.findings;
         refuse(hash, std::move(facts));
@@ -257,7 +257,7 @@ bool Inbox::file(const std::string& hash) {
 
 void Inbox::refuse(const std::string& hash, Handed why) {
   why.state = Handed::State::refused;
-  for (ledger::Finding& f : why.findings) f.what = without_places(f.what, hash);
+  for (records::Finding& f : why.findings) f.what = without_places(f.what, hash);
   if (const std::string sender = of(hash).station; !sender.empty()) why.station = sender;
   const json kept{{"findings", to_json_value(why.findings)}, {"station", why.station}, {"candidate", why.candidate}};
   write_private_text_file(fmt::format("{}/refused/{}.json", folder_, hash), kept.dump(1, ' ', false, json::error_handler_t::replace) + "\n");

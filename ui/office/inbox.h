@@ -16,7 +16,7 @@
 #include <utility>
 #include <vector>
 
-#include "grading/ledger/filing.h"
+#include "grading/records/filing.h"
 #include "ui/office/wire.h"
 
 namespace cavum::office {
@@ -47,16 +47,16 @@ class Arriving {
 struct Handed {
   using State = HandedState;
   State state = State::unknown;
-  std::uint64_t entry = 0;         ///< of the ledger, when it is filed
-  ledger::Findings findings = {};  ///< why it was refused
-  std::string station = {};        ///< key of who handed it in, or of who sealed it; empty: neither is known
-  std::string candidate = {};      ///< of one that was refused and can be read; else empty
+  std::uint64_t entry = 0;          ///< of the ledger, when it is filed
+  records::Findings findings = {};  ///< why it was refused
+  std::string station = {};         ///< key of who handed it in, or of who sealed it; empty: neither is known
+  std::string candidate = {};       ///< of one that was refused and can be read; else empty
 };
 
 class Inbox {
  public:
   /// `folder` keeps what waits; what was refused goes to `folder`/refused. `filed` is called after each that is done, by the thread that files.
-  Inbox(std::string folder, std::string ledger_folder, SigningKey school, ledger::FilingOptions options, std::function<void()> filed);
+  Inbox(std::string folder, std::string ledger_folder, SigningKey school, records::FilingOptions options, std::function<void()> filed);
   ~Inbox();
   Inbox(const Inbox&) = delete;
   Inbox& operator=(const Inbox&) = delete;
@@ -85,7 +85,7 @@ class Inbox {
 
   std::string folder_, ledger_folder_;
   SigningKey school_;
-  ledger::FilingOptions options_;
+  records::FilingOptions options_;
   std::function<void()> filed_;
   mutable std::mutex lock_;
   std::condition_variable come_;
@@ -94,8 +94,8 @@ class Inbox {
   std::vector<std::string> refused_;
   Message trouble_;
   bool stopping_ = false;
-  grading::ExamGrounds grounds_;            // of a class; the worker's alone, as the next
-  std::unique_ptr<ledger::Ledger> ledger_;  // null: to be opened
+  grading::ExamGrounds grounds_;             // of a class; the worker's alone, as the next
+  std::unique_ptr<records::Ledger> ledger_;  // null: to be opened
   std::thread worker_;
 };
 

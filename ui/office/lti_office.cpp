@@ -167,7 +167,7 @@ Reply LtiOffice::launch(const Call& call) {
     reply.fields.emplace_back("Set-Cookie", begin_sign_in_(*account));
     return reply;
   }
-  const std::string cookie = ledger::random_hex(k_cookie_bytes);
+  const std::string cookie = records::random_hex(k_cookie_bytes);
   {
     const std::lock_guard guard(lock_);
     const std::int64_t now = clock_s();

@@ -11,7 +11,7 @@
 #include "engine/base/said_by.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
-#include "grading/ledger/passback.h"
+#include "grading/records/passback.h"
 #include "ui/language/say.h"
 
 namespace cavum::office {
@@ -158,9 +158,9 @@ void LtiSender::round(bool asked, bool again) {
 
 void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool again) {
   std::string item = course.item;
-  std::vector<ledger::ScoreDue> due = desk_.scores_due(course.exam, item, again);
+  std::vector<records::ScoreDue> due = desk_.scores_due(course.exam, item, again);
   const std::vector<LtiCourse> all = courses_.all();
-  std::erase_if(due, [&](const ledger::ScoreDue& d) { return user_in(course, all, platform.claim, d.id).empty(); });
+  std::erase_if(due, [&](const records::ScoreDue& d) { return user_in(course, all, platform.claim, d.id).empty(); });
   if (due.empty()) return;
   if (!allows(course, k_score_scope))
     throw Error(course.title, msg("its platform lets this tool send no scores"), msg("allow it in the tool's settings there"));
@@ -171,7 +171,7 @@ void LtiSender::send(const LtiPlatform& platform, const LtiCourse& course, bool 
     courses_.set_item(course, item);
     due = desk_.scores_due(course.exam, item, again);  // another course may have sent to it before
   }
-  for (const ledger::ScoreDue& d : due) {
+  for (const records::ScoreDue& d : due) {
     if (ends_) return;
     json score = d.score;
     score["userId"] = user_in(course, all, platform.claim, d.id);
@@ -207,7 +207,7 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
                        {"aud", platform.token_audience.empty() ? platform.token_endpoint : platform.token_audience},
                        {"iat", now_s},
                        {"exp", now_s + k_assertion_s},
-                       {"jti", ledger::random_hex(k_jti_bytes)}};
+                       {"jti", records::random_hex(k_jti_bytes)}};
   const std::string body =
       "grant_type=client_credentials&client_assertion_type=" + url_encoded("urn:ietf:params:oauth:client-assertion-type:jwt-bearer") +
       "&client_assertion=" + url_encoded(sign_token(claims, platforms_.keys().front())) + "&scope=" + url_encoded(scopes_of(course));

@@ -29,7 +29,7 @@ namespace cavum::office {
 namespace {
 
 /// As a station is told: it knows what to say in its own language of nothing but the state.
-std::vector<ShownFinding> english_each(const ledger::Findings& findings) {
+std::vector<ShownFinding> english_each(const records::Findings& findings) {
   std::vector<ShownFinding> told;
   for (const auto& f : findings) told.push_back({f.kind, english_text(f.what)});
   return told;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/ledger/filing.h"
+#include "grading/records/filing.h"
 #include "ui/office/http_server.h"
 #include "ui/office/proxy.h"
 
@@ -22,7 +22,7 @@ struct OfficeOptions {
   std::string address = "127.0.0.1";
   std::uint16_t port = 8443;  ///< 0: any that is free
   CertificateFiles certificate;
-  ledger::FilingOptions filing;
+  records::FilingOptions filing;
   /// The instructor's report (HTML) of the recording at a path, which the ledger holds; it may take seconds. Throws Error.
   std::function<std::string(const std::string& recording)> report;
   /// The same for the student whom it is about: of the released result alone.

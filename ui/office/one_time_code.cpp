@@ -1,12 +1,13 @@
 #include "ui/office/one_time_code.h"
 
-#include <fmt/core.h>
-#include <openssl/evp.h>
-#include <openssl/hmac.h>
+#include <liboath/oath.h>
 #include <sodium.h>
 
 #include <array>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
+#include <new>
 #include <nlohmann/json.hpp>
 #include <utility>
 
@@ -19,23 +20,20 @@
 namespace cavum::office {
 namespace {
 
-constexpr char k_letters[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZ234567";
 constexpr std::size_t k_secret_bytes = 20;
+
+using Made = std::unique_ptr<char, void (*)(void*)>;
+
+const char* letters(const Bytes& bytes) { return reinterpret_cast<const char*>(bytes.data()); }
 
 }  // namespace
 
 std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits) {
-  std::array<std::uint8_t, 8> message{};
-  for (std::size_t i = 0; i < message.size(); ++i) message[i] = static_cast<std::uint8_t>(counter >> (8 * (7 - i)));
-  std::array<std::uint8_t, EVP_MAX_MD_SIZE> mac{};
-  unsigned size = 0;
-  if (HMAC(EVP_sha1(), secret.data(), static_cast<int>(secret.size()), message.data(), message.size(), mac.data(), &size) == nullptr)
-    throw Error(msg("OpenSSL"), msg("makes no HMAC-SHA-1"), msg("allow SHA-1 for HMAC in this computer's settings of OpenSSL"));
-  const std::size_t at = mac[size - 1] & 0x0fU;
-  const std::uint32_t cut = ((mac[at] & 0x7fU) << 24U) | (std::uint32_t{mac[at + 1]} << 16U) | (std::uint32_t{mac[at + 2]} << 8U) | mac[at + 3];
-  std::uint32_t modulus = 1;
-  for (int i = 0; i < digits; ++i) modulus *= 10;
-  return fmt::format("{:0{}}", cut % modulus, digits);
+  std::array<char, 9> code{};
+  if (oath_hotp_generate(letters(secret), secret.size(), counter, static_cast<unsigned>(digits), false, OATH_HOTP_DYNAMIC_TRUNCATION, code.data()) !=
+      OATH_OK)
+    throw Error(msg("liboath"), msg("does not start"), msg("check the installation of liboath"));
+  return code.data();
 }
 
 std::optional<std::uint64_t> counter_of_code(const Bytes& secret, const std::string& code, std::int64_t unix_s) {
@@ -72,30 +70,19 @@ Bytes new_code_secret() {
 }
 
 std::string base32(const Bytes& bytes) {
-  std::string out;
-  std::uint32_t held = 0;
-  int bits = 0;
-  for (const auto b : bytes) {
-    held = (held << 8U) | b;
-    for (bits += 8; bits >= 5; bits -= 5) out += k_letters[(held >> (bits - 5)) & 31U];
-  }
-  if (bits > 0) out += k_letters[(held << (5 - bits)) & 31U];
-  return out;
+  char* text = nullptr;
+  if (oath_base32_encode(letters(bytes), bytes.size(), &text, nullptr) != OATH_OK) throw std::bad_alloc();
+  const Made made(text, std::free);
+  const std::string padded = text;
+  return padded.substr(0, padded.find('='));
 }
 
 std::optional<Bytes> from_base32(const std::string& text) {
-  Bytes out;
-  std::uint32_t held = 0;
-  int bits = 0;
-  const std::string letters = k_letters;
-  for (const char c : text) {
-    const auto value = letters.find(c);
-    if (value == std::string::npos) return std::nullopt;
-    held = (held << 5U) | static_cast<std::uint32_t>(value);
-    bits += 5;
-    if (bits >= 8) out.push_back(static_cast<std::uint8_t>(held >> (bits -= 8)));
-  }
-  return out;
+  char* bytes = nullptr;
+  std::size_t size = 0;
+  if (oath_base32_decode(text.data(), text.size(), &bytes, &size) != OATH_OK) return std::nullopt;
+  const Made made(bytes, std::free);
+  return Bytes(bytes, bytes + size);
 }
 
 }  // namespace cavum::office

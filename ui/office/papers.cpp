@@ -58,8 +58,8 @@ std::string local_text(std::int64_t utc_ns) {
   return fmt::format("{} {} {}", l.day, l.time, l.zone);
 }
 
-std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
-  const ledger::Registry& registry = ledger.registry();
+std::vector<Invited> invited(records::Ledger& ledger, std::int64_t now) {
+  const records::Registry& registry = ledger.registry();
   const auto people = people_of(ledger);
   std::vector<Invited> out;
   for (const auto& t : registry.tickets) {
@@ -70,7 +70,7 @@ std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now) {
               .from_utc_ns = t.ticket.not_before_utc_ns,
               .until_utc_ns = t.ticket.not_after_utc_ns};
     if (const auto who = people.find(t.ticket.candidate); who != people.end()) i.id = who->second.id, i.name = who->second.name;
-    if (const ledger::Station* s = registry.stations.of(t.seat); s != nullptr) i.room = s->room, i.station = s->name;
+    if (const records::Station* s = registry.stations.of(t.seat); s != nullptr) i.room = s->room, i.station = s->name;
     out.push_back(std::move(i));
   }
   const auto order = [](const Invited& i) { return std::tie(i.from_utc_ns, i.until_utc_ns, i.exam, i.room, i.station, i.id); };

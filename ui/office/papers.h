@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/ledger/ledger.h"
+#include "grading/records/ledger.h"
 
 namespace cavum::office {
 
@@ -18,7 +18,7 @@ struct Invited {
   std::string accommodations = {};      ///< for people; who makes the cards fills it in
 };
 /// By time, room, station and number.
-[[nodiscard]] std::vector<Invited> invited(ledger::Ledger& ledger, std::int64_t now_utc_ns);
+[[nodiscard]] std::vector<Invited> invited(records::Ledger& ledger, std::int64_t now_utc_ns);
 
 // PDF, times in this computer's time zone, which is named. Each throws Error when nobody is invited.
 [[nodiscard]] std::string candidate_cards(const std::string& school, const std::vector<Invited>& people);

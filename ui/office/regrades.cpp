@@ -62,16 +62,16 @@ RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
     if (state_ == State::marking || (state_ == State::ready && by_ != by.name))
       throw Error(msg("the new rubric"), msg("is not begun: another one is on its way"), msg("wait until that one counts or is dropped"));
   }
-  ledger::RegradeBasis basis;
+  records::RegradeBasis basis;
   basis.rubric_toml = asked.rubric;
   if (basis.rubric_toml.empty()) throw Error(msg("the rubric"), msg("is empty"), msg("choose a file of a rubric (TOML)"));
   static_cast<void>(scenarios::parse_rubric(basis.rubric_toml, "rubric.toml"));
   std::uint64_t entries = 0;
-  ledger::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
+  records::ClassRegrade plan = desk_.plan_regrade(asked.exam, std::move(basis), entries);
   end_marking();
   const std::lock_guard guard(lock_);
   plan_ = std::move(plan);
-  id_ = ledger::random_hex(k_id_bytes);
+  id_ = records::random_hex(k_id_bytes);
   by_ = by.name;
   begun_ = utc_text(read_clocks().utc_ns);
   rubric_sha256_ = to_hex(sha256(plan_.basis.rubric_toml));
@@ -88,7 +88,7 @@ RegradeId Regrades::begin(const BeginRegrade& asked, const Account& by) {
 
 void Regrades::mark() {
   work_behind_requests();
-  ledger::ClassRegrade plan;
+  records::ClassRegrade plan;
   {
     const std::lock_guard guard(lock_);
     plan = plan_;
@@ -110,9 +110,9 @@ void Regrades::mark() {
       ++version_;
       changed_.notify_all();
     };
-    const pool::Made made = pool::by_threads(ledger::work_of(plan, ledger_folder_), run);
+    const pool::Made made = pool::by_threads(records::work_of(plan, ledger_folder_), run);
     if (run.stop()) return;
-    ledger::take_lines(plan, made.lines, ledger_folder_);
+    records::take_lines(plan, made.lines, ledger_folder_);
   } catch (const std::bad_alloc&) {
     problem = msg("there is not enough memory");
   } catch (const Error& wrong) {

@@ -9,7 +9,7 @@
 #include <string>
 #include <thread>
 
-#include "grading/ledger/class_regrade.h"
+#include "grading/records/class_regrade.h"
 #include "ui/office/desk.h"
 
 namespace cavum::office {
@@ -57,7 +57,7 @@ class Regrades {
   State state_ = State::none;
   std::string id_, by_, begun_, rubric_sha256_;
   Message problem_;
-  ledger::ClassRegrade plan_;
+  records::ClassRegrade plan_;
   std::uint64_t entries_ = 0;  // of the ledger when it began
   std::size_t done_ = 0, of_ = 0;
   std::uint64_t first_entry_ = 0, counted_ = 0;

@@ -6,7 +6,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
-#include "grading/ledger/signed_note.h"
+#include "grading/records/signed_note.h"
 
 namespace cavum::office {
 namespace {
@@ -24,7 +24,7 @@ std::string policy_of(const std::string& html) {
       "default-src 'none'; style-src 'unsafe-inline'; script-src 'sha256-{}'; img-src data: blob:; base-uri 'none'; form-action 'none'; "
       "frame-ancestors "
       "'none'; sandbox allow-scripts allow-downloads",
-      ledger::to_base64(sha256(script)));
+      records::to_base64(sha256(script)));
 }
 
 struct Counted {

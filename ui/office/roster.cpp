@@ -93,7 +93,7 @@ constexpr char k_name[] = "name";
 std::string column_name(std::size_t at) { return fmt::format("column {}", at + 1); }
 
 void read_columns(Roster& roster, std::vector<CsvRow>& rows, const std::vector<std::string>& answers, std::vector<std::string>& passed_over) {
-  const auto known = ledger::people_columns();
+  const auto known = records::people_columns();
   for (std::size_t c = 0; c < rows[0].fields.size(); ++c) {
     std::string& heading = rows[0].fields[c];
     RosterColumn column{heading, "", false, {}};
@@ -133,7 +133,7 @@ void join_names(std::vector<CsvRow>& rows, std::vector<std::string>& passed_over
 }  // namespace
 
 std::vector<Message> mistakes_of(const Error& wrong) {
-  const auto* const several = dynamic_cast<const ledger::ListMistakes*>(&wrong);
+  const auto* const several = dynamic_cast<const records::ListMistakes*>(&wrong);
   return several == nullptr ? std::vector<Message>{wrong.message()} : several->mistakes();
 }
 
@@ -151,9 +151,9 @@ Roster read_roster(const std::string& bytes, const std::vector<std::string>& ans
     read_columns(roster, rows, answers, passed_over);
     join_names(rows, passed_over);
     if (std::all_of(roster.columns.begin(), roster.columns.end(), [](const RosterColumn& c) { return !c.use.empty(); }))
-      roster.people = ledger::parse_people(rows, k_list, passed_over);
+      roster.people = records::parse_people(rows, k_list, passed_over);
     else
-      ledger::require_whole_rows(rows, k_list);
+      records::require_whole_rows(rows, k_list);
   } catch (const Error& wrong) {
     roster.problems = mistakes_of(wrong);
   }

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/ledger/class_list.h"
+#include "grading/records/class_list.h"
 #include "ui/office/wire.h"
 
 namespace cavum::office {
@@ -22,8 +22,8 @@ struct Roster {
   char separator = ',';  ///< comma, semicolon, tab, bar, or what a first line `sep=` names
   std::size_t rows = 0;  ///< below the heading
   std::vector<RosterColumn> columns;
-  std::vector<ledger::Person> people;  ///< when every column is answered, and nothing is wrong
-  std::vector<Message> problems;       ///< why there are none, each mistake; empty: a column waits for its answer, or all is well
+  std::vector<records::Person> people;  ///< when every column is answered, and nothing is wrong
+  std::vector<Message> problems;        ///< why there are none, each mistake; empty: a column waits for its answer, or all is well
   [[nodiscard]] bool ready() const noexcept { return !people.empty(); }
 };
 /// What is wrong with a list, each mistake.

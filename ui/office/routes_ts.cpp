@@ -7,7 +7,7 @@
 #include <type_traits>
 #include <variant>
 
-#include "grading/ledger/entry.h"
+#include "grading/records/entry.h"
 #include "ui/office/routes.h"
 
 namespace cavum::office {
@@ -84,7 +84,7 @@ void write_routes() {
   std::cout << "// Made from ui/office/routes.h.\nexport type Nothing = Record<string, never>;\n"
                "/** `asks` and `answers` are in no object: they carry the types of request and answer, or of each event. */\n"
                "export interface Route<Request, Answer> { method: string; path: string; asks?: Request; answers?: Answer }\n";
-  std::cout << "export type EntryKind = " << kinds_text(std::type_identity<ledger::Entry>()) << ";\n";
+  std::cout << "export type EntryKind = " << kinds_text(std::type_identity<records::Entry>()) << ";\n";
   for (const auto& [name, body] : interfaces) std::cout << "export interface " << name << " " << body << "\n";
   std::cout << "export const routes = {\n" << rows << "};\n";
 }

@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "engine/base/hash.h"
-#include "grading/ledger/ledger_key.h"
+#include "grading/records/ledger_key.h"
 
 namespace cavum::office {
 namespace {
@@ -15,13 +15,13 @@ bool over(const SignedIn& s, std::int64_t now_s) { return now_s - s.seen_s > k_i
 }  // namespace
 
 std::string SignIns::begin(const Account& account, std::int64_t now_s, const std::string& proxied_as) {
-  std::string cookie = ledger::random_hex(k_sign_in_bytes);
+  std::string cookie = records::random_hex(k_sign_in_bytes);
   const std::lock_guard lock(lock_);
   std::erase_if(by_hash_, [&](const auto& one) { return over(one.second, now_s); });
   if (by_hash_.size() >= k_most_sign_ins)
     by_hash_.erase(
         std::min_element(by_hash_.begin(), by_hash_.end(), [](const auto& a, const auto& b) { return a.second.seen_s < b.second.seen_s; }));
-  by_hash_[to_hex(sha256(cookie))] = {account, ledger::random_hex(k_sign_in_bytes), now_s, now_s, proxied_as};
+  by_hash_[to_hex(sha256(cookie))] = {account, records::random_hex(k_sign_in_bytes), now_s, now_s, proxied_as};
   return cookie;
 }
 

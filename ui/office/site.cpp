@@ -10,7 +10,7 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
 #include "engine/session/sqlite.h"
-#include "grading/ledger/class_list.h"
+#include "grading/records/class_list.h"
 #include "ui/language/say.h"
 
 namespace cavum::office {
@@ -105,7 +105,7 @@ class Site::Visit : public Exchange {
       refusal_ = error_reply(e.status, e.message);
     } catch (const DatabaseError& e) {
       refusal_ = error_reply(507, e.message());
-    } catch (const ledger::ListMistakes& e) {
+    } catch (const records::ListMistakes& e) {
       std::string lines;
       for (const Message& mistake : e.mistakes()) lines += (lines.empty() ? "" : "\n") + one_line(tr(mistake));
       refusal_ = json_reply({{"error", lines}}, 400);

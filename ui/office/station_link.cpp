@@ -18,7 +18,7 @@
 #include "engine/base/write_file.h"
 #include "engine/session/session_image.h"
 #include "engine/session/session_reader.h"
-#include "grading/ledger/ticket.h"
+#include "grading/records/ticket.h"
 #include "ui/office/station_client.h"
 
 namespace cavum::office {
@@ -171,7 +171,7 @@ void StationLink::fetch_tickets(StationClient& client) {
   std::set<std::string> live;
   for (const json& t : client.tickets()) {
     const std::string text = text_in(t, "text");
-    const ledger::Ticket ticket = ledger::parse_ticket(text, options_.school, msg("the office's ticket"));
+    const records::Ticket ticket = records::parse_ticket(text, options_.school, msg("the office's ticket"));
     const std::string path = fmt::format("{}/{}.ticket", options_.tickets, file_name_of(ticket.candidate));
     live.insert(path);
     std::error_code none;
@@ -196,9 +196,9 @@ bool StationLink::is_ours(const std::string& path) {
     const SessionReader session(path);
     if (!session.closed()) return false;  // it may be gone on with
     const SessionSetup setup = session.setup();
-    const auto note = std::find_if(setup.notes.begin(), setup.notes.end(), [](const auto& n) { return n.first == ledger::k_ticket_note; });
+    const auto note = std::find_if(setup.notes.begin(), setup.notes.end(), [](const auto& n) { return n.first == records::k_ticket_note; });
     if (note != setup.notes.end()) {
-      static_cast<void>(ledger::parse_ticket(note->second, options_.school, path));
+      static_cast<void>(records::parse_ticket(note->second, options_.school, path));
       return true;
     }
   } catch (const std::exception&) {  // damaged, or of another school: a person hands it in, or nobody

@@ -4,7 +4,7 @@
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
-#include "grading/ledger/ledger_key.h"
+#include "grading/records/ledger_key.h"
 
 namespace cavum::office {
 namespace {
@@ -28,7 +28,7 @@ std::string sign_request(StationRequest r, const SigningKey& key) {
                       {"method", r.method},
                       {"path", r.path},
                       {"body_sha256", r.body_sha256},
-                      {"nonce", ledger::random_hex(k_nonce_bytes)},
+                      {"nonce", records::random_hex(k_nonce_bytes)},
                       {"public_key", to_hex(key.public_key)},
                       {"utc_ns", r.utc_ns}};
   return json{{"request", facts}, {"signature", to_hex(key.sign(message_of_request(facts)))}}.dump();

@@ -14,7 +14,7 @@
 
 #include "engine/base/json_struct.h"
 #include "engine/base/text.h"
-#include "grading/ledger/finding.h"
+#include "grading/records/finding.h"
 #include "ui/office/lti/platforms.h"
 
 namespace cavum::office {
@@ -72,7 +72,7 @@ CAVUM_JSON(ExamFacts, (std::string, id), (std::string, title), (std::string, fil
 using Exams = Only<"exams", std::vector<ExamFacts>>;
 /// `answers`: for the columns, by their places.
 CAVUM_JSON(ClassList, (Text<4U << 20>, base64), (Lines, answers, optional))
-/// `use`: a name of ledger::people_columns(), k_pass_over, or empty: nobody has answered yet; `known`: by its heading; `samples`: its first values
+/// `use`: a name of records::people_columns(), k_pass_over, or empty: nobody has answered yet; `known`: by its heading; `samples`: its first values
 /// that are not empty.
 CAVUM_JSON(RosterColumn, (std::string, heading), (std::string, use), (bool, known), (Texts, samples))
 CAVUM_JSON(ListedPerson, (std::string, id), (std::string, name), (std::string, station), (std::string, accommodations))
@@ -125,10 +125,10 @@ CAVUM_JSON(ToRead, (std::uint64_t, entry), (std::int64_t, utc_ns), (std::string,
 /// A pause with its reason, or an announcement; `stations`: keys, none for all.
 CAVUM_JSON_MORE(Notice, ToRead, (std::string, room), (Texts, stations))
 /// `text`: in the office's language; for stations in English.
-CAVUM_JSON(ShownFinding, (ledger::FindingKind, kind), (std::string, text))
+CAVUM_JSON(ShownFinding, (records::FindingKind, kind), (std::string, text))
 CAVUM_JSON(RefusedExam, (std::string, sha256), (std::string, candidate), (std::string, station), (List<ShownFinding>, findings))
 CAVUM_JSON(InboxShown, (std::size_t, waiting), (std::string, trouble), (List<RefusedExam>, refused))
-/// `tickets`: how many, by name of their ledger::TicketGroup.
+/// `tickets`: how many, by name of their records::TicketGroup.
 CAVUM_JSON(BoardShown, (std::int64_t, utc_ns), (List<StationShown>, stations), (ByName<std::size_t>, tickets), (List<Notice>, holds),
            (List<Notice>, announcements), (InboxShown, inbox))
 using Invite = Only<"name", Line>;

@@ -7,7 +7,7 @@
 #include <string>
 
 #include "engine/base/error.h"
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/servo_device.h"
 #include "engine/session/resume.h"
 #include "scenarios/exam/exam.h"
 

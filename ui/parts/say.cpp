@@ -12,8 +12,6 @@ void say(const Message& message, int indent) { std::cout << std::string(static_c
 
 void say(const Lines& lines) { std::cout << tr(lines); }
 
-void say_meanwhile(const Message& message) { std::cout << one_line(tr(message)) << std::flush; }
-
 void say_error(const Message& message) { std::fprintf(stderr, "cavum: %s\n", one_line(tr(message)).c_str()); }
 
 }  // namespace cavum::ui

@@ -10,8 +10,6 @@ namespace cavum::ui {
 /// A line on standard output.
 void say(const Message& message, int indent = 0);
 void say(const Lines& lines);
-/// The same without the end of the line, shown at once: what goes on for long.
-void say_meanwhile(const Message& message);
 /// "cavum: ..." on standard error.
 void say_error(const Message& message);
 

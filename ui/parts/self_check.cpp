@@ -3,7 +3,7 @@
 #include <future>
 
 #include "engine/device/hardware/open_stylus.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 #include "engine/session/session.h"
 
 namespace cavum::ui {

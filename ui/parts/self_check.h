@@ -5,8 +5,8 @@
 #include <string>
 
 #include "engine/device/hardware/stylus_kind.h"
-#include "engine/selfcheck/arm/arm_check.h"
-#include "engine/selfcheck/check_history.h"
+#include "engine/device/selfcheck/arm/arm_check.h"
+#include "engine/device/selfcheck/check_history.h"
 
 namespace cavum::ui {
 

@@ -5,10 +5,10 @@
 #include "engine/base/file.h"
 #include "engine/base/text.h"
 #include "engine/base/version.h"
-#include "engine/selfcheck/check_note.h"
+#include "engine/device/selfcheck/check_note.h"
 #include "engine/session/chain_check.h"
 #include "engine/session/session_reader.h"
-#include "grading/ledger/explain_session.h"
+#include "grading/records/explain_session.h"
 #include "ui/language/say.h"
 #include "ui/report/report_document.h"
 
@@ -50,7 +50,7 @@ ReportIntegrity read_integrity(const std::string& path) {
 
 ReportIntegrity replayed_integrity(const std::string& path, grading::ExamGrounds& grounds) {
   ReportIntegrity i = read_seal(path, SessionReader(path));
-  const ledger::SessionExplanation e = ledger::explain_session(path, "", true, grounds);
+  const records::SessionExplanation e = records::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;
   for (const auto& p : e.proved) i.proved.push_back(msg("{}", p));
   for (const auto& f : e.findings) i.findings.push_back(msg("{}", f.what));

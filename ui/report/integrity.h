@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grading/exam_ground.h"
+#include "grading/marking/exam_ground.h"
 #include "ui/report/report_source.h"
 
 namespace cavum::report {

@@ -5,9 +5,9 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "grading/ledger/decision.h"
-#include "grading/ledger/erasure.h"
-#include "grading/ledger/identities.h"
+#include "grading/records/decision.h"
+#include "grading/records/erasure.h"
+#include "grading/records/identities.h"
 
 namespace cavum::report {
 
@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// Per cent of the scale that a session reached, where that counts for a comparison of attempts.
-std::optional<double> percent_of(const ledger::FiledSession& s, ReportReader reader) {
+std::optional<double> percent_of(const records::FiledSession& s, ReportReader reader) {
   const json& result = reader == ReportReader::student ? *s.shown : *s.result;
   if (s.doubtful() || !result.is_object() || !result.contains("score") || !result["score"].is_object()) return std::nullopt;
   const double max = result["score"].value("max", 0.0);
@@ -25,7 +25,7 @@ std::optional<double> percent_of(const ledger::FiledSession& s, ReportReader rea
 
 /// How much marks vary from attempt to attempt in the class, and what that leaves of this candidate's. Simulated candidates and people are compared
 /// with their like alone.
-void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledger::FiledSession& session, ReportReader reader) {
+void add_progress(ReportFiling& f, const records::Registry& registry, const records::FiledSession& session, ReportReader reader) {
   std::map<std::string, std::vector<double>> marks;
   std::vector<double> own;
   for (const auto& s : registry.sessions) {
@@ -42,7 +42,7 @@ void add_progress(ReportFiling& f, const ledger::Registry& registry, const ledge
 }
 
 /// What a session was filed with, and that another ending of it was.
-std::vector<Message> doubts_of(const ledger::FiledSession& s) {
+std::vector<Message> doubts_of(const records::FiledSession& s) {
   std::vector<Message> out;
   for (const auto& f : s.findings) out.push_back(msg("filed with a finding: {}", f.what));
   for (const auto other : s.contested_by) out.push_back(msg("contested by entry {}, another ending of this exam", other));
@@ -51,20 +51,20 @@ std::vector<Message> doubts_of(const ledger::FiledSession& s) {
 
 }  // namespace
 
-ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(ledger::read_ledger(places)) {
+ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(records::read_ledger(places)) {
   if (!content.findings.empty())
     throw Error(folder, msg("does not hold ({})", content.findings.front().what), msg("see `cavum ledger verify {}`", folder));
-  registry = ledger::read_registry(content);
+  registry = records::read_registry(content);
 }
 
-const ledger::FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
+const records::FiledSession& ReportLedger::session(const std::string& file_sha256, const std::string& path) const {
   for (const auto& s : registry.sessions)
     if (s.file_sha256 == file_sha256) return s;
   throw Error(path, msg("was never filed in the ledger {}", places.folder),
               msg("file it with `cavum ledger add {} {}`, or leave --ledger out", places.folder, path));
 }
 
-ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& session, ReportReader reader, bool with_name) {
+ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& session, ReportReader reader, bool with_name) {
   const Message entry = msg("entry {}", session.seq);
   const bool shown = !session.shown->is_null();
   if (reader == ReportReader::student && !shown)
@@ -83,13 +83,13 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
   f.date = utc_text(session.received_utc_ns);
   f.released = shown;
   f.findings = doubts_of(session);
-  if (const ledger::Regrade* r = regrade_for(session, reader))
+  if (const records::Regrade* r = regrade_for(session, reader))
     f.regrade = ReportRegrade{r->seq,
                               utc_text(r->utc_ns),
                               r->reason,
                               r->person,
                               r->person.empty() ? "" : r->result->value("verdict", ""),
-                              ledger::verdict_by_program(session, r->seq)};
+                              records::verdict_by_program(session, r->seq)};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);
@@ -97,8 +97,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
       break;
     }
   if (with_name) {
-    ledger::Identities identities(ledger.places.identities());
-    ledger::remove_forgotten(ledger.content, identities);
+    records::Identities identities(ledger.places.identities());
+    records::remove_forgotten(ledger.content, identities);
     const auto who = identities.of_pseudonym(session.candidate);
     if (!who)
       throw Error(msg("--with-name"), msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
@@ -128,14 +128,14 @@ ReportFiling filing_of(const ReportLedger& ledger, const ledger::FiledSession& s
   return f;
 }
 
-const ledger::Regrade* regrade_for(const ledger::FiledSession& session, ReportReader reader) {
+const records::Regrade* regrade_for(const records::FiledSession& session, ReportReader reader) {
   return session.regrade(reader == ReportReader::student ? session.shown_seq : session.result_seq);
 }
 
-Message not_the_filed_result(const ledger::FiledSession& session, const grading::Result& result, ReportReader reader) {
+Message not_the_filed_result(const records::FiledSession& session, const grading::Result& result, ReportReader reader) {
   constexpr double k_rounding = 1e-5;  // of the JSON
   const json& filed = reader == ReportReader::student ? *session.shown : *session.result;
-  const std::string by_program = ledger::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
+  const std::string by_program = records::verdict_by_program(session, reader == ReportReader::student ? session.shown_seq : session.result_seq);
   const bool same = filed.is_object() && by_program == grading::verdict_name(result.verdict) && filed.contains("score") &&
                     std::fabs(filed["score"].value("points", -1.0) - result.points) < k_rounding &&
                     std::fabs(filed["score"].value("max", -1.0) - result.max_points) < k_rounding;
@@ -148,7 +148,7 @@ Message not_the_filed_result(const ledger::FiledSession& session, const grading:
                                          : msg("the ledger's result is {}, and this report's is {}", held, ours);
 }
 
-void require_released_result(const ledger::FiledSession& session, const grading::Result& result) {
+void require_released_result(const records::FiledSession& session, const grading::Result& result) {
   if (const Message other = not_the_filed_result(session, result, ReportReader::student); !other.empty())
     throw Error(msg("entry {}", session.seq), other,
                 msg("leave --rubric and --scenario out, or enter the regrade by them and release it; another version of the program may mark "

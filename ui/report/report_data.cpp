@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/instrument/diamond_point.h"
+#include "engine/physics/bur/diamond_point.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"

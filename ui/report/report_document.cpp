@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 #include "scenarios/file/measures.h"

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/instrument/diamond_point.h"
+#include "engine/physics/bur/diamond_point.h"
 #include "scenarios/exam/runner.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report_document.h"

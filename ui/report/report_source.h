@@ -8,12 +8,12 @@
 #include <vector>
 
 #include "grading/cohort/progress.h"
-#include "grading/grade.h"
+#include "grading/feedback/lessons.h"
+#include "grading/feedback/why.h"
+#include "grading/marking/grade.h"
+#include "grading/marking/session_input.h"
 #include "grading/result/compare.h"
 #include "grading/scan/grade_scan.h"
-#include "grading/session_input.h"
-#include "grading/words/lessons.h"
-#include "grading/words/why.h"
 
 namespace cavum::report {
 

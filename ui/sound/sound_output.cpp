@@ -179,7 +179,6 @@ class Player {
 
 struct SoundOutput::Shared {
   std::atomic<std::uint64_t> parameters{0};
-  std::atomic<float> volume{1.0f};
   std::atomic<bool> muted{false}, stop{false};
   mutable std::mutex mutex;  // of what follows; never held while OpenAL is called
   SoundReport report;
@@ -202,7 +201,7 @@ struct SoundOutput::Shared {
   [[nodiscard]] SoundParameters wanted() const noexcept {
     SoundParameters now = unpack(parameters.load(std::memory_order_acquire));
     const bool quiet = stopped() || muted.load(std::memory_order_acquire);
-    now.volume = quiet ? 0.0 : volume.load(std::memory_order_acquire);
+    now.volume = quiet ? 0.0 : 1.0;
     return now;
   }
   void play(Player& player, HandpieceSound& sound);
@@ -258,7 +257,6 @@ SoundOutput::~SoundOutput() {
 }
 
 void SoundOutput::set(const SoundParameters& parameters) noexcept { shared_->parameters.store(pack(parameters), std::memory_order_release); }
-void SoundOutput::set_volume(double volume) noexcept { shared_->volume.store(static_cast<float>(volume), std::memory_order_release); }
 void SoundOutput::set_muted(bool muted) noexcept { shared_->muted.store(muted, std::memory_order_release); }
 
 SoundReport SoundOutput::report() const {

@@ -37,8 +37,6 @@ class SoundOutput {
 
   /// What is to be heard from the next block on; the volume in it is ignored. Any thread, never waits.
   void set(const SoundParameters& parameters) noexcept;
-  /// 0..1. Any thread.
-  void set_volume(double volume) noexcept;
   void set_muted(bool muted) noexcept;
   [[nodiscard]] SoundReport report() const;
 

@@ -9,7 +9,7 @@
 #include <thread>
 
 #include "engine/base/message.h"
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/servo_device.h"
 
 namespace cavum::station {
 

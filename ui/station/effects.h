@@ -32,7 +32,6 @@ class EffectGovernor {
   /// A picture of this level took so long.
   void took(double ms);
   [[nodiscard]] std::size_t level() const noexcept { return level_; }
-  [[nodiscard]] double budget_ms() const noexcept { return budget_ms_; }
 
  private:
   static constexpr std::size_t k_looked_at = 8;  // pictures

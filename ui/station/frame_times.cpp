@@ -12,7 +12,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/statistics/order.h"
+#include "engine/base/order.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/exam/exam.h"
 #include "ui/station/gpu.h"

@@ -361,11 +361,6 @@ void RenderTarget::begin(const glm::vec3& background) const {
   glClear(GL_COLOR_BUFFER_BIT | GL_DEPTH_BUFFER_BIT);
 }
 
-void RenderTarget::begin_over() const {
-  glBindFramebuffer(GL_FRAMEBUFFER, frame_);
-  glViewport(0, 0, width_, height_);
-}
-
 void RenderTarget::end() const {
   if (shown_frame_ != 0) {
     glBindFramebuffer(GL_READ_FRAMEBUFFER, frame_);

@@ -163,8 +163,6 @@ class RenderTarget {
   /// Makes it this large, if it is not; `samples` a pixel smooth the edges, 1 = none.
   void resize(int width, int height, int samples);
   void begin(const glm::vec3& background) const;
-  /// To be drawn into as it is, without depth.
-  void begin_over() const;
   void end() const;  ///< after it `texture` holds what was drawn
   [[nodiscard]] int samples() const noexcept { return samples_; }
   [[nodiscard]] unsigned texture() const noexcept { return shown_; }

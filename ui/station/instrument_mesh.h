@@ -2,7 +2,7 @@
 // how polished it is, 255 = steel.
 #pragma once
 
-#include "engine/instrument/diamond_point.h"
+#include "engine/physics/bur/diamond_point.h"
 #include "ui/station/mesh_data.h"
 
 namespace cavum::station {

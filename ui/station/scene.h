@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
-#include "engine/instrument/diamond_point.h"
+#include "engine/physics/bur/diamond_point.h"
 #include "scenarios/zones/zone_map.h"
 #include "ui/station/camera.h"
 #include "ui/station/effects.h"

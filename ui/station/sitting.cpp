@@ -12,9 +12,9 @@
 #include "engine/base/text.h"
 #include "engine/base/write_file.h"
 #include "engine/session/session_reader.h"
-#include "grading/ledger/begin.h"
-#include "grading/ledger/candidate_id.h"
-#include "grading/ledger/station_ticket.h"
+#include "grading/records/begin.h"
+#include "grading/records/candidate_id.h"
+#include "grading/records/station_ticket.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/station/replay_player.h"
 
@@ -27,30 +27,30 @@ bool is_ready(const std::future<T>& f) {
 }
 
 /// The ticket of a candidate who typed this code, in capitals or not, a pseudonym also without its dashes.
-ledger::HeldTicket ticket_of(const std::string& folder, const std::string& code) {
+records::HeldTicket ticket_of(const std::string& folder, const std::string& code) {
   std::string name = code;
   for (char& c : name) c = c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
   const auto path_of = [&folder](const std::string& candidate) { return fmt::format("{}/{}.ticket", folder, file_name_of(candidate)); };
   std::string path = path_of(name);
-  if (const std::string pseudonym = ledger::pseudonym_typed(code); !pseudonym.empty() && !std::filesystem::exists(path)) path = path_of(pseudonym);
+  if (const std::string pseudonym = records::pseudonym_typed(code); !pseudonym.empty() && !std::filesystem::exists(path)) path = path_of(pseudonym);
   if (!std::filesystem::exists(path))
     throw Error(msg("candidate '{}'", one_line(code)), msg("has no ticket here"), msg("check the code, or ask the school"));
-  return ledger::read_ticket(path);
+  return records::read_ticket(path);
 }
 
 /// The exam bears the office's word. Without one it begins when its ticket lets it (require_promised). Nothing is asked for what the ticket does not
 /// promise: the office would take the exam for begun.
-void ask_for_word(ledger::HeldTicket& held, const std::function<std::string(const std::string&)>& word, SessionSetup& session) {
-  ledger::HeldTicket promised = held;
+void ask_for_word(records::HeldTicket& held, const std::function<std::string(const std::string&)>& word, SessionSetup& session) {
+  records::HeldTicket promised = held;
   promised.ticket.begun_at_ledger = false;
-  ledger::require_promised(promised, session);
+  records::require_promised(promised, session);
   const std::string said = word(held.ticket.nonce);
   if (said.empty()) return;
-  static_cast<void>(ledger::parse_begin(said, held.ticket.public_key, msg("the office's word")));
-  write_private_text_file(ledger::begin_path(held.path), said + "\n");
+  static_cast<void>(records::parse_begin(said, held.ticket.public_key, msg("the office's word")));
+  write_private_text_file(records::begin_path(held.path), said + "\n");
   held.begin = said;
-  std::erase_if(session.notes, [](const auto& note) { return note.first == ledger::k_begin_note; });  // an earlier one
-  session.notes.emplace_back(ledger::k_begin_note, said);
+  std::erase_if(session.notes, [](const auto& note) { return note.first == records::k_begin_note; });  // an earlier one
+  session.notes.emplace_back(records::k_begin_note, said);
 }
 
 /// Enough on its disk for the end of any exam.
@@ -67,7 +67,7 @@ std::string require_resumable(const std::string& path, const std::string& candid
   if (session.closed())
     throw Error(Name{path}, msg("is closed: there is nothing to go on with"), msg("look at it with `cavum station --replay {}`", path));
   const SessionSetup setup = session.setup();
-  if (setup.candidate != candidate && setup.candidate != ledger::pseudonym_typed(candidate))
+  if (setup.candidate != candidate && setup.candidate != records::pseudonym_typed(candidate))
     throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
     throw Error(Name{device.name()}, msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
@@ -105,12 +105,12 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   if (options_.practice) exam.notes.emplace_back("practice", "true");
   if (options_.locked) exam.notes.emplace_back("locked", "yes");
   exam.source = source();
-  std::optional<ledger::HeldTicket> held;
+  std::optional<records::HeldTicket> held;
   if (!options_.tickets.empty()) {
     held = ticket_of(options_.tickets, candidate_);
     candidate_ = exam.candidate = held->ticket.candidate;
     if (options_.resume.empty() && !options_.practice) {
-      ledger::require_unused(*held);
+      records::require_unused(*held);
       ticket_ = held;
     }
   }
@@ -119,11 +119,11 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     options_.practice = SessionReader(options_.resume).fact("note.practice") == "true";
   }
   preparing_ = std::async(std::launch::async, [this, exam, held]() mutable {
-    if (held) ledger::use_ticket(*held, exam);
+    if (held) records::use_ticket(*held, exam);
     auto setup =
         options_.resume.empty() ? scenarios::prepare_exam(options_.scenario, exam) : scenarios::prepare_exam(SessionReader(options_.resume).setup());
     if (ticket_ && options_.word) ask_for_word(*held, options_.word, setup->session);
-    if (held) ledger::require_promised(*held, setup->session);
+    if (held) records::require_promised(*held, setup->session);
     if (!options_.resume.empty()) {
       begun_ = begun_so_far(options_.resume);
       desk_.point.store(begun_->point, std::memory_order_relaxed);
@@ -197,11 +197,11 @@ void Sitting::begin() {
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
       auto exam = scenarios::begin_somewhere(first, second, [&](const std::string& path) {
-        return ledger::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return scenarios::Exam::start(*setup_, path, tip); });
+        return records::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return scenarios::Exam::start(*setup_, path, tip); });
       });
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
-      const bool remembered = ledger::require_not_closed(setup_->session.notes, first);
+      const bool remembered = records::require_not_closed(setup_->session.notes, first);
       auto exam = scenarios::Exam::resume(*setup_, first, {source(), device_->name(), remembered, device_->notes()});
       exam->set_second_place(second);
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
@@ -275,7 +275,7 @@ Message Sitting::why_stopped() const { return report_.servo.failure.empty() ? ms
 void Sitting::close_exam() {
   grading_ = std::async(std::launch::async, [this] {
     grading::ClosedExam closed = grading::grade_and_close(live_->exam());
-    ledger::remember_closed(closed.graded->session.notes, live_->exam().recorder().path());
+    records::remember_closed(closed.graded->session.notes, live_->exam().recorder().path());
     lessons_ = grading::lessons(closed.graded->input(), closed.result);
     return closed;
   });

@@ -10,9 +10,9 @@
 #include <string>
 
 #include "engine/device/with_desk.h"
-#include "grading/close_exam.h"
-#include "grading/ledger/station_ticket.h"
-#include "grading/words/lessons.h"
+#include "grading/feedback/lessons.h"
+#include "grading/marking/close_exam.h"
+#include "grading/records/station_ticket.h"
 #include "scenarios/exam/live_exam.h"
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
@@ -122,8 +122,8 @@ class Sitting {
   std::unique_ptr<StationDevice> device_;
   std::future<std::unique_ptr<scenarios::ExamSetup>> preparing_;
   std::unique_ptr<scenarios::ExamSetup> setup_;
-  std::optional<Begun> begun_;                ///< of the thread that prepares, until it is ready
-  std::optional<ledger::HeldTicket> ticket_;  ///< that this exam will use up
+  std::optional<Begun> begun_;                 ///< of the thread that prepares, until it is ready
+  std::optional<records::HeldTicket> ticket_;  ///< that this exam will use up
   std::unique_ptr<DeviceCheck> check_;
   DeviceSight last_sight_;
   Desk desk_;

@@ -26,7 +26,6 @@ enum class Wish {
   check,
   check_go_on,
   to_briefing,
-  to_check,
   begin,
   end,
   save,

@@ -9,7 +9,7 @@
 
 #include "engine/device/hardware/stylus_kind.h"
 #include "engine/device/pointer_stylus.h"
-#include "scenarios/candidates/candidate_device.h"
+#include "scenarios/operators/candidate_device.h"
 
 namespace cavum::station {
 

@@ -5,7 +5,7 @@
 
 #include "engine/device/device_error.h"
 #include "engine/device/hardware/usb_serial.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 namespace {

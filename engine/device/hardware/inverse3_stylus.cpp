@@ -4,7 +4,7 @@
 #include <utility>
 
 #include "engine/device/hardware/inverse3_link.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 namespace {

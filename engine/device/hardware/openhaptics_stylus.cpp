@@ -8,7 +8,7 @@
 #include <mutex>
 
 #include "engine/device/device_error.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 namespace {

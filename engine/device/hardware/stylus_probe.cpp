@@ -4,7 +4,7 @@
 #include <cmath>
 
 #include "engine/device/device_error.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 namespace {

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "engine/device/device_error.h"
-#include "engine/servo/scheduling.h"
+#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 

@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/base/error.h"
-#include "engine/statistics/order.h"
+#include "engine/base/order.h"
 #include "engine/tooth/import/import_error.h"
 
 namespace cavum {

@@ -19,12 +19,6 @@ std::size_t entries_in(const Folder& folder) {
   return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder.path()), fs::directory_iterator()));
 }
 
-unsigned mode_of(const std::string& path) {
-  struct stat info {};
-  EXPECT_EQ(::lstat(path.c_str(), &info), 0) << path;
-  return info.st_mode & 0777u;
-}
-
 /// Sets the process's umask while it lives.
 struct Umask {
   ::mode_t before;

@@ -6,7 +6,7 @@
 #include <map>
 #include <nlohmann/json.hpp>
 
-#include "engine/servo/real_time.h"
+#include "engine/physics/servo/real_time.h"
 #include "engine/session/resume.h"
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"

@@ -20,12 +20,6 @@ using namespace std::chrono_literals;
 using test::Folder;
 using namespace testing_basics;
 
-unsigned mode_of(const std::string& path) {
-  struct stat info {};
-  EXPECT_EQ(::stat(path.c_str(), &info), 0) << path;
-  return info.st_mode & 0777u;
-}
-
 /// A process of its own that does something in a Database and tells with a byte when it holds it; ends when this goes.
 class OtherProcess {
  public:

@@ -3,19 +3,24 @@
 #pragma once
 
 #include <stdlib.h>
+#include <sys/stat.h>
 
 #include <algorithm>
+#include <chrono>
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
+#include <functional>
 #include <optional>
 #include <ostream>
 #include <random>
 #include <stdexcept>
 #include <string>
+#include <thread>
 #include <vector>
 
+#include "engine/base/bytes.h"
 #include "engine/base/error.h"
 #include "engine/base/lines.h"
 #include "engine/base/random.h"
@@ -145,6 +150,31 @@ inline std::string repeated(const std::string& what, std::size_t times) {
   out.reserve(what.size() * times);
   for (std::size_t i = 0; i < times; ++i) out += what;
   return out;
+}
+
+[[nodiscard]] inline Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+
+/// Permissions of what stands at `path` itself, be it a link; all bits where nothing does.
+inline unsigned mode_of(const std::string& path) {
+  struct stat info {};
+  return ::lstat(path.c_str(), &info) == 0 ? info.st_mode & 0777u : ~0u;
+}
+
+/// Names of the TOML files of a folder, without their ending, sorted.
+inline std::vector<std::string> toml_names(const std::string& folder) {
+  std::vector<std::string> names;
+  for (const auto& entry : std::filesystem::directory_iterator(folder))
+    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
+  std::sort(names.begin(), names.end());
+  return names;
+}
+
+/// Whether it comes true in time.
+inline bool comes_true(const std::function<bool()>& condition, std::chrono::milliseconds within = std::chrono::seconds(20)) {
+  for (const auto end = std::chrono::steady_clock::now() + within; std::chrono::steady_clock::now() < end;
+       std::this_thread::sleep_for(std::chrono::milliseconds(1)))
+    if (condition()) return true;
+  return condition();
 }
 
 /// A folder that goes away with the test.

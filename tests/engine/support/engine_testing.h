@@ -12,7 +12,7 @@
 
 #include "engine/base/file.h"
 #include "engine/base/random.h"
-#include "engine/servo/servo.h"
+#include "engine/physics/servo/servo.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::testing_engine {
@@ -23,13 +23,7 @@ inline std::string point_text(const std::string& name) { return read_text_file(d
 inline DiamondPoint diamond_point(const std::string& name) { return parse_diamond_point(point_text(name), name + ".toml"); }
 
 /// Names of the shipped diamond points, sorted.
-inline std::vector<std::string> point_names() {
-  std::vector<std::string> names;
-  for (const auto& entry : std::filesystem::directory_iterator(data_path("points")))
-    if (entry.path().extension() == ".toml") names.push_back(entry.path().stem().string());
-  std::sort(names.begin(), names.end());
-  return names;
-}
+inline std::vector<std::string> point_names() { return testing_basics::toml_names(data_path("points")); }
 
 inline ForceModel shipped_model(const std::string& name) {
   return parse_force_model(read_text_file(data_path("materials/" + name + ".toml")), name + ".toml");

@@ -8,8 +8,8 @@
 #include <thread>
 #include <vector>
 
-#include "engine/servo/scheduling.h"
-#include "engine/servo/servo_device.h"
+#include "engine/physics/servo/scheduling.h"
+#include "engine/physics/servo/servo_device.h"
 
 namespace cavum::testing_engine {
 

@@ -11,6 +11,8 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::layered_block;
+
 /// A ball, or the hull of two equal balls, with its exact signed distance.
 struct Capsule {
   Vec3 a, b;
@@ -39,8 +41,6 @@ std::uint64_t carve_dense(TissueGrid& grid, const std::vector<Tissue>& tissues, 
   grid.make_consistent(tissues);
   return removed;
 }
-
-Tooth layered_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
 
 TEST(Octree, EqualsDenseGridAfterRandomCarves) {
   Random random(testing_tooth::drawn_seed("Octree.EqualsDenseGridAfterRandomCarves"));

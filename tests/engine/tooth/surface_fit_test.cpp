@@ -7,6 +7,7 @@
 #include "engine/base/random.h"
 #include "engine/base/vec.h"
 #include "engine/tooth/tissue_grid.h"
+#include "tests/engine/support/engine_testing.h"
 #include "tests/engine/tooth/tooth_testing.h"
 
 namespace cavum {
@@ -14,17 +15,10 @@ namespace {
 
 constexpr double k_codes_per_leaf = k_distance_far / k_distance_band_leaves;
 
-Vec3 random_direction(Random& random) {
-  Vec3 v;
-  do v = {random.normal(), random.normal(), random.normal()};
-  while (length(v) < 0.1);
-  return normalized(v);
-}
-
 TEST(SurfaceFit, ContinuesPlanes) {
   Random random(testing_tooth::drawn_seed("SurfaceFit.ContinuesPlanes"));
   for (int round = 0; round < 2000; ++round) {
-    const Vec3 normal = random_direction(random);
+    const Vec3 normal = testing_engine::random_direction(random);
     const double offset = random.uniform(-0.8, 0.8);
     FitWindow window;
     for (int z = -2; z < 6; ++z)

@@ -8,7 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/cutting/carve_head.h"
+#include "engine/physics/cutting/carve_head.h"
 #include "engine/tooth/distance.h"
 #include "engine/tooth/make/make_block.h"
 #include "engine/tooth/make/make_molar.h"

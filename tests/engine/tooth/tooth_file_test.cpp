@@ -12,12 +12,12 @@
 namespace cavum {
 namespace {
 
+using testing_tooth::layered_block;
+
 using namespace testing_basics;
 
-Tooth small_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
-
 TEST(ToothFile, SavesTheSameBytesAfterLoading) {
-  const Tooth tooth = small_block();
+  const Tooth tooth = layered_block();
   const Bytes once = save_tooth(tooth);
   const Tooth again = load_tooth(once, "memory");
   EXPECT_EQ(save_tooth(again), once);
@@ -82,7 +82,7 @@ TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
 }
 
 TEST(ToothFile, PlacedLandmarksAreKeptAndCountInTheHash) {
-  Tooth tooth = small_block();
+  Tooth tooth = layered_block();
   const Bytes plain = save_tooth(tooth);
   const std::string hash = tooth_hash(tooth);
   tooth.placed_landmarks = {{"central_pit", {0.1, 0.2, 1.0}}, {"cusp_1", {-1, 2, 3}}};

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "engine/tooth/make/make_block.h"
 #include "engine/tooth/surface_mesh.h"
 #include "engine/tooth/tooth.h"
 #include "tests/engine/support/basics.h"
@@ -16,6 +17,8 @@ using testing_basics::drawn_seed;
 inline double volume_mm3(const Tooth& tooth, std::uint8_t tissue) {
   return static_cast<double>(tooth.octree.count_leaves()[tissue]) * tooth.octree.leaf_volume_mm3();
 }
+
+inline Tooth layered_block() { return make_block({2.13, 1.9, 2.4}, {{"enamel", 0.7}, {"dentin", 0.8}, {"pulp", 0.5}, {"lesion", 0.4}}, 0.1); }
 
 /// A body to carve: distance from its surface, mm, negative inside.
 struct Ball {

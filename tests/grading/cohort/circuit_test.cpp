@@ -10,7 +10,7 @@
 #include "engine/base/random.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/cohort/drawn_class.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/records/school.h"
 
 namespace cavum::cohort {
 namespace {
@@ -93,12 +93,12 @@ TEST(Circuit, AnEstimateLiesWithinItsRange) {
 
 TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
   const testing_ledger::School school;
-  ledger::Identities identities(school.places().identities());
-  ledger::Registry r;
+  records::Identities identities(school.places().identities());
+  records::Registry r;
   std::uint64_t seq = 1;
   for (int c = 0; c < 6; ++c)
     for (const std::string exam : {"a", "b"}) {
-      ledger::FiledSession s;
+      records::FiledSession s;
       s.seq = s.result_seq = seq++;
       s.candidate = identities.enrol("c" + std::to_string(c), "", exam, testing_ledger::School::key());
       s.scenario_id = exam;
@@ -108,7 +108,7 @@ TEST(Circuit, TheCutIsThePassMarkOfTheResultsAndNoneWhereTheyHaveSeveral) {
       s.filed = s.result;
       r.sessions.push_back(s);
     }
-  const auto regrade = [&](ledger::FiledSession& s) {
+  const auto regrade = [&](records::FiledSession& s) {
     s.result.change()["score"]["pass_percent"] = 75.0;
     s.result_seq = seq++;
     s.regrades.push_back({s.result_seq, 0, "misprinted", "", {{"rubric.toml", "aa"}}, s.result});

@@ -5,7 +5,7 @@
 #include "engine/base/file_error.h"
 #include "grading/cohort/simulated_class.h"
 #include "tests/engine/support/basics.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/records/school.h"
 
 namespace cavum::cohort {
 namespace {
@@ -14,9 +14,9 @@ using namespace testing_basics;
 using nlohmann::json;
 using testing_ledger::School;
 
-ledger::FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
-                             const std::string& station = "aa") {
-  ledger::FiledSession s;
+records::FiledSession session(std::uint64_t seq, const std::string& candidate, double first, double second, const std::string& verdict = "pass",
+                              const std::string& station = "aa") {
+  records::FiledSession s;
   s.seq = s.result_seq = seq;
   s.candidate = candidate;
   s.scenario_id = "exam";
@@ -29,8 +29,8 @@ ledger::FiledSession session(std::uint64_t seq, const std::string& candidate, do
   return s;
 }
 
-ledger::Registry four() {
-  ledger::Registry r;
+records::Registry four() {
+  records::Registry r;
   r.sessions = {session(1, "C-1", 60, 40), session(2, "C-2", 30, 20, "fail"), session(3, "C-3", 45, 30), session(4, "C-4", 15, 10, "review")};
   return r;
 }
@@ -56,10 +56,10 @@ TEST(ClassFigures, AreThoseDoneByHand) {
 }
 
 TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
-  ledger::Registry r = four();
+  records::Registry r = four();
   r.sessions.push_back(session(5, "C-4", 60, 40));
   r.sessions.push_back(session(6, "C-5", 0, 0, "fail"));
-  r.sessions.back().findings = {{ledger::FindingKind::file_changed, msg("changed")}};
+  r.sessions.back().findings = {{records::FindingKind::file_changed, msg("changed")}};
   r.sessions.push_back(session(7, "C-6", 60, 40));
   r.sessions.back().scenario_id = "another";
   const ClassFigures f = class_figures(r, "exam", {}, 3);
@@ -69,7 +69,7 @@ TEST(ClassFigures, TheLastAttemptCountsAndWhatDoesNotHoldDoesNot) {
 }
 
 TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsToBeLookedAt) {
-  ledger::Registry r = four();
+  records::Registry r = four();
   const auto why_of = [](const ClassFigures& f, std::uint64_t seq) {
     std::vector<Message> all;
     for (const auto& l : f.to_look_at)
@@ -81,7 +81,7 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
   r.sessions[1].result.change()["perforation"] = {{"truth", {{"perforated", false}, {"tissue", nullptr}}},
                                                   {"aim", {{"perforated", true}, {"tissue", "pulp"}}}};
   r.sessions.push_back(session(5, "C-5", 60, 40));
-  r.sessions.back().findings = ledger::findings_of(ledger::FindingKind::recording_unsound, {Name{"the chain breaks at second 7"}, Name{"another"}});
+  r.sessions.back().findings = records::findings_of(records::FindingKind::recording_unsound, {Name{"the chain breaks at second 7"}, Name{"another"}});
   r.sessions[2].simulated = "expert";
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.n, 4u);
@@ -97,7 +97,7 @@ TEST(ClassFigures, WhoPerforatedWasFiledWithFindingsOrWasSimulatedAmongPeopleIsT
 
 TEST(ClassFigures, FromFewAreCalledRough) {
   const auto of_n = [](std::size_t n) {
-    ledger::Registry r;
+    records::Registry r;
     std::vector<HumanMark> marks;
     for (std::size_t i = 0; i < n; ++i) {
       const auto points = static_cast<double>(i % 10);
@@ -124,7 +124,7 @@ TEST(ClassFigures, FromFewAreCalledRough) {
 }
 
 TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
-  ledger::Registry r = four();
+  records::Registry r = four();
   r.sessions[0].result.change()["score"] = {{"points", 15.0}, {"max", 30.0}, {"pass_percent", 40.0}, {"borderline_percent", 0.0}};
   const ClassFigures f = class_figures(r, "exam", {}, 3);
   EXPECT_EQ(f.max_points, 100.0);
@@ -132,14 +132,14 @@ TEST(ClassFigures, ARegradeOutOfAnotherMaximumCountsOnTheScaleOfTheClass) {
 }
 
 /// Entered as `seq` with the rubric of hash `rubric`, by another pass mark.
-void regrade(ledger::FiledSession& s, std::uint64_t seq, double pass_percent, const std::string& rubric) {
+void regrade(records::FiledSession& s, std::uint64_t seq, double pass_percent, const std::string& rubric) {
   s.result.change()["score"]["pass_percent"] = pass_percent;
   s.result_seq = seq;
   s.regrades.push_back({seq, 0, "misprinted", "", {{"rubric.toml", rubric}}, s.result});
 }
 
 TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
-  ledger::Registry r = four();
+  records::Registry r = four();
   std::uint64_t seq = 10;
   for (auto& s : r.sessions) regrade(s, seq++, 70, "aa");
   std::vector<HumanMark> marks;
@@ -150,7 +150,7 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
   EXPECT_TRUE(tells(to_text(all), 70.0));
   EXPECT_EQ(to_json(all)["points"]["pass"], 70.0);
 
-  ledger::Registry mixed = four();
+  records::Registry mixed = four();
   regrade(mixed.sessions[1], 12, 70, "aa");
   // a person decided on top of the regrade: it was marked by the same
   mixed.sessions[1].regrades.push_back({15, 0, "seen", "Dr. Weber", {{"rubric.toml", "aa"}}, mixed.sessions[1].result});
@@ -166,7 +166,7 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
   EXPECT_TRUE(tells(to_text(f), marked_by_words(f.marked_by)));
   EXPECT_TRUE(to_json(f)["points"]["pass"].is_null());
 
-  ledger::Registry same_mark = four();
+  records::Registry same_mark = four();
   regrade(same_mark.sessions[1], 12, 60, "aa");
   const ClassFigures told = class_figures(same_mark, "exam", marks, 3);
   EXPECT_EQ(told.pass_points, 60.0);
@@ -174,7 +174,7 @@ TEST(ClassFigures, ThePassMarkIsTheOneByWhichTheResultsWereMarked) {
 }
 
 TEST(ClassFigures, AStationHasItsNameInTheLedger) {
-  ledger::Registry r = four();
+  records::Registry r = four();
   const std::string first(64, 'a'), second(64, 'b'), third(64, 'c'), unknown(64, 'd');
   r.stations.stations = {{1, "Seat 1", first, 0, 0, {}, {}, {}}, {2, "Seat 2", second, 0, 0, {}, {}, {}}, {3, "Seat 2", third, 0, 0, {}, {}, {}}};
   EXPECT_EQ(station_label(r, first), "Seat 1");
@@ -190,7 +190,7 @@ TEST(ClassFigures, AStationHasItsNameInTheLedger) {
 }
 
 TEST(ClassFigures, AHarderStationIsFound) {
-  ledger::Registry r;
+  records::Registry r;
   for (int i = 0; i < 40; ++i)
     r.sessions.push_back(
         session(static_cast<std::uint64_t>(i), "C-" + std::to_string(i), 30 + i % 7 - (i % 2 ? 12 : 0), 20, "pass", i % 2 ? "bb" : "aa"));
@@ -202,9 +202,9 @@ TEST(ClassFigures, AHarderStationIsFound) {
 
 TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
   const School school;
-  ledger::Identities identities(school.places().identities());
+  records::Identities identities(school.places().identities());
   const std::string by_number = identities.enrol("4711", "", "exam", School::key());
-  ledger::Registry r = four();
+  records::Registry r = four();
   r.sessions[0].candidate = by_number;
   const auto marks = parse_marks(
       "candidate,judge,points,rating\n4711,x,98,5\nC-2,x,48,3\nC-3,x,73,4\nC-4,x,23,1\n4711,y,102,\nC-2,y,52,\nC-3,y,77,\nC-4,y,27,\nunknown,x,5,\n",
@@ -226,7 +226,7 @@ TEST(ClassFigures, PeoplesMarksAreHeldAgainstTheProgram) {
 
 TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
   const School school;
-  ledger::Identities identities(school.places().identities());
+  records::Identities identities(school.places().identities());
   const std::string head = "candidate,judge,points";
   const struct {
     std::string text;
@@ -253,8 +253,8 @@ TEST(ClassFigures, MarksThatAreNoneAreNamedWithTheirLine) {
 
 TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
   const auto sit = [](const School& school, int at_once) {
-    ledger::Ledger ledger = school.ledger();
-    ledger::Identities identities(school.places().identities());
+    records::Ledger ledger = school.ledger();
+    records::Identities identities(school.places().identities());
     SimulatedClass wanted;
     wanted.scenario = testing_ledger::k_scenario;
     wanted.sessions = school.file("class");
@@ -264,8 +264,8 @@ TEST(SimulatedClass, SitsIsFiledAndIsTheSameAgain) {
     const ClassSat sat = simulate_class(wanted, ledger, identities, [](int) {});
     EXPECT_EQ(sat.sat, 4);
     EXPECT_EQ(sat.filed, 4);
-    EXPECT_TRUE(ledger::check_ledger(school.places(), true).findings.empty());
-    return class_figures(ledger::read_registry(ledger.content()), "block_cavity", {}, 3);
+    EXPECT_TRUE(records::check_ledger(school.places(), true).findings.empty());
+    return class_figures(records::read_registry(ledger.content()), "block_cavity", {}, 3);
   };
   const School one;
   const ClassFigures first = sit(one, 2);

@@ -10,7 +10,7 @@
 #include "engine/session/session_reader.h"
 #include "scenarios/file/parse.h"
 #include "tests/engine/support/basics.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/records/school.h"
 
 namespace cavum::cohort {
 namespace {
@@ -85,11 +85,11 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   std::vector<std::string> sat;
   for (const char* skill : {"expert", "perforator", "student-20"}) {
     sat.push_back(school.sit(school.ticket(skill), skill));
-    ledger::Ledger ledger = school.ledger();
-    ASSERT_TRUE(ledger::file_session(ledger, sat.back(), {.simulated = true}).seq) << skill;
+    records::Ledger ledger = school.ledger();
+    ASSERT_TRUE(records::file_session(ledger, sat.back(), {.simulated = true}).seq) << skill;
   }
-  const ledger::LedgerContent content = ledger::read_ledger(school.places());
-  const auto read = class_tooth(ledger::read_registry(content), school.places(), "block_cavity");
+  const records::LedgerContent content = records::read_ledger(school.places());
+  const auto read = class_tooth(records::read_registry(content), school.places(), "block_cavity");
   ASSERT_EQ(read->map->sessions(), 3u);
   EXPECT_TRUE(read->findings.empty());
   EXPECT_EQ(read->left_out, 0u);
@@ -108,11 +108,11 @@ TEST(ClassMap, AgreesWithTheTeethThatWereLeft) {
   EXPECT_GT(over, 0u) << "the students leave the target";
   EXPECT_GT(under, 0u) << "and leave some of it standing";
 
-  write_text_file(school.places().session(ledger::read_registry(content).sessions[1].file_sha256), "changed");
-  const auto again = class_tooth(ledger::read_registry(content), school.places(), "block_cavity");
+  write_text_file(school.places().session(records::read_registry(content).sessions[1].file_sha256), "changed");
+  const auto again = class_tooth(records::read_registry(content), school.places(), "block_cavity");
   EXPECT_EQ(again->map->sessions(), 2u);
   ASSERT_EQ(again->findings.size(), 1u);
-  EXPECT_TRUE(testing_basics::tells(again->findings[0], school.places().session(ledger::read_registry(content).sessions[1].file_sha256)))
+  EXPECT_TRUE(testing_basics::tells(again->findings[0], school.places().session(records::read_registry(content).sessions[1].file_sha256)))
       << again->findings[0];
 }
 

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <cstdio>
 
-#include "engine/statistics/statistics.h"
+#include "engine/base/statistics.h"
 #include "grading/cohort/circuit_study.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/cohort/drawn_class.h"

@@ -9,7 +9,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/random.h"
-#include "engine/statistics/statistics.h"
+#include "engine/base/statistics.h"
 #include "grading/cohort/statistics.h"
 
 namespace cavum::cohort {

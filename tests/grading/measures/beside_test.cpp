@@ -10,7 +10,7 @@
 
 #include "engine/tooth/make/set_beside.h"
 #include "engine/tooth/octree_edit.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "grading/result/result_json.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved_beside.h"

@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/tooth/octree_edit.h"
+#include "grading/feedback/why.h"
 #include "grading/result/result_json.h"
-#include "grading/words/why.h"
 #include "scenarios/file/rubric_check.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"

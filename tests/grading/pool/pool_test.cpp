@@ -6,10 +6,10 @@
 #include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
+#include "grading/marking/session_input.h"
 #include "grading/pool/makers.h"
 #include "grading/result/result_json.h"
-#include "grading/session_input.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::pool {

@@ -20,6 +20,7 @@ namespace cavum::scenarios {
 namespace {
 
 using namespace std::chrono_literals;
+using testing_basics::comes_true;
 
 /// The simulated Omni drilling into the middle of the block; a test may hold a button or take the pedal away.
 class Drilling final : public ServoDevice {
@@ -61,13 +62,6 @@ class LiveExamTest : public ::testing::Test {
     setup_ = prepare_exam(folder_.file("task.toml"), options);
   }
   [[nodiscard]] std::string session() const { return folder_.file("s.cavum"); }
-  static bool comes_true(const std::function<bool()>& condition) {
-    for (int i = 0; i < 8000; ++i) {
-      if (condition()) return true;
-      std::this_thread::sleep_for(1ms);
-    }
-    return false;
-  }
   testing_basics::Folder folder_;
   int limit_s_ = 60;
   std::unique_ptr<ExamSetup> setup_;

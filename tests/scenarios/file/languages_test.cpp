@@ -21,7 +21,7 @@ std::string with(const std::string& languages) {
 
 std::vector<Message> problems_of(const std::string& text) {
   std::vector<Message> all;
-  for (const Problem& p : check_scenario(text, "s.toml")) all.push_back(p.message());
+  for (const Problem& p : read_scenario(text, "s.toml").problems) all.push_back(p.message());
   return all;
 }
 
@@ -44,7 +44,7 @@ TEST(ScenarioLanguages, AMistakeIsNamedWithItsPlace) {
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ncriteria.walls = 3\n")), "walls"));
   EXPECT_TRUE(tells(problems_of(with("[languages.de]\ntitel = \"x\"\n")), "titel"));
   for (const char* wrong : {"[languages.en]\ntitle = \"x\"\n", "[languages.German]\ntitle = \"x\"\n", "[languages]\nde = \"x\"\n"})
-    EXPECT_EQ(check_scenario(with(wrong), "s.toml").at(0).mistake, Mistake::unknown_name) << wrong;
+    EXPECT_EQ(read_scenario(with(wrong), "s.toml").problems.at(0).mistake, Mistake::unknown_name) << wrong;
 }
 
 TEST(ScenarioLanguages, WhatAScenarioAsksDoesNotDependOnThem) {

@@ -27,7 +27,7 @@ std::string with(const std::string& from, const std::string& to) {
 }
 
 TEST(Scenario, ReadsWhatItWrites) {
-  EXPECT_TRUE(check_scenario(good(), "s.toml").empty());
+  EXPECT_TRUE(read_scenario(good(), "s.toml").problems.empty());
   const Scenario s = parse_scenario(good(), "s.toml");
   EXPECT_EQ(s.points, std::vector<std::string>{"round-1.0"});
   EXPECT_EQ(s.perforation.faults.size(), 2u);
@@ -37,13 +37,13 @@ TEST(Scenario, ReadsWhatItWrites) {
 }
 
 TEST(Scenario, TemplateAndShippedScenariosAreSound) {
-  for (const auto& p : check_scenario(block_task("class_1"), "template")) ADD_FAILURE() << p.message();
+  for (const auto& p : read_scenario(block_task("class_1"), "template").problems) ADD_FAILURE() << p.message();
   for (const char* name : {"molar_access.toml", "class_1.toml"})
     EXPECT_NO_THROW(static_cast<void>(load_scenario(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/" + name))) << name;
 }
 
 /// The mistakes of the good scenario with a piece of its text replaced.
-std::vector<Problem> problems(const std::string& from, const std::string& to) { return check_scenario(with(from, to), "s.toml"); }
+std::vector<Problem> problems(const std::string& from, const std::string& to) { return read_scenario(with(from, to), "s.toml").problems; }
 
 /// That a limit is broken, with what is there and the limit named.
 void expect_beyond(const std::vector<Problem>& found, int count, int limit) {
@@ -136,7 +136,7 @@ TEST(Scenario, NamesAllMistakesInTheOrderOfTheFileAndThrowsWithTheFirst) {
   std::string text = with("max_rpm = 200000", "max_rpm = 1");
   text.replace(text.find("shape = \"ball\""), 14, "shape = \"blob\"");
   text.replace(text.find("pass_percent = 60"), 17, "pass_percent = 160");
-  const auto found = check_scenario(text, "s.toml");
+  const auto found = read_scenario(text, "s.toml").problems;
   ASSERT_GE(found.size(), 3u);
   for (std::size_t i = 1; i < found.size(); ++i) EXPECT_LE(found[i - 1].where.line, found[i].where.line);
   const auto thrown = thrown_by([&] { static_cast<void>(parse_scenario(text, "s.toml")); });

@@ -1,8 +1,8 @@
 // What becomes of results at the office: an appeal with its trail, a result that is taken back, and the report of an exam as a page of no site.
 #include "engine/base/hash.h"
-#include "grading/ledger/entry_text.h"
-#include "grading/ledger/issue.h"
-#include "grading/ledger/signed_note.h"
+#include "grading/records/entry_text.h"
+#include "grading/records/issue.h"
+#include "grading/records/signed_note.h"
 #include "tests/ui/office/opened.h"
 
 namespace cavum::office {
@@ -25,8 +25,8 @@ class AfterTheExam : public testing::Test {
     ASSERT_EQ(filed["state"], "filed") << filed;
     session_ = filed["entry"];
   }
-  [[nodiscard]] ledger::LedgerEntry last() const { return opened_.content().entries.back(); }
-  [[nodiscard]] std::string who_sat() const { return ledger::read_registry(opened_.content()).sessions.at(0).candidate; }
+  [[nodiscard]] records::LedgerEntry last() const { return opened_.content().entries.back(); }
+  [[nodiscard]] std::string who_sat() const { return records::read_registry(opened_.content()).sessions.at(0).candidate; }
   [[nodiscard]] json appeal() const { return examiner_.get("/api/appeals").json()["appeals"][0]; }
 
   Opened opened_;
@@ -43,7 +43,7 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   const std::string told = examiner_.post("/api/decide", {{"session", session_}, {"verdict", "fail"}, {"reason", "x"}}).json()["error"];
   EXPECT_EQ(told.find("--"), std::string::npos) << "no option of the command line: " << told;
   ASSERT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "the floor was probed twice"}}).status, 200);
-  EXPECT_NE(last().as<ledger::AppealEntry>(), nullptr);
+  EXPECT_NE(last().as<records::AppealEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The officer");
   EXPECT_EQ(officer_.post("/api/appeals/open", {{"session", session_}, {"reason", "again"}}).status, 400);
   EXPECT_EQ(appeal()["open"], true);
@@ -57,7 +57,7 @@ TEST_F(AfterTheExam, AnAppealIsOpenedByTheOfficerAndAnsweredByTheExaminerEachWit
   EXPECT_EQ(appeal()["answer"], "measured again");
   EXPECT_EQ(appeal()["verdict"], "fail");
   EXPECT_EQ(examiner_.post("/api/appeals/answer", {{"session", session_}, {"outcome", "stands"}, {"reason", "x"}}).status, 400) << "once";
-  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+  EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 
 TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
@@ -66,11 +66,11 @@ TEST_F(AfterTheExam, AResultIsTakenBackWithReasonAndSecondFactorOnly) {
   EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", "000000"}}).status, 400);
   EXPECT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"code", opened_.code()}}).status, 400) << "without a reason";
   ASSERT_EQ(officer_.post("/api/retract", {{"sessions", {session_}}, {"reason", "wrong tooth"}, {"code", opened_.code(1)}}).status, 200);
-  EXPECT_NE(last().as<ledger::RetractEntry>(), nullptr);
+  EXPECT_NE(last().as<records::RetractEntry>(), nullptr);
   EXPECT_EQ(last().by.reason, "wrong tooth");
   EXPECT_EQ(officer_.get("/api/gradebook.csv").body.find("\n4711,"), std::string::npos);
   EXPECT_EQ(officer_.get("/api/results").json()["results"][0]["state"], "taken back");
-  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+  EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 
 TEST_F(AfterTheExam, WhatWasTakenBackGoesOutByNameOnlyAndNothingThatThePageDidNotShow) {
@@ -121,7 +121,7 @@ TEST_F(AfterTheExam, WhoHasSatIsGivenAnotherAttemptOnlyWhenAskedForAndTheLastTha
   auto station = opened_.station();
   std::string again;
   for (const json& t : station.tickets())
-    if (ledger::parse_ticket(t["text"], "", "t").candidate == who_sat()) again = t["text"];
+    if (records::parse_ticket(t["text"], "", "t").candidate == who_sat()) again = t["text"];
   const Bytes image = read_file(opened_.school().sit(again));
   station.hand_in(image);
   const json filed = Opened::outcome(station, to_hex(sha256(image)));
@@ -145,7 +145,7 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
     const auto& e = entries[entries.size() - 1 - i];
     EXPECT_EQ(row["entry"], e.seq);
     EXPECT_EQ(row["utc"], utc_text(e.utc_ns));
-    EXPECT_TRUE(row["what"].get<std::string>().starts_with(ledger::kind_name(*e.what))) << row;
+    EXPECT_TRUE(row["what"].get<std::string>().starts_with(records::kind_name(*e.what))) << row;
   }
   EXPECT_EQ(all["entries"][0]["what"], "hold");
   EXPECT_EQ(all["entries"][0]["why"], "alarm");
@@ -157,7 +157,7 @@ TEST_F(AfterTheExam, TheTrailTellsEveryEntryOnceAndNamesOnlyToTheOfficer) {
   {
     auto ledger = opened_.school().ledger();
     const std::uint64_t last_ticket = ledger.content().entries.size() - 1;
-    static_cast<void>(ledger::seat_candidates(ledger, {{last_ticket - 1, ""}, {last_ticket, ""}}));
+    static_cast<void>(records::seat_candidates(ledger, {{last_ticket - 1, ""}, {last_ticket, ""}}));
   }
   EXPECT_EQ(officer_.post("/api/trail", json::object()).json()["entries"][0]["people"], json::array()) << "of two the number is told";
   EXPECT_EQ(officer_.post("/api/trail", {{"about", "4713"}}).json()["entries"][0]["people"][0]["id"], "4713")
@@ -183,7 +183,7 @@ TEST_F(AfterTheExam, AReportRunsItsOwnScriptAloneAndReachesNothingOfTheOffice) {
   ASSERT_EQ(report.status, 200) << report.body;
   EXPECT_NE(report.body.find(hash_), std::string::npos);
   const std::string policy = report.fields.at("content-security-policy");
-  EXPECT_NE(policy.find("script-src 'sha256-" + ledger::to_base64(sha256(std::string("1"))) + "';"), std::string::npos) << policy;
+  EXPECT_NE(policy.find("script-src 'sha256-" + records::to_base64(sha256(std::string("1"))) + "';"), std::string::npos) << policy;
   EXPECT_NE(policy.find("sandbox allow-scripts"), std::string::npos);
   for (const char* no : {"allow-same-origin", "allow-top-navigation", "connect-src", "script-src 'unsafe-inline'"})
     EXPECT_EQ(policy.find(no), std::string::npos) << policy;

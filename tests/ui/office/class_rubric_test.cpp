@@ -1,9 +1,9 @@
 // A new rubric over a whole class at the office: what is shown before it counts, who lets it count and how, and what a restart or a kill leaves.
 #include <random>
 
-#include "grading/grade.h"
-#include "grading/ledger/release.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "grading/marking/grade.h"
+#include "grading/records/release.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
 #include "tests/ui/office/served.h"
 
@@ -21,11 +21,11 @@ constexpr char k_eva[] = "Eva Stein", k_exam[] = "block_cavity";
 
 /// A school with some short exams that are filed.
 void file_some(const School& school, int exams, const std::string& whose = "c") {
-  ledger::Ledger ledger = school.ledger();
+  records::Ledger ledger = school.ledger();
   for (int i = 0; i < exams; ++i) {
     const std::string path = school.file(whose + std::to_string(i) + ".cavum");
     sit_shortly(k_scenario, path, school.ticket(whose + std::to_string(i)));
-    ASSERT_TRUE(ledger::file_session(ledger, path).seq);
+    ASSERT_TRUE(records::file_session(ledger, path).seq);
   }
 }
 
@@ -63,7 +63,7 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   ASSERT_EQ(state["state"], "ready") << state;
   ASSERT_EQ(state["sessions"].size(), 2u);
   EXPECT_EQ(entries(), before) << "nothing counts yet";
-  const auto registry = ledger::read_registry(opened_.content());
+  const auto registry = records::read_registry(opened_.content());
   for (std::size_t i = 0; i < 2; ++i) {  // marked here by the rubric itself, without the office
     const json& row = state["sessions"][i];
     grading::ExamGrounds grounds;
@@ -81,13 +81,13 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   const auto content = opened_.content();
   ASSERT_EQ(content.entries.size(), before + 2);
   for (std::size_t i = 0; i < 2; ++i) {
-    EXPECT_NE(content.entries[before + i].as<ledger::RegradeEntry>(), nullptr);
+    EXPECT_NE(content.entries[before + i].as<records::RegradeEntry>(), nullptr);
     EXPECT_EQ(content.entries[before + i].by.account, k_eva);
     EXPECT_EQ(content.entries[before + i].by.reason, "question 3 was misprinted");
   }
   EXPECT_EQ(eva_.get("/api/regrade").json()["first_entry"], before);
-  EXPECT_EQ(ledger::read_registry(content).sessions[0].result->at("score")["points"], state["sessions"][0]["points"]);
-  EXPECT_TRUE(ledger::check_ledger(opened_.school().places(), true).findings.empty()) << "made again from what the ledger keeps";
+  EXPECT_EQ(records::read_registry(content).sessions[0].result->at("score")["points"], state["sessions"][0]["points"]);
+  EXPECT_TRUE(records::check_ledger(opened_.school().places(), true).findings.empty()) << "made again from what the ledger keeps";
   EXPECT_EQ(count(begun, 1).status, 400) << "once";
 }
 
@@ -96,7 +96,7 @@ TEST_F(ClassRubric, WhoSitsAfterwardsIsNotReleasedByTheOldRubricUnseen) {
   ASSERT_EQ(waited(eva_)["state"], "ready");
   ASSERT_EQ(count(begun).json()["counted"], 2);
   file_some(opened_.school(), 1, "late");
-  const ledger::Release all = ledger::select_results(ledger::read_registry(opened_.content()), {.all = true, .undecided = true});
+  const records::Release all = records::select_results(records::read_registry(opened_.content()), {.all = true, .undecided = true});
   EXPECT_EQ(all.results.size(), 2u);
   EXPECT_EQ(all.kept_back, 1u);
   const auto late = [&] { return opened_.signed_in(Role::officer).get("/api/results").json()["results"][2]["state"].get<std::string>(); };
@@ -152,10 +152,10 @@ TEST_F(ClassRubric, IsRefusedWhenTheClassIsAnotherByThen) {
   const json begun = begin();
   ASSERT_EQ(waited(eva_)["state"], "ready");
   {
-    ledger::Ledger ledger = opened_.school().ledger();
+    records::Ledger ledger = opened_.school().ledger();
     const std::string path = opened_.school().file("late.cavum");
     sit_shortly(k_scenario, path, opened_.school().ticket("late"));
-    ASSERT_TRUE(ledger::file_session(ledger, path).seq);
+    ASSERT_TRUE(records::file_session(ledger, path).seq);
   }
   const std::size_t before = entries();
   EXPECT_EQ(count(begun).status, 400) << "nobody has seen what becomes of the third";
@@ -202,7 +202,7 @@ TEST(KilledClassRubric, IsDoneOrNotBegunAndTheOfficeSaysWhich) {
     const School school(fresh);
     Accounts accounts(station_path("office") + "/accounts.json");
     const Account eva = accounts.set(k_eva, Role::examiner, k_password, true);
-    const std::size_t before = ledger::read_ledger(school.places()).entries.size();
+    const std::size_t before = records::read_ledger(school.places()).entries.size();
     {
       Served served(school);
       Visitor v{served.port()};
@@ -217,7 +217,7 @@ TEST(KilledClassRubric, IsDoneOrNotBegunAndTheOfficeSaysWhich) {
       served.kill();
       counting.join();
     }
-    const auto content = ledger::read_ledger(school.places());
+    const auto content = records::read_ledger(school.places());
     EXPECT_TRUE(content.findings.empty()) << "seed " << seed;
     const std::size_t added = content.entries.size() - before;
     EXPECT_TRUE(added == 0 || added == k_sessions) << added << " of " << k_sessions << ", seed " << seed;

@@ -1,6 +1,6 @@
 // An exam day at the office: what stations are told, pauses, incidents, who is not here, seats, and one candidate at two stations.
 #include "engine/base/json_fields.h"
-#include "grading/ledger/station_ticket.h"
+#include "grading/records/station_ticket.h"
 #include "tests/ui/office/opened.h"
 #include "ui/office/board.h"
 #include "ui/office/day_parts.h"
@@ -18,7 +18,7 @@ class ADay : public testing::Test {
   ADay() : key_(load_signing_key(opened_.school().file("seat2.key"), "station")), officer_(opened_.signed_in(Role::officer)) {
     const std::string code = officer_.post("/api/stations/invite", {{"name", "Seat 2"}}).json()["code"];
     second_ = std::make_unique<StationClient>(opened_.address(), opened_.certificate(), opened_.content().public_key, key_);
-    static_cast<void>(second_->enrol(ledger::station_request(key_, opened_.content().public_key, {}, code)));
+    static_cast<void>(second_->enrol(records::station_request(key_, opened_.content().public_key, {}, code)));
     first_ =
         std::make_unique<StationClient>(opened_.address(), opened_.certificate(), opened_.content().public_key, load_station_key(station_key_path()));
   }
@@ -33,7 +33,7 @@ class ADay : public testing::Test {
   static json sat(std::uint64_t heard = 0, const char* state = "exam") {
     return {{"state", state}, {"candidate", "C-1"}, {"here_s", 30}, {"heard", heard}};
   }
-  [[nodiscard]] ledger::LedgerEntry last() const { return opened_.content().entries.back(); }
+  [[nodiscard]] records::LedgerEntry last() const { return opened_.content().entries.back(); }
 
   Opened opened_;
   SigningKey key_;
@@ -45,9 +45,9 @@ TEST_F(ADay, AnAnnouncementReachesItsStationsUntilTheyHaveReadIt) {
   const std::string seat2 = to_hex(key_.public_key);
   const Visitor invigilator = opened_.signed_in(Role::invigilator);
   const json to_one = invigilator.post("/api/announce", {{"text", "Your time is 25 % longer."}, {"to", {{"station", seat2}}}}).json();
-  EXPECT_NE(last().as<ledger::AnnounceEntry>(), nullptr);
+  EXPECT_NE(last().as<records::AnnounceEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The invigilator");
-  EXPECT_EQ(last().as<ledger::AnnounceEntry>()->audience.stations, std::vector<std::string>{seat2});
+  EXPECT_EQ(last().as<records::AnnounceEntry>()->audience.stations, std::vector<std::string>{seat2});
   EXPECT_TRUE(first_->report(free())["announcements"].empty());
   EXPECT_EQ(second_->report(free())["announcements"].size(), 1u) << "just made: who comes in now sees it";
   EXPECT_EQ(row("Seat 2")["unread"], 0) << "nobody is there to read it";
@@ -76,7 +76,7 @@ TEST_F(ADay, AnAnnouncementReachesItsStationsUntilTheyHaveReadIt) {
 
 TEST(AnnouncedTo, ACandidateSeesWhatWasAnnouncedSinceHeSignedInOrShortlyBefore) {
   constexpr std::int64_t k_s = 1'000'000'000, k_now = 1'790'000'000 * k_s;
-  ledger::ExamDay day;
+  records::ExamDay day;
   for (const std::int64_t ago_s : {3700, 1080, 130, 110, 5})
     day.announcements.push_back({day.announcements.size() + 1, k_now - ago_s * k_s, "x", {}});
   day.announcements.push_back({6, k_now, "to others", {"", {"bb"}}});
@@ -139,7 +139,7 @@ TEST_F(ADay, APauseForAllHoldsEveryStationUntilItGoesOn) {
   EXPECT_EQ(officer_.get("/api/board").json()["holds"].size(), 1u);
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}}).status, 400) << "without a reason";
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}, {"reason", "all clear"}}).status, 200);
-  EXPECT_NE(last().as<ledger::GoOnEntry>(), nullptr);
+  EXPECT_NE(last().as<records::GoOnEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The invigilator");
   EXPECT_TRUE(first_->report(free())["hold"].is_null());
   EXPECT_EQ(invigilator.post("/api/go-on", {{"hold", held["entry"]}, {"reason", "again"}}).status, 400);
@@ -152,7 +152,7 @@ TEST_F(ADay, AnIncidentIsAnEntryWithStationCandidateTimeAndWords) {
   const json noted =
       invigilator.post("/api/incidents", {{"station", to_hex(key_.public_key)}, {"candidate", candidate}, {"words", "spilt water"}}).json();
   EXPECT_EQ(last().seq, noted["entry"]);
-  EXPECT_NE(last().as<ledger::IncidentEntry>(), nullptr);
+  EXPECT_NE(last().as<records::IncidentEntry>(), nullptr);
   const json shown = invigilator.get("/api/incidents").json()["incidents"];
   ASSERT_EQ(shown.size(), 1u);
   EXPECT_EQ(shown[0]["station"], "Seat 2");
@@ -214,7 +214,7 @@ TEST_F(ADay, ASittingIsSeatedWithoutGivingAStationTwice) {
   const json done = officer_.post("/api/seats", {{"sitting", sitting}}).json();
   EXPECT_EQ(done["seated"], 2);
   EXPECT_EQ(done["left"], 1);
-  EXPECT_NE(last().as<ledger::SeatsEntry>(), nullptr);
+  EXPECT_NE(last().as<records::SeatsEntry>(), nullptr);
   const json after = tickets();
   EXPECT_NE(after[0]["seat"], "");
   EXPECT_NE(after[1]["seat"], "");

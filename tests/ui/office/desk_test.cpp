@@ -1,5 +1,5 @@
 // What people do at the office: every action is an entry with who and why, and the ledger holds afterwards.
-#include "grading/ledger/regrade.h"
+#include "grading/records/regrade.h"
 #include "tests/ui/office/opened.h"
 #include "ui/language/language.h"
 
@@ -18,7 +18,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   const Heard issued = opened.issue(officer, "4711\n4712\n");
   ASSERT_EQ(issued.status, 200) << issued.body;
   EXPECT_EQ(issued.json()["issued"].size(), 2u);
-  EXPECT_NE(last().as<ledger::TicketEntry>(), nullptr);
+  EXPECT_NE(last().as<records::TicketEntry>(), nullptr);
   EXPECT_EQ(last().by.account, "The officer");
   EXPECT_EQ(last().by.reason, "the class of this year");
   const json again = opened.issue(officer, "4711\n").json();
@@ -31,11 +31,11 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   const json filed = Opened::outcome(station, to_hex(sha256(image)));
   ASSERT_EQ(filed["state"], "filed") << filed;
   {  // as if the program had left it to a person
-    ledger::Ledger ledger = opened.school().ledger();
-    json review = *ledger::read_registry(ledger.content()).sessions.at(0).result;
+    records::Ledger ledger = opened.school().ledger();
+    json review = *records::read_registry(ledger.content()).sessions.at(0).result;
     review["verdict"] = "review";
     review["verdict_reasons"] = json::array({to_json(grading::finding<grading::FindingKind::force_without_tissue>())});
-    ledger::enter_regrade(ledger, filed["entry"], review, {}, "as if");
+    records::enter_regrade(ledger, filed["entry"], review, {}, "as if");
     EXPECT_TRUE(ledger.content().entries.back().by.account.empty()) << "nobody signed in for that";
   }
   const json queue = examiner.get("/api/queue").json()["queue"];
@@ -50,7 +50,7 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(examiner.post("/api/decide", {{"session", filed["entry"]}, {"verdict", "pass"}, {"reason", "looked at it"}, {"person", "Somebody Else"}})
                 .status,
             200);
-  EXPECT_EQ(last().as<ledger::RegradeEntry>()->person, "The examiner") << "whoever signed in, whatever the request says";
+  EXPECT_EQ(last().as<records::RegradeEntry>()->person, "The examiner") << "whoever signed in, whatever the request says";
   EXPECT_EQ(last().by.account, "The examiner");
   EXPECT_EQ(last().by.reason, "looked at it");
 
@@ -74,9 +74,9 @@ TEST(Desk, FromRosterToGradebookEachActionIsAnEntryWithWhoAndWhy) {
   EXPECT_EQ(criteria.body.find("4711"), std::string::npos) << "pseudonyms alone";
   EXPECT_NE(criteria.fields.at("content-disposition").find("criteria.csv"), std::string::npos);
 
-  const ledger::LedgerContent content = opened.content();
+  const records::LedgerContent content = opened.content();
   EXPECT_TRUE(content.findings.empty()) << english_text(content.findings.front().what);
-  EXPECT_TRUE(ledger::read_registry(content).findings.empty());
+  EXPECT_TRUE(records::read_registry(content).findings.empty());
 }
 
 TEST(Desk, AGradebookOfARehearsalHasWhatNoHandMovedMarkedAndUnderNoNumber) {

@@ -5,7 +5,7 @@
 #include <random>
 #include <set>
 
-#include "tests/grading/ledger/short_exam.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/served.h"
 #include "ui/office/station_link.h"
 
@@ -27,21 +27,21 @@ Seat sat(const School& school, int number) {
   std::filesystem::create_directories(home);
   Seat seat{home + "/exam.cavum", "", {}};
   std::string request;
-  ledger::Ledger ledger = school.ledger();
-  const std::string code = ledger::invite_station(ledger, "Seat " + std::to_string(number + 2), read_clocks().utc_ns + k_hour_ns);
+  records::Ledger ledger = school.ledger();
+  const std::string code = records::invite_station(ledger, "Seat " + std::to_string(number + 2), read_clocks().utc_ns + k_hour_ns);
   {
     const testing_ledger::AtStation here(home);
     seat.key = load_station_key(station_key_path());
     sit_shortly(k_scenario, seat.recording, ticket);
   }
-  static_cast<void>(ledger::enrol_station(ledger, ledger::station_request(seat.key, ledger.content().public_key, {}, code), 0, "request"));
+  static_cast<void>(records::enrol_station(ledger, records::station_request(seat.key, ledger.content().public_key, {}, code), 0, "request"));
   seat.sha256 = to_hex(sha256(read_file(seat.recording)));
   return seat;
 }
 
 /// Each that has a receipt stands in the ledger as the receipt says.
 std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, const std::string& when) {
-  const auto content = ledger::read_ledger(school.places());
+  const auto content = records::read_ledger(school.places());
   EXPECT_TRUE(content.findings.empty()) << when << ": " << english_text(content.findings.front().what);
   std::size_t n = 0;
   for (const Seat& seat : seats) {
@@ -51,7 +51,7 @@ std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, c
     if (!outcome->filed) continue;
     EXPECT_LT(outcome->entry, content.entries.size()) << when;
     if (outcome->entry < content.entries.size()) {
-      EXPECT_EQ(content.entries[outcome->entry].as<ledger::SessionEntry>()->file_sha256, seat.sha256) << when;
+      EXPECT_EQ(content.entries[outcome->entry].as<records::SessionEntry>()->file_sha256, seat.sha256) << when;
     }
     ++n;
   }
@@ -103,8 +103,8 @@ TEST(FilingStorm, NothingAcknowledgedIsLostAndEveryExamIsFiledOnce) {
   links.clear();
   EXPECT_EQ(filed, seats.size()) << "seed " << seed;
   std::multiset<std::string> entries;
-  for (const auto& e : ledger::read_ledger(school.places()).entries)
-    if (const auto* s = e.as<ledger::SessionEntry>()) entries.insert(s->file_sha256);
+  for (const auto& e : records::read_ledger(school.places()).entries)
+    if (const auto* s = e.as<records::SessionEntry>()) entries.insert(s->file_sha256);
   for (const Seat& seat : seats) EXPECT_EQ(entries.count(seat.sha256), 1U) << "seed " << seed;
   EXPECT_LE(most_kb, k_most_kb);
   std::printf(

@@ -2,7 +2,7 @@
 #include <random>
 #include <set>
 
-#include "tests/grading/ledger/short_exam.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/served.h"
 
 namespace cavum::office {
@@ -51,10 +51,10 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
     } catch (const Error&) {  // it was killed meanwhile
     }
     killer.join();
-    const auto content = ledger::read_ledger(school.places());
+    const auto content = records::read_ledger(school.places());
     EXPECT_TRUE(content.findings.empty()) << "seed " << seed;
     for (const auto& [hash, entry] : acknowledged)
-      EXPECT_EQ(content.entries.at(entry).as<ledger::SessionEntry>()->file_sha256, hash) << "seed " << seed;
+      EXPECT_EQ(content.entries.at(entry).as<records::SessionEntry>()->file_sha256, hash) << "seed " << seed;
   }
   {
     const Served served(school);
@@ -62,11 +62,11 @@ TEST(Killed, NothingThatWasAcknowledgedIsLost) {
             [] { std::this_thread::sleep_for(std::chrono::milliseconds(50)); });
   }
   EXPECT_EQ(acknowledged.size(), exams.size()) << "seed " << seed;
-  const auto content = ledger::read_ledger(school.places());
+  const auto content = records::read_ledger(school.places());
   EXPECT_TRUE(content.findings.empty());
   std::multiset<std::string> filed;
   for (const auto& e : content.entries)
-    if (const auto* s = e.as<ledger::SessionEntry>()) filed.insert(s->file_sha256);
+    if (const auto* s = e.as<records::SessionEntry>()) filed.insert(s->file_sha256);
   for (const Bytes& image : exams) EXPECT_EQ(filed.count(to_hex(sha256(image))), 1u) << "each once; seed " << seed;
 }
 

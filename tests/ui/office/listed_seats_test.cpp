@@ -14,9 +14,9 @@ class ListedSeats : public testing::Test {
   void SetUp() override { enrol("Seat 2", "two"); }
   void enrol(const std::string& name, const std::string& key_file) const {
     const SigningKey key = load_signing_key(opened_.school().file(key_file + ".key"), "station");
-    ledger::Ledger ledger = opened_.school().ledger();
-    const std::string code = ledger::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
-    static_cast<void>(ledger::enrol_station(ledger, ledger::station_request(key, ledger.content().public_key, {}, code), 0, "request"));
+    records::Ledger ledger = opened_.school().ledger();
+    const std::string code = records::invite_station(ledger, name, read_clocks().utc_ns + k_hour_ns);
+    static_cast<void>(records::enrol_station(ledger, records::station_request(key, ledger.content().public_key, {}, code), 0, "request"));
   }
   Heard issue(const std::string& list, std::int64_t from_h = -1, std::int64_t until_h = 1) {
     const std::int64_t now = read_clocks().utc_ns;
@@ -48,9 +48,9 @@ class ListedSeats : public testing::Test {
 TEST_F(ListedSeats, AreEnteredAndStandOnCardAndSheet) {
   ASSERT_EQ(issue("id,Station\n4711,Seat 2\n4712,\n4713,Seat 1\n").status, 200);
   const auto content = opened_.content();
-  EXPECT_NE(content.entries.back().as<ledger::SeatsEntry>(), nullptr);
+  EXPECT_NE(content.entries.back().as<records::SeatsEntry>(), nullptr);
   EXPECT_EQ(content.entries.back().by.account, "The officer");
-  ledger::Ledger ledger = opened_.school().ledger();
+  records::Ledger ledger = opened_.school().ledger();
   std::map<std::string, std::string> places;
   for (const auto& i : invited(ledger, read_clocks().utc_ns)) places[i.id] = i.station;
   EXPECT_EQ(places, (std::map<std::string, std::string>{{"4711", "Seat 2"}, {"4712", ""}, {"4713", "Seat 1"}}));

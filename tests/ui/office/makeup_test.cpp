@@ -1,6 +1,6 @@
 // Makeup sittings at the office: who asks and why, what is granted, and that stations know the makeup alone.
 #include "engine/base/json_fields.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
 
 namespace cavum::office {
@@ -46,13 +46,13 @@ TEST_F(OfficeMakeup, IsTheOnlyTicketThatStationsKnowAndGrantsWhatTheFirstDid) {
   const Heard given = make_up(first, {{"accommodations", "as before"}});
   ASSERT_EQ(given.status, 200) << given.body;
   const auto last = opened_.content().entries.back();
-  ASSERT_NE(last.as<ledger::TicketEntry>(), nullptr);
-  EXPECT_EQ(last.as<ledger::TicketEntry>()->makes_up->ticket, first["entry"]);
+  ASSERT_NE(last.as<records::TicketEntry>(), nullptr);
+  EXPECT_EQ(last.as<records::TicketEntry>()->makes_up->ticket, first["entry"]);
   EXPECT_EQ(last.by.account, "The officer");
   EXPECT_EQ(last.by.reason, "the power failed");
   const json tickets = station.tickets();
   ASSERT_EQ(tickets.size(), 1u);
-  const auto a = ledger::parse_ticket(before, "", "a"), b = ledger::parse_ticket(tickets[0]["text"], "", "b");
+  const auto a = records::parse_ticket(before, "", "a"), b = records::parse_ticket(tickets[0]["text"], "", "b");
   EXPECT_NE(a.nonce, b.nonce);
   EXPECT_EQ(a.candidate, b.candidate);
   EXPECT_EQ(a.grant, b.grant);
@@ -94,7 +94,7 @@ TEST_F(OfficeMakeup, AsksForAccommodationsAndTakesNoneForGranted) {
   EXPECT_EQ(opened_.content().entries.size(), before) << "none of all that added anything";
   EXPECT_EQ(officer_.get("/api/attendance").json()["missing"].size(), 1u);
   ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "these"}, {"extra_time_percent", 25}, {"high_contrast", true}}).status, 200);
-  const auto grant = ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant;
+  const auto grant = records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant;
   EXPECT_EQ(grant,
             (std::vector<std::pair<std::string, std::string>>{{"accommodation.extra_time_percent", "25"}, {"accommodation.high_contrast", "true"}}));
   const json missing = officer_.get("/api/attendance").json()["missing"];
@@ -107,10 +107,10 @@ TEST_F(OfficeMakeup, WhoMissedTheExamHasWhatTheFirstTicketGrantedAsLongAsItIsKep
   EXPECT_TRUE(opened_.station().tickets().empty()) << "no station gets what ran out";
   EXPECT_EQ(row(missed["entry"])["grant_kept"], true);
   ASSERT_EQ(make_up(missed, {{"became", "missed"}, {"accommodations", "as before"}}).status, 200);
-  EXPECT_EQ(ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second, "25");
+  EXPECT_EQ(records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant.at(0).second, "25");
   EXPECT_EQ(row(missed["entry"])["grant_kept"], true) << "the makeup may be cancelled still";
   auto station = opened_.station();
-  static_cast<void>(station.begin(ledger::parse_ticket(station.tickets()[0]["text"], "", "t").nonce));
+  static_cast<void>(station.begin(records::parse_ticket(station.tickets()[0]["text"], "", "t").nonce));
   static_cast<void>(station.tickets());
   EXPECT_EQ(row(missed["entry"])["grant_kept"], false) << "for nothing any more";
 }
@@ -125,7 +125,7 @@ TEST_F(OfficeMakeup, WhatWasFiledTellsItsOwnGrant) {
   EXPECT_EQ(row(first["entry"])["at_station"], false);
   EXPECT_EQ(row(first["entry"])["grant_kept"], true);
   ASSERT_EQ(make_up(first, {{"accommodations", "as before"}}).status, 200);
-  EXPECT_EQ(ledger::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant, ledger::parse_ticket(ticket, "", "t").grant);
+  EXPECT_EQ(records::parse_ticket(opened_.station().tickets()[0]["text"], "", "t").grant, records::parse_ticket(ticket, "", "t").grant);
 }
 
 TEST_F(OfficeMakeup, TheTicketOfWhoHasBegunIsCancelledOnlyWhereThatIsMeant) {
@@ -164,7 +164,7 @@ TEST_F(OfficeMakeup, OfTwoFiledSittingsReleasesTheMakeup) {
   EXPECT_EQ(officer_.post("/api/release", {{"all", true}, {"reason", "board"}, {"code", opened_.code(-1)}}).json()["released"], 1);
   const std::string book = officer_.get("/api/gradebook.csv").body;
   EXPECT_NE(book.find(fmt::format(" {})", first["entry"].get<int>())), std::string::npos) << "which it makes up: " << book;
-  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+  EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 
 }  // namespace

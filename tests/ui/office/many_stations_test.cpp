@@ -18,11 +18,11 @@ TEST(ManyStations, AreAllHeardAndShownWithinTwoSeconds) {
   Accounts(station_path("office") + "/accounts.json").set("Ian", Role::invigilator, k_password, false);
   std::vector<SigningKey> keys;
   {
-    ledger::Ledger ledger = school.ledger();
+    records::Ledger ledger = school.ledger();
     for (std::size_t i = 0; i < k_stations; ++i) {
       keys.push_back(load_signing_key(school.file("key-" + std::to_string(i)), "station"));
-      const std::string code = ledger::invite_station(ledger, "Seat " + std::to_string(i + 2), read_clocks().utc_ns + k_hour_ns);
-      static_cast<void>(ledger::enrol_station(ledger, ledger::station_request(keys.back(), ledger.content().public_key, {}, code), 0, "request"));
+      const std::string code = records::invite_station(ledger, "Seat " + std::to_string(i + 2), read_clocks().utc_ns + k_hour_ns);
+      static_cast<void>(records::enrol_station(ledger, records::station_request(keys.back(), ledger.content().public_key, {}, code), 0, "request"));
     }
   }
   const std::string public_key = to_hex(School::key().public_key);

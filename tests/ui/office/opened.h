@@ -6,8 +6,9 @@
 #include <string>
 #include <thread>
 
-#include "grading/ledger/station_ticket.h"
-#include "tests/grading/ledger/school.h"
+#include "engine/base/encoding.h"
+#include "grading/records/station_ticket.h"
+#include "tests/grading/records/school.h"
 #include "tests/ui/office/web.h"
 #include "ui/office/accounts.h"
 #include "ui/office/office.h"
@@ -31,8 +32,8 @@ class Opened {
   [[nodiscard]] std::uint16_t port() const { return port_; }
   [[nodiscard]] std::string address() const { return "https://127.0.0.1:" + std::to_string(port_); }
   [[nodiscard]] std::string certificate() const { return home() + "/certificate.pem"; }
-  [[nodiscard]] std::string id() const { return ledger::read_ledger(school_.places()).id; }
-  [[nodiscard]] ledger::LedgerContent content() const { return ledger::read_ledger(school_.places()); }
+  [[nodiscard]] std::string id() const { return records::read_ledger(school_.places()).id; }
+  [[nodiscard]] records::LedgerContent content() const { return records::read_ledger(school_.places()); }
 
   void open() {
     office::OfficeOptions o;
@@ -79,14 +80,7 @@ class Opened {
   }
   /// A class list as the page sends it.
   [[nodiscard]] static nlohmann::json list(const std::string& text, const std::vector<std::string>& answers = {}) {
-    static constexpr char k_digits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string out;
-    for (std::size_t i = 0; i < text.size(); i += 3) {
-      const auto at = [&](std::size_t k) { return k < text.size() ? static_cast<unsigned char>(text[k]) : 0U; };
-      const unsigned three = at(i) << 16U | at(i + 1) << 8U | at(i + 2);
-      for (unsigned k = 0; k < 4; ++k) out += i + k <= text.size() ? k_digits[(three >> (18U - 6U * k)) & 63U] : '=';
-    }
-    return {{"base64", out}, {"answers", answers}};
+    return {{"base64", to_base64({reinterpret_cast<const std::uint8_t*>(text.data()), text.size()})}, {"answers", answers}};
   }
   /// Tickets of an hour around now for these numbers.
   [[nodiscard]] Heard issue(const Visitor& officer, const std::string& numbers, bool begin_at_office = false, bool another = false) const {

@@ -9,8 +9,7 @@ namespace cavum::office {
 namespace {
 
 using namespace testing_office;
-
-Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+using testing_basics::bytes_of;
 
 TEST(OneTimeCode, IsWhatRfc6238Prints) {  // appendix B, SHA-1
   const Bytes secret = bytes_of("12345678901234567890");

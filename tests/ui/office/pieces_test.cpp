@@ -6,7 +6,7 @@
 #include "engine/base/hash.h"
 #include "engine/session/sqlite.h"
 #include "tests/engine/session/fixture.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
 
 namespace cavum::office {

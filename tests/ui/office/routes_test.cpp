@@ -156,7 +156,7 @@ TEST(Wire, WhatIsWrittenReadsBack) {
   row.verdict = "pass";
   row.points = 12.5;
   row.decided = Decided{9, "Eva", "pass", "looked at it", true};
-  row.findings = {{ledger::FindingKind::clock, "a"}, {ledger::FindingKind::no_hand, "b"}};
+  row.findings = {{records::FindingKind::clock, "a"}, {records::FindingKind::no_hand, "b"}};
   const nlohmann::json written = to_json_value(row);
   EXPECT_FALSE(written.contains("later"));
   const auto read = json_value_of<ResultRow>(written, asked_json());

@@ -9,11 +9,11 @@
 
 #include "engine/session/session_reader.h"
 #include "engine/session/verify.h"
-#include "grading/ledger/begin.h"
-#include "grading/ledger/station_ticket.h"
-#include "scenarios/candidates/candidate_device.h"
+#include "grading/records/begin.h"
+#include "grading/records/station_ticket.h"
 #include "scenarios/exam/live_exam.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "scenarios/operators/candidate_device.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
 
 namespace cavum::office {
@@ -57,7 +57,7 @@ class AStation : public testing::Test {
     sit_shortly(k_scenario, path, text);
     return path;
   }
-  [[nodiscard]] std::size_t filed() const { return ledger::read_registry(opened_.content()).sessions.size(); }
+  [[nodiscard]] std::size_t filed() const { return records::read_registry(opened_.content()).sessions.size(); }
 
   Opened opened_;
   Visitor officer_;
@@ -73,7 +73,7 @@ TEST_F(AStation, FetchesTicketsAndGivesBackWhatIsCancelled) {
     return n;
   };
   ASSERT_TRUE(within(10, [&] { return tickets() == 2; }));
-  for (const auto& f : fs::directory_iterator(folder("tickets"))) EXPECT_NO_THROW(static_cast<void>(ledger::read_ticket(f.path().string())));
+  for (const auto& f : fs::directory_iterator(folder("tickets"))) EXPECT_NO_THROW(static_cast<void>(records::read_ticket(f.path().string())));
   const json all = officer_.get("/api/tickets").json();
   ASSERT_EQ(officer_.post("/api/tickets/cancel", {{"entry", all["tickets"][0]["entry"]}, {"reason", "ill"}}).status, 200);
   EXPECT_TRUE(within(10, [&] { return tickets() == 1; }));
@@ -114,7 +114,7 @@ TEST_F(AStation, AsksForTheWordAndDoesWithoutWhereThereIsNoNetwork) {
   const std::string nonce = station.tickets()[0]["nonce"];
   const auto link = begin();
   const std::string word = link->begin(nonce);
-  EXPECT_EQ(ledger::parse_begin(word, opened_.content().public_key, "word").ticket, nonce);
+  EXPECT_EQ(records::parse_begin(word, opened_.content().public_key, "word").ticket, nonce);
   EXPECT_THROW(static_cast<void>(link->begin(std::string(32, '0'))), Error) << "the office says no";
   opened_.close();
   EXPECT_EQ(link->begin(nonce), "");
@@ -135,9 +135,9 @@ TEST_F(AStation, HandsInByItselfAlsoWhatWasSatWithoutANetworkAndBeforeItBegan) {
   EXPECT_TRUE(StationLink::outcome(first)->filed);
   EXPECT_GT(StationLink::outcome(second)->entry, 0u);
   EXPECT_EQ(filed(), 2u);
-  const ledger::LedgerContent content = opened_.content();
+  const records::LedgerContent content = opened_.content();
   const json receipt = json::parse(read_text_file(folder("exams/4711.receipt.json")));
-  EXPECT_TRUE(ledger::check_receipt(receipt, content.public_key, &content).empty());
+  EXPECT_TRUE(records::check_receipt(receipt, content.public_key, &content).empty());
   officer_ = opened_.signed_in(Role::officer);
   const std::string third = sit("4713");
   link->hand_in();

@@ -1,7 +1,7 @@
 // Stations over the network: who is let in, what is heard once only, tickets, the word to begin, and exams that are handed in.
 #include "engine/base/json_fields.h"
-#include "grading/ledger/begin.h"
-#include "tests/grading/ledger/short_exam.h"
+#include "grading/records/begin.h"
+#include "tests/grading/records/short_exam.h"
 #include "tests/ui/office/opened.h"
 #include "ui/office/inbox.h"
 #include "ui/office/station_request.h"
@@ -90,7 +90,7 @@ TEST_F(OverTheNetwork, AKeyThatWasRevokedIsShutOutAtOnce) {
   const json invited = officer_.post("/api/stations/invite", {{"name", "Seat 9"}}).json();
   StationClient station("https://127.0.0.1:" + std::to_string(opened_->port()), opened_->certificate(), opened_->content().public_key, key);
   EXPECT_THROW(static_cast<void>(station.tickets()), Error) << "not enrolled";
-  const std::string request = ledger::station_request(key, opened_->content().public_key, {}, invited["code"].get<std::string>());
+  const std::string request = records::station_request(key, opened_->content().public_key, {}, invited["code"].get<std::string>());
   EXPECT_EQ(station.enrol(request)["name"], "Seat 9");
   EXPECT_THROW(static_cast<void>(station.enrol(request)), Error) << "a code is good once";
   station.report({{"state", "free"}});
@@ -136,16 +136,16 @@ TEST_F(OverTheNetwork, BeginOnceAndASecondStationIsNoticedAtOnce) {
   auto station = opened_->station();
   const json t = one_ticket("begin-1", true);
   const std::string word = station.begin(t["nonce"]);
-  EXPECT_EQ(ledger::parse_begin(word, opened_->content().public_key, "word").ticket, t["nonce"]);
+  EXPECT_EQ(records::parse_begin(word, opened_->content().public_key, "word").ticket, t["nonce"]);
   const auto entry = opened_->content().entries.back();
-  EXPECT_NE(entry.as<ledger::BeginEntry>(), nullptr);
+  EXPECT_NE(entry.as<records::BeginEntry>(), nullptr);
   EXPECT_EQ(entry.by.station, to_hex(load_station_key(station_key_path()).public_key));
   EXPECT_EQ(station.begin(t["nonce"]), word) << "its answer may have been lost: the same word, and no other entry";
   EXPECT_EQ(opened_->content().entries.size(), entry.seq + 1);
   const SigningKey other = load_signing_key(opened_->school().file("seat10.key"), "station");
   const std::string code = officer_.post("/api/stations/invite", {{"name", "Seat 10"}}).json()["code"];
   StationClient second("https://127.0.0.1:" + std::to_string(opened_->port()), opened_->certificate(), opened_->content().public_key, other);
-  static_cast<void>(second.enrol(ledger::station_request(other, opened_->content().public_key, {}, code)));
+  static_cast<void>(second.enrol(records::station_request(other, opened_->content().public_key, {}, code)));
   EXPECT_THROW(static_cast<void>(second.begin(t["nonce"])), Error);
   EXPECT_THROW(static_cast<void>(second.begin(std::string(32, '0'))), Error);
 }
@@ -179,8 +179,8 @@ TEST_F(OverTheNetwork, AnExamIsFiledAndItsReceiptHolds) {
   const json filed = Opened::outcome(station, hash);
   ASSERT_EQ(filed["state"], "filed") << filed;
   const auto content = opened_->content();
-  EXPECT_EQ(content.entries.at(filed["entry"]).as<ledger::SessionEntry>()->file_sha256, hash);
-  EXPECT_TRUE(ledger::check_receipt(filed["receipt"], content.public_key, &content).empty());
+  EXPECT_EQ(content.entries.at(filed["entry"]).as<records::SessionEntry>()->file_sha256, hash);
+  EXPECT_TRUE(records::check_receipt(filed["receipt"], content.public_key, &content).empty());
   EXPECT_EQ(read_file(opened_->school().places().session(hash)), image);
   EXPECT_EQ(station.hand_in(image)["state"], "waiting") << "sent twice";
   EXPECT_EQ(Opened::outcome(station, hash)["entry"], filed["entry"]);

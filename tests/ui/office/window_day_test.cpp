@@ -13,7 +13,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/session/session_reader.h"
-#include "grading/ledger/begin.h"
+#include "grading/records/begin.h"
 #include "tests/ui/office/opened.h"
 #include "tests/ui/station/virtual_screen.h"
 #include "ui/office/station_link.h"
@@ -161,14 +161,14 @@ TEST_F(AWindow, SitsAnExamWithTheOfficesWordAPauseAnAnnouncementAndFilesIt) {
   const std::uint64_t entry = told["entry"];
   EXPECT_NE(std::find(office.begin(), office.end(), TimedEvent{0, Announced{{entry, "Lunch is at one."}}}), office.end());
   EXPECT_NE(std::find(office.begin(), office.end(), TimedEvent{0, AnnouncementRead{{entry}}}), office.end());
-  const std::string word = session.fact(std::string("note.") + ledger::k_begin_note);
-  EXPECT_EQ(ledger::parse_begin(word, opened_.content().public_key, "word").ledger, opened_.id());
+  const std::string word = session.fact(std::string("note.") + records::k_begin_note);
+  EXPECT_EQ(records::parse_begin(word, opened_.content().public_key, "word").ledger, opened_.id());
   const json result = json::parse(session.result_json());
   const std::int64_t stood = result["pauses"]["ticks"];
   EXPECT_EQ(stood, held);
   EXPECT_EQ(result["pauses"]["list"][0]["by_office"], true);
   EXPECT_NEAR(result["time_s"].get<double>(), static_cast<double>(session.ticks() - stood) * 0.001, 0.0015) << "the time is given back";
-  const ledger::Registry registry = ledger::read_registry(opened_.content());
+  const records::Registry registry = records::read_registry(opened_.content());
   ASSERT_EQ(registry.sessions.size(), 1u);
   EXPECT_TRUE(registry.sessions[0].findings.empty());
   EXPECT_EQ(registry.sessions[0].seq, done.entry);
@@ -194,7 +194,7 @@ TEST_F(AWindow, ATicketThatTheOfficeCancelledOrAnotherStationHasBeginsNoExam) {
   const SigningKey other = load_signing_key(opened_.school().file("seat2.key"), "station");
   const std::string code = officer_.post("/api/stations/invite", {{"name", "Seat 2"}}).json()["code"];
   StationClient second(opened_.address(), opened_.certificate(), opened_.content().public_key, other);
-  static_cast<void>(second.enrol(ledger::station_request(other, opened_.content().public_key, {}, code)));
+  static_cast<void>(second.enrol(records::station_request(other, opened_.content().public_key, {}, code)));
   static_cast<void>(second.begin(second.tickets()[0]["nonce"]));
   start(candidate, "wait sign-in\nsleep 3\ntype %\nkey enter\nsleep 6\npicture refused\nwords refused\nsleep 600\n");
   const std::string words = pictures() + "/refused.txt";

@@ -1,4 +1,4 @@
-// Unpacks what a report carries, in a way of its own: base64 by hand, zstd, little-endian numbers, differences added up.
+// Unpacks what a report carries, in a way of its own: zstd, little-endian numbers, differences added up.
 #pragma once
 
 #include <gtest/gtest.h>
@@ -9,26 +9,13 @@
 #include <string>
 #include <vector>
 
-namespace cavum::testing_report {
+#include "engine/base/encoding.h"
 
-inline std::vector<std::uint8_t> from_base64(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::vector<std::uint8_t> bytes;
-  std::uint32_t bits = 0;
-  int n = 0;
-  for (const char c : text) {
-    if (c == '=') break;
-    const auto digit = digits.find(c);
-    EXPECT_NE(digit, std::string::npos);
-    bits = bits << 6 | static_cast<std::uint32_t>(digit);
-    if ((n += 6) >= 8) bytes.push_back(static_cast<std::uint8_t>(bits >> (n -= 8)));
-  }
-  return bytes;
-}
+namespace cavum::testing_report {
 
 /// The numbers of a packed array, whatever their type.
 inline std::vector<long> unpack(const nlohmann::json& bin) {
-  const std::vector<std::uint8_t> packed = from_base64(bin.at("zstd").get<std::string>());
+  const Bytes packed = from_base64(bin.at("zstd").get<std::string>()).value();
   const std::string type = bin.at("type");
   const std::size_t n = bin.at("n"), bytes = type.ends_with("16") ? 2 : 1;
   std::vector<std::uint8_t> raw(n * bytes + 1);

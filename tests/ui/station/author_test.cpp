@@ -105,7 +105,7 @@ TEST_F(AuthorWindow, AMistakeMadeByHandIsNamedWithItsLine) {
   EXPECT_EQ(
       run("wait author\nkey tab\nkey tab\nkey pagedown 3\nwait author\nsleep 0.3\npicture 24-author-mistake\nkey escape\nsleep 0.4\nkey enter\n"), 0)
       << said();
-  const auto problems = scenarios::check_scenario(read_text_file(file()), file());
+  const auto problems = scenarios::read_scenario(read_text_file(file()), file()).problems;
   ASSERT_EQ(problems.size(), 1u);
   EXPECT_FALSE(problems[0].warning);
   EXPECT_GT(problems[0].where.line, 0);

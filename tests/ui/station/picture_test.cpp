@@ -11,6 +11,7 @@
 #include "engine/tooth/octree_edit.h"
 #include "tests/engine/support/basics.h"
 #include "tests/engine/support/engine_testing.h"
+#include "tests/engine/tooth/tooth_testing.h"
 #include "ui/station/effects.h"
 #include "ui/station/instrument_mesh.h"
 #include "ui/station/thinned_patch.h"
@@ -48,12 +49,6 @@ class Pile {
   double six_volume_ = 0;
 };
 
-struct CutBall {
-  Vec3 centre_mm;
-  double radius_mm;
-  double operator()(Vec3 mm) const noexcept { return length(mm - centre_mm) - radius_mm; }
-};
-
 TEST(ThinnedPatches, AreClosedTogetherWhateverTheirCells) {
   Random random(testing_basics::drawn_seed("ThinnedPatches.AreClosedTogetherWhateverTheirCells"));
   MolarShape shape;
@@ -62,7 +57,7 @@ TEST(ThinnedPatches, AreClosedTogetherWhateverTheirCells) {
   tooth.octree.reserve_edits(20000);
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 16);
-  const CutBall cut{{0.4, -0.3, 0.0}, 1.2};
+  const testing_tooth::Ball cut{{0.4, -0.3, 0.0}, 1.2};
   const Vec3 reach{2, 2, 2};
   ASSERT_TRUE(tooth.octree.carve(cut.centre_mm - reach, cut.centre_mm + reach, cut, removed));
   const LeafBlocks leaves(tooth.octree);

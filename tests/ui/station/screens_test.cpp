@@ -13,7 +13,7 @@
 
 #include "engine/device/simulated_stylus.h"
 #include "engine/device/with_desk.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/operators/simulated_exam.h"
 #include "tests/engine/support/basics.h"
 #include "ui/station/camera.h"
 #include "ui/station/coach.h"

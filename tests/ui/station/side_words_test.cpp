@@ -7,7 +7,7 @@
 #include <map>
 
 #include "engine/base/random.h"
-#include "scenarios/candidates/simulated_exam.h"
+#include "scenarios/operators/simulated_exam.h"
 #include "tests/engine/support/basics.h"
 #include "tests/ui/station/station_window.h"
 

@@ -14,7 +14,7 @@
 #include "engine/tooth/surface_patches.h"
 #include "tests/engine/support/basics.h"
 #include "tests/faults/full_disk.h"
-#include "tests/grading/ledger/school.h"
+#include "tests/grading/records/school.h"
 
 namespace cavum::station {
 namespace {
@@ -220,8 +220,8 @@ TEST_F(SittingTest, GivesEachCandidateAFileOfHisOwnInAFolder) {
 
 TEST_F(SittingTest, OnlyWhoHasATicketSitsAndAsItPromises) {
   const testing_ledger::School school;
-  const std::string ticket = school.ticket("4711", [](ledger::Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
-  const std::string candidate = ledger::parse_ticket(ticket, "", "ticket").candidate;
+  const std::string ticket = school.ticket("4711", [](records::Ticket& t) { t.grant = {{"accommodation.extra_time_percent", "50"}}; });
+  const std::string candidate = records::parse_ticket(ticket, "", "ticket").candidate;
   options_.tickets = school.file("tickets");
   std::filesystem::create_directories(options_.tickets);
   write_text_file(options_.tickets + "/" + candidate + ".ticket", ticket + "\n");

@@ -10,8 +10,8 @@
 #include <thread>
 
 #include "engine/session/session_reader.h"
-#include "scenarios/candidates/candidate_device.h"
 #include "scenarios/exam/live_exam.h"
+#include "scenarios/operators/candidate_device.h"
 #include "tests/ui/station/station_window.h"
 #include "ui/station/picture_file.h"
 

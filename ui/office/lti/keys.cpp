@@ -7,16 +7,16 @@
 #include <openssl/param_build.h>
 #include <openssl/pem.h>
 #include <openssl/rsa.h>
-#include <sodium.h>
 
 #include <memory>
 #include <set>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "grading/ledger/ledger_key.h"
+#include "grading/records/ledger_key.h"
 #include "ui/office/lti/lti_error.h"
 
 namespace cavum::office {
@@ -125,21 +125,12 @@ const json* key_named(const json& keys, const std::string& kid, bool& twice) {
 }  // namespace
 
 std::string to_base64url(std::string_view bytes) {
-  std::string out(sodium_base64_encoded_len(bytes.size(), sodium_base64_VARIANT_URLSAFE_NO_PADDING), '\0');
-  sodium_bin2base64(out.data(), out.size(), reinterpret_cast<const unsigned char*>(bytes.data()), bytes.size(),
-                    sodium_base64_VARIANT_URLSAFE_NO_PADDING);
-  out.pop_back();  // the zero at the end
-  return out;
+  return to_base64({reinterpret_cast<const std::uint8_t*>(bytes.data()), bytes.size()}, Base64::in_address);
 }
 
 std::optional<std::string> from_base64url(std::string_view text) {
-  std::string out(text.size(), '\0');
-  std::size_t size = 0;
-  if (sodium_base642bin(reinterpret_cast<unsigned char*>(out.data()), out.size(), text.data(), text.size(), nullptr, &size, nullptr,
-                        sodium_base64_VARIANT_URLSAFE_NO_PADDING) != 0)
-    return std::nullopt;
-  out.resize(size);
-  return out;
+  const auto bytes = from_base64(text, Base64::in_address);
+  return bytes ? std::optional<std::string>({bytes->begin(), bytes->end()}) : std::nullopt;
 }
 
 LtiKey new_lti_key(std::int64_t utc_ns) {
@@ -148,7 +139,7 @@ LtiKey new_lti_key(std::int64_t utc_ns) {
   if (!key || !text || PEM_write_bio_PKCS8PrivateKey(text.get(), key.get(), nullptr, nullptr, 0, nullptr, nullptr) != 1) throw key_error();
   char* data = nullptr;
   const long size = BIO_get_mem_data(text.get(), &data);
-  return {ledger::random_hex(k_kid_bytes), {data, static_cast<std::size_t>(size)}, utc_ns};
+  return {records::random_hex(k_kid_bytes), {data, static_cast<std::size_t>(size)}, utc_ns};
 }
 
 json public_key_set(const std::vector<LtiKey>& keys) {

@@ -23,7 +23,7 @@ struct LtiKey {
 /// header.payload.signature, signed by RS256. Throws Error when the key cannot be read.
 [[nodiscard]] std::string sign_token(const nlohmann::json& claims, const LtiKey& key);
 
-/// Base64url without padding; nothing for another text.
+/// Base64::in_address, of text.
 [[nodiscard]] std::string to_base64url(std::string_view bytes);
 [[nodiscard]] std::optional<std::string> from_base64url(std::string_view text);
 

@@ -5,11 +5,12 @@
 
 #include <algorithm>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"
-#include "grading/ledger/ledger_key.h"
+#include "grading/records/ledger_key.h"
 #include "ui/office/lti/lti_error.h"
 
 namespace cavum::office {
@@ -108,15 +109,15 @@ std::string url_encoded(std::string_view text) {
   return out;
 }
 
-LtiLogins::LtiLogins() : secret_(ledger::random_hex(k_random_bytes)) {}
+LtiLogins::LtiLogins() : secret_(records::random_hex(k_random_bytes)) {}
 
 /// text.seal
 std::string LtiLogins::sealed(const std::string& text) const {
   unsigned char seal[crypto_auth_BYTES];
   static_assert(crypto_auth_KEYBYTES == k_random_bytes);
-  const Bytes key = ledger::from_hex(secret_, k_random_bytes, msg("the secret"));
+  const Bytes key = records::from_hex(secret_, k_random_bytes, msg("the secret"));
   crypto_auth(seal, reinterpret_cast<const unsigned char*>(text.data()), text.size(), key.data());
-  return text + "." + to_base64url({reinterpret_cast<const char*>(seal), sizeof seal});
+  return text + "." + to_base64(seal, Base64::in_address);
 }
 
 LtiLogin LtiLogins::begin(const LtiPlatforms& platforms, const std::map<std::string, std::string>& fields, std::int64_t now_s) const {
@@ -132,7 +133,7 @@ LtiLogin LtiLogins::begin(const LtiPlatforms& platforms, const std::map<std::str
   if (found.size() > 1) throw launch_error(LtiError::platform, msg("does not say which of the platforms of its issuer it comes from"));
   const LtiPlatform& p = found.front();
   if (target != p.office + k_lti_launch) throw launch_error(LtiError::target, msg("leads to another place than this office"));
-  const std::string state = ledger::random_hex(k_random_bytes), nonce = ledger::random_hex(k_random_bytes);
+  const std::string state = records::random_hex(k_random_bytes), nonce = records::random_hex(k_random_bytes);
   const json kept = {{"state", state}, {"nonce", nonce}, {"until", now_s + k_login_s}, {"iss", p.issuer}, {"client", p.client_id}};
   std::string address = p.auth_endpoint + (p.auth_endpoint.find('?') == std::string::npos ? "?" : "&");
   address += "scope=openid&response_type=id_token&response_mode=form_post&prompt=none&client_id=" + url_encoded(p.client_id) +

@@ -9,11 +9,11 @@
 #include <memory>
 #include <optional>
 
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/language/say.h"
-#include "ui/report/figures/packed_array.h"
 
 namespace cavum::report {
 namespace {
@@ -29,12 +29,8 @@ constexpr Colour k_left{0.0, 0.447, 0.698}, k_planned{0.96, 0.96, 0.94}, k_beyon
 Colour mix(Colour a, Colour b, double share) { return {a.r + (b.r - a.r) * share, a.g + (b.g - a.g) * share, a.b + (b.b - a.b) * share}; }
 Colour of_deviation(double mm) { return mix(k_planned, mm < 0 ? k_left : k_beyond, std::min(1.0, std::fabs(mm) / k_colours_end_mm)); }
 std::string hex(Colour c) {
-  const auto byte = [](double v) {
-    constexpr char k_digits[] = "0123456789abcdef";
-    const auto n = static_cast<unsigned>(std::lround(v * 255));
-    return std::string{k_digits[n >> 4], k_digits[n & 15]};
-  };
-  return fmt::format("#{}{}{}", byte(c.r), byte(c.g), byte(c.b));
+  const auto byte = [](double v) { return std::lround(v * 255); };
+  return fmt::format("#{:02x}{:02x}{:02x}", byte(c.r), byte(c.g), byte(c.b));
 }
 
 /// z of the highest solid leaf of each column, -1 without; x fastest.
@@ -253,7 +249,7 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
       fixed(all_width, 0), fixed(all_height, 0), fixed(all_width, 0), fixed(all_height, 0), fixed(k_font_px, 0), text_at(4, 17, tr("↑ buccal")),
       text_at(width - 4, 17, tr("mesial →"), "end"));
   svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
-                     fixed(width, 1), fixed(height, 1), base64(columns_png(columns)));
+                     fixed(width, 1), fixed(height, 1), to_base64(columns_png(columns)));
   if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
   for (const auto& line : beside) svg += line;
   return svg + "</svg>\n";

@@ -1,7 +1,7 @@
 // The tooth from above as the candidate left it: what was cut is coloured by how far its surface lies from the target's walls and floor.
 #pragma once
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "ui/report/print/document.h"
 
 namespace cavum::report {

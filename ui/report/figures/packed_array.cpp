@@ -1,13 +1,12 @@
 #include "ui/report/figures/packed_array.h"
 
 #include <fmt/core.h>
-#include <sodium.h>
 #include <zstd.h>
 
 #include <nlohmann/json.hpp>
 #include <type_traits>
 
-#include "engine/base/bytes.h"
+#include "engine/base/encoding.h"
 #include "engine/base/error.h"
 
 namespace cavum::report {
@@ -30,17 +29,10 @@ nlohmann::json pack(std::span<const T> values, const char* type, bool delta) {
   const std::size_t n = ZSTD_compress(packed.data(), packed.size(), bytes.data(), bytes.size(), k_level);
   if (ZSTD_isError(n) != 0) throw Error(msg("report"), msg("zstd refuses to pack {} bytes", bytes.size()), msg("free some memory"));
   packed.resize(n);
-  return {{"type", type}, {"n", values.size()}, {"delta", delta}, {"zstd", base64(packed)}};
+  return {{"type", type}, {"n", values.size()}, {"delta", delta}, {"zstd", to_base64(packed)}};
 }
 
 }  // namespace
-
-std::string base64(std::span<const std::uint8_t> bytes) {
-  std::string text(sodium_base64_encoded_len(bytes.size(), sodium_base64_VARIANT_ORIGINAL), '\0');
-  sodium_bin2base64(text.data(), text.size(), bytes.data(), bytes.size(), sodium_base64_VARIANT_ORIGINAL);
-  text.pop_back();  // the zero at its end
-  return text;
-}
 
 nlohmann::json packed_array(std::span<const std::uint8_t> values, bool delta) { return pack(values, "u8", delta); }
 nlohmann::json packed_array(std::span<const std::int8_t> values, bool delta) { return pack(values, "i8", delta); }

@@ -15,7 +15,4 @@ namespace cavum::report {
 [[nodiscard]] nlohmann::json packed_array(std::span<const std::uint16_t> values, bool delta = false);
 [[nodiscard]] nlohmann::json packed_array(std::span<const std::int16_t> values, bool delta = false);
 
-/// Base64 with padding, one line.
-[[nodiscard]] std::string base64(std::span<const std::uint8_t> bytes);
-
 }  // namespace cavum::report

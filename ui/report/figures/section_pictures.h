@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 #include "scenarios/review/picture.h"
 
 namespace cavum::report {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "grading/grade.h"
+#include "grading/marking/grade.h"
 
 namespace cavum::report {
 

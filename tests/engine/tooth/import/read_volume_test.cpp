@@ -10,6 +10,7 @@
 #include <cstdlib>
 #include <thread>
 
+#include "engine/base/encoding.h"
 #include "engine/base/file_error.h"
 #include "engine/base/random.h"
 #include "engine/tooth/volume/volume_limits.h"
@@ -145,12 +146,6 @@ TEST(ReadVolume, SizesThatAreClaimedAreRefusedBeforeTheyAreTaken) {
 /// Packed by gzip: 4096 bytes, of which byte i is i % 7. Made by Python: gzip.compress(bytes(i % 7 for i in range(4096)), mtime=0).
 constexpr const char* k_packed = "1f8b0800000000000203edc5c1110030040030b4ec3fb23d5cf24964bddf139224499224e96e0b77d3c17400100000";
 
-Bytes from_hex(const std::string& hex) {
-  Bytes out;
-  for (std::size_t i = 0; i < hex.size(); i += 2) out.push_back(static_cast<std::uint8_t>(std::stoi(hex.substr(i, 2), nullptr, 16)));
-  return out;
-}
-
 std::string packed_meta(std::size_t size) {
   return "ObjectType = Image\nNDims = 3\nBinaryData = True\nCompressedData = True\n" +
          (size == 0 ? std::string() : "CompressedDataSize = " + std::to_string(size) + "\n") +
@@ -160,7 +155,7 @@ std::string packed_meta(std::size_t size) {
 // MetaIO unpacks the header when the size is missing, and gives whatever that makes for a volume.
 TEST(ReadVolume, AMetaImageThatMisstatesItsPackedBytesIsRefused) {
   const auto folder = fresh_folder();
-  const Bytes packed = from_hex(k_packed);
+  const Bytes packed = from_hex(k_packed).value();
   for (const std::size_t said : {std::size_t{0}, std::size_t{1}, packed.size() - 1, packed.size() + 1, std::size_t{1'000'000'000'000}}) {
     const std::string head = packed_meta(said);
     Bytes all(head.begin(), head.end());
@@ -172,7 +167,7 @@ TEST(ReadVolume, AMetaImageThatMisstatesItsPackedBytesIsRefused) {
 
 TEST(ReadVolume, PackedDataThatWereCutOrDamagedAreRefused) {
   const auto folder = fresh_folder();
-  const Bytes packed = from_hex(k_packed);
+  const Bytes packed = from_hex(k_packed).value();
   const std::string meta = packed_meta(packed.size());
   const std::string nrrd = "NRRD0004\ntype: uchar\ndimension: 3\nsizes: 16 16 16\nspacings: 0.2 0.2 0.2\nencoding: gzip\n\n";
   for (const auto& format : {std::pair("v.mha", meta), std::pair("v.nrrd", nrrd)}) {

@@ -2,6 +2,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/base/order.h"
 #include "tests/engine/tooth/make/tooth_meter.h"
 
 namespace cavum::testing_tooth {
@@ -30,11 +31,6 @@ Common add_common(const ToothMeter& t, double tip_z, Measures& m) {
   m.emplace_back("contact mesial, share of the crown", (mesial.second - c.buccal_cej) / (tip_z - c.buccal_cej));
   m.emplace_back("contact distal, share of the crown", (distal.second - c.buccal_cej) / (tip_z - c.buccal_cej));
   return c;
-}
-
-double median(std::vector<double> v) {
-  std::sort(v.begin(), v.end());
-  return v[v.size() / 2];
 }
 
 /// Fissure between low_x and high_x.

@@ -11,7 +11,7 @@
 namespace cavum {
 namespace {
 
-Bytes bytes_of(const std::string& text) { return {text.begin(), text.end()}; }
+using testing_basics::bytes_of;
 
 const std::vector<std::vector<std::uint32_t>> k_sides{{0, 2, 3, 1}, {4, 5, 7, 6}, {0, 1, 5, 4}, {2, 6, 7, 3}, {0, 4, 6, 2}, {1, 3, 7, 5}};
 Vec3 corner(std::uint32_t i) { return {2.5 * (i & 1), 2.5 * (i >> 1 & 1), 2.5 * (i >> 2)}; }

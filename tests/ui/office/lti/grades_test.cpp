@@ -1,10 +1,10 @@
 // Scores that go to a learning platform: released ones alone, once each, corrected and taken back as the ledger says.
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"
-#include "grading/ledger/decision.h"
-#include "grading/ledger/passback.h"
-#include "grading/ledger/regrade.h"
-#include "grading/ledger/release.h"
+#include "grading/records/decision.h"
+#include "grading/records/passback.h"
+#include "grading/records/regrade.h"
+#include "grading/records/release.h"
 #include "tests/ui/office/lti/platform.h"
 
 namespace cavum::office {
@@ -29,7 +29,7 @@ class Grades : public testing::Test {
       ASSERT_EQ(filed["state"], "filed") << filed;
       auto ledger = opened_.school().ledger();
       const auto& session = ledger.registry().sessions.back();
-      const std::string number = ledger::Identities(opened_.school().places().identities()).of_pseudonym(session.candidate)->id;
+      const std::string number = records::Identities(opened_.school().places().identities()).of_pseudonym(session.candidate)->id;
       sessions_[number] = session.seq;
       hashes_[number] = session.file_sha256;
       result_ = *session.result;
@@ -38,11 +38,11 @@ class Grades : public testing::Test {
   void TearDown() override { EXPECT_EQ(platform_.control()["violations"], json::array()) << "what this office sent and a standard refuses"; }
 
   void release(const std::vector<std::string>& numbers) {
-    ledger::ReleaseWish wish;
+    records::ReleaseWish wish;
     wish.undecided = true;
     for (const auto& n : numbers) wish.sessions.push_back(sessions_.at(n));
     auto ledger = opened_.school().ledger();
-    ASSERT_EQ(ledger::release_results(ledger, wish).results.size(), numbers.size());
+    ASSERT_EQ(records::release_results(ledger, wish).results.size(), numbers.size());
   }
   /// Once nothing waits any more, or something keeps it; `again`: an officer has pressed the button.
   json settled(bool again = true) {
@@ -58,7 +58,7 @@ class Grades : public testing::Test {
     }
     return progress.empty() ? json::object() : progress[0];
   }
-  [[nodiscard]] std::vector<ledger::PassbackEntry> entries() const { return ledger::read_registry(opened_.content()).passbacks; }
+  [[nodiscard]] std::vector<records::PassbackEntry> entries() const { return records::read_registry(opened_.content()).passbacks; }
   Heard come(const std::string& who) { return Browser{opened_.port(), &platform_}.launch(who); }
 
   Opened opened_;
@@ -96,7 +96,7 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
   auto ledger = opened_.school().ledger();
   json better = result_;
   better["score"]["points"] = 71.5, better["verdict"] = "pass";
-  ledger::enter_regrade(ledger, sessions_["4711"], better, {}, "an appeal");
+  records::enter_regrade(ledger, sessions_["4711"], better, {}, "an appeal");
   settled();
   EXPECT_EQ(platform_.control()["posts"].size(), 2U) << "a new mark waits for its release";
   release({"4711"});
@@ -108,7 +108,7 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
   EXPECT_EQ(corrected["scoreGiven"], 71.5);
 
   auto now = opened_.school().ledger();
-  ledger::retract_results(now, {sessions_["4711"]}, "wrong tooth");
+  records::retract_results(now, {sessions_["4711"]}, "wrong tooth");
   settled();
   state = platform_.control();
   ASSERT_EQ(state["posts"].size(), 4U);
@@ -119,7 +119,7 @@ TEST_F(Grades, AreSentOnceWhenReleasedAndCorrectedAndTakenBack) {
   EXPECT_EQ(entries().back().result, 0U);
   settled();
   EXPECT_EQ(platform_.control()["posts"].size(), 4U);
-  EXPECT_TRUE(ledger::read_registry(opened_.content()).findings.empty());
+  EXPECT_TRUE(records::read_registry(opened_.content()).findings.empty());
 }
 
 TEST_F(Grades, AReviewIsNeverSentAsAMark) {
@@ -127,7 +127,7 @@ TEST_F(Grades, AReviewIsNeverSentAsAMark) {
   auto ledger = opened_.school().ledger();
   json review = result_;
   review["verdict"] = "review";
-  ledger::enter_regrade(ledger, sessions_["4711"], review, {}, "left to a person");
+  records::enter_regrade(ledger, sessions_["4711"], review, {}, "left to a person");
   release({"4711"});
   settled();
   json state = platform_.control();
@@ -140,7 +140,7 @@ TEST_F(Grades, AReviewIsNeverSentAsAMark) {
   EXPECT_EQ(state["posts"][0]["gradingProgress"], "PendingManual");
   EXPECT_FALSE(state["posts"][0].contains("scoreGiven"));
   auto now = opened_.school().ledger();
-  ledger::enter_decision(now, sessions_["4711"], {grading::Verdict::pass, "Dr Stein", "the wall is thick enough"});
+  records::enter_decision(now, sessions_["4711"], {grading::Verdict::pass, "Dr Stein", "the wall is thick enough"});
   release({"4711"});
   settled();
   state = platform_.control();
@@ -232,7 +232,7 @@ TEST_F(Grades, ALearnerSeesHisOwnReleasedResultAndNoneBesides) {
   ASSERT_EQ(nobody.launch("Learner:").status, 303);
   EXPECT_EQ(nobody.ask("GET", "/lti/result").body.find("/lti/report/"), std::string::npos) << "the platform does not tell who comes";
   auto ledger = opened_.school().ledger();
-  ledger::retract_results(ledger, {sessions_["4711"]}, "wrong tooth");
+  records::retract_results(ledger, {sessions_["4711"]}, "wrong tooth");
   EXPECT_EQ(b.ask("GET", "/lti/report/" + hashes_["4711"]).status, 400) << "taken back";
   EXPECT_EQ(b.ask("GET", "/lti/result").body.find(hashes_["4711"]), std::string::npos);
 }

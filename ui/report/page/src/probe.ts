@@ -46,7 +46,7 @@ export function share_at(field: ToothField, p_mm: Vec3): number {
 }
 
 /** Signed distance to the target, mm; null outside the box. */
-export function distance_at(field: ToothField, p_mm: Vec3): number | null {
+function distance_at(field: ToothField, p_mm: Vec3): number | null {
   const p = to_cells(field, p_mm).map((v, a) => v - field.box.low[a]) as Vec3;
   if (p.some((v, a) => v < 0 || v > field.box.size[a] - 1)) return null;
   return blend(field.distance, field.box.size, p) * 0.02;

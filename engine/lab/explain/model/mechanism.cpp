@@ -1,0 +1,93 @@
+#include "engine/lab/explain/model/mechanism.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+
+namespace cavum::explain {
+namespace {
+
+/// Throws std::logic_error on a record that cannot be used.
+void check(const std::vector<Mechanism>& all) {
+  const auto wrong = [](const std::string& what) { throw std::logic_error("table of laws: " + what); };
+  std::set<std::string> names;
+  std::set<const TermKind*> terms;
+  for (const auto& m : all) {
+    for (const char* text : {m.name, m.equation, m.words, m.separate})
+      if (text == nullptr) wrong(fmt::format("{} lacks a text", m.name != nullptr ? m.name : "a record"));
+    const std::string name = m.name;
+    if (!names.insert(name).second) wrong("two are called " + name);
+    if (!m.grid || !m.columns || !m.parameters) wrong(name + " lacks a function");
+    if (m.simpler)
+      if (const auto fewer = m.simpler(std::vector<double>(m.shape.size(), 1.0)); !fewer.empty() && fewer.size() != m.shape.size())
+        wrong(name + " says its law with fewer numbers in another number of shapes");
+    if (m.term == nullptr) {
+      if (m.from_term || m.shape_in_term) wrong(name + " has no force term, and speaks of one");
+      continue;
+    }
+    terms.insert(m.term);
+    if (name != m.term->name) wrong(fmt::format("{} names the force term {}", name, m.term->name));
+    if (!m.from_term && !m.from_residual) wrong(name + " cannot be read from its force term");
+  }
+  for (const auto& m : all)
+    for (const char* other : {m.variant_of, m.like_when_short})
+      if (other != nullptr && !names.contains(other)) wrong(fmt::format("{} speaks of {}, which is not there", m.name, other));
+  const auto& kinds = term_kinds();
+  if (std::set<const TermKind*>(kinds.begin(), kinds.end()) != terms) wrong("force terms and laws differ");
+}
+
+}  // namespace
+
+const std::vector<Mechanism>& mechanisms() {
+  static const std::vector<Mechanism> all = [] {
+    std::vector<Mechanism> found;
+    for (const auto family : {offset_mechanisms, friction_mechanisms, sensor_mechanisms, play_mechanisms, tissue_mechanisms, cutting_mechanisms})
+      for (auto& m : family()) found.push_back(std::move(m));
+    check(found);
+    return found;
+  }();
+  return all;
+}
+
+std::vector<std::vector<double>> starts(const Mechanism& m, const Scene& scene) {
+  const auto there = [&](const char* column) { return scene.recording->column(column) != nullptr; };
+  if (!m.needs.empty() && std::none_of(m.needs.begin(), m.needs.end(), there)) return {};
+  return m.grid(scene);
+}
+
+std::vector<ShapeRange> ranges_of(const Mechanism& m, const Scene& scene) {
+  std::vector<ShapeRange> out = m.shape;
+  if (!m.ends || out.empty()) return out;
+  const auto [low, high] = m.ends(scene);
+  out[0].low = std::clamp(low, out[0].low, out[0].high);
+  out[0].high = std::clamp(high, out[0].low, out[0].high);
+  return out;
+}
+
+bool makes_sense(const Mechanism& m, const double* own, std::size_t count) {
+  return std::all_of(own, own + count, [&](double v) { return v > m.own.low && v < m.own.high; });
+}
+
+std::size_t session_groups(const Recording& r) { return r.sessions.size() <= 12 ? std::max<std::size_t>(1, r.sessions.size()) : 1; }
+
+int law_of(int at) {
+  const char* law = mechanism_at(at).variant_of;
+  return law != nullptr ? known_mechanism(law) : at;
+}
+
+int find_mechanism(const std::string& name) {
+  const auto& all = mechanisms();
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (name == all[i].name) return static_cast<int>(i);
+  return -1;
+}
+
+int known_mechanism(const std::string& name) {
+  const int at = find_mechanism(name);
+  if (at < 0) throw std::logic_error(fmt::format("there is no mechanism '{}'", name));
+  return at;
+}
+
+}  // namespace cavum::explain

@@ -1,0 +1,77 @@
+// Surface-constrained proxy of the whole diamond point. The proxy is where the tooth lets the tool be:
+// it follows the device without ever entering solid tissue, so a hard push cannot pop through and the
+// normal cannot flip. X, the distance from the proxy to the device, is what the force is made of.
+#pragma once
+
+#include <vector>
+
+#include "engine/base/pose.h"
+#include "engine/base/reserved_vector.h"
+#include "engine/physics/contact/contact_tool.h"
+#include "engine/physics/contact/half_spaces.h"
+#include "engine/physics/contact/touched_means.h"
+#include "engine/tooth/octree.h"
+
+namespace cavum {
+
+/// Half spaces about a place of the proxy: good for small moves of a tool that does not turn. Cutting only takes tissue away, so that
+/// those from before a carve still hold, though they allow less.
+struct GatheredContact {
+  ReservedVector<HalfSpace> half_spaces;  ///< one of each near sample, then refined ones
+  ReservedVector<std::uint32_t> samples;  ///< of the first half spaces
+  Vec3 at_mm;
+  double turned_rad = -1.0, reach_mm = 0.0;
+  std::uint64_t edit = 0;                         ///< edit hash of the tooth that they are about
+  std::uint32_t next_patch = 0, next_sample = 0;  ///< of the tool, while they are being gathered
+};
+
+/// Where the last carve made room for the head, as the tool was turned then.
+struct OpenedPlace {
+  Vec3 tip_mm;
+  double turned_rad = -1.0;  ///< ContactState::turned_rad then; -1 = there is none
+};
+
+/// Memory of the contact: the proxy, and how far each patch and sample may travel through free air that is known already.
+/// Travel is an upper bound of the way of a part of the tool: what the tip moved, and what the tool turned times the part's lever.
+struct ContactState {
+  Vec3 proxy_mm;
+  Mat3 rotation;
+  Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
+  bool touching = false;
+  int point = -1;                           ///< diamond point that the arrays belong to
+  double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
+  double stride_mm = 0.0;                   ///< the longest next step of the proxy
+  Vec3 last_step_mm;
+  double tool_air_until_mm = 0.0, tool_near_until_mm = 0.0;
+  std::vector<double> patch_clear_until_mm, patch_near_until_mm, sample_clear_until_mm;
+  GatheredContact gathered, coming;  ///< those in force, and those that a few ticks gather after a carve
+  bool catching_up = false;          ///< the latter are being gathered
+  OpenedPlace opened;                ///< set by whoever carves
+  ActiveSet active;                  ///< half spaces that held the last step
+  TouchedMemory touched;
+  int looked_up = 0;  ///< places of the tooth that this tick asked for: what contact has cost
+  Octree::Cursor cursor;
+};
+[[nodiscard]] ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm);
+
+/// What one tick of contact found.
+struct ContactResult {
+  bool touching = false;
+  bool on_its_way = false;    ///< the proxy goes on in the next tick: it has not arrived
+  bool in_air = false;        ///< nothing of the tooth, not even void tissue, near any part of the tool
+  Vec3 normal;                ///< out of the tooth, from the device to the proxy
+  double penetration_mm = 0;  ///< X, before any recession that the cutting still owes
+  Vec3 moved_mm;              ///< how far the proxy moved
+};
+
+/// Moves the proxy towards `device`, at most 12 steps of one leaf in a tick near the tooth. A step that leads back the way the one before came
+/// shortens the stride; a tick with two of them ends early, and the proxy goes on in the next.
+/// After a carve what touches is gathered anew over a few ticks; then the proxy takes the way that was opened at once. Until then the half spaces
+/// from before hold it: `state.gathered.edit` says which tooth it has followed.
+/// Rotation follows the device.
+ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
+
+/// For state_hash.
+[[nodiscard]] std::uint64_t hash_of(const ContactState& state, std::uint64_t seed) noexcept;
+
+}  // namespace cavum

@@ -1,0 +1,35 @@
+#include "engine/physics/servo/real_time_json.h"
+
+namespace cavum {
+namespace {
+
+nlohmann::json histogram(const Lateness& l) {
+  nlohmann::json bins = nlohmann::json::array();
+  for (std::size_t i = 0; i < l.counts.size(); ++i) {
+    const bool last = i == Lateness::k_edges_us.size();
+    bins.push_back({{"up_to_us", last ? nlohmann::json(nullptr) : nlohmann::json(Lateness::k_edges_us[i])}, {"ticks", l.counts[i]}});
+  }
+  return {{"mean_us", l.mean_us()},          {"p50_us", l.quantile_us(0.5)}, {"p99_us", l.quantile_us(0.99)},
+          {"p999_us", l.quantile_us(0.999)}, {"worst_us", l.worst_us()},     {"histogram", bins}};
+}
+
+}  // namespace
+
+nlohmann::json to_json(const RealTimeReport& s) {
+  return {{"ticks", s.ticks},
+          {"overruns", s.overruns},
+          {"made_up", s.made_up},
+          {"skipped_late", s.skipped_late},
+          {"skipped_full", s.skipped_full},
+          {"guard_cuts", s.guard_cuts},
+          {"lateness", histogram(s.lateness)},
+          {"work", histogram(s.work)},
+          {"sched_fifo", s.fifo},
+          {"sched_fifo_refused", s.fifo_refused},
+          {"memory_locked", s.memory_locked},
+          {"memory_refused", s.memory_refused},
+          {"ended", k_servo_end_names[static_cast<std::size_t>(s.why)]},
+          {"error", s.error}};
+}
+
+}  // namespace cavum

@@ -1,0 +1,112 @@
+#include "engine/physics/servo/servo.h"
+
+#include <fmt/core.h>
+
+#include "engine/base/error.h"
+#include "engine/base/hash.h"
+#include "engine/physics/servo/stages.h"
+#include "engine/tooth/beside.h"
+
+namespace cavum {
+namespace {
+
+constexpr double k_mm_per_m = 1000.0;
+constexpr std::size_t k_most_points = 255;       // TickInput::point is a byte
+constexpr std::size_t k_edit_room = 1 << 17;     // bricks, 8 million leaves: more than a tooth has at its surface; untouched room costs no memory
+constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick: a ball of 2.5 mm radius at leaves of 0.1 mm, or of 1.2 mm at 0.05
+
+/// A neighbour's enamel is enamel unless the model says otherwise.
+auto material_of(const ForceModel& force, const std::string& tissue) {
+  const auto found = force.materials.find(tissue);
+  return found == force.materials.end() && is_of_neighbour(tissue) ? force.materials.find(tissue.substr(k_neighbour_prefix.size())) : found;
+}
+
+}  // namespace
+
+ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, const ServoConfig& config) {
+  if (tray.empty() || tray.size() > k_most_points)
+    throw Error(msg("tray"), msg("holds {} diamond points", tray.size()), msg("allow between 1 and 255"));
+  ServoModel model;
+  model.config = config;
+  model.force = force;
+  for (const auto& p : tray) model.tray.push_back(make_contact_tool(p));
+  model.voids = VoidMap(tooth.octree);
+  for (const auto& t : tooth.tissues) {
+    const auto found = material_of(force, t.name);
+    if (found == force.materials.end()) {
+      if (!t.solid) continue;  // a void without entry resists nothing
+      throw Error(msg("force model '{}'", force.name), msg("has no material for tissue '{}'", t.name), msg("add [materials.{}]", t.name));
+    }
+    const Material& m = found->second;
+    const bool by_pressure = force.law == CuttingLaw::pressure;
+    const double cut = by_pressure ? m.wear_mm3_per_n_m : m.tau_s;
+    const char* name = by_pressure ? "wear_mm3_per_n_m" : "tau_s";
+    if (t.solid && !(cut > 0))
+      throw Error(msg("force model '{}'", force.name), msg("has no {} for solid tissue '{}'", name, t.name), msg("add {}", name));
+    TissueConstants& of = model.tissue[t.id];
+    of.stiffness_n_per_mm = m.voigt.stiffness_n_per_mm;
+    of.damping_n_s_per_mm = m.voigt.damping_n_s_per_mm;
+    if (t.solid && by_pressure) of.resistance_n_per_mm2 = k_mm_per_m / m.wear_mm3_per_n_m;
+    if (t.solid && !by_pressure) of.recession_per_s = 1.0 / m.tau_s;
+  }
+  return model;
+}
+
+ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm) {
+  ServoState state;
+  state.tooth = tooth.octree;
+  state.tooth.reserve_edits(k_edit_room);
+  state.contact = make_contact_state(model.tray, first_tip_mm);
+  state.recession.followed_edit = state.tooth.edit_hash();
+  state.estimate = make_tip_estimate(make_tick_input({first_tip_mm, {}}, 0.0, 0, 0, {}).tip_nm);
+  state.terms = make_terms_state(model.force.terms);
+  state.removed.reserve(k_removed_room);
+  return state;
+}
+
+TickOutput step(const ServoModel& model, ServoState& state, const TickInput& input) noexcept {
+  const ServoConfig& config = model.config;
+  TickOutput out;
+  Vec3 wanted_n;
+  state.removed.clear();
+  if ((input.flags & k_pedal_fresh) == 0) out.notices |= k_notice_no_pedal;
+  update_handpiece(config, model.force.drive, input, state.handpiece);
+  const Vec3 tip_before_mm = state.estimate.tip_mm;
+  update_tip_estimate(state.estimate, input.tip_nm, state.tick, config.position_quantum_mm, config.tick_s);
+  if (input.point < model.tray.size()) {
+    const Pose device{state.estimate.tip_mm, input.pose().rotation};
+    Tick tick{.input = input, .tool = model.tray[input.point], .device = device, .moved_mm = device.tip_mm - tip_before_mm};
+    find_contact(state, tick);                // p, n
+    settle_recession(state, tick);            // X = max(0, |p − s| − r)
+    look_at_tissue(model, state, tick);       // k, c, 1/τ
+    work_out_force(model, state, tick, out);  // F = max(0, k X + c V + Σ)
+    wanted_n = render(model, state, tick);    // k X + z + b V + Σ, along n
+    cut(model, state, tick, out);             // r' = X/τ · rpm/rpm_ref, or by pressure
+  } else {
+    out.notices |= k_notice_bad_point;
+    state.handpiece = {};
+    drop_carving(state.carving);
+  }
+  out.rpm = state.handpiece.rpm;
+  out.proxy_mm = state.contact.proxy_mm;
+  out.removed_count = static_cast<std::uint32_t>(state.removed.size());
+  out.rendered_force_n = make_safe(config.limits, state.safety, wanted_n, (input.flags & k_stylus_fresh) != 0, config.tick_s, out.notices);
+  state.trace_hash = hash_of(make_tick_record(out), state.trace_hash);
+  ++state.tick;
+  return out;
+}
+
+std::uint64_t state_hash(const ServoState& s) noexcept {
+  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash()};
+  std::uint64_t h = fast_hash(whole.data(), sizeof whole, k_physics_version);
+  h = hash_of(s.handpiece, h);
+  h = hash_of(s.estimate, h);
+  h = hash_of(s.contact, h);
+  h = hash_of(s.recession, h);
+  h = hash_of(s.render, h);
+  h = hash_of(s.terms, h);
+  h = hash_of(s.carving, h);
+  return hash_of(s.safety, h);
+}
+
+}  // namespace cavum

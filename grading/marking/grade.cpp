@@ -1,0 +1,200 @@
+#include "grading/marking/grade.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+
+#include "engine/base/error.h"
+#include "engine/base/text.h"
+#include "grading/measures/access.h"
+#include "grading/measures/beside.h"
+#include "grading/measures/cut_surface.h"
+#include "grading/measures/motion.h"
+#include "grading/measures/over_pulp.h"
+#include "grading/measures/removed_map.h"
+#include "grading/measures/volumes.h"
+#include "grading/perforation/perforation.h"
+#include "grading/result/loss.h"
+#include "scenarios/exam/exam.h"
+#include "scenarios/exam/runner.h"
+#include "scenarios/file/accommodations.h"
+
+namespace cavum::grading {
+namespace {
+
+Number seconds(std::int64_t ticks) { return as_s(static_cast<double>(ticks) * k_tick_s, 3); }
+Number at_time(std::int64_t tick) { return as_s(static_cast<double>(tick) * k_tick_s); }
+
+/// What the events say.
+struct Course {
+  ProgressMeasures progress;
+  std::vector<PauseMeasure> pauses;  ///< one that was running at the end ends there
+  Findings steps;                    ///< not completed but ended: by their own time, or by their condition
+  /// Recordings that were cut off and taken up again: the exam's clock stood still meanwhile, so a reader must know how long for.
+  Findings interruptions;
+  List refused;  ///< pauses, with their reasons
+  int pauses_refused = 0;
+  std::int64_t lost_periods = 0;  ///< that the servo gave up, as the station recorded them
+  LateWork late;
+};
+
+/// `ticks`: of the exam.
+Course course_of(const GradeInput& input, std::int64_t ticks) {
+  constexpr std::int64_t k_day = 86'400'000;  // whatever a file says
+  constexpr double k_longest_s = 1e9;
+  Course c;
+  c.progress.steps = static_cast<int>(input.scenario.steps.size());
+  bool last_done = c.progress.steps == 0;
+  for (const auto& e : input.events) {
+    const auto step_ended = [&](const OfStep& of, const auto& found) {
+      ++c.progress.steps_failed;
+      if (static_cast<std::size_t>(of.step) < input.scenario.steps.size())
+        c.steps.push_back(found(input.scenario.steps[static_cast<std::size_t>(of.step)]));
+    };
+    const auto end_pause = [&] {
+      if (!c.pauses.empty()) c.pauses.back().end = std::min(e.tick, ticks);
+    };
+    std::visit(EachKind{
+                   [&](const StepCompleted& of) {
+                     ++c.progress.steps_completed;
+                     last_done = last_done || of.step == c.progress.steps - 1;
+                   },
+                   [&](const StepFailed& of) {
+                     step_ended(of, [&](const scenarios::StepSpec& s) {
+                       return finding<FindingKind::step_failed>(s.id, at_time(e.tick), e.tick, s.fail_when);
+                     });
+                   },
+                   [&](const StepTimeUp& of) {
+                     step_ended(of, [&](const scenarios::StepSpec& s) {
+                       return s.time_limit_s ? finding<FindingKind::step_timed_out>(s.id, at_time(e.tick), e.tick,
+                                                                                    seconds(scenarios::step_limit_ticks(input.scenario, s)))
+                                             : finding<FindingKind::step_timed_out_otherwise>(s.id, at_time(e.tick), e.tick);
+                     });
+                   },
+                   [&](const AnyOf<PointNotAllowed, OverSpeed> auto&) {
+                     if (c.progress.violations++ == 0) c.progress.first_violation.tick = e.tick;
+                   },
+                   [&](const Finished& finished) { c.progress.finish = finished.how; },
+                   [&](const PauseStarted&) {
+                     c.pauses.push_back({e.tick, ticks, false});
+                   },
+                   [&](const HoldStarted&) {
+                     c.pauses.push_back({e.tick, ticks, true});
+                   },
+                   [&](const PauseEnded&) { end_pause(); },
+                   [&](const HoldEnded&) { end_pause(); },
+                   [&](const PauseRefused&) {
+                     const bool turned = e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) &&
+                                         input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
+                     ++c.pauses_refused;
+                     c.refused.items.push_back(turned ? msg("tick {}: the handpiece turned", e.tick) : msg("tick {}: none was left", e.tick));
+                   },
+                   [&](const ServoGap& gap) { c.lost_periods += std::clamp<std::int64_t>(gap.periods, 0, k_day); },
+                   [&](const RecordingGap& gap) {
+                     const double away_s = std::clamp(gap.utc_s(), 0.0, k_longest_s);
+                     c.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(e.tick), e.tick, as_s(away_s, 0))
+                                                          : finding<FindingKind::interrupted>(at_time(e.tick), e.tick));
+                   },
+                   [&](const WorkAfterEnd& late) {
+                     c.late = {late.ticks, late.pedal_ticks};
+                   },
+                   [](const AnyOf<StepStarted, TimeUp, AimReached, Perforated, RecordingMoved, Overruns, StylusSilent, StylusBack, PedalLost,
+                                  PedalBack, ServoStopped, ServoDisagrees, ServoLateness, LockAttempt, OfficeHold, OfficeHoldReleased, Announced,
+                                  AnnouncementRead, TutorialStep, MeasuredForce> auto&) {},
+               },
+               e.event);
+  }
+  if (!last_done && c.progress.finish != Finish::running) c.progress.open_last_step = input.scenario.steps.back().id;
+  return c;
+}
+
+/// What granted, paused and late time means for a reader.
+void note_time(const Course& course, Result& r) {
+  if (const auto text = scenarios::accommodations_text(r.accommodations); !text.empty())
+    r.notes.push_back(finding<FindingKind::accommodations>(text, seconds(r.limit_ticks)));
+  if (!r.pauses.empty()) {
+    List list;
+    std::int64_t sum = 0;
+    for (const auto& p : r.pauses) {
+      const Number length = seconds(p.end - p.begin);
+      list.items.push_back(p.by_office ? msg("{} from tick {} by the office", length, p.begin) : msg("{} from tick {}", length, p.begin));
+      sum += p.end - p.begin;
+    }
+    r.notes.push_back(finding<FindingKind::pauses>(r.pauses.size(), seconds(sum), list));
+  }
+  if (r.pauses_refused > 0) r.notes.push_back(finding<FindingKind::pauses_refused>(r.pauses_refused, course.refused));
+  if (r.motion.lost_s > 0) r.notes.push_back(finding<FindingKind::time_lost>(as_s(r.motion.lost_s, 3)));
+  r.notes.insert(r.notes.end(), course.interruptions.begin(), course.interruptions.end());
+  if (r.motion.late_ticks > 0) r.notes.push_back(finding<FindingKind::late_ticks>(r.motion.late_ticks, as_mm3(r.motion.late_removed_mm3)));
+  if (const Number late = seconds(r.late_work.ticks), pedal = seconds(r.late_work.pedal_ticks); r.late_work.ticks > 0)
+    r.notes.push_back(r.progress.finish == Finish::time ? finding<FindingKind::work_after_time>(late, pedal)
+                                                        : finding<FindingKind::work_after_end>(late, pedal));
+}
+
+/// The list of removed leaves and the tooth as it was left must tell the same story.
+void compare_with_final_tooth(const GradeInput& input, std::size_t removed, Result& result) {
+  std::size_t wrong = 0;
+  const Octree &was = input.seen_before().octree, &is = input.seen_after();
+  for (const auto& r : input.all_removed()) {
+    const IVec3 leaf = r.leaf.leaf();
+    wrong += is.tissue(leaf) != k_air || was.tissue(leaf) != r.leaf.tissue ? 1 : 0;
+  }
+  std::uint64_t before = 0, after = 0;
+  for (const auto c : was.count_leaves()) before += c;
+  for (const auto c : is.count_leaves()) after += c;
+  const bool late = result.motion.late_ticks > 0;
+  if (wrong > 0 || (!late && before - after != removed)) result.notes.push_back(finding<FindingKind::record_differs>());
+}
+
+}  // namespace
+
+Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
+  if (input.inputs.size() != input.records.size())
+    throw Error(msg("grading"), msg("as many inputs as records are needed"), msg("use a whole session"));
+  Result r;
+  r.scenario_id = input.scenario.id;
+  r.scenario_title = input.scenario.title;
+  r.tooth_name = input.before.name;
+  r.tissues = input.before.tissues;
+  r.leaf_mm = input.zones.leaf_mm();
+  r.accommodations = input.scenario.accommodations;
+  r.limit_ticks = input.sat_under_ticks >= 0 ? input.sat_under_ticks : scenarios::exam_limit_ticks(input.scenario);
+  if (const auto limit = scenarios::exam_limit_ticks(input.scenario); limit != r.limit_ticks)
+    r.notes.push_back(finding<FindingKind::other_limit>(seconds(r.limit_ticks), seconds(limit)));
+  const std::int64_t ticks = counted_ticks(static_cast<std::int64_t>(input.inputs.size()), input.events);
+  // without motion (a cavity handed in for marking) every removed leaf counts
+  const std::int64_t last_tick = input.inputs.empty() ? std::int64_t{1} << 31 : ticks - 1;
+  if (ticks > 0 && !input.inputs.empty()) r.end = {ticks - 1, input.inputs[static_cast<std::size_t>(ticks - 1)].tip_mm()};
+  const RemovedMap removed(input.removed, last_tick);
+  r.volumes = measure_volumes(input, removed, last_tick);
+  r.shape = measure_shape(input, removed, last_tick);
+  r.access = measure_access(input, removed, last_tick);
+  r.over_pulp = measure_over_pulp(input, removed, last_tick);
+  if (input.beside != nullptr) r.beside = measure_beside(input, last_tick, r.volumes);
+  const Course course = course_of(input, ticks);
+  r.pauses = course.pauses;
+  r.pauses_refused = course.pauses_refused;
+  r.late_work = course.late;
+  r.motion = measure_motion(input, ticks, r.pauses);
+  r.motion.lost_s = static_cast<double>(course.lost_periods) * k_tick_s;
+  for (const auto& leaf : input.all_removed()) r.motion.late_removed_mm3 += leaf.tick > last_tick ? input.zones.leaf_volume_mm3() : 0.0;
+  r.perforation = measure_perforation(input, removed, last_tick);
+  if (input.not_shown != nullptr) {
+    r.not_shown = *input.not_shown;
+    r.perforation.force_known = false;
+  }
+  const scenarios::PerforationSpec& spec = input.scenario.perforation;
+  for (const auto& [names, truth] : {std::pair(&spec.aims, &r.perforation.aim), std::pair(&spec.faults, &r.perforation.fault)})
+    for (const auto& t : r.tissues)
+      if (std::find(names->begin(), names->end(), t.name) != names->end()) truth->bound_mm3 += r.volumes.tissue[t.id].bound_mm3;
+  r.progress = course.progress;
+  if (r.progress.finish != Finish::running && r.progress.steps_completed < r.progress.steps)
+    r.notes.push_back(finding<FindingKind::steps_open>(r.progress.steps - r.progress.steps_completed, r.progress.steps));
+  r.notes.insert(r.notes.end(), course.steps.begin(), course.steps.end());
+  note_time(course, r);
+  compare_with_final_tooth(input, input.beside != nullptr ? RemovedMap(input.all_removed(), last_tick).count() : removed.count(), r);
+  mark(r, rubric);
+  return r;
+}
+
+}  // namespace cavum::grading

@@ -1,0 +1,194 @@
+#include "grading/marking/school_mark.h"
+
+#include <algorithm>
+#include <map>
+
+#include "engine/base/json_fields.h"
+#include "engine/base/json_reader.h"
+#include "engine/base/said_by.h"
+#include "grading/marking/session_input.h"
+#include "grading/result/result_json.h"
+#include "scenarios/exam/exam.h"
+
+namespace cavum::grading {
+namespace {
+
+using nlohmann::json;
+
+constexpr std::size_t k_most_named = 12;  // differences: more of them say nothing new
+
+/// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did. What the clock ends with all steps done is `completed` as
+/// well, in the last tick and not after it.
+std::int64_t ended_by_hand(const SessionReader& session) {
+  for (const auto& e : session.event_rows())
+    if (const auto* finished = e.as<Finished>())
+      if (finished->how == Finish::ended || (finished->how == Finish::completed && e.tick == session.ticks())) return e.tick;
+  return -1;
+}
+
+Message event_text(const TimedEvent& e) {
+  const EventText text = encode(e.event);
+  return msg("'{} {}' at tick {}", text.kind, text.detail_json, e.tick);
+}
+
+/// Runs the scenario over the motion while that is simulated.
+class EventsAgain {
+ public:
+  EventsAgain(const SessionReader& session, ExamGrounds& grounds)
+      : task_(scenarios::exam_task(session.setup(), session.path() + ": scenario")),
+        ground_(grounds.of(task_, session.path())),
+        runner_(task_.scenario, ground_->zones, ground_->tooth, task_.point_names),
+        ended_(ended_by_hand(session)) {
+    for (auto& e : session.events()) (is_runners(e.event) ? recorded_ : beside_).push_back(std::move(e));
+  }
+
+  void see(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
+    if (tick == ended_) runner_.end(*state_);
+    runner_.advance(*state_, input, output, state.removed);
+    take();
+  }
+  /// What differs from the recorded events, in words.
+  [[nodiscard]] std::vector<Message> differences(std::int64_t ticks) {
+    std::vector<Message> findings;
+    if (ended_ >= 0 && ended_ < ticks)
+      findings.push_back(msg("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
+    if (ended_ == ticks) runner_.end(*state_);
+    take();
+    for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_most_named; ++i) {
+      if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
+      findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i,
+                             i < recorded_.size() ? event_text(recorded_[i]) : msg("none"), i < again_.size() ? event_text(again_[i]) : msg("none")));
+    }
+    return findings;
+  }
+
+  [[nodiscard]] std::vector<Message> servo_findings() const { return scenarios::check_servo(task_.session.servo_toml, task_.scenario); }
+  [[nodiscard]] VerifyTeeth teeth(Tooth& final_tooth) const noexcept { return {&ground_->tooth, ground_->fits.get(), &final_tooth}; }
+  /// Those of the motion, and what else the station recorded.
+  [[nodiscard]] std::vector<TimedEvent> events() const {
+    std::vector<TimedEvent> all = again_;
+    all.insert(all.end(), beside_.begin(), beside_.end());
+    std::stable_sort(all.begin(), all.end(), [](const TimedEvent& a, const TimedEvent& b) { return a.tick < b.tick; });
+    return all;
+  }
+
+ private:
+  /// As an exam records them: each once, from the runner's list.
+  void take() {
+    for (auto& e : state_->events_from(static_cast<std::uint32_t>(again_.size()))) again_.push_back(std::move(e));
+  }
+
+  scenarios::ExamTask task_;
+  std::shared_ptr<const ExamGround> ground_;
+  scenarios::Runner runner_;
+  std::unique_ptr<scenarios::RunnerState> state_ = std::make_unique<scenarios::RunnerState>();
+  std::vector<TimedEvent> recorded_, again_;  ///< the runner's
+  std::vector<TimedEvent> beside_;            ///< the station's
+  std::int64_t ended_;
+};
+
+Message in_words(const json& value) {
+  if (value.is_null()) return msg("none");
+  if (value.is_number()) return msg("{}", as_number(value.get<double>()));
+  if (value.is_string()) return Name{value.get<std::string>()};
+  constexpr std::size_t k_longest = 60;
+  return Name{value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, k_longest)};
+}
+
+std::map<std::string, const json*> criteria_of(const json& result) {
+  std::map<std::string, const json*> by_id;
+  if (const json& list = member_of(result, "criteria"); list.is_array())
+    for (const auto& c : list) by_id.emplace(text_in(c, "id"), &c);
+  return by_id;
+}
+
+}  // namespace
+
+std::vector<Message> result_differences(const json& sealed_result, const json& marked_result) {
+  const json sealed = without_words(sealed_result), marked = without_words(marked_result);
+  std::vector<Message> out;
+  const auto compare = [&](const Message& name, const json& was, const json& is) {
+    if (was != is) out.push_back(msg("{}: {}, marked {}", name, in_words(was), in_words(is)));
+  };
+  const auto verdict = [](const json& of) { return msg("{}", Term{text_in(of, "verdict")}); };
+  if (member_of(sealed, "verdict") != member_of(marked, "verdict")) out.push_back(msg("verdict: {}, marked {}", verdict(sealed), verdict(marked)));
+  const json &then = member_of(sealed, "score"), &now = member_of(marked, "score");
+  compare(msg("points"), member_of(then, "points"), member_of(now, "points"));
+  compare(msg("greatest number of points"), member_of(then, "max"), member_of(now, "max"));
+  const auto was = criteria_of(sealed), is = criteria_of(marked);
+  for (const auto& [id, c] : is) {
+    const auto found = was.find(id);
+    if (found == was.end()) {
+      out.push_back(msg("criterion {} missing", id));
+      continue;
+    }
+    for (const auto& [key, value] : c->items()) compare(msg("criterion {}: {}", id, key), member_of(*found->second, key.c_str()), value);
+  }
+  for (const auto& [id, c] : was)
+    if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", id));
+  if (marked.is_object())
+    for (const auto& [key, value] : marked.items())
+      if (key != "verdict" && key != "score" && key != "criteria") compare(msg("{}", key), member_of(sealed, key.c_str()), value);
+  if (sealed.is_object() && marked.is_object())
+    for (const auto& [key, value] : sealed.items())
+      if (!marked.contains(key)) out.push_back(msg("{}, which no result has", key));
+  if (out.empty() && sealed != marked) out.emplace_back(msg("another shape than a result has"));
+  return out;
+}
+
+std::vector<Message> SchoolMark::findings() const {
+  std::vector<Message> all = replay.findings;
+  all.insert(all.end(), exam.begin(), exam.end());
+  if (!other_result.empty()) all.push_back(other_result);
+  return all;
+}
+
+SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
+  SchoolMark out;
+  std::optional<EventsAgain> events;
+  try {
+    events.emplace(session, grounds);
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the recording
+  } catch (const std::exception& e) {
+    out.exam.push_back(msg("scenario: {}", said_by(e)));
+  }
+  Tooth final_tooth;
+  const auto see = [&](std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state) {
+    events->see(tick, input, output, state);
+  };
+  out.replay = verify_session(session, "", events ? TickVisitor(see) : TickVisitor{}, events ? events->teeth(final_tooth) : VerifyTeeth{});
+  if (events)
+    for (auto& f : events->servo_findings()) out.exam.push_back(std::move(f));
+  // Whole and repeated to the last tick: only such a motion is marked, damaged or forged facts beside it or not.
+  const bool repeated =
+      out.replay.closed && out.replay.ticks_replayed == out.replay.ticks && out.replay.ticks_different == 0 && !out.replay.first_divergence && events;
+  if (!repeated) return out;
+  for (auto& f : events->differences(session.ticks())) out.exam.push_back(std::move(f));
+  try {
+    const auto graded = load_for_grading(session, std::move(final_tooth), grounds);
+    graded->events = events->events();
+    out.result = parse_json(to_json(grade(graded->input(), graded->rubric)).dump(), msg("result"));
+  } catch (const std::bad_alloc&) {
+    throw;  // nothing is wrong with the recording
+  } catch (const std::exception& e) {
+    out.exam.push_back(msg("cannot be marked: {}", said_by(e)));
+    return out;
+  }
+  const json sealed = parse_json_or_null(session.result_json(), k_json_part);
+  auto differ = result_differences(sealed, out.result);
+  if (differ.empty()) return out;
+  out.sealed_otherwise = sealed;
+  List all{differ, true};
+  if (differ.size() > k_most_named) {
+    all.items.resize(k_most_named);
+    all.items.push_back(msg("{} more", differ.size() - k_most_named));
+  }
+  out.other_result = msg(
+      "the sealed result, by grading version {}, is not what this program's version {} gives: it was tampered with, or its station's program was, "
+      "or is another one. Sealed {}",
+      whole_in(sealed, "grading_version"), k_grading_version, all);
+  return out;
+}
+
+}  // namespace cavum::grading

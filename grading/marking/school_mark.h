@@ -1,0 +1,33 @@
+// The school's own mark of a recorded exam. Whoever files an exam believes neither the sealed result nor the recorded events: the motion is simulated
+// again, the scenario is run over it again, the work is marked again, and what differs from the recording is said in words. One pass does all of it.
+#pragma once
+
+#include <nlohmann/json.hpp>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "engine/session/verify.h"
+#include "grading/marking/exam_ground.h"
+
+namespace cavum::grading {
+
+struct SchoolMark {
+  VerifyReport replay;              ///< the file, its chain and signature, and the motion
+  nlohmann::json result;            ///< this program's mark, as to_json gives it; null when the recording cannot be marked
+  std::vector<Message> exam;        ///< what of scenario, servo and events does not hold, or why it cannot be marked
+  Message other_result;             ///< in what the sealed result is another; empty: in nothing
+  nlohmann::json sealed_otherwise;  ///< the sealed result where it is not `result`; else null
+  [[nodiscard]] bool holds() const { return replay.verified && exam.empty() && other_result.empty(); }
+  /// The replay's, then these.
+  [[nodiscard]] std::vector<Message> findings() const;
+};
+
+/// Simulates, runs and marks a closed session again. A sealed result that differs is a finding. What cannot be replayed (another physics version) is
+/// not marked. Throws nothing of the recording's own: its damage is in the findings.
+[[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds);
+
+/// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.
+[[nodiscard]] std::vector<Message> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);
+
+}  // namespace cavum::grading

@@ -1,0 +1,21 @@
+// What became of a ticket, for command line and office alike.
+#pragma once
+
+#include <cstdint>
+#include <string_view>
+
+#include "engine/base/message.h"
+#include "grading/records/registry.h"
+
+namespace cavum::records {
+
+enum class TicketGroup : std::uint8_t { live, begun, run_out, filed, cancelled, made_up };
+[[nodiscard]] std::string_view name_of(TicketGroup group) noexcept;
+
+struct TicketState {
+  TicketGroup group = TicketGroup::live;
+  Message words;
+};
+[[nodiscard]] TicketState state_of(const IssuedTicket& ticket, std::int64_t now_utc_ns);
+
+}  // namespace cavum::records
