@@ -76,9 +76,9 @@ def witness_line_made_up(s):
     return s.ledger("verify")
 
 
-@attack("history", FOUND, "each line bears a signature")
+@attack("history", ACCEPTED, "a line that is cut short is passed over")
 def witness_line_unsigned(s):
-    """A line of a larger size without signature."""
+    """A line of a larger size without signature, as a power cut leaves it: it says nothing."""
     with open(s.witness_path(), "a") as file:
         file.write(f"40 {sha(b'x').hex()} {2 * 10**18}\n")
     return s.ledger("verify")

@@ -32,7 +32,7 @@ std::string one_time_code(const Bytes& secret, std::uint64_t counter, int digits
   std::array<char, 9> code{};
   if (oath_hotp_generate(letters(secret), secret.size(), counter, static_cast<unsigned>(digits), false, OATH_HOTP_DYNAMIC_TRUNCATION, code.data()) !=
       OATH_OK)
-    throw Error(msg("liboath"), msg("does not start"), msg("check the installation of liboath"));
+    throw Error("liboath", msg("does not start"), msg("check the installation of liboath"));
   return code.data();
 }
 
