@@ -15,13 +15,13 @@ namespace {
 using namespace testing_engine;
 
 /// Bits with contexts: each says which of the models it belongs to.
-struct Message {
+struct Sent {
   std::vector<bool> bit;
   std::vector<std::size_t> model;
 };
 constexpr std::size_t k_models = 5;
 
-Bytes encoded(const Message& message) {
+Bytes encoded(const Sent& message) {
   std::vector<AdaptiveBit> models(k_models);
   RangeEncoder out;
   for (std::size_t i = 0; i < message.bit.size(); ++i) out.code(models[message.model[i]], message.bit[i]);
@@ -38,8 +38,8 @@ std::vector<bool> decoded(const Bytes& bytes, const std::vector<std::size_t>& mo
   return bit;
 }
 
-Message random_message(Random& random, std::size_t length) {
-  Message message;
+Sent random_message(Random& random, std::size_t length) {
+  Sent message;
   const double chance[k_models] = {0.5, 0.02, 0.9, 0.0, 1.0};
   for (std::size_t i = 0; i < length; ++i) {
     message.model.push_back(random.below(k_models));
@@ -51,7 +51,7 @@ Message random_message(Random& random, std::size_t length) {
 TEST(RangeCoder, ReadsBackEveryBitAndTakesAllBytes) {
   Random random(drawn_seed("RangeCoder.ReadsBackEveryBitAndTakesAllBytes"));
   for (int round = 0; round < 200; ++round) {
-    const Message message = random_message(random, random.below(3000));
+    const Sent message = random_message(random, random.below(3000));
     ASSERT_EQ(decoded(encoded(message), message.model), message.bit);
   }
 }
@@ -102,7 +102,7 @@ TEST(RangeCoder, WhatIsCertainCostsNextToNothing) {
 
 TEST(RangeCoder, EveryTruncationIsAnError) {
   Random random(drawn_seed("RangeCoder.EveryTruncationIsAnError"));
-  const Message message = random_message(random, 2000);
+  const Sent message = random_message(random, 2000);
   const Bytes bytes = encoded(message);
   for (std::size_t n = 0; n < bytes.size(); ++n) {
     const Bytes cut(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(n));
@@ -111,7 +111,7 @@ TEST(RangeCoder, EveryTruncationIsAnError) {
 }
 
 TEST(RangeCoder, BytesOnDiskStayTheSame) {
-  Message message;
+  Sent message;
   for (std::size_t i = 0; i < 64; ++i) {
     message.bit.push_back(i % 3 == 0);
     message.model.push_back(i % 2);
