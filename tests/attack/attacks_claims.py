@@ -78,7 +78,9 @@ def resimulated(s, change):
             c["seq"] = i
         for i, e in enumerate(r.events):
             e["seq"], e["chunk"] = i, e["chunk"] - 1
-        r.result = re.sub(r'(,\s*)?"the recording was interrupted [^"]*"', "", r.result)  # a result says so
+        result = json.loads(r.result)
+        result["notes"] = [note for note in result["notes"] if not note["kind"].startswith("interrupted")]  # a result says so
+        r.result = json.dumps(result, ensure_ascii=False, separators=(",", ":"))
     s.write(as_hand(r, s.station(), 90), "m.cavum")
     return s.add("m.cavum")
 
