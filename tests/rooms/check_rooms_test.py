@@ -80,7 +80,7 @@ class CheckRooms(unittest.TestCase):
     def test_a_folder_has_the_namespace_of_the_nearest_room_that_names_one(self):
         self.assertEqual(namespace_of("engine/tooth/mesh"), "cavum")
         self.assertEqual(namespace_of("grading/measures"), "cavum::grading")
-        self.assertEqual(namespace_of("grading/records"), "cavum::ledger")
+        self.assertEqual(namespace_of("grading/records"), "cavum::records")
         self.assertEqual(namespace_of("ui/report/print"), "cavum::report")
 
 
