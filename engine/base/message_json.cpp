@@ -19,33 +19,6 @@ constexpr int k_deepest = 8, k_most_digits = 12;
 
 [[noreturn]] void refuse(const char* why) { throw std::invalid_argument(why); }
 
-Json json_of(const Value& value) {
-  struct Coder {
-    Json operator()(std::int64_t whole) const { return whole; }
-    Json operator()(const Number& n) const {
-      Json j = {{"value", n.value}};
-      if (n.unit != Unit::none) j["unit"] = unit_sign(n.unit);
-      if (n.digits != k_as_needed) j["digits"] = n.digits;
-      if (n.bound != 0) j["bound"] = n.bound;
-      if (n.sign) j["sign"] = true;
-      return j;
-    }
-    Json operator()(const ClockTime& c) const { return {{"clock_s", c.seconds}}; }
-    Json operator()(const Vec3& p) const { return {{"place_mm", {p.x, p.y, p.z}}}; }
-    Json operator()(const Name& n) const { return one_line(n.text); }
-    Json operator()(const FilePlace& p) const { return {{"file", one_line(p.file)}, {"line", p.line}, {"column", p.column}}; }
-    Json operator()(const Term& t) const { return {{"term", t.english}}; }
-    Json operator()(const Authored& a) const { return {{"authored", one_line(a.english)}}; }
-    Json operator()(const List& l) const {
-      Json j = {{"list", encode(l.items)}};
-      if (l.sentences) j["sentences"] = true;
-      return j;
-    }
-    Json operator()(const Message& m) const { return encode(m); }
-  };
-  return std::visit(Coder{}, static_cast<const Value::variant&>(value));
-}
-
 /// The same text for as long as the program runs: a message points to its sentence.
 const char* lasting(const std::string& text) {
   static std::mutex lock;
@@ -153,7 +126,7 @@ nlohmann::ordered_json encode(const Message& message) {
   }
   if (!message.values().empty()) {
     j["of"] = Json::array();
-    for (const Value& v : message.values()) j["of"].push_back(json_of(v));
+    for (const Value& v : message.values()) j["of"].push_back(encode(v));
   }
   return j;
 }
@@ -163,6 +136,35 @@ nlohmann::ordered_json encode(const std::vector<Message>& messages) {
   for (const Message& m : messages) list.push_back(encode(m));
   return list;
 }
+
+nlohmann::ordered_json encode(const Value& value) {
+  struct Coder {
+    Json operator()(std::int64_t whole) const { return whole; }
+    Json operator()(const Number& n) const {
+      Json j = {{"value", n.value}};
+      if (n.unit != Unit::none) j["unit"] = unit_sign(n.unit);
+      if (n.digits != k_as_needed) j["digits"] = n.digits;
+      if (n.bound != 0) j["bound"] = n.bound;
+      if (n.sign) j["sign"] = true;
+      return j;
+    }
+    Json operator()(const ClockTime& c) const { return {{"clock_s", c.seconds}}; }
+    Json operator()(const Vec3& p) const { return {{"place_mm", {p.x, p.y, p.z}}}; }
+    Json operator()(const Name& n) const { return one_line(n.text); }
+    Json operator()(const FilePlace& p) const { return {{"file", one_line(p.file)}, {"line", p.line}, {"column", p.column}}; }
+    Json operator()(const Term& t) const { return {{"term", t.english}}; }
+    Json operator()(const Authored& a) const { return {{"authored", one_line(a.english)}}; }
+    Json operator()(const List& l) const {
+      Json j = {{"list", encode(l.items)}};
+      if (l.sentences) j["sentences"] = true;
+      return j;
+    }
+    Json operator()(const Message& m) const { return encode(m); }
+  };
+  return std::visit(Coder{}, static_cast<const Value::variant&>(value));
+}
+
+Value decode_value(const nlohmann::json& json) { return value_of(json, 0); }
 
 Message decode_message(const nlohmann::json& json) { return message_of(json, 0); }
 

@@ -12,9 +12,13 @@ namespace cavum {
 // As our own files keep it.
 [[nodiscard]] nlohmann::ordered_json encode(const Message& message);
 [[nodiscard]] nlohmann::ordered_json encode(const std::vector<Message>& messages);
+/// A whole number and a name as such, any other value as an object: {"value": 0.31, "unit": "mm³", "digits": 2, "bound": 0.05}, {"term": "enamel"}.
+[[nodiscard]] nlohmann::ordered_json encode(const Value& value);
 /// Throws std::invalid_argument for what is no message: other fields, gaps that are not as many as the values, more than 4096 bytes of a text, 64
 /// values, 8 messages inside each other.
 [[nodiscard]] Message decode_message(const nlohmann::json& json);
+/// Throws as decode_message does.
+[[nodiscard]] Value decode_value(const nlohmann::json& json);
 /// At most 10,000.
 [[nodiscard]] std::vector<Message> decode_messages(const nlohmann::json& json);
 

@@ -74,7 +74,7 @@ class Teller {
 
  private:
   [[nodiscard]] Message there(Vec3 p) const { return side_words(p, in_.zones); }
-  [[nodiscard]] Message wall(std::size_t w) const { return scenarios::wall_text(w, r_.shape.facing); }
+  [[nodiscard]] Term wall(std::size_t w) const { return scenarios::wall_text(w, r_.shape.facing); }
   /// When it began, and when it was: a sentence; none where nobody knows when.
   static Message from(const Trace& t) {
     if (!t.timed()) return {};

@@ -109,7 +109,7 @@ void LossFinder::missed(double points) {
     if (!(mm3 > 0)) continue;
     const Part& p = parts[w];
     const Trace& last = r_.volumes.target_last[w];
-    const Message wall = scenarios::wall_text(w, r_.shape.facing);
+    const Term wall = scenarios::wall_text(w, r_.shape.facing);
     const Vec3 middle_mm = p.sum > 0 ? p.middle / p.sum : Vec3();
     fact(p.sum > 0        ? last.tick >= 0 ? msg("target left towards {}, its middle at {}; cut there last at this time", wall, middle_mm)
                                            : msg("target left towards {}, its middle at {}; nothing of it was cut there", wall, middle_mm)
@@ -129,7 +129,7 @@ void LossFinder::walls(std::size_t first, std::size_t end, std::optional<scenari
   const double full = std::max(0.0, spec_.full);
   for (std::size_t w = first; w < end; ++w) {
     const WallMeasures& m = r_.shape.wall[w];
-    const Message wall = scenarios::wall_text(w, r_.shape.facing);
+    const Term wall = scenarios::wall_text(w, r_.shape.facing);
     if (m.samples == 0 && !(m.max_over_mm > 0)) {
       fact(msg("{}: nothing was cut there", wall));
       continue;

@@ -25,7 +25,7 @@ Message text_of(const Moment& m, scenarios::Facing facing) {
   for (std::size_t z = 0; z < scenarios::k_zones; ++z)
     if (m.by_zone[z] > 0) zones.push_back(z);
   std::stable_sort(zones.begin(), zones.end(), [&](std::size_t a, std::size_t b) { return m.by_zone[a] > m.by_zone[b]; });
-  const Message wall = scenarios::wall_text(at, facing);
+  const Term wall = scenarios::wall_text(at, facing);
   const auto name = [](std::size_t zone) { return Term{scenarios::zone_name(static_cast<scenarios::Zone>(zone))}; };
   const auto outside = [](std::size_t zone) { return static_cast<scenarios::Zone>(zone) == scenarios::Zone::none; };
   Message text;

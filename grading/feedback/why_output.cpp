@@ -52,10 +52,10 @@ Json to_json(const Why& w) {
 Lines to_text(const Why& w) {
   const auto& c = w.criterion;
   const scenarios::Measure measure = scenarios::known_measure(c.metric);
-  const Message full = value_text(measure, w.full, 0, 3), none = value_text(measure, w.zero, 0, 3);
+  const Value full = value_text(measure, w.full, 0, 3), none = value_text(measure, w.zero, 0, 3);
   Lines out;
   out.add(msg("{} ({}): {} of {} points, {} lost", c.id, c.metric, as_points(c.points, 2), as_points(c.max, 2), as_points(c.max - c.points, 2)));
-  out.add(c.value ? value_text(measure, *c.value, c.bound, 3) : msg("not measured"), 2);
+  out.add(c.value ? msg("{}", value_text(measure, *c.value, c.bound, 3)) : msg("not measured"), 2);
   out.add(measure.reads == scenarios::Reads::yes_no ? msg("full marks at {}, none at {}", full, none)
           : w.full < w.zero                         ? msg("full marks at {} or less, none from {} on", full, none)
                                                     : msg("full marks at {} or more, none from {} down", full, none),

@@ -32,7 +32,7 @@ struct Course {
   Findings steps;                    ///< not completed but ended: by their own time, or by their condition
   /// Recordings that were cut off and taken up again: the exam's clock stood still meanwhile, so a reader must know how long for.
   Findings interruptions;
-  List refused;  ///< pauses, with their reasons
+  Findings refused;  ///< pauses
   int pauses_refused = 0;
   std::int64_t lost_periods = 0;  ///< that the servo gave up, as the station recorded them
   LateWork late;
@@ -61,13 +61,13 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
                    },
                    [&](const StepFailed& of) {
                      step_ended(of, [&](const scenarios::StepSpec& s) {
-                       return finding<FindingKind::step_failed>(s.id, at_time(e.tick), e.tick, s.fail_when);
+                       return finding<FindingKind::step_failed>(s.id, at_time(e.tick), s.fail_when, e.tick);
                      });
                    },
                    [&](const StepTimeUp& of) {
                      step_ended(of, [&](const scenarios::StepSpec& s) {
-                       return s.time_limit_s ? finding<FindingKind::step_timed_out>(s.id, at_time(e.tick), e.tick,
-                                                                                    seconds(scenarios::step_limit_ticks(input.scenario, s)))
+                       return s.time_limit_s ? finding<FindingKind::step_timed_out>(s.id, at_time(e.tick),
+                                                                                    seconds(scenarios::step_limit_ticks(input.scenario, s)), e.tick)
                                              : finding<FindingKind::step_timed_out_otherwise>(s.id, at_time(e.tick), e.tick);
                      });
                    },
@@ -84,15 +84,16 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
                    [&](const PauseEnded&) { end_pause(); },
                    [&](const HoldEnded&) { end_pause(); },
                    [&](const PauseRefused&) {
-                     const bool turned = e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) &&
-                                         input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
+                     const bool turning = e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) &&
+                                          input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
                      ++c.pauses_refused;
-                     c.refused.items.push_back(turned ? msg("tick {}: the handpiece turned", e.tick) : msg("tick {}: none was left", e.tick));
+                     c.refused.push_back(turning ? finding<FindingKind::pause_refused_turning>(at_time(e.tick), e.tick)
+                                                 : finding<FindingKind::pause_refused_none_left>(at_time(e.tick), e.tick));
                    },
                    [&](const ServoGap& gap) { c.lost_periods += std::clamp<std::int64_t>(gap.periods, 0, k_day); },
                    [&](const RecordingGap& gap) {
                      const double away_s = std::clamp(gap.utc_s(), 0.0, k_longest_s);
-                     c.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(e.tick), e.tick, as_s(away_s, 0))
+                     c.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(e.tick), as_s(away_s, 0), e.tick)
                                                           : finding<FindingKind::interrupted>(at_time(e.tick), e.tick));
                    },
                    [&](const WorkAfterEnd& late) {
@@ -110,19 +111,17 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
 
 /// What granted, paused and late time means for a reader.
 void note_time(const Course& course, Result& r) {
-  if (const auto text = scenarios::accommodations_text(r.accommodations); !text.empty())
-    r.notes.push_back(finding<FindingKind::accommodations>(text, seconds(r.limit_ticks)));
-  if (!r.pauses.empty()) {
-    List list;
-    std::int64_t sum = 0;
-    for (const auto& p : r.pauses) {
-      const Number length = seconds(p.end - p.begin);
-      list.items.push_back(p.by_office ? msg("{} from tick {} by the office", length, p.begin) : msg("{} from tick {}", length, p.begin));
-      sum += p.end - p.begin;
-    }
-    r.notes.push_back(finding<FindingKind::pauses>(r.pauses.size(), seconds(sum), list));
+  const scenarios::Accommodations& granted = r.accommodations;
+  for (const Number& extra : {as_percent(granted.extra_time_percent, k_as_needed), as_s(granted.extra_time_s, k_as_needed)})
+    if (extra.value > 0) r.notes.push_back(finding<FindingKind::extra_time>(extra, seconds(r.limit_ticks)));
+  if (granted.left_handed) r.notes.push_back(finding<FindingKind::left_handed>());
+  if (granted.high_contrast) r.notes.push_back(finding<FindingKind::high_contrast>());
+  for (const auto& p : r.pauses) {
+    const Number length = seconds(p.end - p.begin);
+    r.notes.push_back(p.by_office ? finding<FindingKind::paused_by_office>(length, at_time(p.begin), p.begin)
+                                  : finding<FindingKind::paused>(length, at_time(p.begin), p.begin));
   }
-  if (r.pauses_refused > 0) r.notes.push_back(finding<FindingKind::pauses_refused>(r.pauses_refused, course.refused));
+  r.notes.insert(r.notes.end(), course.refused.begin(), course.refused.end());
   if (r.motion.lost_s > 0) r.notes.push_back(finding<FindingKind::time_lost>(as_s(r.motion.lost_s, 3)));
   r.notes.insert(r.notes.end(), course.interruptions.begin(), course.interruptions.end());
   if (r.motion.late_ticks > 0) r.notes.push_back(finding<FindingKind::late_ticks>(r.motion.late_ticks, as_mm3(r.motion.late_removed_mm3)));

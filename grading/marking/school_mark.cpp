@@ -91,8 +91,8 @@ Message in_words(const json& value) {
   if (value.is_null()) return msg("none");
   if (value.is_number()) return msg("{}", as_number(value.get<double>()));
   if (value.is_string()) return Name{value.get<std::string>()};
-  constexpr std::size_t k_longest = 60;
-  return Name{value.dump(-1, ' ', false, json::error_handler_t::replace).substr(0, k_longest)};
+  if (value.is_boolean()) return value.get<bool>() ? msg("yes") : msg("no");
+  return msgn("{} entry", "{} entries", static_cast<std::int64_t>(value.size()), value.size());
 }
 
 std::map<std::string, const json*> criteria_of(const json& result) {
@@ -104,8 +104,7 @@ std::map<std::string, const json*> criteria_of(const json& result) {
 
 }  // namespace
 
-std::vector<Message> result_differences(const json& sealed_result, const json& marked_result) {
-  const json sealed = without_words(sealed_result), marked = without_words(marked_result);
+std::vector<Message> result_differences(const json& sealed, const json& marked) {
   std::vector<Message> out;
   const auto compare = [&](const Message& name, const json& was, const json& is) {
     if (was != is) out.push_back(msg("{}: {}, marked {}", name, in_words(was), in_words(is)));
@@ -122,7 +121,14 @@ std::vector<Message> result_differences(const json& sealed_result, const json& m
       out.push_back(msg("criterion {} missing", id));
       continue;
     }
-    for (const auto& [key, value] : c->items()) compare(msg("criterion {}: {}", id, key), member_of(*found->second, key.c_str()), value);
+    for (const auto& [key, value] : c->items()) {
+      const json& had = member_of(*found->second, key.c_str());
+      if (value.is_structured() && had.is_structured()) {
+        if (had != value) out.push_back(msg("criterion {}: other {}", id, key));
+      } else {
+        compare(msg("criterion {}: {}", id, key), had, value);
+      }
+    }
   }
   for (const auto& [id, c] : was)
     if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", id));

@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include "engine/base/json_fields.h"
-#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/records/entry_text.h"
+#include "grading/result/finding.h"
 
 namespace cavum::records {
 namespace {
@@ -55,11 +55,7 @@ std::string utc_ms_text(std::int64_t utc_ns) {
 namespace {
 
 /// Why a criterion has its points, fact by fact.
-Message reason_in(const json& criterion) {
-  List facts{{}, true};
-  for (const json& fact : member_of(criterion, "facts")) facts.items.push_back(said_in(fact));
-  return msg("{}", facts);
-}
+Message reason_in(const json& criterion) { return msg("{}", grading::sentences(grading::findings_in(member_of(criterion, "facts")))); }
 
 }  // namespace
 
@@ -117,14 +113,6 @@ std::string feedback_text(const ExportedGrade& grade, Wording say) {
   std::string out;
   for (const Message& sentence : grade.feedback) out += (out.empty() ? "" : " ") + say(sentence);
   return one_line(out);
-}
-
-Message said_in(const json& fact) {
-  try {
-    return decode_message(member_of(fact, "said"));
-  } catch (const std::invalid_argument&) {
-    throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
-  }
 }
 
 }  // namespace cavum::records

@@ -27,9 +27,6 @@ using Wording = std::string (*)(const Message&);
 /// The feedback on one line.
 [[nodiscard]] std::string feedback_text(const ExportedGrade& grade, Wording say);
 
-/// A fact of a criterion or of the verdict, as a result in JSON keeps it (`said`). Throws Error when it is none.
-[[nodiscard]] Message said_in(const nlohmann::json& fact);
-
 /// "2026-11-21T09:00:00.250Z": milliseconds, as LTI wants: a platform keeps the score with the later time.
 [[nodiscard]] std::string utc_ms_text(std::int64_t utc_ns);
 

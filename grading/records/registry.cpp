@@ -10,6 +10,7 @@
 #include "grading/records/begin.h"
 #include "grading/records/erasure.h"
 #include "grading/records/ledger_error.h"
+#include "grading/result/finding.h"
 
 namespace cavum::records {
 
@@ -24,8 +25,8 @@ const SharedJson& sound_result(const SharedJson& opened) {
   const auto text = [](const json& j, const char* name) { return j.contains(name) && j[name].is_string(); };
   const auto number = [](const json& j, const char* name) { return j.contains(name) && j[name].is_number(); };
   const auto criterion = [&](const json& c) {
-    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && (!c.contains("reason") || text(c, "reason")) &&
-           number(c, "points") && number(c, "max") && c.contains("value") && (c["value"].is_null() || c["value"].is_number());
+    return c.is_object() && text(c, "id") && text(c, "metric") && text(c, "unit") && number(c, "points") && number(c, "max") && c.contains("value") &&
+           (c["value"].is_null() || c["value"].is_number());
   };
   const json &score = member_of(result, "score"), &criteria = member_of(result, "criteria");
   const bool sound = result.is_object() && text(result, "verdict") && score.is_object() && number(score, "points") && number(score, "max") &&
@@ -33,6 +34,8 @@ const SharedJson& sound_result(const SharedJson& opened) {
                      (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
                      std::all_of(criteria.begin(), criteria.end(), criterion);
   if (!sound) throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
+  for (const char* list : {"verdict_reasons", "notes"}) static_cast<void>(grading::findings_in(member_of(result, list)));
+  for (const json& c : criteria) static_cast<void>(grading::findings_in(member_of(c, "facts")));
   return opened;
 }
 

@@ -1,39 +1,25 @@
 #include "grading/result/finding.h"
 
+#include <algorithm>
 #include <nlohmann/json.hpp>
+#include <stdexcept>
 
+#include "engine/base/error.h"
+#include "engine/base/json_fields.h"
 #include "engine/base/message_json.h"
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
 namespace {
 
-/// A name or figure by itself as such; a sentence as our own files keep it.
-nlohmann::ordered_json json_of_message(const Message& message);
-
-nlohmann::ordered_json json_of_value(const Value& value) {
-  struct Of {
-    nlohmann::ordered_json operator()(std::int64_t whole) const { return whole; }
-    nlohmann::ordered_json operator()(const Number& n) const { return rounded(n.value); }
-    nlohmann::ordered_json operator()(const ClockTime& c) const { return rounded(c.seconds); }
-    nlohmann::ordered_json operator()(Vec3 p) const { return {rounded(p.x), rounded(p.y), rounded(p.z)}; }
-    nlohmann::ordered_json operator()(const Name& n) const { return n.text; }
-    nlohmann::ordered_json operator()(const FilePlace& p) const { return p.file; }
-    nlohmann::ordered_json operator()(const Term& t) const { return t.english; }
-    nlohmann::ordered_json operator()(const Authored& a) const { return a.english; }
-    nlohmann::ordered_json operator()(const List& list) const {
-      auto all = nlohmann::ordered_json::array();
-      for (const Message& m : list.items) all.push_back(json_of_message(m));
-      return all;
-    }
-    nlohmann::ordered_json operator()(const Message& m) const { return json_of_message(m); }
-  };
-  return std::visit(Of(), static_cast<const Value::variant&>(value));
+/// As it is sealed: the same digits wherever it was worked out.
+Value as_sealed(Value value) {
+  if (auto* n = std::get_if<Number>(&value)) n->value = rounded(n->value), n->bound = rounded(n->bound);
+  if (auto* p = std::get_if<Vec3>(&value)) *p = {rounded(p->x), rounded(p->y), rounded(p->z)};
+  return value;
 }
 
-nlohmann::ordered_json json_of_message(const Message& message) {
-  return message.english() == std::string_view("{}") ? json_of_value(message.values().front()) : encode(message);
-}
+[[noreturn]] void refuse() { throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy")); }
 
 }  // namespace
 
@@ -43,15 +29,31 @@ List sentences(const Findings& findings) {
   return all;
 }
 
-nlohmann::ordered_json values_json(const Finding& f) {
+nlohmann::ordered_json to_json(const Finding& f) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < f.values.size(); ++i)
-    if (const char* name = f.row().values[i]; *name != 0) values[name] = json_of_value(f.values[i]);
-  return values;
+  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = encode(as_sealed(f.values[i]));
+  return {{"kind", f.row().name}, {"values", values}};
 }
 
-nlohmann::ordered_json to_json(const Finding& f) {
-  return {{"kind", f.row().name}, {"values", values_json(f)}, {"text", english_text(f.message())}, {"said", encode(f.message())}};
+Finding finding_in(const nlohmann::json& json) {
+  const auto& values = member_of(json, "values");
+  const std::string name = text_in(json, "kind");
+  const auto* const row = std::find_if(std::begin(k_findings), std::end(k_findings), [&](const FindingRow& r) { return name == r.name; });
+  if (row == std::end(k_findings) || !values.is_object() || values.size() != row->count()) refuse();
+  Finding f{static_cast<FindingKind>(row - k_findings), {}};
+  try {
+    for (std::size_t i = 0; i < row->count(); ++i) f.values.push_back(decode_value(member_of(values, row->values[i])));
+  } catch (const std::invalid_argument&) {
+    refuse();
+  }
+  return f;
+}
+
+Findings findings_in(const nlohmann::json& list) {
+  if (!list.is_array() && !list.is_null()) refuse();
+  Findings all;
+  for (const auto& f : list) all.push_back(finding_in(f));
+  return all;
 }
 
 }  // namespace cavum::grading

@@ -41,20 +41,24 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
   FINDING(last_step_open, examiner, "the last step, '{}', was not completed: an examiner must decide", "step") \
   FINDING(fault_not_asked, reader, "{} was opened, which is a fault, and no criterion of this rubric asks for it", "tissue") \
   /* what a reader must know */ \
-  FINDING(accommodations, reader, "accommodations: {}; the limit was {}", "granted", "limit_s") \
+  FINDING(extra_time, reader, "{} of extra time was granted: the limit was {}", "extra", "limit_s") \
+  FINDING(left_handed, reader, "the exam was set up for the left hand", ) \
+  FINDING(high_contrast, reader, "the exam was shown in high-contrast colours", ) \
   FINDING(other_limit, reader, "the exam ran under a limit of {}; the scenario it is marked by has {}, which was not applied", "limit_s", "own_limit_s") \
-  FINDING(pauses, reader, "pauses: {}, {} in all, which do not count ({})", "count", "all_s", "pauses") \
-  FINDING(pauses_refused, reader, "pauses asked for and not given: {} ({})", "count", "refused") \
+  FINDING(paused, reader, "a pause of {} from {} on, which does not count", "length_s", "t_s", "tick") \
+  FINDING(paused_by_office, reader, "the exam office paused the exam for {} from {} on, which does not count", "length_s", "t_s", "tick") \
+  FINDING(pause_refused_turning, reader, "a pause was asked for at {} and not given, for the handpiece turned", "t_s", "tick") \
+  FINDING(pause_refused_none_left, reader, "a pause was asked for at {} and not given, for none was left", "t_s", "tick") \
   FINDING(time_lost, reader, "{} were lost while the station's program stood still: the exam's clock does not show them, and the candidate had them", "lost_s") \
-  FINDING(interrupted, reader, "the recording was interrupted at {} (tick {}) and taken up again; the exam's clock stood still meanwhile", "t_s", "tick") \
-  FINDING(interrupted_for, reader, "the recording was interrupted at {} (tick {}) and taken up again after {} by the computer's clock; the exam's clock stood still meanwhile", "t_s", "tick", "away_s") \
+  FINDING(interrupted, reader, "the recording was interrupted at {} and taken up again; the exam's clock stood still meanwhile", "t_s", "tick") \
+  FINDING(interrupted_for, reader, "the recording was interrupted at {} and taken up again after {} by the computer's clock; the exam's clock stood still meanwhile", "t_s", "away_s", "tick") \
   FINDING(late_ticks, reader, "{} ticks were recorded after the exam was over, {} removed in them; they do not count", "ticks", "removed_mm3") \
   FINDING(work_after_time, reader, "the candidate went on for {} after time was up, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts", "late_s", "pedal_s") \
   FINDING(work_after_end, reader, "the candidate went on for {} after the exam was over, with the pedal pressed for {}; the tooth stayed as it was, and nothing of it counts", "late_s", "pedal_s") \
   FINDING(steps_open, reader, "steps not completed: {} of {}", "open", "steps") \
-  FINDING(step_failed, reader, "step '{}' failed at {} (tick {}): {}", "step", "t_s", "tick", "condition") \
-  FINDING(step_timed_out, reader, "step '{}' ran out of its time at {} (tick {}): its limit was {}", "step", "t_s", "tick", "limit_s") \
-  FINDING(step_timed_out_otherwise, reader, "step '{}' ran out of its time at {} (tick {})", "step", "t_s", "tick") \
+  FINDING(step_failed, reader, "step '{}' failed at {}: {}", "step", "t_s", "condition", "tick") \
+  FINDING(step_timed_out, reader, "step '{}' ran out of its time at {}: its limit was {}", "step", "t_s", "limit_s", "tick") \
+  FINDING(step_timed_out_otherwise, reader, "step '{}' ran out of its time at {}", "step", "t_s", "tick") \
   FINDING(record_differs, examiner, "the list of removed leaves and the final tooth disagree: an examiner must look at this recording", ) \
   /* what a criterion's points are for, and what was lost */ \
   FINDING(not_shown, reader, "not judged: a preparation without its recording does not show it", ) \
@@ -73,25 +77,25 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
   FINDING(below_critical_in_bound, reader, "critical below {}, which lies within the bound of the figure: this alone fails the exam", "limit") \
   FINDING(critical_in_bound, reader, "the critical limit of {} lies within the bound of the figure", "limit") \
   FINDING(part_counts, reader, "only {} of the target was removed: {} of these points count (all of them from {} on)", "done_percent", "counts_percent", "all_from_percent") \
-  FINDING(part_towards_counts, reader, "only {} of the target towards {} was removed: {} of these points count (all of them from {} on)", "done_percent", "", "counts_percent", "all_from_percent", "wall") \
+  FINDING(part_towards_counts, reader, "only {} of the target towards {} was removed: {} of these points count (all of them from {} on)", "done_percent", "wall_name", "counts_percent", "all_from_percent", "wall") \
   FINDING(in_band, reader, "{}", "band") \
   FINDING(in_band_beyond, reader, "{}, beyond {}", "band", "limit") \
   FINDING(in_band_for_part, reader, "{}, for less than half of the work was done", "band") \
   FINDING(band_limit_in_bound, reader, "the limit of {} lies within the bound of the figure", "limit") \
-  FINDING(target_left, reader, "{} of the target left standing, the largest part towards {} ({}), where it was cut last at {}", "missed_mm3", "", "largest_mm3", "t_s", "tick", "wall") \
-  FINDING(target_left_partly_cut, reader, "{} of the target left standing, the largest part towards {} ({}), where some of it was cut", "missed_mm3", "", "largest_mm3", "wall") \
-  FINDING(target_left_uncut, reader, "{} of the target left standing, the largest part towards {} ({}), where nothing of it was cut", "missed_mm3", "", "largest_mm3", "wall") \
+  FINDING(target_left, reader, "{} of the target left standing, the largest part towards {} ({}), where it was cut last at {}", "missed_mm3", "wall_name", "largest_mm3", "t_s", "tick", "wall") \
+  FINDING(target_left_partly_cut, reader, "{} of the target left standing, the largest part towards {} ({}), where some of it was cut", "missed_mm3", "wall_name", "largest_mm3", "wall") \
+  FINDING(target_left_uncut, reader, "{} of the target left standing, the largest part towards {} ({}), where nothing of it was cut", "missed_mm3", "wall_name", "largest_mm3", "wall") \
   FINDING(removed_beyond, reader, "{} removed beyond the target", "removed_mm3") \
-  FINDING(removed_outside, reader, "the largest part outside all zones at {} ({})", "", "largest_mm3", "wall") \
-  FINDING(removed_in_zone, reader, "the largest part in {} at {} ({})", "zone", "", "largest_mm3", "wall") \
+  FINDING(removed_outside, reader, "the largest part outside all zones at {} ({})", "wall_name", "largest_mm3", "wall") \
+  FINDING(removed_in_zone, reader, "the largest part in {} at {} ({})", "zone", "wall_name", "largest_mm3", "wall") \
   FINDING(wall_uncut, reader, "nothing was cut there", ) \
-  FINDING(wall_beyond_container, reader, "cut outside the container, up to {} beyond {}", "furthest_mm", "", "wall") \
-  FINDING(wall_overcut, reader, "{} overcut by up to {}", "", "furthest_mm", "wall") \
-  FINDING(wall_thick, reader, "{} left up to {} thick", "", "furthest_mm", "wall") \
-  FINDING(wall_p95_thick, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} thick", "", "furthest_mm", "wall") \
-  FINDING(wall_p95_overcut, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} beyond the target", "", "furthest_mm", "wall") \
-  FINDING(wall_mean_thick, reader, "{}, in the mean of its places; the furthest {} thick", "", "furthest_mm", "wall") \
-  FINDING(wall_mean_overcut, reader, "{}, in the mean of its places; the furthest {} beyond the target", "", "furthest_mm", "wall") \
+  FINDING(wall_beyond_container, reader, "cut outside the container, up to {} beyond {}", "furthest_mm", "wall_name", "wall") \
+  FINDING(wall_overcut, reader, "{} overcut by up to {}", "wall_name", "furthest_mm", "wall") \
+  FINDING(wall_thick, reader, "{} left up to {} thick", "wall_name", "furthest_mm", "wall") \
+  FINDING(wall_p95_thick, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} thick", "wall_name", "furthest_mm", "wall") \
+  FINDING(wall_p95_overcut, reader, "{}, 95 % of whose places lie no further out than that; the furthest {} beyond the target", "wall_name", "furthest_mm", "wall") \
+  FINDING(wall_mean_thick, reader, "{}, in the mean of its places; the furthest {} thick", "wall_name", "furthest_mm", "wall") \
+  FINDING(wall_mean_overcut, reader, "{}, in the mean of its places; the furthest {} beyond the target", "wall_name", "furthest_mm", "wall") \
   FINDING(end_too_far, reader, "{} at the {} end ({} too far)", "part_mm", "end", "beyond_mm") \
   FINDING(end_short, reader, "{} at the {} end ({} short)", "part_mm", "end", "short_mm") \
   FINDING(length, reader, "length {} instead of {}", "length_mm", "target_mm") \
@@ -124,11 +128,12 @@ enum class Concerns : std::uint8_t { reader, examiner, detail };
   FINDING(site, reader, "the place is {}", "site_mm") \
   FINDING(site_uncut, reader, "the place is {}, where nothing was cut", "site_mm") \
   /* of a scan */ \
-  FINDING(scan_note, reader, "the scan: {}", "note") \
+  FINDING(scan_parts_left_out, reader, "small parts of the scan next to the tooth were left out: {}, {} of its surface", "count", "percent") \
+  FINDING(scan_faces_turned, reader, "the faces of the scan looked inwards and were turned", ) \
   FINDING(scan_shows_nothing, reader, "the scan shows nothing that was removed", ) \
   FINDING(scan_cavities, reader, "{} separate cavities were found, and all of them count", "count") \
   FINDING(scan_deeper_apart, examiner, "apart from the cavity the scan lies up to {} deeper than the tooth, at {}: a nick, or a groove that one of the two surfaces lacks; it is not counted, and an examiner must look at it", "deep_mm", "site_mm") \
-  FINDING(scan_apart_counted, reader, "were it counted, the verdict would be {}, with {} of {} points: {}", "verdict", "points", "max", "reasons") \
+  FINDING(scan_apart_counted, reader, "were it counted, the verdict would be {}, with {} of {} points", "verdict", "points", "max") \
   FINDING(scan_other_pose, examiner, "the scan fits the tooth nearly as well in another pose ({} of it, {} in this one): an examiner must look at it", "other_percent", "percent") \
   FINDING(scan_doubtful, examiner, "the scan fits the tooth doubtfully ({} of what should fit, {} of the crown seen): an examiner must look at it", "fit_percent", "crown_percent")
 // clang-format on
@@ -143,7 +148,7 @@ struct FindingRow {
   std::string_view name;
   Concerns concerns;
   const char* english;
-  std::array<const char*, 6> values;  ///< their names in the JSON; "" is for the sentence alone, those beyond its gaps for programs alone
+  std::array<const char*, 6> values;  ///< their names; those beyond the sentence's gaps are for programs alone
   [[nodiscard]] constexpr std::size_t count() const noexcept {
     std::size_t n = 0;
     while (n < values.size() && values[n] != nullptr) ++n;
@@ -185,9 +190,11 @@ template <FindingKind kind, class... A>
   return {kind, {message_detail::value_of(std::forward<A>(values))...}};
 }
 
-/// Its values by their names.
-[[nodiscard]] nlohmann::ordered_json values_json(const Finding& finding);
-/// {"kind", "values": {by name}, "text": English, "said": the sentence as our own files keep it (encode)}.
+/// {"kind", "values"}: each value by its name as decode_value reads it. No words: what is sealed and compared.
 [[nodiscard]] nlohmann::ordered_json to_json(const Finding& finding);
+/// Reads what to_json wrote. Throws Error for anything else.
+[[nodiscard]] Finding finding_in(const nlohmann::json& json);
+/// Of a list; none of null.
+[[nodiscard]] Findings findings_in(const nlohmann::json& list);
 
 }  // namespace cavum::grading

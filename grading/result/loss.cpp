@@ -15,10 +15,10 @@ Unit unit_of(std::string_view name) noexcept {
   return Unit::none;
 }
 
-Message value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
-  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return msg("{}", Term{value == 1 ? measure.yes : measure.no});
-  if (measure.reads == scenarios::Reads::count && bound == 0) return msg("{}", as_number(value));
-  return msg("{}", Number{value, unit_of(measure.unit), digits, bound});
+Value value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
+  if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return Term{value == 1 ? measure.yes : measure.no};
+  if (measure.reads == scenarios::Reads::count && bound == 0) return as_number(value);
+  return Number{value, unit_of(measure.unit), digits, bound};
 }
 
 Message drop_text(const ForceDrop& d) {
@@ -62,7 +62,7 @@ Loss missed(const Result& r) {
   const auto w = largest(r.volumes.missed_by_wall_mm3);
   const Trace& last = r.volumes.target_last[w];
   const Number all = as_mm3(r.volumes.missed.mm3, 2, r.volumes.missed.bound_mm3), most = as_mm3(r.volumes.missed_by_wall_mm3[w], 2);
-  const Message wall = scenarios::wall_text(w, r.shape.facing);
+  const Term wall = scenarios::wall_text(w, r.shape.facing);
   if (last.tick < 0) return {{finding<Kind::target_left_uncut>(all, wall, most, id_of(w))}, last};
   if (!last.timed()) return {{finding<Kind::target_left_partly_cut>(all, wall, most, id_of(w))}, last};
   return {{finding<Kind::target_left>(all, wall, most, seconds(last), last.tick, id_of(w))}, last};
@@ -83,7 +83,7 @@ Loss removed_in(const Result& r, const std::vector<scenarios::Zone>& zones) {
     }
     if (v.first.tick >= 0 && (first.tick < 0 || v.first.tick < first.tick)) first = v.first;
   }
-  const Message wall = scenarios::wall_text(w, r.shape.facing);
+  const Term wall = scenarios::wall_text(w, r.shape.facing);
   const Number volume = as_mm3(most, 2);
   Loss loss{{worst == scenarios::Zone::none ? finding<Kind::removed_outside>(wall, volume, id_of(w))
                                             : finding<Kind::removed_in_zone>(Term{scenarios::zone_name(worst)}, wall, volume, id_of(w))},
@@ -155,7 +155,7 @@ Loss at_walls(const Result& r, const Asked& a) {
   const WallMeasures& m = r.shape.wall[worst];
   const Trace& t = under || (!over && size(m) < 0) ? m.worst_under : m.worst_over;
   const bool thick = &t == &m.worst_under;
-  const Message wall = scenarios::wall_text(worst, r.shape.facing);
+  const Term wall = scenarios::wall_text(worst, r.shape.facing);
   const Number furthest = as_mm(thick ? m.max_under_mm : m.max_over_mm, 2);
   Loss loss{{over && m.over_outside ? finding<Kind::wall_beyond_container>(furthest, wall, id_of(worst))
              : over                 ? finding<Kind::wall_overcut>(wall, furthest, id_of(worst))

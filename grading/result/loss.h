@@ -46,7 +46,7 @@ namespace reason {
 /// "mm3" as a unit; none where it is no unit of ours.
 [[nodiscard]] Unit unit_of(std::string_view name) noexcept;
 /// A measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
-[[nodiscard]] Message value_text(const scenarios::Measure& measure, double value, double bound, int digits);
+[[nodiscard]] Value value_text(const scenarios::Measure& measure, double value, double bound, int digits);
 /// In words: how much, how quick, from when, and how clear.
 [[nodiscard]] Message drop_text(const ForceDrop& drop);
 

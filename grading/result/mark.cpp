@@ -16,8 +16,8 @@ using Kind = FindingKind;
 constexpr char k_exam_time[] = "time_s";
 
 struct Work {
-  double percent = 100.0;  ///< of the target, or of what of it lies towards the walls in question
-  Message towards;         ///< those walls; empty: all of the target
+  double percent = 100.0;       ///< of the target, or of what of it lies towards the walls in question
+  std::optional<Term> towards;  ///< those walls; none: all of the target
   double bound_percent = 0.0;
   std::string wall = {};  ///< the identifier of the one wall, or "sides"
   [[nodiscard]] double share(double off = 0) const { return std::clamp((percent + off * bound_percent) / k_care_counts_percent, 0.0, 1.0); }
@@ -25,7 +25,7 @@ struct Work {
 
 /// How much of the work was done that a criterion judges the care of.
 Work work_done(const Result& r, const scenarios::Measure& measure) {
-  const auto towards = [&](std::size_t first, std::size_t end, const Message& where) -> Work {
+  const auto towards = [&](std::size_t first, std::size_t end, const std::optional<Term>& where) -> Work {
     double all = 0, missed = 0, bound = 0;
     for (std::size_t w = first; w < end; ++w) {
       all += r.volumes.target_by_wall_mm3[w];
@@ -41,7 +41,7 @@ Work work_done(const Result& r, const scenarios::Measure& measure) {
   if (measure.walls > 0 && measure.walls < scenarios::k_walls) {
     const bool one = measure.walls == 1;
     Work work = towards(measure.first_wall, measure.first_wall + measure.walls,
-                        one ? scenarios::wall_text(measure.first_wall, r.shape.facing) : msg("the side walls"));
+                        one ? scenarios::wall_text(measure.first_wall, r.shape.facing) : Term{said("the side walls")});
     work.wall = one ? scenarios::wall_name(static_cast<scenarios::Wall>(measure.first_wall)) : "sides";
     return work;
   }
@@ -52,8 +52,8 @@ Work work_done(const Result& r, const scenarios::Measure& measure) {
 Finding work_counts(const Work& work) {
   const Number done = as_percent(work.percent, 1, work.bound_percent), counts = as_percent(100 * work.share()),
                all_from = as_percent(k_care_counts_percent);
-  return work.towards.empty() ? finding<Kind::part_counts>(done, counts, all_from)
-                              : finding<Kind::part_towards_counts>(done, work.towards, counts, all_from, work.wall);
+  return !work.towards ? finding<Kind::part_counts>(done, counts, all_from)
+                       : finding<Kind::part_towards_counts>(done, *work.towards, counts, all_from, work.wall);
 }
 
 /// Digits that it takes to tell a value from another one and from nothing.
@@ -215,7 +215,7 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
 
 }  // namespace
 
-Message word_of(Verdict v) { return v == Verdict::pass ? msg("pass") : v == Verdict::fail ? msg("fail") : msg("review"); }
+Term word_of(Verdict v) { return {v == Verdict::pass ? said("pass") : v == Verdict::fail ? said("fail") : said("review")}; }
 
 double granted_stretch(const Result& r) {
   const scenarios::Accommodations& granted = r.accommodations;

@@ -292,7 +292,7 @@ struct Result {
   std::vector<Tissue> tissues;
 };
 
-[[nodiscard]] Message word_of(Verdict verdict);
+[[nodiscard]] Term word_of(Verdict verdict);
 [[nodiscard]] inline const char* verdict_name(Verdict v) noexcept {
   return v == Verdict::pass ? said("pass") : v == Verdict::fail ? said("fail") : said("review");
 }

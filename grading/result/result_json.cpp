@@ -108,12 +108,10 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"max", rounded(c.max)},
             {"points_bound", rounded(c.points_bound)},
             {"critical_failed", c.critical_failed},
-            {"kind", c.facts.front().row().name},
-            {"values", values_json(c.facts.front())},
             {"facts", json_of(c.facts)},
-            {"reason", english_text(c.reason())},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
+  j.update(to_json(c.facts.front()));
   if (c.band) j["band"] = r.bands[*c.band].name;
   if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
   if (!c.judged) j["judged"] = false;
@@ -253,33 +251,18 @@ Json to_json(const Result& r) {
   return j;
 }
 
-namespace {
-
-void erase_words(nlohmann::json& findings) {
-  for (nlohmann::json& f : findings) {
-    if (!f.is_object()) continue;
-    f.erase("text"), f.erase("said");
-    if (!f.contains("values") || !f["values"].is_object()) continue;
-    nlohmann::json facts = nlohmann::json::object();
-    for (const auto& [name, value] : f["values"].items())
-      if (!value.is_object() && !(value.is_array() && std::any_of(value.begin(), value.end(), [](const auto& v) { return v.is_object(); })))
-        facts[name] = value;
-    f["values"] = facts;
-  }
-}
-
-}  // namespace
-
-nlohmann::json without_words(nlohmann::json result) {
-  if (!result.is_object()) return result;
-  for (const char* list : {"verdict_reasons", "notes"})
-    if (result.contains(list) && result[list].is_array()) erase_words(result[list]);
-  if (result.contains("criteria") && result["criteria"].is_array())
-    for (nlohmann::json& c : result["criteria"])
-      if (c.is_object()) {
-        c.erase("reason");
-        erase_words(c["facts"]);
-      }
+Json with_words(Json result) {
+  const auto put = [](Json& findings) {
+    List all{{}, true};
+    for (Json& f : findings) {
+      all.items.push_back(finding_in(f).message());
+      f["text"] = all.items.back();
+    }
+    return all;
+  };
+  put(result["verdict_reasons"]);
+  put(result["notes"]);
+  for (Json& c : result["criteria"]) c["reason"] = msg("{}", put(c["facts"]));
   return result;
 }
 
@@ -325,7 +308,7 @@ void add_walls(Lines& out, const Result& r) {
   out.row({Message(), msg("mean"), msg("p95"), msg("over"), msg("under")}, 2);
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     const WallMeasures& m = r.shape.wall[w];
-    const Message name = scenarios::wall_text(w, r.shape.facing);
+    const Message name = msg("{}", scenarios::wall_text(w, r.shape.facing));
     if (m.samples == 0)
       out.row({name, msg("not cut"), {}, {}, {}}, 2);
     else

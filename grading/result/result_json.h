@@ -8,10 +8,10 @@
 
 namespace cavum::grading {
 
-/// Every name is always present; a figure that could not be measured is null.
+/// Every name is always present; a figure that could not be measured is null. No words: what is sealed and compared.
 [[nodiscard]] nlohmann::ordered_json to_json(const Result& result);
-/// The same without its sentences: results are compared by kinds and figures.
-[[nodiscard]] nlohmann::json without_words(nlohmann::json result);
+/// The same for readers: each finding with its "text", each criterion with its "reason", in English.
+[[nodiscard]] nlohmann::ordered_json with_words(nlohmann::ordered_json result);
 [[nodiscard]] Lines to_text(const Result& result);
 
 /// To a millionth, so that a figure reads the same wherever it is printed; never -0.

@@ -139,7 +139,7 @@ constexpr double k_nearly_as_well = 0.92;
 /// What a reader must know; what is doubtful asks for a person.
 void put_notes(const ScanFacts& f, Result& r) {
   constexpr double k_sure_agreement = 0.93, k_sure_crown = 0.55, k_sure_form_mm = 0.012;
-  for (const Message& note : f.notes) r.notes.push_back(finding<FindingKind::scan_note>(note));
+  r.notes.insert(r.notes.end(), f.put_right.begin(), f.put_right.end());
   if (f.cavities == 0) r.notes.push_back(finding<FindingKind::scan_shows_nothing>());
   if (f.cavities > 1) r.notes.push_back(finding<FindingKind::scan_cavities>(f.cavities));
   if (!f.apart.empty()) {
@@ -178,7 +178,9 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   facts.second_share = registration->second ? registration->second->share : 0.0;
   facts.end_mm = scan.end_mm;
   facts.holes = scan.holes;
-  facts.notes = scan.notes;
+  if (scan.parts_left_out > 0)
+    facts.put_right.push_back(finding<FindingKind::scan_parts_left_out>(scan.parts_left_out, as_percent(scan.left_out_percent, 2)));
+  if (scan.faces_turned) facts.put_right.push_back(finding<FindingKind::scan_faces_turned>());
   if (!fits_tooth(facts.fit)) require_size_and_side(scan, *registration, options, outer, path);
   require_same_tooth(facts.fit, path);
   require_one_pose(*registration, path);
@@ -203,10 +205,7 @@ GradedScan grade_scan(const std::string& path, const ScanOptions& options, const
   if (!facts.apart.empty()) {
     Result all = graded_by(cut_by_scan(even.mesh, caps, outer, facts.surface_bound_mm, path, ThinApart::goes), facts).result;
     mark(all, rubric);
-    List reasons{{}, true};
-    for (const Finding& reason : all.verdict_reasons) reasons.items.push_back(reason.message());
-    facts.were_they_counted =
-        finding<FindingKind::scan_apart_counted>(word_of(all.verdict), as_points(all.points), as_points(all.max_points), reasons);
+    facts.were_they_counted = finding<FindingKind::scan_apart_counted>(word_of(all.verdict), as_points(all.points), as_points(all.max_points));
   }
   GradedScan graded = graded_by(std::move(cut), std::move(facts));
   put_notes(graded.facts, graded.result);

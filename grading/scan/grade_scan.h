@@ -31,7 +31,7 @@ struct ScanFacts {
   std::optional<Finding> were_they_counted;  ///< where there are any: the verdict and points that there would be then
   double end_mm = 0.0;                       ///< length of the rim where the scan ends; 0: it is closed
   int holes = 0;                             ///< other rims
-  std::vector<Message> notes;                ///< what was put right, and what is doubtful
+  Findings put_right;                        ///< of the file
 };
 
 struct GradedScan {

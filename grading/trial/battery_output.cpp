@@ -10,7 +10,8 @@ Lines battery_text(const Battery& battery) {
     const Message by = !row.caught_by.empty() ? msg("by {}", List{row.caught_by, false})
                        : row.should.empty()   ? Message()
                                               : msg("should: {}", row.should);
-    out.row({wrong ? msg("!") : Message(), Name{row.name}, word_of(row.verdict), msg("{} of {}", as_points(row.points), as_points(row.max)), by});
+    out.row({wrong ? msg("!") : Message(), Name{row.name}, msg("{}", word_of(row.verdict)),
+             msg("{} of {}", as_points(row.points), as_points(row.max)), by});
   };
   line(battery.honest, battery.honest.verdict != Verdict::pass);
   for (const auto& row : battery.rows) line(row, row.verdict == Verdict::pass);

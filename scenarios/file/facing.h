@@ -30,6 +30,6 @@ struct Facing {
   return wall_name(wall);
 }
 /// "the buccal wall", "the floor"; of what is no wall, the opening.
-[[nodiscard]] Message wall_text(std::size_t wall, Facing facing);
+[[nodiscard]] Term wall_text(std::size_t wall, Facing facing);
 
 }  // namespace cavum::scenarios

@@ -354,7 +354,7 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 /// A figure of a wall that the cavity does not have.
 void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
-  const Message wall = wall_text(measure.first_wall, zones_.facing());
+  const Term wall = wall_text(measure.first_wall, zones_.facing());
   warn(fmt::format("rubric/criteria/{}/metric", i),
        measure.figure == WallFigure::max_over ? msg("in this tooth the cavity does not have {}: nobody can lose these points", wall)
                                               : msg("in this tooth the cavity does not have {}: nobody can win these points", wall),

@@ -22,7 +22,7 @@ int main(int argc, char** argv) {
       const auto session = cavum::grading::load_for_grading(argv[i]);
       const std::string result = cavum::grading::to_json(cavum::grading::grade(session->input(), session->rubric)).dump();
       const nlohmann::json sealed = cavum::parse_json_or_null(reader.result_json());
-      const bool same = cavum::grading::without_words(nlohmann::json::parse(result)) == cavum::grading::without_words(sealed);
+      const bool same = nlohmann::json::parse(result) == sealed;
       std::printf("%s %s ticks %lld state %016llx result %s%s\n", argv[i], report.verified ? "verified" : "NOT VERIFIED",
                   static_cast<long long>(report.ticks), static_cast<unsigned long long>(reader.chunks().back().state_hash),
                   cavum::to_hex(cavum::sha256(result)).c_str(), same ? "" : " GRADED DIFFERENTLY");

@@ -249,7 +249,7 @@ def nicked_scans(cavum, folder, seed):
             deep_mm, s["verdict"], s["score"]["points"], s["volumes"]["outside_mm3"], s["scan"]["apart"]), flush=True)
     grown = [said[d]["volumes"]["outside_mm3"] - said[0.0]["volumes"]["outside_mm3"] for d in (0.2, 0.5)]
     if said[0.0]["scan"]["apart"] or len(said[0.2]["scan"]["apart"]) != 1 or said[0.2]["verdict"] != "review" or grown[0] > 0.02 or \
-            not any(n["kind"] == "scan_apart_counted" and n["values"]["verdict"] == "fail" for n in said[0.2]["notes"]):
+            not any(n["kind"] == "scan_apart_counted" and n["values"]["verdict"]["term"] == "fail" for n in said[0.2]["notes"]):
         failed.append("a nick 0.2 mm deep is not named, left to a person and uncounted")
     if said[0.5]["scan"]["apart"] or grown[1] < 0.15:
         failed.append("a nick 0.5 mm deep is not counted")

@@ -155,7 +155,7 @@ int finish(const ExamArguments& o, scenarios::Exam& exam, const nlohmann::json& 
   records::remember_closed(closed.graded->session.notes, session);
   const grading::Result& result = closed.result;
   if (o.json) {
-    auto j = grading::to_json(result);
+    auto j = grading::with_words(grading::to_json(result));
     j["session"] = session;
     if (!servo.is_null()) j["servo"] = servo;
     print_json(j);

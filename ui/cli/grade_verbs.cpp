@@ -37,7 +37,7 @@ struct GradeArguments {
 
 /// The result with its contract names, and beside it the old one where another rubric or scenario was asked for.
 Json json_of(const MarkedSession& g) {
-  Json j = grading::to_json(g.result);
+  Json j = grading::with_words(grading::to_json(g.result));
   if (g.regrade) j["regrade"] = grading::to_json(*g.comparison);
   return j;
 }

@@ -86,7 +86,7 @@ void run_scan_grade(const ScanArguments& o) {
   const Tooth tooth = has_beside(with_beside) ? own_tooth(with_beside) : with_beside;  // a tooth is scanned alone
   const grading::GradedScan g = grading::grade_scan(o.scan, {unit_mm, o.mirror}, scenario, rubric, tooth, zones);
   const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begun).count();
-  Json marked = grading::to_json(g.result);
+  Json marked = grading::with_words(grading::to_json(g.result));
   marked["scan"] = facts_json(g.facts, o, seconds);
   if (!o.out.empty()) write_text_file(o.out, marked.dump(2, ' ', false, Json::error_handler_t::replace) + "\n", {.may_replace = false});
   if (!o.out_tooth.empty()) save_tooth_file(g.after, o.out_tooth);

@@ -165,7 +165,7 @@ Caught catch_careless(const ScenarioArguments& o, const scenarios::ExamSetup& se
 }
 
 nlohmann::ordered_json to_json(const Caught& c) {
-  const auto result = grading::to_json(c.result);
+  const auto result = grading::with_words(grading::to_json(c.result));
   nlohmann::ordered_json j{
       {"fails_by", c.criterion.id}, {"caught", c.as_named}, {"reason", english_text(c.criterion.reason())}, {"what_to_do", c.advice}};
   for (const char* key : {"verdict", "score", "time_s", "finish", "criteria"}) j[key] = result[key];
@@ -175,7 +175,7 @@ nlohmann::ordered_json to_json(const Caught& c) {
 Lines to_text(const Caught& c) {
   Lines out;
   const Number points = as_points(c.result.points), most = as_points(c.result.max_points);
-  const Message verdict = grading::word_of(c.result.verdict);
+  const Term verdict = grading::word_of(c.result.verdict);
   out.add(c.as_named ? msg("careless: failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason(), points, most, verdict)
                      : msg("careless: NOT failed by {} ({}); {} of {} points, {}", c.criterion.id, c.criterion.reason(), points, most, verdict));
   if (c.as_named) return out;
@@ -217,7 +217,7 @@ int solve(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
     if (solved.result) {
       j["point"] = solved.point;
-      auto result = grading::to_json(*solved.result);
+      auto result = grading::with_words(grading::to_json(*solved.result));
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
     j["reasons"] = solved.reasons;
@@ -233,7 +233,7 @@ int solve(const ScenarioArguments& o) {
   if (solved.result) {
     const grading::Result& r = *solved.result;
     const Number points{r.points, Unit::none, 1, r.points_bound}, most = as_points(r.max_points), mark = as_percent(r.pass_percent, 0);
-    const Message verdict = grading::word_of(r.verdict);
+    const Term verdict = grading::word_of(r.verdict);
     say(r.compensatory ? msg("score: {} of {} points, {}; pass mark {}", points, most, verdict, mark)
                        : msg("score: {} of {} points, {}; pass mark {} of each criterion", points, most, verdict, mark));
     say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0),

@@ -69,7 +69,7 @@ List limits_of(const scenarios::CriterionSpec& c) {
 /// A criterion's value as its table shows it.
 Message shown_value(const grading::CriterionResult& c, bool with_bound = true) {
   if (!c.value) return msg("–");
-  return grading::value_text(scenarios::known_measure(c.metric), *c.value, with_bound ? c.bound : 0, 2);
+  return msg("{}", grading::value_text(scenarios::known_measure(c.metric), *c.value, with_bound ? c.bound : 0, 2));
 }
 
 /// What a reader of the criteria would else have to guess.
@@ -175,7 +175,7 @@ Value step_by_text(const Value& id, const ReportSource& s) {
   return id;
 }
 
-/// A failed limit by its criterion's title, steps by their texts; for a student without ticks.
+/// A failed limit by its criterion's title, steps by their texts.
 Message finding_for(grading::Finding f, const ReportSource& s) {
   using Kind = grading::FindingKind;
   const auto& v = f.values;
@@ -184,22 +184,7 @@ Message finding_for(grading::Finding f, const ReportSource& s) {
       if (v[0] == Value(Name{c.id})) return msg("critical criterion {}: {}", Authored{c.title}, c.reason());
   if (f.kind == Kind::step_failed || f.kind == Kind::step_timed_out || f.kind == Kind::step_timed_out_otherwise || f.kind == Kind::last_step_open)
     f.values[0] = step_by_text(v[0], s);
-  if (s.reader == ReportReader::instructor) return f.message();
-  switch (f.kind) {
-    case Kind::interrupted:
-      return msg("the recording was interrupted at {} and taken up again; the exam's clock stood still meanwhile", v[0]);
-    case Kind::interrupted_for:
-      return msg("the recording was interrupted at {} and taken up again after {} by the computer's clock; the exam's clock stood still meanwhile",
-                 v[0], v[2]);
-    case Kind::step_failed:
-      return msg("step '{}' failed at {}: {}", v[0], v[1], v[3]);
-    case Kind::step_timed_out:
-      return msg("step '{}' ran out of its time at {}: its limit was {}", v[0], v[1], v[3]);
-    case Kind::step_timed_out_otherwise:
-      return msg("step '{}' ran out of its time at {}", v[0], v[1]);
-    default:
-      return f.message();
-  }
+  return f.message();
 }
 
 /// Why the verdict is what it is, for a student: a failed limit by its title and figures, without places in mm and ticks.

@@ -23,7 +23,7 @@ double area_of(const TriangleMesh& mesh) {
 }
 
 /// The largest connected part.
-TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::vector<Message>& notes) {
+TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, Scan& scan) {
   constexpr double k_most_beside = 0.1;
   std::vector<TriangleMesh> parts = connected_parts(mesh);
   if (parts.size() == 1) return std::move(parts.front());
@@ -37,7 +37,8 @@ TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, std::v
   if (all - most > k_most_beside * all)
     throw Error(path, msg("is in {} parts, and the largest has {} of the surface only", parts.size(), as_percent(100 * most / all, 0)),
                 msg("give a mesh of the one tooth, whose triangles share their corners"));
-  notes.push_back(msg("{} small parts beside the tooth were left out, {} of the surface", parts.size() - 1, as_percent(100 * (all - most) / all, 2)));
+  scan.parts_left_out = parts.size() - 1;
+  scan.left_out_percent = 100 * (all - most) / all;
   return std::move(parts[largest]);
 }
 
@@ -62,14 +63,14 @@ Scan read_scan(const std::string& path, double unit_mm) {
     throw Error(path, msg("has {} triangles, which is too few to measure a cavity by: {} is the least", mesh.triangles.size(), k_fewest),
                 msg("export the scan as fine as it is"));
   Scan scan;
-  scan.mesh = main_part(mesh, path, scan.notes);
+  scan.mesh = main_part(mesh, path, scan);
   std::vector<Rim> rims = rims_of(scan.mesh);
   require_few_holes(rims, path);
   scan.caps = caps_over(scan.mesh, rims);
   if (signed_volume_mm3(scan.mesh) + signed_volume_mm3(scan.caps) < 0) {
     for (auto* m : {&scan.mesh, &scan.caps})
       for (auto& t : m->triangles) std::swap(t[1], t[2]);
-    scan.notes.emplace_back(msg("the faces looked inwards and were turned"));
+    scan.faces_turned = true;
   }
   scan.end_mm = rims.empty() ? 0.0 : rims.front().length_mm;
   scan.holes = rims.empty() ? 0 : static_cast<int>(rims.size()) - 1;

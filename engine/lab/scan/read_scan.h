@@ -13,9 +13,11 @@ struct Scan {
   TriangleMesh mesh;  ///< mm, in the scanner's frame
   TriangleMesh caps;  ///< over all of its rims
   std::vector<SurfacePoint> points;
-  double end_mm = 0.0;  ///< length of the longest rim: where the scan ends; 0: it is closed
-  int holes = 0;        ///< other rims
-  std::vector<Message> notes;
+  double end_mm = 0.0;             ///< length of the longest rim: where the scan ends; 0: it is closed
+  int holes = 0;                   ///< other rims
+  std::size_t parts_left_out = 0;  ///< small ones next to the tooth
+  double left_out_percent = 0.0;   ///< of the surface
+  bool faces_turned = false;       ///< they looked inwards
 };
 
 /// Reads an STL, PLY, OBJ or OFF file in units of `unit_mm` millimetres. Parts beside the largest are left out where they are dust; faces that look

@@ -23,7 +23,7 @@ using testing::Carved;
 using testing::dentin_block;
 using testing::scenario_text;
 
-Message told_wall(scenarios::Wall wall) { return scenarios::wall_text(static_cast<std::size_t>(wall), {}); }
+Term told_wall(scenarios::Wall wall) { return scenarios::wall_text(static_cast<std::size_t>(wall), {}); }
 
 /// The moment that a lesson names; -1 where it names none.
 double told_s(const Message& m) {
@@ -251,8 +251,8 @@ TEST(LessonsOfAChamber, ARoofHasItsPlaceAndAMomentToLookAt) {
 TEST(WallsOfPeople, FrontTeethHaveLabialAndIncisal) {
   using scenarios::Facing;
   constexpr auto k_buccal = static_cast<std::size_t>(scenarios::Wall::buccal);
-  const Message buccal = scenarios::wall_text(k_buccal, Facing{}), labial = scenarios::wall_text(k_buccal, Facing{0, true}),
-                incisal = scenarios::wall_text(k_buccal, Facing{1, true});
+  const Term buccal = scenarios::wall_text(k_buccal, Facing{}), labial = scenarios::wall_text(k_buccal, Facing{0, true}),
+             incisal = scenarios::wall_text(k_buccal, Facing{1, true});
   EXPECT_TRUE(buccal != labial && labial != incisal && buccal != incisal);
   for (const char* front : {"upper central incisor (seed 7, one canal)", "tooth 13 (universal 6), upper right canine; tooth from a"})
     EXPECT_TRUE(anterior_in(front)) << front;

@@ -34,7 +34,7 @@ const char k_box_target[] =
     "kind = \"level\", z_mm = -2 }\n";
 
 const BoundedVolume& zone_volume(const Result& r, scenarios::Zone z) { return r.volumes.zone[static_cast<std::size_t>(z)].removed; }
-Message side_text(scenarios::Wall w) { return scenarios::wall_text(static_cast<std::size_t>(w), {}); }
+Term side_text(scenarios::Wall w) { return scenarios::wall_text(static_cast<std::size_t>(w), {}); }
 const WallMeasures& wall(const Result& r, scenarios::Wall w) { return r.shape.wall[static_cast<std::size_t>(w)]; }
 
 TEST(Grade, KnownCylinderGivesKnownVolumesWithinTheirBounds) {

@@ -4,6 +4,7 @@
 
 #include "engine/base/csv.h"
 #include "grading/records/exports.h"
+#include "grading/result/finding.h"
 #include "tests/grading/records/school.h"
 
 namespace cavum::records {
@@ -39,7 +40,7 @@ json result_of(const std::string& text) {
              {"points", 80.0},
              {"max", 100.0},
              {"critical_failed", true},
-             {"said", {{"say", "{}"}, {"of", json::array({text})}}}}}}};
+             {"facts", {to_json(grading::finding<grading::FindingKind::tissue_touched>(text))}}}}}};
 }
 
 Registry registry_of(const std::string& text, const std::string& candidate) {
