@@ -4,6 +4,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "engine/base/text.h"
 #include "grading/result/loss.h"
 #include "grading/result/result_json.h"
@@ -18,10 +19,39 @@ constexpr double k_same = 1e-6;  // results are written to a millionth
 bool same(const std::optional<double>& a, const std::optional<double>& b) {
   return a.has_value() == b.has_value() && (!a || std::fabs(*a - *b) <= k_same);
 }
-Message number(const std::optional<double>& v) { return v ? msg("{}", as_number(*v)) : msg("none"); }
+Value number(const std::optional<double>& v) { return v ? Value(as_number(*v)) : Value(Term{said("none")}); }
 
-/// One change: `what` is a word for what it was and is.
-Message change(const Message& what, const Message& from, const Message& to) { return msg("{}: {} → {}", what, from, to); }
+struct ChangeRow {
+  ChangeKind kind;
+  const char *name, *english;
+};
+constexpr ChangeRow k_changes[] = {
+    {ChangeKind::metric, "metric", said("metric")},
+    {ChangeKind::full, "full", said("full marks at")},
+    {ChangeKind::zero, "zero", said("no marks at")},
+    {ChangeKind::points, "points", said("points")},
+    {ChangeKind::band_limits, "band_limits", said("limits of bands")},
+    {ChangeKind::critical_above, "critical_above", said("critical above")},
+    {ChangeKind::critical_below, "critical_below", said("critical below")},
+    {ChangeKind::value, "value", said("value")},
+    {ChangeKind::added, "added", said("new criterion")},
+    {ChangeKind::dropped, "dropped", said("no longer a criterion")},
+    {ChangeKind::other_scenario, "other_scenario", said("measured against the new scenario")},
+    {ChangeKind::sealed_otherwise, "sealed_otherwise", said("the sealed figure is not what grading gives: tampered with, or of another program")},
+    {ChangeKind::work_share, "work_share", said("another share of the work counts as done")},
+    {ChangeKind::pass_percent, "pass_percent", said("pass mark")},
+    {ChangeKind::open_step, "open_step", said("an exam whose last step is open")},
+    {ChangeKind::within_bound, "within_bound", said("a verdict that bounds leave open")},
+    {ChangeKind::borderline_percent, "borderline_percent", said("borderline band")},
+    {ChangeKind::rule, "rule", said("rule")},
+    {ChangeKind::bands, "bands", said("bands")},
+};
+static_assert([] {
+  for (std::size_t i = 0; i < std::size(k_changes); ++i)
+    if (k_changes[i].kind != static_cast<ChangeKind>(i)) return false;
+  return std::size(k_changes) == static_cast<std::size_t>(ChangeKind::bands) + 1;
+}());
+const ChangeRow& row_of(ChangeKind kind) { return k_changes[static_cast<std::size_t>(kind)]; }
 
 template <class All>
 auto* find(All& list, const std::string& id) {
@@ -29,45 +59,47 @@ auto* find(All& list, const std::string& id) {
   return found == list.end() ? nullptr : &*found;
 }
 
-Message limits_text(const std::vector<double>& limits) {
+Value limits_value(const std::vector<double>& limits) {
   List list;
   for (const double limit : limits) list.items.push_back(msg("{}", as_number(limit)));
-  return limits.empty() ? msg("none") : msg("{}", list);
+  return limits.empty() ? number({}) : Value(list);
 }
 
-void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, std::vector<Message>& why) {
-  const auto figure = [&](const Message& what, const std::optional<double>& from, const std::optional<double>& to) {
-    if (!same(from, to)) why.push_back(change(what, number(from), number(to)));
+void changes_of_spec(const scenarios::CriterionSpec& a, const scenarios::CriterionSpec& b, Changes& why) {
+  using enum ChangeKind;
+  const auto figure = [&](ChangeKind kind, const std::optional<double>& from, const std::optional<double>& to) {
+    if (!same(from, to)) why.push_back({kind, number(from), number(to)});
   };
-  if (a.metric != b.metric) why.push_back(change(msg("metric"), Name{a.metric}, Name{b.metric}));
-  figure(msg("full marks at"), a.full, b.full);
-  figure(msg("no marks at"), a.zero, b.zero);
-  figure(msg("points"), a.points, b.points);
-  if (a.band_limits != b.band_limits) why.push_back(change(msg("limits of bands"), limits_text(a.band_limits), limits_text(b.band_limits)));
-  figure(msg("critical above"), a.critical_above, b.critical_above);
-  figure(msg("critical below"), a.critical_below, b.critical_below);
+  if (a.metric != b.metric) why.push_back({metric, Name{a.metric}, Name{b.metric}});
+  figure(full, a.full, b.full);
+  figure(zero, a.zero, b.zero);
+  figure(points, a.points, b.points);
+  if (a.band_limits != b.band_limits) why.push_back({band_limits, limits_value(a.band_limits), limits_value(b.band_limits)});
+  figure(critical_above, a.critical_above, b.critical_above);
+  figure(critical_below, a.critical_below, b.critical_below);
 }
 
-std::vector<Message> changes_of_rules(const scenarios::RubricSpec& a, const scenarios::RubricSpec& b) {
-  std::vector<Message> rules;
-  const auto rule = [&](const Message& what, const Message& from, const Message& to) {
-    if (!(from == to)) rules.push_back(change(what, from, to));
+Changes changes_of_rules(const scenarios::RubricSpec& a, const scenarios::RubricSpec& b) {
+  using enum ChangeKind;
+  Changes rules;
+  const auto change = [&](ChangeKind kind, const Value& from, const Value& to) {
+    if (!(from == to)) rules.push_back({kind, from, to});
   };
-  const auto open_step = [](bool passes) { return passes ? msg("may pass") : msg("is reviewed"); };
-  const auto within_bound = [](bool reviewed) { return reviewed ? msg("is reviewed") : msg("stands"); };
-  const auto sum = [](bool compensatory) { return compensatory ? msg("compensatory") : msg("non-compensatory"); };
-  const auto bands = [](const scenarios::RubricSpec& of) {
+  const auto open = [](bool passes) { return Term{passes ? said("may pass") : said("is reviewed")}; };
+  const auto in_bound = [](bool reviewed) { return Term{reviewed ? said("is reviewed") : said("stands")}; };
+  const auto sum = [](bool compensatory) { return Term{compensatory ? said("compensatory") : said("non-compensatory")}; };
+  const auto bands_of = [](const scenarios::RubricSpec& of) {
     List list;
     for (const auto& band : of.bands)
       list.items.push_back(band.most ? msg("{} (at most {})", Authored{band.name}, *band.most) : msg("{}", Authored{band.name}));
-    return of.bands.empty() ? msg("none") : msg("{}", list);
+    return of.bands.empty() ? number({}) : Value(list);
   };
-  rule(msg("pass mark"), msg("{}", as_percent(a.pass_percent, k_as_needed)), msg("{}", as_percent(b.pass_percent, k_as_needed)));
-  rule(msg("an exam whose last step is open"), open_step(a.open_step_passes), open_step(b.open_step_passes));
-  rule(msg("a verdict that bounds leave open"), within_bound(a.review_within_bound), within_bound(b.review_within_bound));
-  rule(msg("borderline band"), msg("{}", as_percent(a.borderline_percent, k_as_needed)), msg("{}", as_percent(b.borderline_percent, k_as_needed)));
-  rule(msg("rule"), sum(a.compensatory), sum(b.compensatory));
-  rule(msg("bands"), bands(a), bands(b));
+  change(pass_percent, as_percent(a.pass_percent, k_as_needed), as_percent(b.pass_percent, k_as_needed));
+  change(open_step, open(a.open_step_passes), open(b.open_step_passes));
+  change(within_bound, in_bound(a.review_within_bound), in_bound(b.review_within_bound));
+  change(borderline_percent, as_percent(a.borderline_percent, k_as_needed), as_percent(b.borderline_percent, k_as_needed));
+  change(rule, sum(a.compensatory), sum(b.compensatory));
+  change(bands, bands_of(a), bands_of(b));
   return rules;
 }
 
@@ -120,7 +152,7 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
     const OldCriterion* o = find(sealed.criteria, n.id);
     const CriterionResult* a = find(again.criteria, n.id);
     if (o == nullptr) {
-      d.why.push_back(msg("new criterion"));
+      d.why.push_back({ChangeKind::added});
     } else {
       d.old_points = o->points;
       d.old_max = o->max;
@@ -128,12 +160,14 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
       const scenarios::CriterionSpec* was = find(old_rubric.criteria, n.id);
       const scenarios::CriterionSpec* is = find(new_rubric.criteria, n.id);
       if (was != nullptr && is != nullptr) changes_of_spec(*was, *is, d.why);
-      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.push_back(msg("measured against the new scenario"));
+      if (a != nullptr && a->metric == n.metric && !same(a->value, n.value)) d.why.push_back({ChangeKind::other_scenario});
       if (a != nullptr && (!same(a->value, o->value) || !same(a->points, o->points))) {
         c.tampered = true;
-        d.why.push_back(msg("the sealed figure is not what grading gives: tampered with, or of another program"));
+        d.why.push_back({ChangeKind::sealed_otherwise});
       }
-      if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back(msg("another share of the work counts as done"));
+      if (constexpr double k_shown = 5e-4; o->value && n.value && std::fabs(*o->value - *n.value) >= k_shown)
+        d.why.push_back({ChangeKind::value, as_unit(*o->value, unit_of(n.unit), 3), as_unit(*n.value, unit_of(n.unit), 3)});
+      if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back({ChangeKind::work_share});
     }
     c.criteria.push_back(std::move(d));
   }
@@ -144,10 +178,21 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
     d.old_points = o.points;
     d.old_max = o.max;
     d.old_value = o.value;
-    d.why.push_back(msg("no longer a criterion"));
+    d.why.push_back({ChangeKind::dropped});
     c.criteria.push_back(std::move(d));
   }
   return c;
+}
+
+Message Change::message() const {
+  const Term name{row_of(kind).english};
+  return from ? msg("{}: {} → {}", name, *from, *to) : msg("{}", name);
+}
+
+Message all_of(const Changes& changes) {
+  List list{{}, true};
+  for (const Change& c : changes) list.items.push_back(c.message());
+  return msg("{}", list);
 }
 
 bool Comparison::differs() const { return verdict != before.verdict || !same(points, before.points) || !same(max, before.max); }
@@ -157,17 +202,26 @@ Message regrade_text(const Comparison& c) {
     return msg("{}, {} of {} points", Term{verdict}, as_points(points), as_points(max));
   };
   const Message now = result(c.verdict, c.points, c.max), sealed = result(c.before.verdict, c.before.points, c.before.max);
+  const Message by = c.entry                                    ? msg("what the ledger keeps with entry {}", *c.entry)
+                     : !c.rubric.empty() && !c.scenario.empty() ? msg("the rubric {} and the scenario {}", c.rubric, c.scenario)
+                     : !c.rubric.empty()                        ? msg("the rubric {}", c.rubric)
+                     : !c.scenario.empty()                      ? msg("the scenario {}", c.scenario)
+                                                                : msg("this version of the program");
   return c.tampered ? msg("{} (marked by: {}); the exam was sealed as {}, which is not what grading gives: the result was tampered "
                           "with, or its station's program was, or is another one",
-                          now, c.by, sealed)
-                    : msg("{} (marked by: {}); the exam was sealed as {}", now, c.by, sealed);
+                          now, by, sealed)
+                    : msg("{} (marked by: {}); the exam was sealed as {}", now, by, sealed);
 }
 
 Json to_json(const Comparison& c) {
   const auto optional = [&](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
-  const auto texts = [](const std::vector<Message>& messages) {
+  const auto json_of = [](const Changes& changes) {
     Json all = Json::array();
-    for (const Message& m : messages) all.push_back(english_text(m));
+    for (const Change& change : changes) {
+      Json& one = all.emplace_back(Json{{"kind", row_of(change.kind).name}});
+      if (change.from) one["from"] = encode(*change.from), one["to"] = encode(*change.to);
+      one["text"] = change.message();
+    }
     return all;
   };
   Json list = Json::array();
@@ -181,12 +235,12 @@ Json to_json(const Comparison& c) {
                     {"new_value", optional(d.new_value)},
                     {"unit", d.unit},
                     {"difference", rounded(d.difference())},
-                    {"changed", texts(d.why)}});
-  return {{"by", english_text(c.by)},
+                    {"changed", json_of(d.why)}});
+  return {{"by", {{"rubric", c.rubric}, {"scenario", c.scenario}, {"entry", c.entry ? Json(*c.entry) : Json(nullptr)}}},
           {"old", {{"verdict", c.before.verdict}, {"points", rounded(c.before.points)}, {"max", rounded(c.before.max)}}},
           {"new", {{"verdict", c.verdict}, {"points", rounded(c.points)}, {"max", rounded(c.max)}}},
           {"criteria", list},
-          {"rules", texts(c.rules)},
+          {"rules", json_of(c.rules)},
           {"tampered", c.tampered}};
 }
 
@@ -194,18 +248,12 @@ Lines to_text(const Comparison& c) {
   const auto points = [&](const std::optional<double>& p, const std::optional<double>& max) {
     return p ? msg("{} / {}", as_points(*p), as_points(max.value_or(0))) : msg("-");
   };
-  const auto all_of = [](std::vector<Message> list) { return msg("{}", List{std::move(list), true}); };
   Lines out;
   out.row({Message(), msg("old"), msg("new"), msg("change"), msg("what changed")});
   out.row({msg("verdict"), msg("{}", Term{c.before.verdict}), msg("{}", Term{c.verdict}), {}, all_of(c.rules)});
   out.row({msg("points"), points(c.before.points, c.before.max), points(c.points, c.max), msg("{}", signed_points(c.points - c.before.points)), {}});
   for (const auto& d : c.criteria) {
-    std::vector<Message> why = d.why;
-    if (!same(d.old_value, d.new_value) && d.old_value && d.new_value) {
-      const Unit unit = unit_of(d.unit);
-      why.push_back(change(msg("value"), msg("{}", as_unit(*d.old_value, unit, 3)), msg("{}", as_unit(*d.new_value, unit, 3))));
-    }
-    out.row({Name{d.id}, points(d.old_points, d.old_max), points(d.new_points, d.new_max), msg("{}", signed_points(d.difference())), all_of(why)});
+    out.row({Name{d.id}, points(d.old_points, d.old_max), points(d.new_points, d.new_max), msg("{}", signed_points(d.difference())), all_of(d.why)});
   }
   return out;
 }

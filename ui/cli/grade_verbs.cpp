@@ -103,11 +103,8 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
                   2);
         for (const auto& d : c.criteria)
           if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
-            List why;
-            for (const auto& reason : d.why) why.items.push_back(msg("{}", reason));
-            why.sentences = true;
             const Message one_more = msg("{} {}", d.id, signed_number(d.difference()));
-            changes.add(why.items.empty() ? msg("{}: {}", file, one_more) : msg("{}: {}: {}", file, one_more, why), 2);
+            changes.add(d.why.empty() ? msg("{}: {}", file, one_more) : msg("{}: {}: {}", file, one_more, all_of(d.why)), 2);
           }
         ++compared;
         ++verdicts[{c.before.verdict, now}];

@@ -13,12 +13,8 @@ MarkedSession marked_session(const std::string& path, const MarkingOptions& o, g
   m.another_task = o.another_task;
   if (!o.scenario.empty()) m.scenario = scenarios::load_scenario(o.scenario);
   if (!o.rubric.empty()) m.rubric = scenarios::parse_rubric(read_text_file(o.rubric), o.rubric);
-  if (!o.rubric.empty() && !o.scenario.empty())
-    m.by = msg("the rubric {} and the scenario {}", o.rubric, o.scenario);
-  else if (!o.rubric.empty())
-    m.by = msg("the rubric {}", o.rubric);
-  else if (!o.scenario.empty())
-    m.by = msg("the scenario {}", o.scenario);
+  m.rubric_file = o.rubric;
+  m.scenario_file = o.scenario;
   return marked_session(path, std::move(m), grounds);
 }
 
@@ -46,7 +42,9 @@ MarkedSession marked_session(const std::string& path, Marking by, grading::ExamG
   }
   if (!old) return g;
   g.comparison = grading::compare(*old, again ? *again : g.result, old_rubric, g.result, g.rubric);
-  g.comparison->by = anew ? by.by : msg("this version of the program");
+  g.comparison->rubric = by.rubric_file;
+  g.comparison->scenario = by.scenario_file;
+  g.comparison->entry = by.entry;
   g.regrade = anew || g.comparison->differs();
   return g;
 }

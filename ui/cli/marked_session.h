@@ -23,7 +23,8 @@ struct Marking {
   std::optional<scenarios::Scenario> scenario;
   std::optional<scenarios::RubricSpec> rubric;
   bool another_task = false;
-  Message by;  ///< "the rubric r.toml"
+  std::string rubric_file, scenario_file;  ///< where they come from; or an entry of the ledger
+  std::optional<std::uint64_t> entry;
   [[nodiscard]] bool anew() const { return scenario || rubric; }
 };
 

@@ -63,9 +63,7 @@ Marking marking_of(const report::ReportLedger& ledger, const records::FiledSessi
   m.scenario = records::scenario_of(*basis, entry + ": scenario.toml");
   m.rubric = records::rubric_of(*basis, entry + ": rubric.toml");
   m.another_task = true;  // was allowed when it was entered
-  m.by = m.rubric && m.scenario ? msg("the rubric and the scenario that the ledger keeps with entry {}", regrade.seq)
-         : m.scenario           ? msg("the scenario that the ledger keeps with entry {}", regrade.seq)
-                                : msg("the rubric that the ledger keeps with entry {}", regrade.seq);
+  m.entry = regrade.seq;
   return m;
 }
 

@@ -354,14 +354,13 @@ void add_attempts(Document& d, const ReportSource& s) {
 }
 
 void add_regrade(Document& d, const grading::Comparison& c) {
-  const auto because = [](const std::vector<Message>& why) { return tr("{}", List{why, true}); };
   d.blocks.push_back(Heading{tr("Beside the sealed result")});
   ReportTable t{{{"", false, 2}, {tr("Sealed"), true, 1.5}, {tr("Regrade"), true, 1.5}, {tr("Change"), true, 1}, {tr("What changed"), false, 5}},
                 {},
                 tr("Sealed result and regrade"),
                 0,
                 "regrade"};
-  t.rows.push_back({{{tr("verdict")}, {tr("{}", Term{c.before.verdict})}, {tr("{}", Term{c.verdict})}, {""}, {because(c.rules)}}});
+  t.rows.push_back({{{tr("verdict")}, {tr("{}", Term{c.before.verdict})}, {tr("{}", Term{c.verdict})}, {""}, {tr(grading::all_of(c.rules))}}});
   t.rows.push_back({{{tr("points")},
                      {points_of(c.before.points, c.before.max)},
                      {points_of(c.points, c.max)},
@@ -376,15 +375,11 @@ void add_regrade(Document& d, const grading::Comparison& c) {
                        {""}}});
   }
   for (const auto& k : c.criteria) {
-    std::vector<Message> why = k.why;
-    const Unit unit = grading::unit_of(k.unit);
-    if (constexpr double k_shown = 5e-4; k.old_value && k.new_value && std::fabs(*k.old_value - *k.new_value) >= k_shown)
-      why.push_back(msg("value {} → {}", as_unit(*k.old_value, unit, 3), as_unit(*k.new_value, unit, 3)));
     t.rows.push_back({{{k.id},
                        {points_of(k.old_points, k.old_max)},
                        {points_of(k.new_points, k.new_max)},
                        {figure(grading::signed_points(k.difference()))},
-                       {because(why)}}});
+                       {tr(grading::all_of(k.why))}}});
   }
   d.blocks.push_back(std::move(t));
 }
