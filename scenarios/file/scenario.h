@@ -1,4 +1,4 @@
-// What an instructor writes: one TOML file with the tooth, the instruments, the steps, the zones and the
+// What an instructor writes: one TOML file with the tooth, the burs, the steps, the zones and the
 // rubric of an exam. Plain data; `parse_scenario` (parse.h) reads it, `build_zones` (zone_map.h) lays its
 // zones into a tooth, `Runner` (runner.h) runs its steps, and grading reads the rubric.
 #pragma once
