@@ -1,5 +1,5 @@
 // Sine, cosine, arc tangent, exp, log, powers and tanh from arithmetic and square roots alone: libm gives different bits on different machines, and a
-// replay must not. Used where the engine itself needs them (sampling of a diamond point, run-out, friction).
+// replay must not. Used where the engine itself needs them (sampling of a bur, run-out, friction).
 #pragma once
 
 #include <bit>

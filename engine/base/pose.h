@@ -55,7 +55,7 @@ struct Mat3 {
   return normalized(Quat{1.0 + d, c.x, c.y, c.z});
 }
 
-/// Tip of the diamond point in the tooth frame, and the rotation from tool frame to tooth frame.
+/// Tip of the bur in the tooth frame, and the rotation from tool frame to tooth frame.
 struct Pose {
   Vec3 tip_mm;
   Quat rotation;

@@ -17,7 +17,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<std::string_view, 12> k_columns{"t_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz", "pedal", "b1", "b2", "point"};
+constexpr std::array<std::string_view, 12> k_columns{"t_s", "x_mm", "y_mm", "z_mm", "qw", "qx", "qy", "qz", "pedal", "b1", "b2", "bur"};
 constexpr std::size_t k_required = 9;
 
 constexpr double k_longest_s = 86'400;  // a day
@@ -38,7 +38,7 @@ std::vector<std::size_t> read_header(const CsvReader& in) {
           in.fail(MotionError::column_unit, msg("column '{}' has another unit or none", one_line(name)),
                   msg("convert it to '{}'", fmt::format("{}{}", axis, axis == "t" ? "_s" : "_mm")));
       in.fail(MotionError::unknown_column, msg("column '{}' is not known", one_line(name)),
-              msg("use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point"));
+              msg("use t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,bur"));
     }
     const auto c = static_cast<std::size_t>(found - k_columns.begin());
     if (std::find(column_of.begin(), column_of.end(), c) != column_of.end())
@@ -77,9 +77,9 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
   if (n2 < 0.5 || n2 > 2)
     in.fail(MotionError::rotation, msg("the rotation qw,qx,qy,qz is not of unit length"),
             msg("give a unit quaternion, 1,0,0,0 for an upright handpiece"));
-  const bool has_point = std::find(column_of.begin(), column_of.end(), std::size_t{11}) != column_of.end();
-  if (has_point && (v[11] != std::floor(v[11]) || v[11] < 0 || v[11] > 255))
-    in.fail(MotionError::point, msg("point is {}, not a number of the tray", as_number(v[11])), msg("write 0 for the first diamond point"));
+  const bool has_bur = std::find(column_of.begin(), column_of.end(), std::size_t{11}) != column_of.end();
+  if (has_bur && (v[11] != std::floor(v[11]) || v[11] < 0 || v[11] > 255))
+    in.fail(MotionError::bur, msg("bur is {}, not a number of the tray", as_number(v[11])), msg("write 0 for the first bur"));
   for (const std::size_t button : {9u, 10u})
     if (v[button] != 0 && v[button] != 1)
       in.fail(MotionError::button, msg("{} is {}, neither 0 nor 1", k_columns[button], as_number(v[button])),
@@ -89,15 +89,15 @@ MotionSample read_row(const CsvReader& in, const std::vector<std::size_t>& colum
 
 constexpr double k_coarsest_mm = 1.0, k_furthest_mm = 500.0;
 
-/// What a comment `# NAME = VALUE` says: the diamond point, or the encoder's step.
+/// What a comment `# NAME = VALUE` says: the bur, or the encoder's step.
 void take_setting(const CsvReader& in, Motion& motion) {
   const auto equals = in.comment().find('=');
   if (equals == std::string_view::npos) return;
   const auto name = without_blanks(in.comment().substr(0, equals)), value = without_blanks(in.comment().substr(equals + 1));
-  if (name == "point") {
-    motion.point = value;
-    if (motion.point.empty())
-      in.fail(MotionError::setting, msg("'# point =' names no diamond point"), msg("write its name, such as round-1.0, or leave the line out"));
+  if (name == "bur") {
+    motion.bur = value;
+    if (motion.bur.empty())
+      in.fail(MotionError::setting, msg("'# bur =' names no bur"), msg("write its name, such as round-1.0, or leave the line out"));
   } else if (name == "position_quantum_mm") {
     double& q = motion.position_quantum_mm;
     const auto [end, error] = std::from_chars(value.data(), value.data() + value.size(), q);
@@ -197,7 +197,7 @@ std::optional<Quat> read_back_as(const TickInput& want) {
 }  // namespace
 
 std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, double position_quantum_mm, const std::string& where) {
-  std::string out = fmt::format("# position_quantum_mm = {}\n# first_tip_mm = {} {} {}\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n",
+  std::string out = fmt::format("# position_quantum_mm = {}\n# first_tip_mm = {} {} {}\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n",
                                 position_quantum_mm, first_tip_mm.x, first_tip_mm.y, first_tip_mm.z);
   for (std::size_t i = 0; i < inputs.size(); ++i) {
     const TickInput& in = inputs[i];
@@ -210,7 +210,7 @@ std::string motion_text(std::span<const TickInput> inputs, Vec3 first_tip_mm, do
                   msg("replay the session itself: `cavum replay`"));
     const auto mm = [](std::int32_t nm) { return fmt::format("{}{}.{:06}", nm < 0 ? "-" : "", std::abs(nm) / 1'000'000, std::abs(nm) % 1'000'000); };
     out += fmt::format("{}.{:03},{},{},{},{},{},{},{},{},{},{},{}\n", i / 1000, i % 1000, mm(in.tip_nm[0]), mm(in.tip_nm[1]), mm(in.tip_nm[2]), q->w,
-                       q->x, q->y, q->z, in.pedal(), (in.flags & k_button_1) != 0 ? 1 : 0, (in.flags & k_button_2) != 0 ? 1 : 0, in.point);
+                       q->x, q->y, q->z, in.pedal(), (in.flags & k_button_1) != 0 ? 1 : 0, (in.flags & k_button_2) != 0 ? 1 : 0, in.bur);
   }
   return out;
 }
@@ -229,7 +229,7 @@ MotionSample Motion::at(double t_s) const noexcept {
   if (after == samples.end()) return samples.back();
   const MotionSample &a = *(after - 1), &b = *after;
   const double past = t - a.t_s, f = past > k_same_s ? past / (b.t_s - a.t_s) : 0.0;
-  MotionSample s = a;  // pedal is linear, buttons and point hold
+  MotionSample s = a;  // pedal is linear, buttons and bur hold
   s.t_s = t;
   s.pose.tip_mm = a.pose.tip_mm + (b.pose.tip_mm - a.pose.tip_mm) * f;
   const Quat p = a.pose.rotation, q = b.pose.rotation;

@@ -1,7 +1,7 @@
 // Recorded or scripted motion as a CSV file, read whole and checked before the exam starts, then played
-// tick by tick. Columns: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,point (number in the
-// tray); any order, any rate. Line ends of every kind and the byte order mark of spreadsheets are accepted. `# point = round-1.0` before the header
-// chooses the diamond point, `# position_quantum_mm = 0.055` says by what step the device that it came from reports its position (0, or no such line:
+// tick by tick. Columns: t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal and optionally b1,b2,bur (number in the
+// tray); any order, any rate. Line ends of every kind and the byte order mark of spreadsheets are accepted. `# bur = round-1.0` before the header
+// chooses the bur, `# position_quantum_mm = 0.055` says by what step the device that it came from reports its position (0, or no such line:
 // exact).
 // `# first_tip_mm = 1.5 0 2` says where the servo starts, if not at the first row.
 #pragma once
@@ -35,7 +35,7 @@ enum class MotionError : std::uint8_t {
   rotation,
   pedal,
   button,
-  point,
+  bur,
   setting,     ///< in a comment, `# NAME = VALUE`
   no_reading,  ///< of the device, in a session to be written as a motion
 };
@@ -45,12 +45,12 @@ struct MotionSample {
   Pose pose;         ///< tip and rotation (tool to tooth), tooth frame
   double pedal = 0;  ///< 0..1
   bool button_1 = false, button_2 = false;
-  int point = -1;  ///< number in the tray; -1 = the one already mounted
+  int bur = -1;  ///< number in the tray; -1 = the one already mounted
 };
 
 struct Motion {
   std::vector<MotionSample> samples;  ///< t_s grows strictly
-  std::string point;                  ///< from the header comment; empty = none named
+  std::string bur;                    ///< from the header comment; empty = none named
   double position_quantum_mm = 0;     ///< from the header comment; 0 = exact
   std::optional<Vec3> first_tip_mm;   ///< where the servo starts, from the header comment; none: at the first sample
 

@@ -33,7 +33,7 @@ Message name_of(const ChunkRow& c) {
 void check_artifacts(const SessionReader& session, Findings& findings) {
   for (const auto& a : session.artifacts())
     if (sha256(a.bytes) != a.sha256) findings.push_back(msg("table artifact: '{}' was changed after it was recorded", a.name));
-  for (const char* name : {"scenario.toml", "start_tooth.cvt", "point_000.toml", "force_model.toml", "servo.toml"})
+  for (const char* name : {"scenario.toml", "start_tooth.cvt", "bur_000.toml", "force_model.toml", "servo.toml"})
     if (session.artifact(name) == nullptr) findings.push_back(msg("table artifact: '{}' is missing", name));
 }
 

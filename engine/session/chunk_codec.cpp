@@ -42,7 +42,7 @@ InputWords to_words(const TickInput& in) {
           word(in.rotation_q30[3]),
           in.pedal_q16,
           in.flags,
-          in.point};
+          in.bur};
 }
 
 TickInput from_words(const InputWords& w, const Where& where) {
@@ -51,7 +51,7 @@ TickInput from_words(const InputWords& w, const Where& where) {
   in.rotation_q30 = {number(w[3]), number(w[4]), number(w[5]), number(w[6])};
   in.pedal_q16 = narrow<std::uint16_t>(w[7], where);
   in.flags = narrow<std::uint16_t>(w[8], where);
-  in.point = narrow<std::uint8_t>(w[9], where);
+  in.bur = narrow<std::uint8_t>(w[9], where);
   return in;
 }
 

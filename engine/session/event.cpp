@@ -28,7 +28,7 @@ CAVUM_JSON_OF(OfStep, (step))
 CAVUM_JSON_OF(OfPause, (pause))
 CAVUM_JSON_OF(OfTissue, (site_mm), (tissue))
 CAVUM_JSON_OF(OfEntry, (entry), (text))
-CAVUM_JSON_OF(PointNotAllowed, (point))
+CAVUM_JSON_OF(BurNotAllowed, (bur))
 CAVUM_JSON_OF(Finished, (how))
 CAVUM_JSON_OF(PauseRefused, (pauses))
 CAVUM_JSON_OF(ResumedBy, (device), (notes), (source), (ticket_remembered))
@@ -62,7 +62,7 @@ constexpr std::array<std::string_view, std::variant_size_v<Event>> k_kind_words{
     said("step started"), said("step completed"), said("step failed"), said("step time limit"), said("time limit"), said("over speed"),
     said("aim reached"), said("perforation"), said("pause started"), said("pause ended"), said("hold started"), said("hold ended"),
     said("stylus back"), said("pedal lost"), said("pedal back"), said("servo disagrees"), said("office hold"), said("office hold released"),
-    said("announcement"), said("announcement read"), said("tutorial"), said("point not allowed"), said("finished"), said("pause refused"),
+    said("announcement"), said("announcement read"), said("tutorial"), said("bur not allowed"), said("finished"), said("pause refused"),
     said("gap"), said("moved"), said("servo gap"), said("overruns"), said("stylus silent"), said("servo stopped"), said("servo lateness"),
     said("late work"), said("lock"), said("measured force")};
 // clang-format on

@@ -1,5 +1,5 @@
 // What happened in an exam beside the motion. Each kind is a struct, and an event is one of them: the runner's follow from the motion, so that a
-// replay comes to the same ones; the station's are its word. Steps, points and tissues are named by their numbers. How a file holds them:
+// replay comes to the same ones; the station's are its word. Steps, burs and tissues are named by their numbers. How a file holds them:
 // docs/formats/session.md.
 #pragma once
 
@@ -58,9 +58,9 @@ using StepCompleted = EventKind<"step_completed", OfStep>;
 using StepFailed = EventKind<"step_failed", OfStep>;  ///< its fail_when came true
 using StepTimeUp = EventKind<"step_time_limit", OfStep>;
 using TimeUp = EventKind<"time_limit">;  ///< the exam's
-struct PointNotAllowed {
-  static constexpr char k_kind[] = "point_not_allowed";
-  std::int32_t point = 0;  ///< of the tray
+struct BurNotAllowed {
+  static constexpr char k_kind[] = "bur_not_allowed";
+  std::int32_t bur = 0;  ///< of the tray
 };
 using OverSpeed = EventKind<"over_speed">;              ///< faster than max_rpm
 using AimReached = EventKind<"aim_reached", OfTissue>;  ///< a tissue under perforation.aims
@@ -144,7 +144,7 @@ struct MeasuredForce {                               ///< by a load cell; no pro
   std::vector<double> f_n;  ///< along the contact normal, resisting positive; the first at the event's tick
 };
 
-using RunnerEvent = std::variant<StepStarted, StepCompleted, StepFailed, StepTimeUp, TimeUp, PointNotAllowed, OverSpeed, AimReached, Perforated,
+using RunnerEvent = std::variant<StepStarted, StepCompleted, StepFailed, StepTimeUp, TimeUp, BurNotAllowed, OverSpeed, AimReached, Perforated,
                                  Finished, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded>;
 using StationEvent =
     std::variant<RecordingGap, RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees,

@@ -134,7 +134,7 @@ Recorder Recorder::create(const std::string& path, const SessionSetup& setup, co
     if (!there) throw Error(FileError::missing, Name{path}, what, msg("give it in the setup"));
   };
   need(!setup.tooth.empty(), msg("a session needs a tooth"));
-  need(!setup.points_toml.empty() && setup.points_toml.size() <= 255, msg("a session needs between 1 and 255 diamond points"));
+  need(!setup.burs_toml.empty() && setup.burs_toml.size() <= 255, msg("a session needs between 1 and 255 burs"));
   need(!setup.force_model_toml.empty(), msg("a session needs a force model"));
   need(!setup.servo_toml.empty(), msg("a session needs servo settings"));
   need(!setup.candidate.empty(), msg("a session needs the candidate's pseudonym"));

@@ -19,7 +19,7 @@ namespace cavum {
 class Recorder {
  public:
   /// A new session file holding the setup. Throws Error when `path` exists or cannot be written, when the
-  /// setup lacks tooth, diamond points, force model or servo settings or names no source of motion, or when the station has no usable key.
+  /// setup lacks tooth, burs, force model or servo settings or names no source of motion, or when the station has no usable key.
   [[nodiscard]] static Recorder create(const std::string& path, const SessionSetup& setup, const ReadClocks& clocks = read_clocks);
 
   Recorder(Recorder&&) = default;

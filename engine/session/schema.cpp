@@ -9,7 +9,7 @@ const std::array<const char*, 6> k_session_schema = {
   key TEXT PRIMARY KEY,
   value TEXT NOT NULL
 ) STRICT, WITHOUT ROWID)",
-    R"(CREATE TABLE artifact (  -- files kept whole: scenario, tooth, diamond points, force model, servo settings
+    R"(CREATE TABLE artifact (  -- files kept whole: scenario, tooth, burs, force model, servo settings
   seq INTEGER PRIMARY KEY,
   name TEXT NOT NULL,       -- final_tooth.cvt is written on closing, all others before the first tick
   sha256 BLOB NOT NULL,     -- of bytes
@@ -20,7 +20,7 @@ const std::array<const char*, 6> k_session_schema = {
   seq INTEGER PRIMARY KEY,        -- 0, 1, 2 ...
   first_tick INTEGER NOT NULL,    -- number of the first tick, from 0; meta.tick_s is the length of a tick
   ticks INTEGER NOT NULL,         -- 0..1000; 0 = events only
-  inputs BLOB NOT NULL,           -- what the servo consumed, packed: tip nm, rotation 2^-30, pedal 1/65535, flags, diamond point
+  inputs BLOB NOT NULL,           -- what the servo consumed, packed: tip nm, rotation 2^-30, pedal 1/65535, flags, bur
   records BLOB NOT NULL,          -- what it gave, packed: force uN, penetration nm, proxy nm, rpm, leaves removed, notices
   removed BLOB NOT NULL,          -- leaves removed per tick, packed: x, y, z in leaves of the tooth, tissue id
   state_hash INTEGER NOT NULL,    -- of the servo's state after the last tick (64 bits, two's complement)

@@ -46,10 +46,9 @@ std::vector<Artifact> artifacts_of(const SessionSetup& setup) {
   all.push_back(artifact("scenario.toml", setup.scenario_toml));
   if (!setup.rubric_toml.empty()) all.push_back(artifact("rubric.toml", setup.rubric_toml));
   all.push_back(artifact("start_tooth.cvt", setup.tooth));
-  for (std::size_t i = 0; i < setup.points_toml.size(); ++i) {
+  for (std::size_t i = 0; i < setup.burs_toml.size(); ++i) {
     const std::string number = std::to_string(i);
-    all.push_back(
-        artifact(fmt::format("point_{}{}.toml", std::string(3 - std::min<std::size_t>(3, number.size()), '0'), number), setup.points_toml[i]));
+    all.push_back(artifact(fmt::format("bur_{}{}.toml", std::string(3 - std::min<std::size_t>(3, number.size()), '0'), number), setup.burs_toml[i]));
   }
   all.push_back(artifact("force_model.toml", setup.force_model_toml));
   all.push_back(artifact("servo.toml", setup.servo_toml));

@@ -35,7 +35,7 @@ struct SessionSetup {
   std::string rubric_toml;  ///< empty when the scenario's own rubric counts
   std::string force_model_toml;
   std::string servo_toml;                                  ///< to_toml(ServoConfig)
-  std::vector<std::string> points_toml;                    ///< diamond points in the order of the tray
+  std::vector<std::string> burs_toml;                      ///< burs in the order of the tray
   Bytes tooth;                                             ///< compact tooth file before the first tick
   std::array<std::int32_t, 3> first_tip_nm{};              ///< where the servo state starts, tooth frame
   Notes notes;                                             ///< further facts by key (operator's seed, room …)

@@ -222,7 +222,7 @@ SessionSetup SessionReader::setup() const {
   for (const auto& [key, value] : meta_)
     if (key.starts_with("note.")) s.notes.emplace_back(key.substr(5), value);
   for (const auto& a : artifacts_) {
-    if (a.name.starts_with("point_")) s.points_toml.emplace_back(a.bytes.begin(), a.bytes.end());
+    if (a.name.starts_with("bur_")) s.burs_toml.emplace_back(a.bytes.begin(), a.bytes.end());
     if (a.name.starts_with("attachment/")) s.attachments.emplace_back(a.name.substr(11), a.bytes);
   }
   return s;

@@ -19,7 +19,7 @@ struct Simulation {
 /// `state.removed` holds the leaves removed in the tick.
 using TickVisitor = std::function<void(std::int64_t tick, const TickInput& input, const TickOutput& output, const ServoState& state)>;
 
-/// Throws Error when the tooth, a diamond point, the force model or the servo settings cannot be used;
+/// Throws Error when the tooth, a bur, the force model or the servo settings cannot be used;
 /// `where` precedes the name of the part.
 /// With `start`, the setup's tooth as somebody has read it already, that is copied instead of read again.
 [[nodiscard]] Simulation make_simulation(const SessionSetup& setup, const std::string& where, const Tooth* start = nullptr);

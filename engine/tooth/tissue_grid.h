@@ -18,7 +18,7 @@ enum TissueId : std::uint8_t { k_air = 0, k_enamel = 1, k_dentin = 2, k_pulp = 3
 inline constexpr std::uint8_t k_neighbour_enamel = 12, k_neighbour_dentin = 13, k_gingiva = 14;
 
 /// One tissue of a tooth. A tissue that is not solid (pulp, periodontium) is void to the contact: the
-/// diamond point enters it without resistance, though its touch still counts with its own k and c.
+/// bur enters it without resistance, though its touch still counts with its own k and c.
 struct Tissue {
   std::uint8_t id = k_air;
   std::string name;

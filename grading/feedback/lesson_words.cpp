@@ -156,7 +156,7 @@ class Teller {
     l.what = both(all_round ? msg("The cavity became too wide all round, by up to {} at {}.", far, wall(w))
                             : msg("The cavity became too wide: {} was cut by up to {} beyond its outline.", wall(w), far),
                   from(first));
-    l.instead = msg("Stop at the outline, with the side of the point on the wall and not its tip.");
+    l.instead = msg("Stop at the outline, with the side of the bur on the wall and not its tip.");
     l.instead = both(l.instead, lean_at(w));
   }
   void too_deep(Lesson& l) const {
@@ -189,7 +189,7 @@ class Teller {
     const double below = none.by_wall_mm3[row_of(scenarios::Wall::floor)] + guarded.by_wall_mm3[row_of(scenarios::Wall::floor)];
     const Number volume = as_mm3(std::max(0.0, r_.volumes.outside().mm3 - below));
     l.what = both(is_guarded ? msg("{} was cut of what must stay.", volume) : msg("{} was cut far from the cavity.", volume), from(l.where));
-    l.instead = msg("Take the foot off the pedal before the point leaves the cavity, and lift it clear before you move on.");
+    l.instead = msg("Take the foot off the pedal before the bur leaves the cavity, and lift it clear before you move on.");
   }
   void opened(Lesson& l) const {
     const PerforationTruth& p = r_.perforation.fault;
@@ -205,7 +205,7 @@ class Teller {
     const double is = r_.shape.taper_deg.value_or(0), wanted = r_.access.target_taper_deg.value_or(is);
     l.what = msg("The walls open by {}, and {} are asked.", as_deg(is), as_deg(wanted));
     l.instead = is > wanted ? msg("Keep the handpiece along the way in while you cut the walls; do not let it swing.")
-                            : msg("Lean the point outwards a little along the walls, or take a tapered one.");
+                            : msg("Lean the bur outwards a little along the walls, or take a tapered one.");
   }
   void neighbour(Lesson& l) const {
     l.where = r_.beside.first_nick;
@@ -222,17 +222,17 @@ class Teller {
   void gum(Lesson& l) const {
     l.where = r_.beside.first_gum;
     l.what = both(msg("{} of gum was cut.", as_mm3(r_.beside.gum_removed.mm3)), from(l.where));
-    l.instead = msg("Keep the point above the margin of the gum, and come from above and not along it.");
+    l.instead = msg("Keep the bur above the margin of the gum, and come from above and not along it.");
   }
   void force(Lesson& l) const {
     l.where = r_.motion.force_peak;
     l.what =
         both(msg("You pressed with {} on average and up to {}.", as_n(r_.motion.force_mean_n, 1), as_n(r_.motion.force_peak_n, 1)), when_at(l.where));
-    l.instead = msg("Let the diamond do the cutting: press less, and keep the point moving.");
+    l.instead = msg("Let the diamond do the cutting: press less, and keep the bur moving.");
   }
   void time(Lesson& l) const {
-    l.what = msg("The work took {}; for {} the point neither moved nor cut.", ClockTime{r_.motion.time_s}, ClockTime{r_.motion.idle_s});
-    l.instead = r_.motion.idle_s > 0.2 * r_.motion.time_s ? msg("Plan the order of your cuts before you begin, so that the point seldom rests.")
+    l.what = msg("The work took {}; for {} the bur neither moved nor cut.", ClockTime{r_.motion.time_s}, ClockTime{r_.motion.idle_s});
+    l.instead = r_.motion.idle_s > 0.2 * r_.motion.time_s ? msg("Plan the order of your cuts before you begin, so that the bur seldom rests.")
                                                           : msg("Take the bulk away in broad, even layers, and keep the fine strokes for the end.");
   }
   void steps(Lesson& l) const {
@@ -240,7 +240,7 @@ class Teller {
     const int times = r_.progress.violations;
     l.what = times > 0 ? msgn("A rule of the task was broken {} time.", "A rule of the task was broken {} times.", times, times)
                        : msg("Steps completed: {} of {}.", r_.progress.steps_completed, r_.progress.steps);
-    l.instead = times > 0 ? msg("Use the points and the speed that the task allows.") : msg("Follow the steps on the screen to the last one.");
+    l.instead = times > 0 ? msg("Use the burs and the speed that the task allows.") : msg("Follow the steps on the screen to the last one.");
   }
   void other(Lesson& l) const {
     for (const auto& c : r_.criteria)

@@ -76,7 +76,7 @@ void join(std::map<Topic, Lesson>& by_topic, Topic from, Topic to) {
   by_topic.erase(found);
 }
 
-/// In a slip through what must not be opened: the point went through there, and what it cut from then on is the same mistake. What was cut before is
+/// In a slip through what must not be opened: the bur went through there, and what it cut from then on is the same mistake. What was cut before is
 /// one of its own: a hole that was begun beside the outline was wrong before it reached the pulp.
 bool in_that_slip(const Trace& opened, const Trace& cut) {
   constexpr double k_slip_s = 5, k_before_s = 0.5;

@@ -225,7 +225,7 @@ void LossFinder::steps() {
         EachKind{[&](const AnyOf<StepStarted, StepCompleted, StepFailed, StepTimeUp> auto& of) { return msg("{} ({})", word, of.step + 1LL); },
                  [&](const AnyOf<AimReached, Perforated> auto& of) { return msg("{} ({})", word, Term{in_.before.tissue_name(of.tissue)}); },
                  [&](const Finished& of) { return msg("{} ({})", word, Term{finish_name(of.how)}); },
-                 [&](const AnyOf<TimeUp, PointNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded, RecordingGap,
+                 [&](const AnyOf<TimeUp, BurNotAllowed, OverSpeed, PauseStarted, PauseEnded, PauseRefused, HoldStarted, HoldEnded, RecordingGap,
                                  RecordingMoved, ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees,
                                  ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep,
                                  MeasuredForce> auto&) { return msg("{}", word); }},

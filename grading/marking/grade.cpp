@@ -71,7 +71,7 @@ Course course_of(const GradeInput& input, std::int64_t ticks) {
                                              : finding<FindingKind::step_timed_out_otherwise>(s.id, at_time(e.tick), e.tick);
                      });
                    },
-                   [&](const AnyOf<PointNotAllowed, OverSpeed> auto&) {
+                   [&](const AnyOf<BurNotAllowed, OverSpeed> auto&) {
                      if (c.progress.violations++ == 0) c.progress.first_violation.tick = e.tick;
                    },
                    [&](const Finished& finished) { c.progress.finish = finished.how; },

@@ -37,7 +37,7 @@ class EventsAgain {
   EventsAgain(const SessionReader& session, ExamGrounds& grounds)
       : task_(scenarios::exam_task(session.setup(), session.path() + ": scenario")),
         ground_(grounds.of(task_, session.path())),
-        runner_(task_.scenario, ground_->zones, ground_->tooth, task_.point_names),
+        runner_(task_.scenario, ground_->zones, ground_->tooth, task_.bur_names),
         ended_(ended_by_hand(session)) {
     for (auto& e : session.events()) (is_runners(e.event) ? recorded_ : beside_).push_back(std::move(e));
   }

@@ -17,7 +17,7 @@ struct ReportFacts {
   std::string candidate;  ///< pseudonym
   std::string device, created, session_file, tooth_hash;
   std::string calibration;                                      ///< of the device, as text
-  std::vector<std::string> points_toml;                         ///< diamond points in the order of the tray
+  std::vector<std::string> burs_toml;                           ///< burs in the order of the tray
   std::vector<std::pair<std::string, std::string>> notes = {};  ///< of the session: what gave the input, and how
 };
 

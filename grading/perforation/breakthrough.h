@@ -1,4 +1,4 @@
-// The detector of breakthroughs. It sees what a device gives - rendered or measured force, pose, pedal, speed, which point is mounted - and
+// The detector of breakthroughs. It sees what a device gives - rendered or measured force, pose, pedal, speed, which bur is mounted - and
 // nothing of the tissue, so that it would work on a real tooth as well.
 //
 // A breakthrough is a loss of force that the tip's own motion does not explain: the hand presses on, solid tissue would give the force G
@@ -12,10 +12,10 @@
 //   lift-off, retreat for a look    the tip goes back: G falls with F (k · way; F = k X)
 //   easing off after saturation     the same, slowly
 //   a pause, a tip held by friction the surface recedes from the tip: G decays with F (τ); and the tip does not advance
-//   pedal released, point changed   nothing can be cut: the observer starts anew
+//   pedal released, bur changed   nothing can be cut: the observer starts anew
 //   enamel to dentin, soft lesion   a share of the force is left, k·τ against k·τ: 0.3 to 1, and 0.2 to 0.45
 //   slip off a wall or an edge      the tip leaves sideways, or from a place where it has hardly cut (`slips_mm_s`, `strays_mm`, `dwell_s`)
-//   milling, a point pulled out of  the push is across the handle, or towards it (`least_axial`); a cavity in a wall that is milled away is left to
+//   milling, a bur pulled out of  the push is across the handle, or towards it (`least_axial`); a cavity in a wall that is milled away is left to
 //   a bind                          the tissue's word
 //   breaking into an earlier cut    the way leads to where the tip was with little force before (FreedPlaces)
 //   chatter                         the mean force vanishes, its scatter is many times the noise

@@ -33,7 +33,7 @@ std::vector<DrillFrame> drill_frames(std::span<const TickInput> inputs, std::spa
       f.tip_mm += Vec3{in.tip_nm[0] * 1e-6, in.tip_nm[1] * 1e-6, in.tip_nm[2] * 1e-6} * share;
       f.force_n += force(i) * share;
       const bool turns = records[i].rpm >= k_turning_rpm && (in.flags & k_pedal_fresh) != 0 && in.pedal() > k_pedal_on;
-      if (!turns || (i > 0 && in.point != inputs[i - 1].point)) f.cutting_possible = false;
+      if (!turns || (i > 0 && in.bur != inputs[i - 1].bur)) f.cutting_possible = false;
     }
     for (std::size_t i = first; i < first + k_frame_ticks; ++i) {
       const Vec3 off = force(i) - f.force_n;

@@ -21,7 +21,7 @@ struct DrillFrame {
   Vec3 handle;                   ///< unit, along the tool towards the hand
   double scatter_n2 = 0.0;       ///< variance of the force over the ticks of the frame, sum of the axes
   double noise_n2 = 0.0;         ///< the part of it that is the device's noise, as estimated from the frames until now
-  bool cutting_possible = true;  ///< handpiece and pedal on, same point
+  bool cutting_possible = true;  ///< handpiece and pedal on, same bur
 };
 
 /// `inputs` and `records` have equal length; what is left over at the end is dropped.

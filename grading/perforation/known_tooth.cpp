@@ -12,7 +12,7 @@ namespace {
 std::string hash_of_motion(const SessionSetup& setup, const std::array<bool, 256>& tissues, std::span<const TickInput> inputs) {
   ByteWriter all;
   for (const bool t : tissues) all.put(static_cast<std::uint8_t>(t));
-  for (const auto& point : setup.points_toml) all.put_string(point);
+  for (const auto& bur : setup.burs_toml) all.put_string(bur);
   all.put_string(setup.force_model_toml);
   all.put_string(setup.servo_toml);
   for (const auto v : setup.first_tip_nm) all.put(v);
@@ -21,7 +21,7 @@ std::string hash_of_motion(const SessionSetup& setup, const std::array<bool, 256
     for (const auto v : in.rotation_q30) all.put(v);
     all.put(in.pedal_q16);
     all.put(in.flags);
-    all.put(in.point);
+    all.put(in.bur);
   }
   return to_hex(sha256(all.bytes()));
 }

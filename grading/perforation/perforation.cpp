@@ -16,7 +16,7 @@ namespace {
 // Tissue is felt a leaf and a half ahead: at slow feed the fall begins some tenths of a second before the first leaf goes.
 constexpr std::int64_t k_confirm_before_ticks = 300, k_confirm_after_ticks = 200;
 
-/// Tip of the diamond point where the tooth lets it be; the device's own tip is pressed in further, by X.
+/// Tip of the bur where the tooth lets it be; the device's own tip is pressed in further, by X.
 Vec3 place_of(const TickRecord& r) { return {r.proxy_nm[0] * 1e-6, r.proxy_nm[1] * 1e-6, r.proxy_nm[2] * 1e-6}; }
 
 }  // namespace

@@ -83,7 +83,7 @@ namespace {
 FindingKind kind_of(const std::string& artifact) {
   if (artifact == "start_tooth.cvt") return FindingKind::ticket_tooth;
   if (artifact == "force_model.toml") return FindingKind::ticket_model;
-  return artifact.starts_with("point_") ? FindingKind::ticket_bur : FindingKind::ticket_scenario;
+  return artifact.starts_with("bur_") ? FindingKind::ticket_bur : FindingKind::ticket_scenario;
 }
 
 }  // namespace

@@ -24,7 +24,7 @@ struct Ticket {
   std::string nonce;      ///< 32 hexadecimal digits, of this ticket alone
   std::int64_t not_before_utc_ns = 0, not_after_utc_ns = 0;
   std::map<std::string, std::string>
-      artifacts;  ///< SHA-256 (hexadecimal) by name of all that is examined: scenario, tooth, rubric, points, force model
+      artifacts;  ///< SHA-256 (hexadecimal) by name of all that is examined: scenario, tooth, rubric, burs, force model
   std::vector<std::pair<std::string, std::string>> grant;  ///< accommodations as notes of the session (scenarios/file/accommodations.h)
   std::string grant_sha256;                                ///< of the opening that holds them, hexadecimal; set on signing
   bool begun_at_ledger = false;                            ///< the exam begins only when the ledger lets it (begin.h)

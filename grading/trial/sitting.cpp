@@ -45,7 +45,7 @@ struct Moment {
 
 class Sitting {
  public:
-  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.points) {}
+  explicit Sitting(const Task& task) : task_(task), runner_(task.scenario, task.zones, task.tooth, task.scenario.burs) {}
 
   /// One tick; what is done once the exam is over is late work.
   void tick(const Moment& m, std::span<const RemovedLeaf> gone) {

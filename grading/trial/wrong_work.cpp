@@ -221,7 +221,7 @@ std::optional<Vec3> Works::hard_floor(double deep_mm) const {
   return nearest;
 }
 
-/// One hole of a point's width through the floor, where what lies below it is nearest: it stops short of that. Means and shares hardly see it.
+/// One hole of a bur's width through the floor, where what lies below it is nearest: it stops short of that. Means and shares hardly see it.
 void Works::pit() {
   constexpr double k_radius_mm = 0.5, k_deep_mm = 1.0, k_spared_mm = 0.3, k_least_mm = 0.4;
   std::optional<Vec3> floor = hard_floor(k_deep_mm);
@@ -286,7 +286,7 @@ void Works::faults() {
   }
 }
 
-/// Where marks are taken: both ends of length and width, the middle, the deepest place. Holes as wide as a point, to full depth.
+/// Where marks are taken: both ends of length and width, the middle, the deepest place. Holes as wide as a bur, to full depth.
 void Works::holes() {
   constexpr double k_radius_mm = 0.5;
   const auto furthest = [&](auto&& along) {

@@ -83,14 +83,13 @@ std::vector<Message> check_servo(const std::string& servo_toml, const Scenario& 
   return findings;
 }
 
-ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& point_names) {
+ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& bur_names) {
   ExamTask task{parse_scenario(session.scenario_toml, scenario_name), {}, {}, std::move(session)};
   use_surfaces(task.scenario, task.session.attachments);
   task.scenario.accommodations = granted(task.scenario.accommodations, task.session.notes, scenario_name);
-  for (std::size_t i = 0; i < task.session.points_toml.size(); ++i) {
-    task.points.push_back(
-        parse_diamond_point(task.session.points_toml[i], i < point_names.size() ? point_names[i] : fmt::format("point_{:03}.toml", i)));
-    task.point_names.push_back(task.points.back().name);
+  for (std::size_t i = 0; i < task.session.burs_toml.size(); ++i) {
+    task.burs.push_back(parse_bur(task.session.burs_toml[i], i < bur_names.size() ? bur_names[i] : fmt::format("bur_{:03}.toml", i)));
+    task.bur_names.push_back(task.burs.back().name);
   }
   return task;
 }
@@ -111,10 +110,10 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   const std::string model_path = force_model_path(options.force_model, scenario_path);
   s.force_model_toml = read_text_file(model_path);
   static_cast<void>(parse_force_model(s.force_model_toml, model_path));  // its mistakes are named with its own file
-  std::vector<std::string> point_paths;
-  for (const auto& name : scenario.points) {
-    point_paths.push_back(find_data_file("points", name + ".toml", scenario_path));
-    s.points_toml.push_back(read_text_file(point_paths.back()));
+  std::vector<std::string> bur_paths;
+  for (const auto& name : scenario.burs) {
+    bur_paths.push_back(find_data_file("burs", name + ".toml", scenario_path));
+    s.burs_toml.push_back(read_text_file(bur_paths.back()));
   }
   if (!options.rubric_file.empty()) {
     s.rubric_toml = read_text_file(options.rubric_file);
@@ -126,7 +125,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   if (options.peak_n > 0) config.limits.peak_n = std::min(config.limits.peak_n, options.peak_n);
   if (options.continuous_n > 0) config.limits.continuous_n = std::min(config.limits.continuous_n, options.continuous_n);
   s.servo_toml = to_toml(config);
-  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(std::move(s), scenario_path, point_paths), {}, {}});
+  auto setup = std::make_unique<ExamSetup>(ExamSetup{exam_task(std::move(s), scenario_path, bur_paths), {}, {}});
   setup->tooth = load_tooth(setup->session.tooth, tooth_path);
   setup->session.landmarks_json = landmarks_to_keep(setup->scenario, setup->tooth);
   setup->zones = build_zones_of_exam(setup->scenario, setup->tooth, setup->session.landmarks_json, scenario_path);
@@ -144,7 +143,7 @@ std::unique_ptr<ExamSetup> prepare_exam(const SessionSetup& session) {
 }
 
 Exam::Exam(const ExamSetup& setup, Simulation simulation)
-    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.point_names), simulation_(std::move(simulation)) {}
+    : setup_(setup), runner_(setup.scenario, setup.zones, setup.tooth, setup.bur_names), simulation_(std::move(simulation)) {}
 
 std::unique_ptr<Exam> Exam::start(const ExamSetup& setup, const std::string& path, Vec3 first_tip_mm, const ReadClocks& clocks) {
   SessionSetup session = setup.session;

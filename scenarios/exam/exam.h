@@ -17,8 +17,8 @@
 
 namespace cavum::scenarios {
 
-/// A file that ships with Cavum, by folder and name ("points", "round-1.0.toml"): looked for in $CAVUM_DATA, beside
-/// `near_file`'s folder (../points of data/scenarios/x.toml), in ./data, and where Cavum was built or installed.
+/// A file that ships with Cavum, by folder and name ("burs", "round-1.0.toml"): looked for in $CAVUM_DATA, beside
+/// `near_file`'s folder (../burs of data/scenarios/x.toml), in ./data, and where Cavum was built or installed.
 /// Throws Error naming the places.
 [[nodiscard]] std::string find_data_file(const std::string& folder, const std::string& name, const std::string& near_file);
 
@@ -45,12 +45,12 @@ struct ExamOptions {
 /// What is asked for in one exam.
 struct ExamTask {
   Scenario scenario;  ///< with its surfaces and what was granted
-  std::vector<DiamondPoint> points;
-  std::vector<std::string> point_names;  ///< in the order of the tray
+  std::vector<Bur> burs;
+  std::vector<std::string> bur_names;  ///< in the order of the tray
   SessionSetup session;
 };
-/// The task again from what a session holds; `scenario_name` and `point_names` name its texts in errors. Throws Error.
-[[nodiscard]] ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& point_names = {});
+/// The task again from what a session holds; `scenario_name` and `bur_names` name its texts in errors. Throws Error.
+[[nodiscard]] ExamTask exam_task(SessionSetup session, const std::string& scenario_name, const std::vector<std::string>& bur_names = {});
 
 /// Everything constant during one exam.
 struct ExamSetup : ExamTask {

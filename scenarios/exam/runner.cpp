@@ -79,7 +79,7 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
     role_[t.id] = among(scenario.perforation.aims) ? 1 : among(scenario.perforation.faults) ? 2 : 0;
   }
   for (std::size_t i = 0; i < tray.size() && i < allowed_.size(); ++i)
-    allowed_[i] = std::find(scenario.points.begin(), scenario.points.end(), tray[i]) != scenario.points.end();
+    allowed_[i] = std::find(scenario.burs.begin(), scenario.burs.end(), tray[i]) != scenario.burs.end();
 }
 
 void Runner::emit(RunnerState& state, const RunnerEvent& event) const noexcept {
@@ -133,7 +133,7 @@ void Runner::fill_values(const RunnerState& s, const TickInput& input, const Tic
       output.rpm,
       output.contact ? 1.0 : 0.0,
       output.cutting ? 1.0 : 0.0,
-      static_cast<double>(input.point),
+      static_cast<double>(input.bur),
       (input.flags & k_button_1) != 0 ? 1.0 : 0.0,
       (input.flags & k_button_2) != 0 ? 1.0 : 0.0,
       s.perforated ? 1.0 : 0.0,
@@ -194,8 +194,8 @@ void Runner::advance(RunnerState& state, const TickInput& input, const TickOutpu
   }
   if (output.contact) state.depth_mm = std::max(state.depth_mm, zones_.below_opening_mm(output.proxy_mm));
   state.peak_force_n = std::max(state.peak_force_n, length(output.rendered_force_n));
-  if (input.point != state.last_point && !allowed_[input.point]) emit(state, PointNotAllowed{input.point});
-  state.last_point = input.point;
+  if (input.bur != state.last_bur && !allowed_[input.bur]) emit(state, BurNotAllowed{input.bur});
+  state.last_bur = input.bur;
   const bool too_fast = output.rpm > scenario_.max_rpm * (1 + 1e-9);
   if (too_fast && !state.over_speed) emit(state, OverSpeed{});
   state.over_speed = too_fast;

@@ -1,5 +1,5 @@
 // Runs an exam inside the ticks: after each servo step it counts what was removed where, evaluates the
-// conditions of the current step, watches time, points and speed, and says when the exam is over. Same
+// conditions of the current step, watches time, burs and speed, and says when the exam is over. Same
 // ticks, same answers: a replay runs it again and must come to the same events.
 #pragma once
 
@@ -37,7 +37,7 @@ struct RunnerState {
   std::array<std::uint64_t, 256> removed_of_tissue{};    ///< leaves, by tissue id
   double depth_mm = 0.0;                                 ///< deepest so far below the opening
   double peak_force_n = 0.0;
-  std::int32_t last_point = -1;
+  std::int32_t last_bur = -1;
   bool over_speed = false;
   bool perforated = false;
   struct Noted {
@@ -53,7 +53,7 @@ struct RunnerState {
 
 class Runner {
  public:
-  /// `tray[i]` is the name of point i of TickInput::point. Throws Error when a condition cannot be compiled.
+  /// `tray[i]` is the name of bur i of TickInput::bur. Throws Error when a condition cannot be compiled.
   /// Scenario, zones and tooth must outlive the runner.
   Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const std::vector<std::string>& tray);
 
@@ -103,7 +103,7 @@ class Runner {
   std::vector<std::uint8_t> touched_ids_;  // tissue of names_[k_live_quantities.size() + i]
   std::vector<CompiledStep> steps_;
   std::array<std::uint8_t, 256> role_{};  // 1 aim, 2 fault, by tissue id
-  std::array<bool, 256> allowed_{};       // by point of the tray
+  std::array<bool, 256> allowed_{};       // by bur of the tray
   std::int64_t limit_ticks_ = 0, longest_pause_ticks_ = 0;
 };
 

@@ -19,7 +19,7 @@ namespace cavum::scenarios {
 inline constexpr std::size_t k_most_items = 100;
 /// Points of all outlines.
 inline constexpr std::size_t k_most_points = 100;
-/// Diamond points of a tray: for each it is asked how much of the target it reaches, up to 0.15 s.
+/// Burs of a tray: for each it is asked how much of the target it reaches, up to 0.15 s.
 inline constexpr std::size_t k_most_tray = 16;
 
 class ProblemList {

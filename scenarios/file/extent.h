@@ -19,7 +19,7 @@ struct ExamExtent {
   double steps = 0.0;
   double fault = 0.0;  ///< 1 when a tissue is one, else 0
   double rpm = 0.0;
-  double last_point = 0.0;                   ///< of the tray, the first is 0
+  double last_bur = 0.0;                     ///< of the tray, the first is 0
   std::map<std::string, double> tissue_mm3;  ///< by its name; one that is not in it is none of this tooth
   // the same in every exam
   double percent = 100.0, one = 1.0, no_end = k_no_end;
@@ -48,7 +48,7 @@ inline constexpr Most container{&ExamExtent::container_mm3, "the container"};
 inline constexpr Most steps{&ExamExtent::steps, "the number of steps"};
 inline constexpr Most fault{&ExamExtent::fault, "1"};
 inline constexpr Most rpm{&ExamExtent::rpm, "max_rpm"};
-inline constexpr Most last_point{&ExamExtent::last_point, "the last point of the tray"};
+inline constexpr Most last_bur{&ExamExtent::last_bur, "the last bur of the tray"};
 inline constexpr Most percent{&ExamExtent::percent, "100"};
 inline constexpr Most one{&ExamExtent::one, "1"};
 inline constexpr Most no_end{&ExamExtent::no_end, "no end"};

@@ -321,7 +321,7 @@ std::vector<Measure> progress_measures() {
        .reads = Reads::count},
       {.name = "steps_failed", .words = "steps failed", .most = &most::steps, .of_exam = true, .reads = Reads::count},
       {.name = "violations",
-       .words = "a point that is not allowed, or a speed above max_rpm",
+       .words = "a bur that is not allowed, or a speed above max_rpm",
        .most = &most::no_end,
        .of_exam = true,
        .reads = Reads::count},

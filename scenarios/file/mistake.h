@@ -15,7 +15,7 @@ enum class Mistake : std::uint8_t {
   out_of_range,
   too_large,  ///< beyond a limit
   unknown_key,
-  unknown_name,  ///< of a tissue, a measure, a diamond point, a criterion; a word that is none of those there are
+  unknown_name,  ///< of a tissue, a measure, a bur, a criterion; a word that is none of those there are
   bad_name,
   duplicate,
   contradictory,  ///< two things that do not go together
@@ -23,7 +23,7 @@ enum class Mistake : std::uint8_t {
   outline,        ///< crosses itself, or encloses nothing
   surface,        ///< an STL file
   trespass,       ///< target or leeway reach what must not be cut, or the air
-  unreachable,    ///< a buried target, a condition that never holds, a point that does not fit, points that nobody can win
+  unreachable,    ///< a buried target, a condition that never holds, a bur that does not fit, points that nobody can win
   idle,           ///< changes nothing: a condition that always holds, points that nobody can lose, a fault that costs nothing
   wrong_work,     ///< passes, or gains points where it grows
 };

@@ -211,17 +211,15 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.title = t.text("title", "", true);
   s.description = t.text("description", "");
   s.tooth_file = t.text("tooth", "", true);
-  s.points = t.texts("points", true);
-  for (std::size_t i = 0; i < s.points.size(); ++i)
-    if (s.points[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.points[i].empty())
-      t.problem_in("points", i, msg("'{}' is no name of a diamond point", s.points[i]), msg("use names of data/points, such as round-1.0"),
-                   Mistake::bad_name);
-    else if (std::find(s.points.begin(), s.points.begin() + static_cast<std::ptrdiff_t>(i), s.points[i]) !=
-             s.points.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem_in("points", i, msg("'{}' is listed twice", s.points[i]), msg("list each point once"), Mistake::duplicate);
-  if (s.points.size() > k_most_tray) {
-    t.problem("points", msg("'points' has {} items", s.points.size()), msg("list at most {}", k_most_tray), Mistake::too_large);
-    s.points.resize(k_most_tray);
+  s.burs = t.texts("burs", true);
+  for (std::size_t i = 0; i < s.burs.size(); ++i)
+    if (s.burs[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.burs[i].empty())
+      t.problem_in("burs", i, msg("'{}' is no name of a bur", s.burs[i]), msg("use names of data/burs, such as round-1.0"), Mistake::bad_name);
+    else if (std::find(s.burs.begin(), s.burs.begin() + static_cast<std::ptrdiff_t>(i), s.burs[i]) != s.burs.begin() + static_cast<std::ptrdiff_t>(i))
+      t.problem_in("burs", i, msg("'{}' is listed twice", s.burs[i]), msg("list each bur once"), Mistake::duplicate);
+  if (s.burs.size() > k_most_tray) {
+    t.problem("burs", msg("'burs' has {} items", s.burs.size()), msg("list at most {}", k_most_tray), Mistake::too_large);
+    s.burs.resize(k_most_tray);
   }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
@@ -237,7 +235,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
     at.finish();
   }
   if (const auto* p = t.table("pauses")) s.pauses = read_pauses(*p, problems);
-  for (const char* key : {"tooth", "points", "time_limit_s", "zones", "rubric"}) t.note(s.places, key, key);
+  for (const char* key : {"tooth", "burs", "time_limit_s", "zones", "rubric"}) t.note(s.places, key, key);
   s.steps = read_steps(t, s.places, problems);
   check_pause_button(s, problems);
   if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);

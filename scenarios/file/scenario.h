@@ -1,4 +1,4 @@
-// What an instructor writes: one TOML file with the tooth, the instruments, the steps, the zones and the
+// What an instructor writes: one TOML file with the tooth, the burs, the steps, the zones and the
 // rubric of an exam. Plain data; `parse_scenario` (parse.h) reads it, `build_zones` (zone_map.h) lays its
 // zones into a tooth, `Runner` (runner.h) runs its steps, and grading reads the rubric.
 #pragma once
@@ -181,9 +181,9 @@ using Translations = std::map<std::string, std::map<std::string, std::string>>;
 
 struct Scenario {
   std::string id, title, description;
-  std::string path;                 ///< file it was read from
-  std::string tooth_file;           ///< as written
-  std::vector<std::string> points;  ///< allowed diamond points, names of data/points/NAME.toml; the first is mounted
+  std::string path;               ///< file it was read from
+  std::string tooth_file;         ///< as written
+  std::vector<std::string> burs;  ///< allowed burs, names of data/burs/NAME.toml; the first is mounted
   double max_rpm = 200000.0;
   double time_limit_s = 0.0;
   double force_limit_n = 0.0;  ///< pressing harder than this counts as force over limit; 0 = no limit
@@ -197,7 +197,7 @@ struct Scenario {
   RubricSpec rubric;
   CarelessSpec careless;
   Translations languages;
-  std::map<std::string, Place> places;  ///< by "time_limit_s", "points/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
+  std::map<std::string, Place> places;  ///< by "time_limit_s", "burs/2", "steps/0/complete_when", "zones/target/1", "rubric/criteria/3/metric" ...
 };
 
 }  // namespace cavum::scenarios

@@ -81,7 +81,7 @@ high_contrast = false
 
 # Steps, one after the other. complete_when and fail_when are conditions over live quantities:
 #   time_s step_time_s target_removed_percent removed_mm3 leeway_mm3 container_mm3 outside_mm3 protected_mm3 depth_mm
-#   x_mm y_mm z_mm force_n peak_force_n pedal rpm contact cutting point button_1 button_2 perforated touched_NAME (mm3 of a tissue)
+#   x_mm y_mm z_mm force_n peak_force_n pedal rpm contact cutting bur button_1 button_2 perforated touched_NAME (mm3 of a tissue)
 # with + - * / < <= > >= == != && || ?: and min(), max(), abs(). A step may also have
 #   fail_when = "outside_mm3 > 5"    time_limit_s = 300    failure_ends_exam = true
 )";
@@ -301,7 +301,7 @@ std::string block_task(const std::string& word) {
                         .what = std::string(task->what),
                         .tooth_file = "block.cvt",
                         .about = "the block that ships",
-                        .points = std::string(k_cavity_tray),
+                        .burs = std::string(k_cavity_tray),
                         .time_limit_s = task->time_limit_s,
                         .access = false,
                         .aims = "[]",
@@ -317,7 +317,7 @@ std::string scenario_text(const TaskText& task) {
   s += line("description = " + in_quotes(task.what), "");
   s += fmt::format("# {}\n", task.about);
   s += line("tooth = " + in_quotes(task.tooth_file), "beside this file, or in data/teeth");
-  s += "# allowed diamond points (data/points); the first is mounted\n" + line(fmt::format("points = {}", task.points), "");
+  s += "# allowed burs (data/burs); the first is mounted\n" + line(fmt::format("burs = {}", task.burs), "");
   s += line("max_rpm = 200000", "a faster handpiece is a violation");
   s += line(fmt::format("time_limit_s = {}", static_cast<int>(task.time_limit_s)), "to the tick of 1 ms; what is done later does not count");
   s += line("force_limit_n = 2.5", "pressing harder is counted; 0 = no limit");

@@ -12,7 +12,7 @@ namespace cavum::scenarios {
 struct TaskText {
   std::string id, title, what;    ///< `what` is for the candidate
   std::string tooth_file, about;  ///< `about` the tooth, a comment
-  std::string points;             ///< the tray, as a TOML list
+  std::string burs;               ///< the tray, as a TOML list
   double time_limit_s = 600.0;
   bool access = false;                                     ///< opens a pulp chamber: its steps ask for that
   std::string aims, faults;                                ///< TOML lists of tissues

@@ -23,7 +23,7 @@ DeviceReading CandidateDevice::read(double elapsed_s) {
     if (intent.done && ++rested_ > k_rest_ticks) done_.store(true, std::memory_order_release);
   }
   progress_.store(candidate_.hands.progress(), std::memory_order_relaxed);
-  return {{tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.point};
+  return {{tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.bur};
 }
 
 void CandidateDevice::send_force(Vec3 force_n) {
@@ -33,7 +33,7 @@ void CandidateDevice::send_force(Vec3 force_n) {
 
 std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup, const std::string& skill, std::uint64_t seed) {
   std::vector<ContactTool> tray;
-  for (const auto& p : setup.points) tray.push_back(make_contact_tool(p));
+  for (const auto& p : setup.burs) tray.push_back(make_contact_tool(p));
   return std::make_unique<CandidateDevice>(make_candidate(skill, setup.scenario, setup.zones, setup.tooth, tray, seed), OmniModel{});
 }
 

@@ -37,7 +37,7 @@ class CandidateDevice final : public ServoDevice {
   std::atomic<double> progress_{0.0};
 };
 
-/// Operator of this skill (see make_skill) for an exam. Throws Error when no point of its tray fits into the target.
+/// Operator of this skill (see make_skill) for an exam. Throws Error when no bur of its tray fits into the target.
 [[nodiscard]] std::unique_ptr<CandidateDevice> make_candidate_device(const ExamSetup& setup, const std::string& skill, std::uint64_t seed);
 
 }  // namespace cavum::scenarios

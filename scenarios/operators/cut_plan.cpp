@@ -181,7 +181,7 @@ class Way {
   [[nodiscard]] std::vector<Waypoint> take() { return std::move(points_); }
 
  private:
-  /// The place above `p` where the point is clear of the tooth.
+  /// The place above `p` where the bur is clear of the tooth.
   [[nodiscard]] Vec3 in_air(Vec3 p) const {
     const Vec3 l = tool_.transposed(p);
     return tool_ * Vec3{l.x, l.y, air_z_};
@@ -217,7 +217,7 @@ std::vector<Waypoint> plan_cut(const ReachMap& map, const Tooth& tooth, const Pl
     const Region region = region_of(map.nx, map.ny, inside);
     const auto loops = loops_of(region, options.spacing_mm / map.step_mm);
     for (const auto& loop : loops) way.follow(corners(map, loop, z, options.tolerance_mm));
-    // once more around the wall: what the first pass left would hold up the neck of the point further down
+    // once more around the wall: what the first pass left would hold up the neck of the bur further down
     if (!loops.empty()) way.follow(corners(map, loops.back(), z, options.tolerance_mm));
   }
   // the floor pass follows the lowest reach of every column

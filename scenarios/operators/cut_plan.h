@@ -1,5 +1,5 @@
-// The way of a diamond point, held along the zones' approach, that removes the target and nothing else: from each
-// column of the target along it how deep the whole point may go, then layer by layer in closed loops from the inside out, and
+// The way of a bur, held along the zones' approach, that removes the target and nothing else: from each
+// column of the target along it how deep the whole bur may go, then layer by layer in closed loops from the inside out, and
 // a last pass over the floor. The simulated candidate follows it; `scenario solve` proves with it that a
 // task can be passed.
 #pragma once
@@ -14,9 +14,9 @@ namespace cavum::scenarios {
 
 struct Waypoint {
   Vec3 tip_mm;
-  bool cut = false;        ///< pedal pressed on the way to it
-  bool careful = false;    ///< void tissue (pulp) lies close before the tip: press lightly
-  std::uint8_t point = 0;  ///< mounted on the way to it, of the tray
+  bool cut = false;      ///< pedal pressed on the way to it
+  bool careful = false;  ///< void tissue (pulp) lies close before the tip: press lightly
+  std::uint8_t bur = 0;  ///< mounted on the way to it, of the tray
 };
 
 struct PlanOptions {
@@ -26,7 +26,7 @@ struct PlanOptions {
   double tolerance_mm = 0.02;       ///< of the loops' corners
 };
 
-/// Waypoints from above the tooth and back; empty when the point fits nowhere into the target.
+/// Waypoints from above the tooth and back; empty when the bur fits nowhere into the target.
 [[nodiscard]] std::vector<Waypoint> plan_cut(const ReachMap& reach, const Tooth& tooth, const PlanOptions& options);
 
 /// Along the approach through the flattest place of the roof over a tissue named in `aims` (of equals the highest), and out again; empty without

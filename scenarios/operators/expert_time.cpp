@@ -17,7 +17,7 @@ constexpr double k_cell_mm = 0.1;
 class Remains {
  public:
   /// `way` and all places are in the tool's frame.
-  Remains(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const DiamondPoint& point) : point_(point) {
+  Remains(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const Bur& bur) : bur_(bur) {
     low_ = high_ = way.front().tip_mm;
     for (const auto& w : way) {
       low_ = {std::min(low_.x, w.tip_mm.x), std::min(low_.y, w.tip_mm.y), std::min(low_.z, w.tip_mm.z)};
@@ -36,8 +36,8 @@ class Remains {
   /// Takes away what the head fills with its tip at `tip`; how many cells that was.
   int take(Vec3 tip) {
     int taken = 0;
-    for (double h = 0.5 * k_cell_mm; h < point_.cutting_length_mm; h += k_cell_mm) {
-      const double r = point_.profile.radius_mm(h);
+    for (double h = 0.5 * k_cell_mm; h < bur_.cutting_length_mm; h += k_cell_mm) {
+      const double r = bur_.profile.radius_mm(h);
       const Vec3 c = (tip + Vec3{0, 0, h} - low_) / k_cell_mm;
       const int z = static_cast<int>(c.z);
       if (z < 0 || z >= n_.z) continue;
@@ -63,7 +63,7 @@ class Remains {
     return (static_cast<std::size_t>(z) * static_cast<std::size_t>(n_.y) + static_cast<std::size_t>(y)) * static_cast<std::size_t>(n_.x) +
            static_cast<std::size_t>(x);
   }
-  const DiamondPoint& point_;
+  const Bur& bur_;
   Vec3 low_, high_;
   IVec3 n_;
   std::vector<std::uint8_t> solid_;
@@ -75,7 +75,7 @@ double expert_time_s(const std::vector<Waypoint>& tooth_way, const Mat3& held, c
   if (tooth_way.size() < 2) return 0.0;
   std::vector<Waypoint> way = tooth_way;
   for (auto& w : way) w.tip_mm = held.transposed(w.tip_mm);
-  Remains remains(way, held, tooth, tool.point);
+  Remains remains(way, held, tooth, tool.bur);
   double time_s = 1.5;  // until the handpiece turns, and the rest at the end
   for (std::size_t i = 1; i < way.size(); ++i) {
     const Vec3 from = way[i - 1].tip_mm, whole = way[i].tip_mm - from;

@@ -113,9 +113,9 @@ bool Operator::retreat(Vec3 from_mm) noexcept {
   if (next_ + 1 >= way_.size() || way_.size() == way_.capacity()) return false;
   // held up: out of the cavity, and in again above the place after the next
   const Vec3 to = way_[next_ + 1].tip_mm;
-  const std::uint8_t point = way_[next_].point;
-  way_[next_] = {in_air(from_mm), true, false, point};  // turning, so that a ledge gives way
-  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {in_air(to), false, false, point});
+  const std::uint8_t bur = way_[next_].bur;
+  way_[next_] = {in_air(from_mm), true, false, bur};  // turning, so that a ledge gives way
+  way_.insert(way_.begin() + static_cast<std::ptrdiff_t>(next_) + 1, {in_air(to), false, false, bur});
   from_mm_ = from_mm;
   best_mm_ = 1e9;
   stuck_s_ = 0;
@@ -158,7 +158,7 @@ Operator::Aim Operator::aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexce
   const Vec3 anchor = from_mm_ + line * std::clamp(dot(proxy_mm - from_mm_, line), 0.0, length(goal.tip_mm - from_mm_));
   const Vec3 off = anchor - proxy_mm;
   aim.correction_mm = off * k_correction;
-  // A groove cut before leads the point astray: back to the way first, or the wall between them would be left standing.
+  // A groove cut before leads the bur astray: back to the way first, or the wall between them would be left standing.
   if (const double astray = length(off); goal.cut && astray > k_astray_mm)
     aim.direction = normalized(aim.direction * (k_astray_mm / astray * (k_astray_mm / astray)) + off / astray);
   if (const double c = length(aim.correction_mm); c > k_most_correction_mm) aim.correction_mm = aim.correction_mm * (k_most_correction_mm / c);
@@ -192,16 +192,16 @@ void Operator::move_foot(bool cut, double dt_s) noexcept {
 
 Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   const Sight felt = delayed(seen, dt_s);
-  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, way_.empty() ? std::uint8_t{0} : way_.back().point, true};
-  // The eye sees the point where it is now; a free way is judged along it, a cut by how near the point came.
+  if (next_ >= way_.size()) return {way_.empty() ? start_mm() : way_.back().tip_mm, 0.0, way_.empty() ? std::uint8_t{0} : way_.back().bur, true};
+  // The eye sees the bur where it is now; a free way is judged along it, a cut by how near the bur came.
   double left = left_to_goal(seen.proxy_mm);
   watch_progress(left, dt_s);
   const bool through = bends_gently(), cutting = way_[next_].cut;
   const double arrived_mm = !cutting ? 0.2 : through ? 0.06 : k_arrived_mm;
-  if (stuck_s_ > k_give_up_s && cutting && retreat(seen.proxy_mm)) return {intended_mm_, pedal_, way_[next_].point, false};
+  if (stuck_s_ > k_give_up_s && cutting && retreat(seen.proxy_mm)) return {intended_mm_, pedal_, way_[next_].bur, false};
   if (left < arrived_mm || stuck_s_ > k_give_up_s) {
     go_on(through);
-    if (next_ >= way_.size()) return {from_mm_, 0.0, way_.back().point, true};
+    if (next_ >= way_.size()) return {from_mm_, 0.0, way_.back().bur, true};
     left = left_to_goal(seen.proxy_mm);
   }
   const Waypoint& goal = way_[next_];
@@ -214,18 +214,18 @@ Intent Operator::act(const TickOutput& seen, double dt_s) noexcept {
   if (goal.cut && pedal_ < 0.95 && !felt.contact) tip = from_mm_ + tremor_mm_;  // wait for the handpiece
   // an intention has no corners: the hand follows it within some 25 ms
   intended_mm_ += (tip - intended_mm_) * (dt_s / (k_intention_s + dt_s));
-  return {intended_mm_, pedal_, way_[next_].point, false};
+  return {intended_mm_, pedal_, way_[next_].bur, false};
 }
 
 namespace {
 
 /// Radius near the end as a share of the head's, 0..1: a ball has 0.66, a flat end 1.
-double bluntness(const DiamondPoint& p) { return p.profile.radius_mm(0.25 * p.head_radius_mm) / p.head_radius_mm; }
+double bluntness(const Bur& p) { return p.profile.radius_mm(0.25 * p.head_radius_mm) / p.head_radius_mm; }
 
 }  // namespace
 
-ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray) {
-  ChosenPoint chosen;
+ChosenBur choose_bur(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray) {
+  ChosenBur chosen;
   chosen.index = tray.size();
   double best_score = 0, best_bluntness = 0;
   const FreeRoom room = free_room(zones, tooth, k_expert_margin);
@@ -234,12 +234,12 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
     chosen.covers.push_back(coverage(room, map, tray[i]));
     // a head shorter than the target is deep leaves ledges that hold up its neck
     const double depth = zones.top_level_mm() - zones.floor_level_mm();
-    if (const double blunt = bluntness(tray[i].point); chosen.covers.back() > 0 && blunt > best_bluntness * 1.01) {
+    if (const double blunt = bluntness(tray[i].bur); chosen.covers.back() > 0 && blunt > best_bluntness * 1.01) {
       best_bluntness = blunt;
       chosen.blunt = i;
       chosen.blunt_map = map;
     }
-    const double score = chosen.covers.back() * (tray[i].point.cutting_length_mm >= depth ? 1.0 : 0.9);
+    const double score = chosen.covers.back() * (tray[i].bur.cutting_length_mm >= depth ? 1.0 : 0.9);
     if (score > best_score * 1.01) {
       best_score = score;
       chosen.index = i;
@@ -250,27 +250,27 @@ ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::ve
   return chosen;
 }
 
-std::vector<Waypoint> plan_work(const ChosenPoint& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
+std::vector<Waypoint> plan_work(const ChosenBur& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
                                 const std::vector<std::string>& aims) {
   PlanOptions options;
   // from a side the floor is curved, as the surface is: wide loops would leave ridges
   if ((chosen.map.tool * Vec3{0, 0, 1}).z < k_upright) options.finish_spacing_mm = k_curved_spacing_mm;
   std::vector<Waypoint> cut = plan_cut(chosen.map, tooth, options);
   if (cut.empty()) return cut;
-  for (auto& w : cut) w.point = static_cast<std::uint8_t>(chosen.index);
-  std::vector<Waypoint> way = plan_pilot(chosen.blunt_map, tooth, tray[chosen.blunt].point.head_radius_mm, aims);
-  for (auto& w : way) w.point = static_cast<std::uint8_t>(chosen.blunt);
+  for (auto& w : cut) w.bur = static_cast<std::uint8_t>(chosen.index);
+  std::vector<Waypoint> way = plan_pilot(chosen.blunt_map, tooth, tray[chosen.blunt].bur.head_radius_mm, aims);
+  for (auto& w : way) w.bur = static_cast<std::uint8_t>(chosen.blunt);
   way.insert(way.end(), cut.begin(), cut.end());
   return way;
 }
 
 namespace {
 
-/// Where the careless candidate goes, with the point that an expert would have chosen.
-ReachMap careless_map(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const ContactTool& point) {
+/// Where the careless candidate goes, with the bur that an expert would have chosen.
+ReachMap careless_map(const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth, const ContactTool& bur) {
   const CarelessSpec& c = scenario.careless;
   const MarginSpec margin{k_expert_margin.sides_mm + c.sides_mm, k_expert_margin.bottom_mm + c.bottom_mm};
-  return middle_of(reach_map(zones, tooth, point, margin), c.opening_percent);
+  return middle_of(reach_map(zones, tooth, bur, margin), c.opening_percent);
 }
 
 }  // namespace
@@ -279,10 +279,10 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
                          const std::vector<ContactTool>& tray, std::uint64_t seed) {
   Skill skill = make_skill(skill_name, seed);
   const Message where = scenario.path.empty() ? msg("the scenario") : Message(Name{scenario.path});
-  ChosenPoint chosen = choose_point(zones, tooth, tray);
+  ChosenBur chosen = choose_bur(zones, tooth, tray);
   if (chosen.index == tray.size() && !zones.target_is_open())
-    throw Error(where, msg("the target lies buried: no point comes to it without cutting elsewhere"), msg("let it reach up to the tooth's surface"));
-  if (chosen.index == tray.size()) throw Error(where, msg("no allowed diamond point fits into the target"), msg("allow a thinner one"));
+    throw Error(where, msg("the target lies buried: no bur comes to it without cutting elsewhere"), msg("let it reach up to the tooth's surface"));
+  if (chosen.index == tray.size()) throw Error(where, msg("no allowed bur fits into the target"), msg("allow a thinner one"));
   if (skill.name == "careless") {
     if (scenario.careless.fails_by.empty()) throw Error(where, msg("does not say what a careless candidate does"), msg("add [careless] to it"));
     skill.perforates = scenario.careless.perforates;
@@ -298,14 +298,14 @@ Candidate make_candidate(const std::string& skill_name, const Scenario& scenario
       if (!present) continue;
       auto deeper = plan_perforation(zones, tooth, chosen.map, tooth.tissue_id(fault));
       if (deeper.empty()) continue;
-      for (auto& w : deeper) w.point = static_cast<std::uint8_t>(chosen.index);
+      for (auto& w : deeper) w.bur = static_cast<std::uint8_t>(chosen.index);
       way.insert(way.end(), deeper.begin(), deeper.end());
       finds_a_way = true;
       break;
     }
   if (skill.perforates && !finds_a_way && (skill.name == "perforator" || skill.name == "careless"))  // a student who would have is lucky
     throw Error(where, msg("the {} finds no way through to what must not be opened", skill.name),
-                msg("see that tooth and perforation.faults have such a tissue, allow a longer or thinner point, or take another candidate"));
+                msg("see that tooth and perforation.faults have such a tissue, allow a longer or thinner bur, or take another candidate"));
   return {Operator(skill, std::move(way), zones.approach(), seed), static_cast<std::uint8_t>(chosen.index)};
 }
 

@@ -1,5 +1,5 @@
 // A simulated candidate: a skill, and a hand that follows a plan while it looks and feels. It sees the
-// diamond point where the screen shows it (the proxy) and feels the force, both a reaction time late;
+// bur where the screen shows it (the proxy) and feels the force, both a reaction time late;
 // it says where it wants the tip, and the hand and the device (engine/device) do the rest.
 #pragma once
 
@@ -21,7 +21,7 @@ inline constexpr double k_hard_n_per_mm = 0.8;
 /// What distinguishes an expert from a novice.
 struct Skill {
   std::string name;
-  double press_n = 0.95;         ///< force on the point while cutting: with the tissue it gives the speed
+  double press_n = 0.95;         ///< force on the bur while cutting: with the tissue it gives the speed
   double careful_press_n = 0.5;  ///< the same close to a cavity
   double reaction_s = 0.06;      ///< from seeing and feeling to acting
   double tremor_mm = 0.01;       ///< rms, below 5 Hz
@@ -39,8 +39,8 @@ struct Skill {
 struct Intent {
   Vec3 tip_mm;
   double pedal = 0;
-  std::uint8_t point = 0;  ///< of the tray
-  bool done = false;       ///< nothing left to do
+  std::uint8_t bur = 0;  ///< of the tray
+  bool done = false;     ///< nothing left to do
 };
 
 class Operator {
@@ -94,26 +94,26 @@ class Operator {
   double lead_mm_ = 0, stuck_s_ = 0, best_mm_ = 1e9, pedal_ = 0;
 };
 
-/// The point of a tray that reaches most of the target's columns at their full depth; of equals the first one.
-struct ChosenPoint {
+/// The bur of a tray that reaches most of the target's columns at their full depth; of equals the first one.
+struct ChosenBur {
   std::size_t index = 0;       ///< the tray's size when none fits
-  ReachMap map;                ///< of that point
+  ReachMap map;                ///< of that bur
   std::size_t blunt = 0;       ///< of those that go into the target the one with the bluntest end: it falls in where a taper wedges itself in
   ReachMap blunt_map;          ///< of that
-  std::vector<double> covers;  ///< share of the target that each point of the tray can remove, 0..1
+  std::vector<double> covers;  ///< share of the target that each bur of the tray can remove, 0..1
 };
-[[nodiscard]] ChosenPoint choose_point(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray);
+[[nodiscard]] ChosenBur choose_bur(const ZoneMap& zones, const Tooth& tooth, const std::vector<ContactTool>& tray);
 
 /// All that a candidate does in an exam: the pilot hole, where there is an aim, then the target (plan_cut).
-[[nodiscard]] std::vector<Waypoint> plan_work(const ChosenPoint& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
+[[nodiscard]] std::vector<Waypoint> plan_work(const ChosenBur& chosen, const Tooth& tooth, const std::vector<ContactTool>& tray,
                                               const std::vector<std::string>& aims);
 
 /// The plan and the candidate for a scenario laid into a tooth: the pilot hole is made with the bluntest
-/// point, all else with the first one allowed that removes the target best. Throws Error when no allowed point fits into the target, or when
+/// bur, all else with the first one allowed that removes the target best. Throws Error when no allowed bur fits into the target, or when
 /// `careless` is asked for and the scenario has no [careless].
 struct Candidate {
   Operator hands;
-  std::uint8_t point = 0;  ///< with which the target is cut, of the tray
+  std::uint8_t bur = 0;  ///< with which the target is cut, of the tray
 };
 [[nodiscard]] Candidate make_candidate(const std::string& skill, const Scenario& scenario, const ZoneMap& zones, const Tooth& tooth,
                                        const std::vector<ContactTool>& tray, std::uint64_t seed);

@@ -9,15 +9,15 @@
 namespace cavum::scenarios {
 namespace {
 
-/// True when the head of a point held as in `map`, with its tip at `tip`, would remove some of the target.
-bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const DiamondPoint& point, const ReachMap& map, Vec3 tip) {
+/// True when the head of a bur held as in `map`, with its tip at `tip`, would remove some of the target.
+bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const Bur& bur, const ReachMap& map, Vec3 tip) {
   constexpr double k_step_mm = 0.1;
   constexpr double k_s = 0.70710678118654752;
   constexpr Vec3 k_around[] = {{0, 0, 0},  {1, 0, 0},       {k_s, k_s, 0}, {0, 1, 0},     {-k_s, k_s, 0},
                                {-1, 0, 0}, {-k_s, -k_s, 0}, {0, -1, 0},    {k_s, -k_s, 0}};
-  for (double h = k_step_mm / 2; h < point.cutting_length_mm; h += k_step_mm)
+  for (double h = k_step_mm / 2; h < bur.cutting_length_mm; h += k_step_mm)
     for (const Vec3 way : k_around) {
-      const Vec3 p = tip + map.tool * (way * point.profile.radius_mm(h) + Vec3{0, 0, h});
+      const Vec3 p = tip + map.tool * (way * bur.profile.radius_mm(h) + Vec3{0, 0, h});
       if (zones.distance_mm(p) < 0 && tooth.octree.tissue_at(p) != k_air) return true;
     }
   return false;
@@ -137,7 +137,7 @@ ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& toot
   const int slices = room.slices, nx = map.nx;
   const std::size_t columns = map.lowest_mm.size();
   std::vector<double> radius(static_cast<std::size_t>(slices));
-  for (std::size_t h = 0; h < radius.size(); ++h) radius[h] = tool.point.profile.radius_mm(static_cast<double>(h) * dz + 0.5 * dz);
+  for (std::size_t h = 0; h < radius.size(); ++h) radius[h] = tool.bur.profile.radius_mm(static_cast<double>(h) * dz + 0.5 * dz);
   for (std::size_t c = 0; c < columns; ++c) {
     double& lowest = map.lowest_mm[c];
     for (int k = static_cast<int>((top_mm + 0.3 - base) / dz); k >= 0; --k) {
@@ -148,7 +148,7 @@ ReachMap reach_map(const FreeRoom& room, const ZoneMap& zones, const Tooth& toot
       lowest = base + k * dz;
     }
     const Vec3 tip = map.at(static_cast<int>(c) % nx, static_cast<int>(c) / nx, lowest);
-    if (lowest > top_mm || !cuts_target(zones, tooth, tool.point, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
+    if (lowest > top_mm || !cuts_target(zones, tooth, tool.bur, map, tip)) lowest = ReachMap::k_unreachable;  // nothing to do there
   }
   return map;
 }
@@ -186,7 +186,7 @@ void for_each_reached(const FreeRoom& room, const ReachMap& map, const ContactTo
       for (std::size_t k = 0; k < slices; ++k) {
         const double above = low_z + (static_cast<double>(k) + 0.5) * dz - tip;
         if (above < 0) continue;
-        const double r = tool.point.profile.radius_mm(std::min(above, tool.point.cutting_length_mm)) / map.step_mm;
+        const double r = tool.bur.profile.radius_mm(std::min(above, tool.bur.cutting_length_mm)) / map.step_mm;
         const int n = static_cast<int>(r);
         for (int dy = -n; dy <= n; ++dy)
           for (int dx = -n; dx <= n; ++dx) {

@@ -14,16 +14,16 @@ bool SimulatedCandidate::next(const TickOutput& last, const TickInput& previous,
   constexpr std::int64_t k_rest_ticks = 1500;  // a finished candidate holds still for a moment: conditions of the last step can come true
   if (intent.done && ++rested_ > k_rest_ticks) return false;
   const Vec3 tip = advance_omni(omni_, candidate_.hands.skill().hand, state_, last.rendered_force_n, intent.tip_mm, k_tick_s);
-  input = make_tick_input({tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.point, previous);
+  input = make_tick_input({tip, candidate_.hands.rotation()}, intent.pedal, k_stylus_fresh | k_pedal_fresh, intent.bur, previous);
   return true;
 }
 
-PlayedMotion::PlayedMotion(Motion motion, const std::vector<std::string>& point_names, const std::string& where) : motion_(std::move(motion)) {
-  if (!motion_.point.empty()) {
-    const auto found = std::find(point_names.begin(), point_names.end(), motion_.point);
-    if (found == point_names.end())
-      throw Error(where, msg("names the diamond point '{}', which this scenario does not allow", motion_.point), msg("use one of its points"));
-    point_ = static_cast<std::uint8_t>(found - point_names.begin());
+PlayedMotion::PlayedMotion(Motion motion, const std::vector<std::string>& bur_names, const std::string& where) : motion_(std::move(motion)) {
+  if (!motion_.bur.empty()) {
+    const auto found = std::find(bur_names.begin(), bur_names.end(), motion_.bur);
+    if (found == bur_names.end())
+      throw Error(where, msg("names the bur '{}', which this scenario does not allow", motion_.bur), msg("use one of its burs"));
+    bur_ = static_cast<std::uint8_t>(found - bur_names.begin());
   }
 }
 
@@ -33,8 +33,8 @@ bool PlayedMotion::next(const TickOutput&, const TickInput& previous, TickInput&
   ++tick_;
   const MotionSample s = motion_.at(t_s);
   const auto flags = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh | (s.button_1 ? k_button_1 : 0) | (s.button_2 ? k_button_2 : 0));
-  const auto point = s.point >= 0 ? static_cast<std::uint8_t>(std::min(s.point, 255)) : point_;
-  input = make_tick_input(s.pose, s.pedal, flags, point, previous);
+  const auto bur = s.bur >= 0 ? static_cast<std::uint8_t>(std::min(s.bur, 255)) : bur_;
+  input = make_tick_input(s.pose, s.pedal, flags, bur, previous);
   return true;
 }
 
@@ -55,7 +55,7 @@ InputSource::Rest PlayedMotion::rest() noexcept {
 
 SimulatedCandidate make_simulated_candidate(const ExamSetup& setup, const std::string& skill, std::uint64_t seed, const OmniModel& omni) {
   std::vector<ContactTool> tray;
-  for (const auto& p : setup.points) tray.push_back(make_contact_tool(p));
+  for (const auto& p : setup.burs) tray.push_back(make_contact_tool(p));
   return {make_candidate(skill, setup.scenario, setup.zones, setup.tooth, tray, seed), omni};
 }
 

@@ -32,11 +32,11 @@ class SimulatedCandidate final : public InputSource {
  public:
   SimulatedCandidate(Candidate candidate, const OmniModel& omni);
   /// With which the target is cut, of the tray.
-  [[nodiscard]] std::uint8_t point() const noexcept { return candidate_.point; }
+  [[nodiscard]] std::uint8_t bur() const noexcept { return candidate_.bur; }
   [[nodiscard]] Vec3 start_mm() const noexcept override { return candidate_.hands.start_mm(); }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override { return candidate_.hands.progress(); }
-  /// The diamond point of the tray that was chosen for the target.
+  /// The bur of the tray that was chosen for the target.
 
  private:
   Candidate candidate_;
@@ -48,8 +48,8 @@ class SimulatedCandidate final : public InputSource {
 /// Poses from a motion file.
 class PlayedMotion final : public InputSource {
  public:
-  /// `point_names` is the tray. Throws Error when the file names a diamond point that is not in it.
-  PlayedMotion(Motion motion, const std::vector<std::string>& point_names, const std::string& where);
+  /// `bur_names` is the tray. Throws Error when the file names a bur that is not in it.
+  PlayedMotion(Motion motion, const std::vector<std::string>& bur_names, const std::string& where);
   [[nodiscard]] Vec3 start_mm() const noexcept override { return motion_.first_tip_mm.value_or(motion_.samples.front().pose.tip_mm); }
   [[nodiscard]] bool next(const TickOutput& last, const TickInput& previous, TickInput& input) noexcept override;
   [[nodiscard]] double progress() const noexcept override;
@@ -57,11 +57,11 @@ class PlayedMotion final : public InputSource {
 
  private:
   Motion motion_;
-  std::uint8_t point_ = 0;
+  std::uint8_t bur_ = 0;
   std::int64_t tick_ = 0;
 };
 
-/// Operator and hand for an exam. Throws Error when no point of its tray fits into the target.
+/// Operator and hand for an exam. Throws Error when no bur of its tray fits into the target.
 [[nodiscard]] SimulatedCandidate make_simulated_candidate(const ExamSetup& setup, const std::string& skill, std::uint64_t seed,
                                                           const OmniModel& omni);
 

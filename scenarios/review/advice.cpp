@@ -24,7 +24,7 @@ namespace cavum::scenarios {
 namespace {
 
 constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
-constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a point's reach
+constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a bur's reach
 constexpr double k_coarse_leaf_mm = 0.1;
 constexpr double k_least_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
 using Ranges = std::map<std::string, ValueRange>;
@@ -42,12 +42,12 @@ std::string measures_of_protection() {
 
 class Adviser {
  public:
-  Adviser(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points)
+  Adviser(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<Bur>& burs)
       : s_(scenario),
         tooth_(tooth),
         own_(own_tooth(tooth)),
         zones_(zones),
-        points_(points),
+        burs_(burs),
         limit_s_(static_cast<double>(exam_limit_ticks(scenario)) * k_tick_s) {
     for (const auto& t : tooth.tissues) role_[t.id] = among(s_.perforation.aims, t.name) ? 1 : among(s_.perforation.faults, t.name) ? 2 : 0;
   }
@@ -82,7 +82,7 @@ class Adviser {
   const Tooth& tooth_;
   const Tooth own_;  // without what stands beside it
   const ZoneMap& zones_;
-  const std::vector<DiamondPoint>& points_;
+  const std::vector<Bur>& burs_;
   double limit_s_;
   std::array<int, 256> role_{};  // 1 aim, 2 fault
   std::vector<Problem> problems_;
@@ -196,14 +196,14 @@ void Adviser::time(ExpertsPart& expert) {
          msg("the tooth's leaves are {} wide: zones, reach and figures are known to half of that only", as_mm(zones_.leaf_mm(), k_as_needed)),
          msg("make the tooth with leaves of 0.05 mm"));
   if (!zones_.target_is_open()) {
-    warn("zones/target/0", msg("the target lies buried: no part of it is at the tooth's surface, so no point comes to it without cutting elsewhere"),
+    warn("zones/target/0", msg("the target lies buried: no part of it is at the tooth's surface, so no bur comes to it without cutting elsewhere"),
          msg("let the target reach up to the surface, for example by a shape \"column\" over it"), Mistake::unreachable);
     return;
   }
   std::vector<ContactTool> tray;
-  for (const auto& p : points_) tray.push_back(make_contact_tool(p));
-  const ChosenPoint chosen = choose_point(zones_, tooth_, tray);
-  // on coarse leaves a point may fit by half a leaf, which the plan cannot tell: only what fails with that to spare is sure
+  for (const auto& p : burs_) tray.push_back(make_contact_tool(p));
+  const ChosenBur chosen = choose_bur(zones_, tooth_, tray);
+  // on coarse leaves a bur may fit by half a leaf, which the plan cannot tell: only what fails with that to spare is sure
   const double spare = 0.5 * zones_.leaf_mm();
   const MarginSpec at_most{k_expert_margin.sides_mm + spare, k_expert_margin.bottom_mm + spare};
   std::vector<double> covers = chosen.covers;
@@ -218,10 +218,10 @@ void Adviser::time(ExpertsPart& expert) {
   const auto percent = [](double share) { return as_percent(100 * share); };
   for (std::size_t i = 0; i < tray.size(); ++i)
     if (covers[i] < k_useless_share)
-      warn(fmt::format("points/{}", i), msg("the point '{}' fits into {} of the target", points_[i].name, percent(covers[i])),
+      warn(fmt::format("burs/{}", i), msg("the bur '{}' fits into {} of the target", burs_[i].name, percent(covers[i])),
            msg("take it out, or make the target wider"), Mistake::unreachable);
   if (best < k_poor_share)
-    warn("points", msg("no allowed point removes more than {} of the target", percent(best)), msg("allow one that fits, or make the target wider"),
+    warn("burs", msg("no allowed bur removes more than {} of the target", percent(best)), msg("allow one that fits, or make the target wider"),
          Mistake::unreachable);
   if (chosen.index == tray.size()) return;
   const auto way = plan_work(chosen, tooth_, tray, s_.perforation.aims);
@@ -253,7 +253,7 @@ ExamExtent Adviser::extent() const {
   e.steps = static_cast<double>(s_.steps.size());
   e.fault = s_.perforation.faults.empty() ? 0.0 : 1.0;
   e.rpm = s_.max_rpm;
-  e.last_point = static_cast<double>(s_.points.size()) - 1;
+  e.last_bur = static_cast<double>(s_.burs.size()) - 1;
   return e;
 }
 
@@ -403,9 +403,8 @@ std::vector<Problem> advise_rubric(Scenario scenario, const RubricSpec& rubric, 
   return a.take();
 }
 
-std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<DiamondPoint>& points,
-                            ExpertsPart& expert) {
-  Adviser a(scenario, tooth, zones, points);
+std::vector<Problem> advise(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, const std::vector<Bur>& burs, ExpertsPart& expert) {
+  Adviser a(scenario, tooth, zones, burs);
   a.target();
   a.leeway();
   a.walls();

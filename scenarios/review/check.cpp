@@ -25,26 +25,25 @@ Problem problem_of(const Error& e, const Scenario& s, const std::string& place) 
   return p;
 }
 
-/// Diamond points of the tray; those that do not exist are problems.
-std::vector<DiamondPoint> read_points(const Scenario& s, std::vector<Problem>& problems) {
-  std::vector<DiamondPoint> points;
-  for (std::size_t i = 0; i < s.points.size(); ++i) {
-    const std::string place = fmt::format("points/{}", i);
+/// Burs of the tray; those that do not exist are problems.
+std::vector<Bur> read_burs(const Scenario& s, std::vector<Problem>& problems) {
+  std::vector<Bur> burs;
+  for (std::size_t i = 0; i < s.burs.size(); ++i) {
+    const std::string place = fmt::format("burs/{}", i);
     try {
-      const std::string file = find_data_file("points", s.points[i] + ".toml", s.path);
+      const std::string file = find_data_file("burs", s.burs[i] + ".toml", s.path);
       try {
-        points.push_back(parse_diamond_point(read_text_file(file), file));
+        burs.push_back(parse_bur(read_text_file(file), file));
       } catch (const Error& e) {
-        problems.push_back(problem_at(s, place, msg("its file is wrong ({})", e.message()), msg("mend that file, or use another point")));
+        problems.push_back(problem_at(s, place, msg("its file is wrong ({})", e.message()), msg("mend that file, or use another bur")));
       }
     } catch (const Error&) {
-      const auto known = data_names("points", s.path);
-      problems.push_back(problem_at(s, place, msg("there is no diamond point '{}'", s.points[i]),
-                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.points[i], known),
-                                    Mistake::unknown_name));
+      const auto known = data_names("burs", s.path);
+      problems.push_back(problem_at(s, place, msg("there is no bur '{}'", s.burs[i]),
+                                    known.empty() ? msg("set CAVUM_DATA to the data folder") : suggestion(s.burs[i], known), Mistake::unknown_name));
     }
   }
-  return points;
+  return burs;
 }
 
 /// Another tooth than the scenario's own. Throws Error when it cannot be read.
@@ -88,14 +87,14 @@ CheckedScenario check_with(const std::string& text, const std::string& path, con
   for (auto& p : read_surfaces(read.scenario, files)) problems.push_back(std::move(p));
   const Scenario& s = read.scenario;
   const bool names_sound = checked.sound();
-  const auto points = names_sound || !s.points.empty() ? read_points(s, problems) : std::vector<DiamondPoint>();
+  const auto burs = names_sound || !s.burs.empty() ? read_burs(s, problems) : std::vector<Bur>();
   std::optional<Tooth> tooth = tooth_of(s, problems);
   if (tooth) {
     for (auto& p : missing_tissues(s, *tooth)) problems.push_back(std::move(p));
     if (checked.sound()) {
       try {
         ZoneMap zones = zones_of(s, *tooth);
-        for (auto& p : advise(s, *tooth, zones, points, checked.expert)) problems.push_back(std::move(p));
+        for (auto& p : advise(s, *tooth, zones, burs, checked.expert)) problems.push_back(std::move(p));
         if (checked.sound()) checked.laid = std::make_shared<const LaidScenario>(LaidScenario{s, std::move(*tooth), std::move(zones)});
       } catch (const Error& e) {
         problems.push_back(problem_of(e, s, "zones"));

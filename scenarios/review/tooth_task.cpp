@@ -43,7 +43,7 @@ constexpr double k_least_reach = 0.895;
 struct ToothTask {
   const char* word;
   Message title;
-  const char* points;
+  const char* burs;
   bool access;
   const char *aims, *faults;
   std::function<Message(const Tooth&, const Landmarks&)> why_not;
@@ -220,7 +220,7 @@ std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bo
 std::vector<TaskChoice> access(const Tooth& tooth, const Landmarks& l) {
   if (!l.incisal_edge_mm.empty()) return front_access(tooth, l);
   std::vector<TaskChoice> list;
-  for (const auto& [wider, rounding] : {std::pair(0.1, 0.55), {0.1, 0.5}, {0.2, 0.55}, {0.3, 0.55}})  // a narrow chamber: as points need it
+  for (const auto& [wider, rounding] : {std::pair(0.1, 0.55), {0.1, 0.5}, {0.2, 0.55}, {0.3, 0.55}})  // a narrow chamber: as burs need it
     list.push_back(
         {fmt::format(
              "# The chamber's shadow seen from above, {} mm wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
@@ -408,7 +408,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .what = english_text(choice.what),
                   .tooth_file = tooth_file,
                   .about = about(tooth),
-                  .points = asked->points,
+                  .burs = asked->burs,
                   .time_limit_s = 7200,
                   .access = asked->access,
                   .aims = asked->aims,
@@ -455,10 +455,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
         msg("in '{}' its floor would lie {} from the pulp; {} are asked for", tooth.name, as_mm(spares_mm, 1), as_mm(k_planned_over_pulp_mm, 1)),
         msg("choose another task or tooth"));
   if (reaches > 0)
-    throw Error(Mistake::unreachable, option,
-                msg("in '{}' no point of its tray reaches more than {} of the cavity, which is too narrow for them", tooth.name,
-                    as_percent(100 * reaches, 0)),
-                msg("choose another task or tooth"));
+    throw Error(
+        Mistake::unreachable, option,
+        msg("in '{}' no bur of its tray reaches more than {} of the cavity, which is too narrow for them", tooth.name, as_percent(100 * reaches, 0)),
+        msg("choose another task or tooth"));
   throw Error(option, msg("'{}' has no room for it: {}", tooth.name, refused), msg("choose another task or tooth"));
 }
 

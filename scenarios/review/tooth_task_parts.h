@@ -35,7 +35,7 @@ enum class DexterityShape { groove, circle, cross };
 [[nodiscard]] Message why_no_dexterity(const Tooth& tooth, const Landmarks& landmarks);
 [[nodiscard]] std::vector<TaskChoice> dexterity(const Landmarks& landmarks, DexterityShape shape);
 
-/// Steps of a cavity in a side, TOML: its axial wall is curved, so a straight point leaves a little more of it.
+/// Steps of a cavity in a side, TOML: its axial wall is curved, so a straight bur leaves a little more of it.
 [[nodiscard]] std::string side_steps_text();
 /// Steps and further criteria that a crown's rubric has of its own, TOML.
 [[nodiscard]] std::string crown_steps_text();

@@ -59,7 +59,7 @@ class Polygon final : public Outline {
   double offset_;
 };
 
-/// The shadow of a tissue, moved outwards and rounded so that a diamond point of that radius reaches all of it.
+/// The shadow of a tissue, moved outwards and rounded so that a bur of that radius reaches all of it.
 class Shadow final : public Outline {
  public:
   Shadow(const TissueRelief& relief, double offset, double rounding) {

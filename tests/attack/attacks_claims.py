@@ -31,10 +31,10 @@ def softer_model(s):
     return insider(s, lambda r: r.set_artifact("force_model.toml", r.artifact("force_model.toml") + b"\n# softer\n"))
 
 
-@attack("claim", FOUND, TICKET, "ticket_bur", "point_001")
-def another_point(s):
-    """A diamond point of the tray has one more line."""
-    return insider(s, lambda r: r.set_artifact("point_001.toml", r.artifact("point_001.toml") + b"\n# sharper\n"))
+@attack("claim", FOUND, TICKET, "ticket_bur", "bur_001")
+def another_bur(s):
+    """A bur of the tray has one more line."""
+    return insider(s, lambda r: r.set_artifact("bur_001.toml", r.artifact("bur_001.toml") + b"\n# sharper\n"))
 
 
 @attack("claim", FOUND, TICKET, "ticket_scenario", "rubric.toml")

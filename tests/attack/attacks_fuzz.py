@@ -62,7 +62,7 @@ def fuzz_chunks(s):
 
 @attack("fuzz", SURVIVES)
 def fuzz_artifacts(s):
-    """Scenario, points, model, servo and teeth spoiled, signed anew; the teeth also inside their packing."""
+    """Scenario, burs, model, servo and teeth spoiled, signed anew; the teeth also inside their packing."""
     dice, last = random.Random(SEED + 1), None
     for _ in range(ROUNDS):
         r = s.session("anna.cavum")

@@ -46,7 +46,7 @@ def scenarios_with_odd_numbers(s):
 
 @attack("input", FOUND, "a scenario names files")
 def scenario_files(s):
-    """The tooth and the points of a scenario are /dev/zero, /etc/passwd, a pipe, a folder, a path out of the data."""
+    """The tooth and the burs of a scenario are /dev/zero, /etc/passwd, a pipe, a folder, a path out of the data."""
     good = scenario(s)
     os.mkfifo(s.p("pipe"))
     last = None
@@ -55,7 +55,7 @@ def scenario_files(s):
         s.must(last.rc != 0, f"tooth {name!r} is taken")
         s.must("root:x:" not in last.out, "the content of a file is shown")
         last = s.run("scenario", "check", s.text("m.toml", good.replace('"round-1.0"', f'"{name}"')))
-        s.must(last.rc != 0, f"point {name!r} is taken")
+        s.must(last.rc != 0, f"bur {name!r} is taken")
     os.symlink("/dev/zero", s.p("z.toml"))
     s.must(s.run("scenario", "check", s.p("z.toml")).rc != 0, "an endless scenario is taken")
     return s.run("scenario", "check", s.p("pipe"))

@@ -10,7 +10,7 @@ import zstandard
 from cryptography.hazmat.primitives import serialization
 from cryptography.hazmat.primitives.asymmetric.ed25519 import Ed25519PrivateKey
 
-INPUTS = ["tip_x", "tip_y", "tip_z", "rot_w", "rot_x", "rot_y", "rot_z", "pedal", "flags", "point"]
+INPUTS = ["tip_x", "tip_y", "tip_z", "rot_w", "rot_x", "rot_y", "rot_z", "pedal", "flags", "bur"]
 RECORDS = ["rendered_x", "rendered_y", "rendered_z", "model_n", "penetration", "proxy_x", "proxy_y", "proxy_z", "rpm", "leaves", "notices"]
 M32 = 0xFFFFFFFF
 

@@ -27,7 +27,7 @@ void print_tick(double t_s, double us, const TickOutput& out, const ServoState& 
 }
 
 void drill(double seconds, double tick_s, double from_s, double to_s) {
-  const SessionSetup setup = servo_rig_setup(point_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+  const SessionSetup setup = servo_rig_setup(bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
   Simulation simulation = make_simulation(setup, "hand_bench");
   ServoState& state = simulation.state;
   SimulatedStylus stylus({}, {}, tick_s, drilling_hand);
@@ -42,7 +42,7 @@ void drill(double seconds, double tick_s, double from_s, double to_s) {
   for (std::size_t i = 0; i < ticks; ++i) {
     const double t_s = static_cast<double>(i) * tick_s;
     const DeviceReading r = stylus.read(tick_s);
-    input = make_tick_input(r.pose, r.pedal, r.flags, r.point, input);
+    input = make_tick_input(r.pose, r.pedal, r.flags, r.bur, input);
     const double begin = thread_us();
     const TickOutput out = step(simulation.model, state, input);
     us.push_back(thread_us() - begin);

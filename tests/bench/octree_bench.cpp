@@ -39,7 +39,7 @@ double carve_ball_us(const Tooth& block, double radius, std::size_t* leaves) {
 }
 
 /// Median time of a carve of a head that moves on by a quarter leaf.
-double drill_on_us(const Tooth& block, const DiamondPoint& point) {
+double drill_on_us(const Tooth& block, const Bur& bur) {
   Octree tree = block.octree;
   tree.reserve_edits(1 << 17);
   std::vector<RemovedLeaf> removed;
@@ -50,7 +50,7 @@ double drill_on_us(const Tooth& block, const DiamondPoint& point) {
     removed.clear();
     const double begin = thread_us();
     begin_carving(carving, {{0.013, 0.007, z}, {}, 0});
-    (void)go_on_carving(carving, tree, point, k_at_once, removed);
+    (void)go_on_carving(carving, tree, bur, k_at_once, removed);
     if (z < -1.5) us.push_back(thread_us() - begin);
   }
   return median(us);
@@ -68,6 +68,6 @@ int main(int argc, char**) {
     const double half = carve_ball_us(block, 0.25, &small), one = carve_ball_us(block, 0.5, &large);
     std::printf(
         "leaf %.3f mm: ball of 0.5 mm diameter %7.1f us (%zu leaves), of 1.0 mm %7.1f us (%zu leaves); round-1.0 drills on by 1/4 leaf: %6.1f us\n",
-        leaf, half, small, one, large, drill_on_us(block, testing_engine::diamond_point("round-1.0")));
+        leaf, half, small, one, large, drill_on_us(block, testing_engine::shipped_bur("round-1.0")));
   }
 }

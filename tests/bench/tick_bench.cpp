@@ -1,4 +1,4 @@
-// How long a tick takes: contact, force and cutting in steady drilling, out of contact, for every diamond point
+// How long a tick takes: contact, force and cutting in steady drilling, out of contact, for every bur
 // and leaf, beside what open drilling simulators do (a dense scan of the tool's bounding box) in the same run.
 //
 // Each drilling is repeated five times. The first row holds all ticks as they were timed; "least of 5" holds for each tick the least of its five
@@ -60,9 +60,9 @@ Quantiles quantiles(std::vector<double> us) {
 }
 
 /// Drills straight down at 0.25 mm/s from `top`, timing each tick from the third second on.
-std::vector<double> drill(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks, const char* set = "consistent") {
+std::vector<double> drill(const Tooth& tooth, const Bur& bur, Vec3 top, int ticks, const char* set = "consistent") {
   const Vec3 start = top + Vec3{0, 0, 0.05};
-  Rig rig(tooth, {point}, shipped_model(set), start);
+  Rig rig(tooth, {bur}, shipped_model(set), start);
   rig.spin_up(start);
   double z = start.z;
   std::vector<double> us;
@@ -79,10 +79,10 @@ std::vector<double> drill(const Tooth& tooth, const DiamondPoint& point, Vec3 to
 
 /// Slides to and fro over a block at `speed_mm_s`, 0.3 mm deeper each second, at ticks of 0.25 ms; `sways` as in a hand, by 0.001 rad from tick to
 /// tick.
-std::vector<double> slide(const Tooth& tooth, const DiamondPoint& point, double speed_mm_s, bool sways, int ticks) {
+std::vector<double> slide(const Tooth& tooth, const Bur& bur, double speed_mm_s, bool sways, int ticks) {
   constexpr double k_tick = 0.25e-3, k_half_mm = 1.2;
   const Vec3 start{-k_half_mm, 0, 0.05};
-  Rig rig(tooth, {point}, shipped_model("consistent"), start, k_tick);
+  Rig rig(tooth, {bur}, shipped_model("consistent"), start, k_tick);
   rig.spin_up(start);
   Random random(1);
   std::vector<double> us;
@@ -113,13 +113,13 @@ Repeated repeatedly(const std::function<std::vector<double>()>& motion) {
   }
   return r;
 }
-Repeated drill_repeatedly(const Tooth& tooth, const DiamondPoint& point, Vec3 top, int ticks) {
-  return repeatedly([&] { return drill(tooth, point, top, ticks); });
+Repeated drill_repeatedly(const Tooth& tooth, const Bur& bur, Vec3 top, int ticks) {
+  return repeatedly([&] { return drill(tooth, bur, top, ticks); });
 }
 
-std::vector<double> in_air(const Tooth& tooth, const DiamondPoint& point, double top_mm, int ticks) {
+std::vector<double> in_air(const Tooth& tooth, const Bur& bur, double top_mm, int ticks) {
   const Vec3 start{0, 0, top_mm + 8};
-  Rig rig(tooth, {point}, shipped_model("consistent"), start);
+  Rig rig(tooth, {bur}, shipped_model("consistent"), start);
   std::vector<double> us;
   for (int i = 0; i < ticks; ++i) {
     rig.input = make_tick_input({{0.002 * (i % 1000), 0, start.z}, {}}, 1.0, k_stylus_fresh | k_pedal_fresh, 0, rig.input);
@@ -144,16 +144,16 @@ Quantiles lines(const char* what, const Repeated& r) {
 }
 
 /// What open drilling simulators do each tick: every leaf in the box of the tool, on a dense grid, asked whether the tool holds it.
-double dense_scan_us(const TissueGrid& grid, const DiamondPoint& point, Vec3 tip, volatile long& found) {
-  const double r = point.head_radius_mm, leaf = grid.leaf_mm;
+double dense_scan_us(const TissueGrid& grid, const Bur& bur, Vec3 tip, volatile long& found) {
+  const double r = bur.head_radius_mm, leaf = grid.leaf_mm;
   const double begin = thread_us();
   const auto index = [&](double mm, double origin) { return static_cast<int>((mm - origin) / leaf); };
-  for (int z = index(tip.z, grid.origin_mm.z); z <= index(tip.z + point.cutting_length_mm, grid.origin_mm.z); ++z)
+  for (int z = index(tip.z, grid.origin_mm.z); z <= index(tip.z + bur.cutting_length_mm, grid.origin_mm.z); ++z)
     for (int y = index(tip.y - r, grid.origin_mm.y); y <= index(tip.y + r, grid.origin_mm.y); ++y)
       for (int x = index(tip.x - r, grid.origin_mm.x); x <= index(tip.x + r, grid.origin_mm.x); ++x) {
         if (!grid.inside({x, y, z}) || grid.tissue[grid.index({x, y, z})] == k_air) continue;
         const Vec3 d = grid.centre_mm({x, y, z}) - tip;
-        if (point.head_distance_mm(d) < 0) found = found + 1;
+        if (bur.head_distance_mm(d) < 0) found = found + 1;
       }
   return thread_us() - begin;
 }
@@ -170,7 +170,7 @@ int usage() {
 }
 
 int run(int argc, char** argv) {
-  const DiamondPoint ball = testing_engine::diamond_point("round-1.0");
+  const Bur ball = testing_engine::shipped_bur("round-1.0");
   const auto block = [](double leaf) { return make_block({4, 4, 5.6}, {{"enamel", 5.6}}, leaf); };
   if (argc > 2 && std::strcmp(argv[1], "count") == 0) {
     if (!(std::atof(argv[2]) >= 0.02 && std::atof(argv[2]) <= 0.5)) return usage();
@@ -204,14 +204,14 @@ int run(int argc, char** argv) {
   }
   const Tooth tooth = block(0.05);
   line("block, round-1.0, out of contact", quantiles(in_air(tooth, ball, 0, ticks)));
-  for (const auto& name : testing_engine::point_names())
-    (void)lines(name.c_str(), drill_repeatedly(tooth, testing_engine::diamond_point(name), {0, 0, 0}, ticks / 2));
+  for (const auto& name : testing_engine::bur_names())
+    (void)lines(name.c_str(), drill_repeatedly(tooth, testing_engine::shipped_bur(name), {0, 0, 0}, ticks / 2));
   for (const char* name : {"round-1.4", "endo-access-1.0"})
     for (const double speed_mm_s : {2.0, 10.0, 40.0})
       for (const bool sways : {false, true}) {
         char what[80];
         std::snprintf(what, sizeof what, "%s slides, %g mm/s%s, 0.25 ms ticks", name, speed_mm_s, sways ? ", swaying" : "");
-        (void)lines(what, repeatedly([&] { return slide(tooth, testing_engine::diamond_point(name), speed_mm_s, sways, 4 * ticks); }));
+        (void)lines(what, repeatedly([&] { return slide(tooth, testing_engine::shipped_bur(name), speed_mm_s, sways, 4 * ticks); }));
       }
   if (real) {
     // straight down from the first solid leaf over the middle of the crown

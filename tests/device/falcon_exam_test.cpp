@@ -48,7 +48,7 @@ TEST(FalconExam, IsTakenUnpluggedPluggedInGradedAndReplays) {
   const pid_t child = ::fork();
   if (child == 0) {
     if (std::freopen(printed.c_str(), "w", stdout) == nullptr || std::freopen((printed + ".err").c_str(), "w", stderr) == nullptr) ::_exit(99);
-    ::execl(CAVUM_BINARY, CAVUM_BINARY, "exam", folder.file("task.toml").c_str(), "--candidate", "t", "--device", "falcon", "--point", "round-1.0",
+    ::execl(CAVUM_BINARY, CAVUM_BINARY, "exam", folder.file("task.toml").c_str(), "--candidate", "t", "--device", "falcon", "--bur", "round-1.0",
             "--out", out.c_str(), "--json", nullptr);
     ::_exit(98);
   }
@@ -108,7 +108,7 @@ TEST(FalconExam, IsTakenUnpluggedPluggedInGradedAndReplays) {
     return std::any_of(notes.begin(), notes.end(), [&key](const auto& n) { return n.first == key; });
   };
   EXPECT_TRUE(has("stylus_calibration") && has("pedal_calibration"));
-  EXPECT_EQ(session.inputs().back().point, 1) << "round-1.0 is the second of the tray";
+  EXPECT_EQ(session.inputs().back().bur, 1) << "round-1.0 is the second of the tray";
   EXPECT_NE(read_text_file(printed + ".err").find("falcon"), std::string::npos) << "and the supervisor was told";
 }
 

@@ -28,8 +28,7 @@ TEST(FalconServo, UnpluggedWhilePressingTheForceFadesAndTheSessionGoesOn) {
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
   const std::string data = std::string(CAVUM_SOURCE_DIR) + "/data/", path = folder.file("s.cavum");
-  const SessionSetup setup =
-      servo_rig_setup(read_text_file(data + "points/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
+  const SessionSetup setup = servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
 
   testing_device::EmulatedFalcon falcon;
   StationStylus station = usual_station_stylus(falcon_kind());

@@ -59,8 +59,8 @@ class Inverse3Exam : public ::testing::Test {
     if (child == 0) {
       const std::string printed = folder_.file("printed");
       if (std::freopen(printed.c_str(), "w", stdout) == nullptr || std::freopen((printed + ".err").c_str(), "w", stderr) == nullptr) ::_exit(99);
-      ::execl(CAVUM_BINARY, CAVUM_BINARY, "exam", folder_.file("task.toml").c_str(), "--candidate", "t", "--device", "inverse3", "--point",
-              "round-1.0", "--out", folder_.file("s.cavum").c_str(), "--json", nullptr);
+      ::execl(CAVUM_BINARY, CAVUM_BINARY, "exam", folder_.file("task.toml").c_str(), "--candidate", "t", "--device", "inverse3", "--bur", "round-1.0",
+              "--out", folder_.file("s.cavum").c_str(), "--json", nullptr);
       ::_exit(98);
     }
     return child;

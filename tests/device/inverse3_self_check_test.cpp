@@ -97,7 +97,7 @@ TEST_F(Inverse3SelfCheck, FindsAStifferJointAndTheSessionSaysWhatWasDecided) {
       folder_.file("pedal.toml"),
       to_toml({.vendor = 0x068e, .product = 0x00f2, .calibration = {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false}}));
   const auto exam = [&](const std::string& name) {
-    const Ran sat = run("exam " + folder_.file("task.toml") + " --candidate t --device inverse3 --point round-1.0 --out " + folder_.file(name));
+    const Ran sat = run("exam " + folder_.file("task.toml") + " --candidate t --device inverse3 --bur round-1.0 --out " + folder_.file(name));
     EXPECT_EQ(sat.code, 0) << sat.out;
     return run("verify " + folder_.file(name));
   };

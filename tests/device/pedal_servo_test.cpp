@@ -28,8 +28,7 @@ TEST(PedalServo, UnpluggedWhileCuttingTheHandpieceStopsAndTheSessionKnows) {
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
   const std::string data = std::string(CAVUM_SOURCE_DIR) + "/data/", path = folder.file("s.cavum");
-  const SessionSetup setup =
-      servo_rig_setup(read_text_file(data + "points/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
+  const SessionSetup setup = servo_rig_setup(read_text_file(data + "burs/round-1.0.toml"), read_text_file(data + "materials/consistent.toml"), 1e-3);
 
   EmulatedPedal plug;
   HidPedal pedal(0x068e, 0x00f2, {.axis = 0, .released = 0, .pressed = 255, .speaks_on_change = false});

@@ -14,7 +14,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::int64_t k_ticks = 1400;  // two chunks; the diamond point is cutting from tick 330 on
+constexpr std::int64_t k_ticks = 1400;  // two chunks; the bur is cutting from tick 330 on
 
 void put_clocks(ByteWriter& out, const Clocks& c) {
   for (const auto v : {c.monotonic_ns, c.boot_ns, c.utc_ns}) out.put(v);
@@ -38,7 +38,7 @@ Bytes content_of(const std::string& path) {
     for (const auto v : in.rotation_q30) out.put(v);
     out.put(in.pedal_q16);
     out.put(in.flags);
-    out.put(in.point);
+    out.put(in.bur);
   }
   for (const auto& r : s.records()) {
     for (const auto v : r.rendered_un) out.put(v);

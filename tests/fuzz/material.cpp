@@ -105,7 +105,7 @@ SessionSetup small_setup() {
   setup.scenario_toml = "title = \"drill\"\n";
   setup.force_model_toml = data_text("materials/paper.toml");
   setup.servo_toml = to_toml(ServoConfig{});
-  setup.points_toml = {data_text("points/round-1.0.toml")};
+  setup.burs_toml = {data_text("burs/round-1.0.toml")};
   setup.tooth = save_tooth(small_tooth());
   setup.first_tip_nm = motion_at(0).tip_nm;
   setup.notes = {{"room", "4"}, {records::k_ticket_note, small_ticket()}};

@@ -230,7 +230,7 @@ std::vector<Bytes> recording_seeds() {
     seeds.push_back(edit_of(k_add_event, 0, 3, bytes_of(text)));
   seeds.push_back(edit_of(k_set, 18, 0, bytes_of(small_result())));
   seeds.push_back(edit_of(k_set, 14, 15, bytes_of(small_ticket())));
-  for (const char* file : {"points/round-1.0.toml", "materials/paper.toml"})
+  for (const char* file : {"burs/round-1.0.toml", "materials/paper.toml"})
     for (std::uint8_t row = 0; row < 6; ++row) seeds.push_back(edit_of(k_set, 16, row, bytes_of(data_text(file))));
   return seeds;
 }

@@ -20,7 +20,7 @@ TickInput input_of(Data b) {
   for (auto& x : t.rotation_q30) x = in.get<std::int32_t>();
   t.pedal_q16 = in.get<std::uint16_t>();
   t.flags = in.get<std::uint16_t>();
-  t.point = in.get<std::uint8_t>();
+  t.bur = in.get<std::uint8_t>();
   return t;
 }
 
@@ -30,7 +30,7 @@ Bytes bytes_of(const TickInput& t) {
   for (const auto x : t.rotation_q30) out.put(x);
   out.put(t.pedal_q16);
   out.put(t.flags);
-  out.put(t.point);
+  out.put(t.bur);
   return out.take();
 }
 

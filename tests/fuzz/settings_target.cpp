@@ -1,4 +1,4 @@
-// The small texts that a session holds beside its motion: force model, servo settings, diamond point and landmarks, by the first byte.
+// The small texts that a session holds beside its motion: force model, servo settings, bur and landmarks, by the first byte.
 #include "engine/physics/servo/servo.h"
 #include "engine/tooth/anatomy/landmarks_file.h"
 #include "tests/fuzz/material.h"
@@ -18,7 +18,7 @@ void fuzz_settings(Data data) {
         static_cast<void>(parse_servo_config(text, "servo.toml"));
         break;
       case 2:
-        static_cast<void>(parse_diamond_point(text, "point.toml"));
+        static_cast<void>(parse_bur(text, "bur.toml"));
         break;
       default:
         static_cast<void>(parse_landmarks(text, "landmarks.json"));
@@ -37,10 +37,10 @@ std::vector<Bytes> settings_seeds() {
           with(0, data_text("materials/consistent.toml")),
           with(0, data_text("materials/clinical.toml")),
           with(1, to_toml(ServoConfig{})),
-          with(2, data_text("points/round-1.0.toml")),
-          with(2, data_text("points/flame-1.0.toml")),
-          with(2, data_text("points/cylinder-flat-1.0.toml")),
-          with(2, data_text("points/endo-access-1.0.toml")),
+          with(2, data_text("burs/round-1.0.toml")),
+          with(2, data_text("burs/flame-1.0.toml")),
+          with(2, data_text("burs/cylinder-flat-1.0.toml")),
+          with(2, data_text("burs/endo-access-1.0.toml")),
           with(3, landmarks_text({})),
           with(3, landmarks_text(some))};
 }

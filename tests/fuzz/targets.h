@@ -18,7 +18,7 @@ using Data = std::span<const std::uint8_t>;
 void fuzz_session(Data data);     ///< a `.cavum` file's bytes
 void fuzz_recording(Data data);   ///< edits of what the rows of a sound session hold, see recording_target.cpp
 void fuzz_replay(Data data);      ///< ticks of motion, run through the servo
-void fuzz_settings(Data data);    ///< force model, servo settings or diamond point, by the first byte
+void fuzz_settings(Data data);    ///< force model, servo settings or bur, by the first byte
 void fuzz_ticket(Data data);      ///< a ticket's file
 void fuzz_receipt(Data data);     ///< a receipt's file
 void fuzz_candidates(Data data);  ///< the class as CSV

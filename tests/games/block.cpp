@@ -26,7 +26,7 @@ Tooth block() {
 
 constexpr char k_text[] = R"(title = "Games"
 tooth = "none.cvt"
-points = ["round-1.0"]
+burs = ["round-1.0"]
 max_rpm = 200000
 time_limit_s = 100
 force_limit_n = 2.5

@@ -26,7 +26,7 @@ inline Body moved(Body a, Vec3 by) {
 inline Body beyond(Vec3 along, double from_mm) {
   return [=](Vec3 p) { return from_mm - dot(p, along); };
 }
-/// A point's head of this radius, drawn from one place to another.
+/// A bur's head of this radius, drawn from one place to another.
 inline Body stroke(Vec3 a, Vec3 b, double radius) {
   return [=](Vec3 p) {
     const Vec3 ab = b - a;

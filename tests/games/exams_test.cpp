@@ -36,7 +36,7 @@ class Way {
   }
   void save(const std::string& path) const {
     std::ofstream file(path);
-    file << "# point = cylinder-flat-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n" << rows_;
+    file << "# bur = cylinder-flat-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n" << rows_;
   }
 
  private:

@@ -138,7 +138,7 @@ void about_time(std::vector<Game>& list, const Ground& g) {
     s.hand_in();
   };
   list.push_back({"pulse", [pulse, &t = g.t](Sitting& s) { pulse(s, t, 20); }});
-  list.push_back({"wrong_point_at_wild_speed", [body = g.target](Sitting& s) {
+  list.push_back({"wrong_bur_at_wild_speed", [body = g.target](Sitting& s) {
                     s.cut(body, 20, Hand{6.0, 400000, true, true, 200});
                     s.hand_in();
                   }});

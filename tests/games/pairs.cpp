@@ -58,7 +58,7 @@ void play(const Work& w, Sitting& s) {
   s.cut(w.body, w.seconds - 0.05, w.hand);
   Hand other = w.hand;
   if (w.breaks_a_rule) {
-    other.point = 200;
+    other.bur = 200;
     other.rpm = 400000;
   }
   s.pass(0.05, other);

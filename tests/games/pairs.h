@@ -13,7 +13,7 @@ struct Work {
   Body core;  ///< of it what of the target goes
   double seconds = 20.0, idle_s = 0.0;
   Hand hand;
-  bool breaks_a_rule = false;  ///< mounts a point that is not allowed and turns too fast, for 50 ms
+  bool breaks_a_rule = false;  ///< mounts a bur that is not allowed and turns too fast, for 50 ms
   bool walks_out = false;      ///< with the pedal pressed: the last step stays open
   std::string words;
 };

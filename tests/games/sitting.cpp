@@ -12,7 +12,7 @@ namespace cavum::games {
 namespace {
 
 std::vector<std::string> tray_of(const Task& t) {
-  std::vector<std::string> tray = t.scenario.points;
+  std::vector<std::string> tray = t.scenario.burs;
   tray.emplace_back("flame-1.0-not-allowed");
   return tray;
 }
@@ -43,7 +43,7 @@ void Sitting::tick(const Hand& hand, std::span<const RemovedLeaf> leaves) {
                static_cast<std::int32_t>(up * 1e6)};
   in.pedal_q16 = hand.pedal ? 65535 : 0;
   in.flags = k_stylus_fresh | k_pedal_fresh;
-  in.point = hand.point;
+  in.bur = hand.bur;
   TickOutput out;
   out.rendered_force_n = {0, 0, hand.force_n};
   out.model_force_n = hand.force_n;

@@ -15,8 +15,8 @@ struct Hand {
   double force_n = 1.0;
   std::int32_t rpm = 180000;
   bool pedal = true, contact = true;
-  std::uint8_t point = 0;  ///< of the scenario's points; one beyond them is not allowed
-  double way_mm = 0.02;    ///< of the tip, up and down, each tick
+  std::uint8_t bur = 0;  ///< of the scenario's burs; one beyond them is not allowed
+  double way_mm = 0.02;  ///< of the tip, up and down, each tick
 };
 
 class Sitting {
@@ -31,7 +31,7 @@ class Sitting {
   void pass(double seconds, const Hand& hand = {0.0, 0, false, false, 0, 0.0});
   /// Releases the pedal and lifts off; ends the exam by hand where it is not over then.
   void hand_in();
-  /// Ends it with the pedal pressed and the point in the tooth.
+  /// Ends it with the pedal pressed and the bur in the tooth.
   void walk_out();
 
   [[nodiscard]] grading::Result marked() const { return marked_by(task_.scenario.rubric); }

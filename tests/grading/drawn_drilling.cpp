@@ -20,7 +20,7 @@ constexpr double k_dt = k_tick_s;
 constexpr double k_feels_s = 0.03;         // time constant of what a hand feels
 constexpr std::int64_t k_longest = 60000;  // ticks
 constexpr double k_through_mm = 1.8;       // so far beyond the cavity's roof the hand stops, whatever it has felt
-constexpr double k_seen_mm = 4.0;          // a hand lets itself be drawn no further from the point that it sees on the screen
+constexpr double k_seen_mm = 4.0;          // a hand lets itself be drawn no further from the bur that it sees on the screen
 
 const Tooth& tooth_named(const std::string& name) {
   static const auto load = [](const char* file) { return load_tooth_file(std::string(CAVUM_SOURCE_DIR) + "/data/teeth/" + file); };
@@ -93,7 +93,7 @@ class Session {
   Quat turned_;
   bool constant_force_ = false;
   double force_n_ = 0.8, feed_mm_s_ = 0.3, tremor_mm_ = 0.01, noise_n_ = 0, reaction_s_ = 0.2, pedal_ = 1;
-  std::uint8_t point_ = 0;
+  std::uint8_t bur_ = 0;
   bool perforates_ = false;
   double felt_n_ = 0;      // the force, as a hand feels it
   double level_n_ = 0;     // the same before the cavity was touched, over half a second
@@ -144,18 +144,18 @@ void Session::draw() {
   hand_.damping_n_s_per_mm = u(0.02, 0.1);
 
   bool found = false;
-  const auto names = point_names();
+  const auto names = bur_names();
   for (int i = 0; i < 2000 && !found; ++i) {
     if (i % 20 == 0) {
       const std::size_t first = random_.below(names.size());
-      out_.point = names[first];
-      out_.tray = {diamond_point(names[first]), diamond_point(names[(first + 1 + random_.below(names.size() - 1)) % names.size()])};
+      out_.bur = names[first];
+      out_.tray = {shipped_bur(names[first]), shipped_bur(names[(first + 1 + random_.below(names.size() - 1)) % names.size()])};
     }
     found = find_way();
   }
   if (!found) throw std::runtime_error("no way into tooth " + out_.tooth);
   std::ostringstream story;
-  story << name_of(out_.what) << ", " << out_.tooth << ", " << out_.point << ", " << (perforates_ ? "perforates" : "stops") << ", "
+  story << name_of(out_.what) << ", " << out_.tooth << ", " << out_.bur << ", " << (perforates_ ? "perforates" : "stops") << ", "
         << (constant_force_ ? "force " : "feed ") << (constant_force_ ? force_n_ : feed_mm_s_) << ", k " << k << " share " << share << " soft "
         << soft << ", c " << damping << ", noise " << noise_n_ << ", friction " << omni_.coulomb_n << ", tremor " << tremor_mm_ << ", hand "
         << hand_.stiffness_n_per_mm << ", void at " << way_.void_at_mm;
@@ -202,10 +202,10 @@ bool Session::find_way() {
     if (!is_void(o, o.tissue_at(at + w.into * (0.01 * k)))) return false;
   w.safe_mm = safe_depth(w, std::max(out_.tray[0].head_radius_mm, out_.tray[1].head_radius_mm));
   if (!perforates_ && w.safe_mm < 0.9) return false;
-  for (const auto& point : out_.tray) {  // neck and shank must find room in the hole
+  for (const auto& bur : out_.tray) {  // neck and shank must find room in the hole
     double room = 100;
-    for (const auto& p : point.profile.walk(0.05, point.profile.length_mm()))
-      if (p.at.z_mm > point.cutting_length_mm && p.at.r_mm > point.head_radius_mm - 0.02) room = std::min(room, p.at.z_mm);
+    for (const auto& p : bur.profile.walk(0.05, bur.profile.length_mm()))
+      if (p.at.z_mm > bur.cutting_length_mm && p.at.r_mm > bur.head_radius_mm - 0.02) room = std::min(room, p.at.z_mm);
     if (w.void_at_mm + 0.6 > room) return false;
   }
   way_ = w;
@@ -219,7 +219,7 @@ void Session::tick(Vec3 intended, double pedal) {
   const double keep = 1 - 2 * 3.14159 * 3 * k_dt, kick = tremor_mm_ * std::sqrt(1 - keep * keep);
   tremor_ = tremor_ * keep + Vec3{random_.normal(), random_.normal(), random_.normal()} * kick;
   const Vec3 tip = advance_omni(omni_, hand_, omni_state_, last_.rendered_force_n, intended + tremor_, k_dt);
-  input_ = make_tick_input({tip, turned_}, pedal, k_stylus_fresh | k_pedal_fresh, point_, input_);
+  input_ = make_tick_input({tip, turned_}, pedal, k_stylus_fresh | k_pedal_fresh, bur_, input_);
   last_ = step(model_, state_, input_);
   TickRecord r = make_tick_record(last_);
   for (auto& f : r.rendered_un) f += static_cast<std::int32_t>(noise_n_ * 1e6 * random_.normal());
@@ -315,10 +315,10 @@ void Session::look_alike() {
         (void)drill(way_.top, way_.into, u(0.5, 1.2), [&] { return depth() > way_.safe_mm - 0.3; });
       }
       break;
-    case LookAlike::change_of_point:
+    case LookAlike::change_of_bur:
       retreat(u(2, 5), u(5, 30), pedal_);
       wait(0.5, 0.0);
-      point_ = 1;
+      bur_ = 1;
       wait(0.5, 0.0);
       wait(0.6, pedal_);
       back_to_work(u(1, 8));
@@ -366,7 +366,7 @@ void Session::earlier_cut() {
   travel(first - way_.into * 1.0, 10, pedal_);
 }
 
-/// Pushes outwards over the surface until the point falls off it.
+/// Pushes outwards over the surface until the bur falls off it.
 void Session::slip() {
   const double angle = u(0, 6.2832);
   const Vec3 side = normalized(Vec3{std::cos(angle), std::sin(angle), 0});
@@ -419,7 +419,7 @@ void Session::run() {
 
 const char* name_of(LookAlike what) {
   static const std::array<const char*, k_look_alikes> names{
-      "steady", "lift-off", "pedal release", "enamel to dentin", "earlier cut", "soft lesion", "change of point", "saturation", "slip", "look"};
+      "steady", "lift-off", "pedal release", "enamel to dentin", "earlier cut", "soft lesion", "change of bur", "saturation", "slip", "look"};
   return names[static_cast<std::size_t>(what)];
 }
 

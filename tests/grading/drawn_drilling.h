@@ -10,7 +10,7 @@
 
 namespace cavum::testing_grading {
 
-enum class LookAlike { steady, lift_off, pedal_release, enamel_to_dentin, earlier_cut, soft_lesion, change_of_point, saturation, slip, look };
+enum class LookAlike { steady, lift_off, pedal_release, enamel_to_dentin, earlier_cut, soft_lesion, change_of_bur, saturation, slip, look };
 inline constexpr int k_look_alikes = 10;
 [[nodiscard]] const char* name_of(LookAlike what);
 
@@ -29,11 +29,11 @@ inline constexpr std::int64_t k_felt_within_ticks = 3000;
 
 struct DrawnSession {
   LookAlike what = LookAlike::steady;
-  std::string tooth, point;  ///< of the first part
-  std::string story;         ///< what was drawn, for a failing test
+  std::string tooth, bur;  ///< of the first part
+  std::string story;       ///< what was drawn, for a failing test
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;  ///< with noise on the force
-  std::vector<DiamondPoint> tray;
+  std::vector<Bur> tray;
   std::int64_t touched = -1;      ///< tick in which the first leaf of pulp or periodontium went; -1 = never
   std::int64_t felt = -1;         ///< first tick after that in which the fall could be felt (k_felt_share); -1 = never
   double least_share = 1.0;       ///< least of the expected force that was left after the touch

@@ -1,4 +1,4 @@
-// A light hand that goes round: it lets the point touch and leads it in circles, eights or spirals, or to and fro like a brush, a little deeper with
+// A light hand that goes round: it lets the bur touch and leads it in circles, eights or spirals, or to and fro like a brush, a little deeper with
 // every turn or stroke. Some sink step by step (how far depends on how the last turn felt), some let the weight of the hand sink. The handle leans
 // with the circle. The force is judged over a large part of a turn, so a small hole in the floor passes unnoticed by some until most of the turn
 // feels empty. Then they lift, or go round the rim a few times, or never notice.
@@ -80,7 +80,7 @@ class Circler final : public Hand {
     since_s_ += dt;
     if (f.t_s > 44.0 && stage_ != Stage::away) go(Stage::away, hand);
 
-    // he sees how wide the point really swings, and drives it harder or less
+    // he sees how wide the bur really swings, and drives it harder or less
     const double swing = dot(f.tip_mm - task_.entry_mm, e1_);
     left_mm_ = std::min(left_mm_, swing), right_mm_ = std::max(right_mm_, swing);
     side_n_ = std::max(side_n_ * (1.0 - dt), length(f.force_n - task_.into * dot(f.force_n, task_.into)));

@@ -60,7 +60,7 @@ struct Way {
   double void_at_mm = 0.0;  // along the axis; 0: it meets none within 6 mm
 };
 
-/// A straight way in, from a place on the surface at which the point may begin.
+/// A straight way in, from a place on the surface at which the bur may begin.
 std::optional<Way> find_way(const KnownTooth& k, Random& r, double most_tilt_rad) {
   const Octree& o = k.tooth.octree;
   const double tilt = r.uniform(0.0, most_tilt_rad), about = r.uniform(0.0, 6.2832);
@@ -107,14 +107,14 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
   out.before = &known.tooth;
   out.filled = known.filled;
   out.voids = known.voids;
-  const auto points = point_names();
-  out.point = points[r.below(points.size())];
-  const DiamondPoint point = diamond_point(out.point);
+  const auto burs = bur_names();
+  out.bur = burs[r.below(burs.size())];
+  const Bur bur = shipped_bur(out.bur);
   const bool perforates = r.below(2) == 0;
   Task task;
-  task.head_radius_mm = point.head_radius_mm;
-  task.head_length_mm = point.cutting_length_mm;
-  task.width_mm = r.uniform(2.2, 4.0) * point.head_radius_mm;
+  task.head_radius_mm = bur.head_radius_mm;
+  task.head_length_mm = bur.cutting_length_mm;
+  task.width_mm = r.uniform(2.2, 4.0) * bur.head_radius_mm;
   bool found = false;
   for (int i = 0; i < 4000 && !found; ++i) {
     const auto way = find_way(known, r, 0.7);
@@ -131,7 +131,7 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
       found = !void_near(known, way->entry, way->into, task.depth_mm + 0.5, 0.5 * task.width_mm + 0.4);
     }
   }
-  if (!found) return drill(kind, seed + 0x9e3779b97f4a7c15ULL);  // this tooth and point have no such way: another draw
+  if (!found) return drill(kind, seed + 0x9e3779b97f4a7c15ULL);  // this tooth and bur have no such way: another draw
   out.meant_to_open = task.into_the_chamber;
   out.tilt_deg = std::acos(std::clamp(-task.into.z, -1.0, 1.0)) * 57.29578;
 
@@ -162,8 +162,8 @@ Drilled drill(const HandKind& kind, std::uint64_t seed) {
 
   ServoConfig config;
   config.position_quantum_mm = omni.quantum_mm;
-  const ServoModel model = make_servo_model(known.tooth, {point}, force, config);
-  out.filled_model = make_servo_model(out.filled, {point}, force, config);
+  const ServoModel model = make_servo_model(known.tooth, {bur}, force, config);
+  out.filled_model = make_servo_model(out.filled, {bur}, force, config);
   out.first_tip_mm = task.entry_mm - task.into * k_start_mm;
   ServoState state = make_servo_state(model, known.tooth, out.first_tip_mm);
   OmniState omni_state = make_omni_state(out.first_tip_mm);

@@ -12,7 +12,7 @@
 namespace cavum::hands {
 
 struct Drilled {
-  std::string hand, style, tooth, point;
+  std::string hand, style, tooth, bur;
   bool meant_to_open = false;  ///< the task was to open the chamber
   std::vector<TickInput> inputs;
   std::vector<TickRecord> records;       ///< with noise on the force

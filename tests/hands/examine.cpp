@@ -13,7 +13,7 @@ constexpr std::int64_t k_early_ticks = 500, k_late_ticks = 1000;
 
 Examined examine(const Drilled& d, const grading::BreakthroughSettings& settings) {
   Examined out;
-  out.hand = d.hand, out.style = d.style, out.tooth = d.tooth, out.point = d.point, out.meant_to_open = d.meant_to_open;
+  out.hand = d.hand, out.style = d.style, out.tooth = d.tooth, out.bur = d.bur, out.meant_to_open = d.meant_to_open;
   out.tilt_deg = d.tilt_deg, out.friction_n = d.friction_n, out.noise_n = d.noise_n, out.quantum_mm = d.quantum_mm;
   const auto ticks = static_cast<std::int64_t>(d.inputs.size());
   out.seconds = static_cast<double>(ticks) * k_tick_s;

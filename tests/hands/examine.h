@@ -11,7 +11,7 @@
 namespace cavum::hands {
 
 struct Examined {
-  std::string hand, style, tooth, point;
+  std::string hand, style, tooth, bur;
   bool meant_to_open = false;
   double tilt_deg = 0.0, friction_n = 0.0, noise_n = 0.0, quantum_mm = 0.0, seconds = 0.0;
   std::int64_t opened_tick = -1;  ///< first face or leaf of a void tissue that was opened; -1 = none

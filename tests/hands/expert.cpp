@@ -1,6 +1,6 @@
 // A calm, practised person with a finger rest. Bores straight in with a light steady force that he keeps by feel, a little lighter near the
 // depth where he expects the chamber, and goes straight at it until it gives way. Notices that within 0.12 to 0.25 s and stops. Meant it: he
-// waits a moment, then unroofs, hooking the point under the edge and drawing it outwards and up, stroke by stroke round the edge. Did not mean
+// waits a moment, then unroofs, hooking the bur under the edge and drawing it outwards and up, stroke by stroke round the edge. Did not mean
 // it: lifts at once.
 #include <algorithm>
 #include <cmath>
@@ -102,7 +102,7 @@ class Expert final : public Hand {
     }
     Doing d;
     if (phase_ == Phase::leave) {
-      // caught in the hole: no tugging, the turning point frees itself
+      // caught in the hole: no tugging, the turning bur frees itself
       if (resist_n_ < -0.25) caught_ = true;
       if ((turning_out_ || caught_) && depth_mm_ > -0.3) pedal = pedal_;
       glide(task_.entry_mm + out_ * 3.2, leave_mm_s_ * std::min(1.0, in_phase_s_ / 0.15) * std::clamp(1.0 + resist_n_ / 0.8, 0.0, 1.0));

@@ -19,7 +19,7 @@ struct Task {
   double depth_mm = 1.0;          ///< how deep the cavity shall be along `into`, from `entry_mm`
   double width_mm = 1.5;          ///< how wide about the axis
   bool into_the_chamber = false;  ///< he means to open the pulp chamber, and feels for it; else he means to stop at `depth_mm`, whatever he meets
-  double head_radius_mm = 0.5;    ///< of the diamond point
+  double head_radius_mm = 0.5;    ///< of the bur
   double head_length_mm = 2.0;
 };
 
@@ -27,7 +27,7 @@ struct Task {
 struct Felt {
   double t_s = 0.0;
   Vec3 force_n;          ///< on the hand: out of the tooth while he presses
-  Vec3 tip_mm;           ///< where the point's tip is, as he sees it: the tooth holds it up
+  Vec3 tip_mm;           ///< where the bur's tip is, as he sees it: the tooth holds it up
   Vec3 hand_mm;          ///< where his hand has the tip: pressed in further than it is seen, by 0.3 to 2 mm at usual forces, for the device is soft
   double rpm = 0.0;      ///< of the handpiece; it takes 0.15 s to follow the pedal
   bool cutting = false;  ///< he hears it: turning, and in contact

@@ -1,5 +1,5 @@
 // Unsure of himself and without a finger rest. Drills a little and stops: lifts out to look and comes back at another speed, often onto another place
-// of the floor; or stays and pumps the pedal; or lets the point turn under the weight of the hand alone and waits; or just stands still. More so near
+// of the floor; or stays and pumps the pedal; or lets the bur turn under the weight of the hand alone and waits; or just stands still. More so near
 // the pulp, less when his patience ends. Falls in when it gives way; notices late or not at all; then looks again, and dabs at the edge or flees.
 #include <algorithm>
 #include <array>

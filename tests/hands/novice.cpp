@@ -1,5 +1,5 @@
 // A student with the clock behind him. He changes his mind every second or two: presses (unevenly, too much or too little), holds still with the
-// point turning, scrapes about, takes his foot off while he presses, pulls back, takes fright for nothing, gives it a shove. He leans along the
+// bur turning, scrapes about, takes his foot off while he presses, pulls back, takes fright for nothing, gives it a shove. He leans along the
 // handle, which wanders, rather than along the axis; he trembles more the harder he presses; he sees depth wrongly. When the resistance goes he
 // notices late or never: pushes on, freezes in the hole, or snatches the tool out.
 #include <algorithm>

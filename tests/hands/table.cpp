@@ -39,7 +39,7 @@ std::string table(std::span<const Examined> all) {
   };
   rows("hand", [](const Examined& e) { return e.hand; });
   rows("style", [](const Examined& e) { return e.hand + ": " + e.style; });
-  rows("point", [](const Examined& e) { return e.point; });
+  rows("bur", [](const Examined& e) { return e.bur; });
   rows("tooth", [](const Examined& e) { return e.tooth; });
   rows("severity", [](const Examined& e) {
     return std::string(e.opened_tick < 0 ? "nothing opened" : grading::k_drop_severities[static_cast<std::size_t>(e.drop.severity())]);
@@ -49,7 +49,7 @@ std::string table(std::span<const Examined> all) {
 }
 
 std::string log_head() {
-  return "seed,hand,style,tooth,point,meant_to_open,tilt_deg,friction_n,noise_n,quantum_mm,seconds,opened_tick,area_mm2,missing_n,share,from_tick,to_"
+  return "seed,hand,style,tooth,bur,meant_to_open,tilt_deg,friction_n,noise_n,quantum_mm,seconds,opened_tick,area_mm2,missing_n,share,from_tick,to_"
          "tick,"
          "felt_tick,seen,delay_ms,sureness,false_alarm,events";
 }
@@ -60,7 +60,7 @@ std::string log_line(const Examined& e) {
   std::string style = e.style;
   std::replace(style.begin(), style.end(), ',', ';');
   return fmt::format("{},{},{},{},{:d},{:.0f},{},{},{},{:.1f},{},{:.4f},{:.3f},{:.2f},{},{},{},{:d},{:.0f},{:.2f},{:d},{}", e.hand, style, e.tooth,
-                     e.point, e.meant_to_open, e.tilt_deg, e.friction_n, e.noise_n, e.quantum_mm, e.seconds, e.opened_tick, e.area_mm2,
+                     e.bur, e.meant_to_open, e.tilt_deg, e.friction_n, e.noise_n, e.quantum_mm, e.seconds, e.opened_tick, e.area_mm2,
                      e.drop.missing_n, e.drop.share, e.drop.from_tick, e.drop.to_tick, e.drop.felt_tick, e.seen, e.delay_ms, e.sureness,
                      e.false_alarm, events);
 }

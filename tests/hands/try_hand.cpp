@@ -16,7 +16,7 @@ int main(int argc, char** argv) {
     if (std::string(k.name) != argv[1]) continue;
     const hands::Drilled d = hands::drill(k, std::strtoull(argv[2], nullptr, 10));
     std::fprintf(stderr, "%s %s, %s, %s, means to %s, noise %.2f N, friction %.2f N, %.3f mm, tilt %.0f deg, %zu ticks, %zu leaves removed\n",
-                 d.hand.c_str(), d.style.c_str(), d.tooth.c_str(), d.point.c_str(), d.meant_to_open ? "open the chamber" : "stop", d.noise_n,
+                 d.hand.c_str(), d.style.c_str(), d.tooth.c_str(), d.bur.c_str(), d.meant_to_open ? "open the chamber" : "stop", d.noise_n,
                  d.friction_n, d.quantum_mm, d.tilt_deg, d.inputs.size(), d.removed.size());
     const auto missing = grading::missing_force(d.filled_model, make_servo_state(d.filled_model, d.filled, d.first_tip_mm), d.inputs, d.true_records);
     std::printf("t_s,tip_x_mm,tip_y_mm,tip_z_mm,force_x_n,force_y_n,force_z_n,pedal,rpm,removed,seen_x_mm,seen_y_mm,seen_z_mm,felt_n,filled_n\n");

@@ -344,7 +344,7 @@ class Recording:
             phi = 2 * np.radians(data["approach_deg"])
             for by, what in ((force, "of the force"), (on, "constant")):
                 add("anisotropy", [by * np.cos(phi), by * np.sin(phi)], shapes=2, what=what)
-        # the diamond point and the cut
+        # the bur and the cut
         rpm = self.data.get("spindle_rpm", one)
         spinning = on * (rpm > 0)
         add("edge_force", [spinning])

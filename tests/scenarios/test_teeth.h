@@ -71,7 +71,7 @@ inline std::string scenario_text(const std::string& target, const std::string& m
   return R"(id = "test"
 title = "Test"
 tooth = "none.cvt"
-points = ["round-1.0"]
+burs = ["round-1.0"]
 max_rpm = 200000
 time_limit_s = 10
 [[steps]]

@@ -74,7 +74,7 @@ double best_gap_s(const json& result) {
   return best;
 }
 
-/// Of a criterion by a wall's own measure, whether its points were lost and its reason has a figure.
+/// Of a criterion by a wall's own measure, whether its burs were lost and its reason has a figure.
 bool lost_at_a_wall(const json& result) {
   const auto& all = result["criteria"];
   return std::any_of(all.begin(), all.end(), [](const json& c) {
@@ -109,10 +109,10 @@ TEST_F(CommandLine, ExpertCompletesTheStepsOfTheSmallScenariosToo) {
   }
 }
 
-TEST_F(CommandLine, AMisspeltTissueOrPointIsFoundBeforeAnyExam) {
+TEST_F(CommandLine, AMisspeltTissueOrBurIsFoundBeforeAnyExam) {
   std::ifstream in(k_data + "/scenarios/class_1.toml");
   const std::string good{std::istreambuf_iterator<char>(in), {}};
-  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"pulp\"", "\"pulpa\""}, {"points = [\"", "points = [\"round-9\", \""}}) {
+  for (const auto& [from, to] : {std::pair<std::string, std::string>{"\"pulp\"", "\"pulpa\""}, {"burs = [\"", "burs = [\"round-9\", \""}}) {
     std::string bad = good;
     const auto at = bad.find(from, from[0] == '"' ? bad.find("[perforation]") : 0);
     ASSERT_NE(at, std::string::npos);
@@ -159,7 +159,7 @@ TEST_F(CommandLine, ANewTaskIsTriedBeforeItIsWritten) {
   EXPECT_GE(said["tried"]["expert_percent"].get<double>(), 90.0);
   EXPECT_GT(said["tried"]["wrong_work"].get<int>(), 20);
   EXPECT_NE(read_text_file(path("slot.toml")).find("tooth = \"upper_premolar.cvt\""), std::string::npos);
-  // too small for any point: refused, and nothing is written
+  // too small for any bur: refused, and nothing is written
   expect_refused("scenario new --tooth premolar --task class_5 --out " + path("small.toml"), {"class_5"});
   EXPECT_FALSE(fs::exists(path("small.toml")));
   const Ran draft = run("scenario new --tooth premolar --task slot_distal --untried --json --out " + path("draft.toml"));
@@ -351,7 +351,7 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
 
   write_text_file(path("other.toml"), read_text_file(k_block) + "\n# another one\n");
   write_text_file(path("other.cvt"), "another tooth");
-  write_text_file(path("beyond.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,5,1,0,0,0,0,0\n1,0,0,4,1,0,0,0,0,2\n");
+  write_text_file(path("beyond.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,bur\n0,0,0,5,1,0,0,0,0,0\n1,0,0,4,1,0,0,0,0,2\n");
   write_text_file(path("go_on.csv"), "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n0.1,0,0,4,1,0,0,0,0\n");
   const std::string resume = "exam --resume --end --out " + session + " ";
   expect_refused("grade " + session, {session});
@@ -396,17 +396,17 @@ TEST_F(CommandLine, BadInputEndsWithOneLineAndExit2) {
     return "exam " + k_block + " --motion " + path("m.csv") + out;
   };
   const std::string head = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n";
-  const std::string with_point = "\xef\xbb\xbf# a comment\r\n\r\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\r\n0,0,0,5,1,0,0,0,0,1\r\n# more\r\n";
+  const std::string with_bur = "\xef\xbb\xbf# a comment\r\n\r\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,bur\r\n0,0,0,5,1,0,0,0,0,1\r\n# more\r\n";
   for (const auto& [text, parts] : std::vector<std::pair<std::string, std::vector<std::string>>>{
            {head + "1,nan,0,0,1,0,0,0,0\n", {"m.csv:3", "x_mm"}},
            {head + "1,0,0,0,1,0,0,0,1.5\n", {"m.csv:3", "pedal"}},
            {"t_s,x_m,y_m,z_m,qw,qx,qy,qz,pedal\n0,0,0,5,1,0,0,0,0\n", {"m.csv:1", "x_m", "x_mm"}},
            {head + "1,0.01,0,5,1,0,0,0,0\n", {"m.csv"}},
-           {with_point + "1,0,0,4,1,0,0,0,0,2\r\n", {"m.csv:6", "2", "2"}},
-           {with_point + "1,0,0,4,1,0,0,0,0,0.5\r\n", {"m.csv:6", "point"}},
-           {with_point + "1,0,0,4,1,0,0,0,0,-2\r\n", {"m.csv:6", "point"}},
-           {with_point + "1,0,0,4,1,0,0,0,0,first\r\n", {"m.csv:6", "point"}},
-           {"# point = chisel\n" + head + "1,0,0,0,1,0,0,0,0\n", {"chisel"}}})
+           {with_bur + "1,0,0,4,1,0,0,0,0,2\r\n", {"m.csv:6", "2", "2"}},
+           {with_bur + "1,0,0,4,1,0,0,0,0,0.5\r\n", {"m.csv:6", "bur"}},
+           {with_bur + "1,0,0,4,1,0,0,0,0,-2\r\n", {"m.csv:6", "bur"}},
+           {with_bur + "1,0,0,4,1,0,0,0,0,first\r\n", {"m.csv:6", "bur"}},
+           {"# bur = chisel\n" + head + "1,0,0,0,1,0,0,0,0\n", {"chisel"}}})
     expect_refused(motion(text), parts);
   EXPECT_FALSE(fs::exists(path("x.cavum"))) << "nothing was begun";
 }
@@ -499,7 +499,7 @@ TEST_F(CommandLine, JUnitIsSoundXmlWhateverAFileIsCalled) {
 
 TEST_F(CommandLine, AMotionFileDrillsAndAnExistingSessionIsNotOverwritten) {
   std::ostringstream csv;
-  csv << "# point = "
+  csv << "# bur = "
          "round-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n0,0,0,1,1,0,0,0,1\n2,0,0,0.1,1,0,0,0,1\n8,0,0,-1.4,1,0,0,0,1\n9,0,0,2,1,0,0,0,0\n";
   write_text_file(path("m.csv"), csv.str());
   const std::string call = "exam " + k_block + " --motion " + path("m.csv") + " --candidate c --out " + path("m.cavum") + " --json";

@@ -39,7 +39,7 @@ namespace cavum::ui {
 namespace {
 
 struct ExamArguments {
-  std::string scenario, candidate, motion, operator_name, device, point, out, out_if_full, ticket, tooth, model = "consistent", rubric, report;
+  std::string scenario, candidate, motion, operator_name, device, bur, out, out_if_full, ticket, tooth, model = "consistent", rubric, report;
   std::uint64_t seed = 1;
   int delay_ticks = 1;
   bool json = false, quiet = false, resume = false, end = false, model_given = false;
@@ -72,21 +72,21 @@ class ProgressBar {
   bool shown_;
 };
 
-/// A motion file whose diamond points are all on the tray; else throws Error.
+/// A motion file whose burs are all on the tray; else throws Error.
 std::unique_ptr<scenarios::InputSource> read_motion(const std::string& path, const std::vector<std::string>& tray) {
   const std::string text = read_text_file(path, k_largest_table);
   Motion motion = parse_motion(text, path);
   for (std::size_t i = 0; i < motion.samples.size(); ++i)
-    if (const int point = motion.samples[i].point; point >= static_cast<int>(tray.size()))
+    if (const int bur = motion.samples[i].bur; bur >= static_cast<int>(tray.size()))
       throw Error(FilePlace{path, line_of_sample(text, i)},
-                  msgn("point is {}, and the scenario has {} point", "point is {}, and the scenario has {} points",
-                       static_cast<std::int64_t>(tray.size()), point, tray.size()),
-                  tray.size() > 1 ? msg("write 0 for its first point, at most {}", tray.size() - 1) : msg("write 0 for its first point"));
+                  msgn("bur is {}, and the scenario has {} bur", "bur is {}, and the scenario has {} burs", static_cast<std::int64_t>(tray.size()),
+                       bur, tray.size()),
+                  tray.size() > 1 ? msg("write 0 for its first bur, at most {}", tray.size() - 1) : msg("write 0 for its first bur"));
   return std::make_unique<scenarios::PlayedMotion>(std::move(motion), tray, path);
 }
 
 std::unique_ptr<scenarios::InputSource> make_source(const ExamArguments& o, const scenarios::ExamSetup& setup) {
-  if (!o.motion.empty()) return read_motion(o.motion, setup.point_names);
+  if (!o.motion.empty()) return read_motion(o.motion, setup.bur_names);
   OmniModel omni;
   omni.delay_ticks = o.delay_ticks;
   return std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, o.operator_name, o.seed, omni));
@@ -242,7 +242,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
 }
 
 std::unique_ptr<LiveSource> open_source(const ExamArguments& o) {
-  return open_live_source({.device = o.device, .operator_name = o.operator_name, .seed = o.seed, .point = o.point});
+  return open_live_source({.device = o.device, .operator_name = o.operator_name, .seed = o.seed, .bur = o.bur});
 }
 
 int run_new_live(const ExamArguments& o) {
@@ -374,7 +374,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
                                      as_is(stylus_kinds().ids({StylusHand::person})), as_is(stylus_kinds().ids({StylusHand::candidate}))));
   motion->excludes(name);
   device->excludes(motion);
-  exam->add_option("--point", o->point, tr("with --device: diamond point mounted, of the scenario's tray; its first unless given"))->needs(device);
+  exam->add_option("--bur", o->bur, tr("with --device: bur mounted, of the scenario's tray; its first unless given"))->needs(device);
   exam->add_option("--out", o->out, tr("session file to write (.cavum)"));
   exam->add_option("--out-if-full", o->out_if_full, tr("session file, on another disk, to begin or go on with when --out cannot be written"));
   exam->add_option("--tooth", o->tooth, tr("another tooth than the scenario's: zones that follow tissue follow this one"));

@@ -436,7 +436,7 @@ std::string protocol_html() {
           as_mm(0.013, 3)),
       msg("A new site for each session, and the site of the first session again in the last: `site`. Approach at 0, 45, 90 and 135 degrees in turn: "
           "`approach_deg`."),
-      msg("Sessions 2, 4 and 6 with water: `wet` 1. A new diamond point for session 4: `bur_id`. Count the removed volume: `removed_mm3`."),
+      msg("Sessions 2, 4 and 6 with water: `wet` 1. A new bur for session 4: `bur_id`. Count the removed volume: `removed_mm3`."),
       msg("Press once sideways in air in each session, if lateral forces are measured: `fy_n`, `fz_n`."),
       msg("Write beside the CSV a `rig.toml` with `position_quantum_mm`, `force_quantum_n`, `force_limit_n`, and `k_n_per_mm`, `c_n_s_per_mm` of the "
           "simulation.")};

@@ -179,7 +179,7 @@ std::string tooth_svg(const ToothRigResult& r) {
   if (r.counted > 0)
     words.push_back(tr("Pulp reached {} after contact (dashed); fall from {} to {}, 90 to 10 % within {}.", as_s(r.pulp_s.mean, 1, r.pulp_s.sd),
                        as_n(r.before_n.mean, 3), as_n(r.after_n.mean, 3), as_s(r.fall_s.mean)));
-  return charts_page(tr("{}, force model '{}', {}, crosshead {}", as_is(r.tooth), as_is(r.model), Term{r.point},
+  return charts_page(tr("{}, force model '{}', {}, crosshead {}", as_is(r.tooth), as_is(r.model), Term{r.bur},
                         as_unit(r.options.machine.speed_mm_s, Unit::mm_per_s, 2)),
                      {whole, fall}, words);
 }

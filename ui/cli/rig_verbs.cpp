@@ -28,7 +28,7 @@ namespace {
 namespace fs = std::filesystem;
 
 struct Common {
-  std::string out, point = "round-1.0";
+  std::string out, bur = "round-1.0";
   int runs = 20;
   std::uint64_t seed = 1;
   bool json = false;
@@ -56,20 +56,20 @@ struct PressArgs : Common {
 };
 
 struct GrindArgs {
-  std::string model = "clinical", point = "cylinder-flat-1.0";
+  std::string model = "clinical", bur = "cylinder-flat-1.0";
   bool json = false;
   GrindOptions options;
 };
 
 struct ServoArgs {
-  std::string out, point = "round-1.0", model = "consistent";
+  std::string out, bur = "round-1.0", model = "consistent";
   double tick_ms = 1000 * k_tick_s;
   bool json = false;
   ServoRigOptions options;
 };
 
 struct RecordArgs {
-  std::string motion, model = "consistent", point = "round-1.0", csv;
+  std::string motion, model = "consistent", bur = "round-1.0", csv;
   RecordOptions options;
 };
 
@@ -78,9 +78,9 @@ std::string data_path(const std::string& folder, const std::string& wanted) {
   return wanted.ends_with(".toml") ? wanted : scenarios::find_data_file(folder, wanted + ".toml", "");
 }
 
-DiamondPoint load_point(const std::string& wanted) {
-  const std::string path = data_path("points", wanted);
-  return parse_diamond_point(read_text_file(path), path);
+Bur load_bur(const std::string& wanted) {
+  const std::string path = data_path("burs", wanted);
+  return parse_bur(read_text_file(path), path);
 }
 
 ForceModel load_model(const std::string& wanted) {
@@ -97,7 +97,7 @@ void require_picture(const std::string& path) {
 
 void add_common(CLI::App& verb, Common& a, bool runs) {
   verb.add_option("--out", a.out, tr("picture to write (.svg)"));
-  verb.add_option("--point", a.point, tr("diamond point: a name of data/points, or a TOML file"))->capture_default_str();
+  verb.add_option("--bur", a.bur, tr("bur: a name of data/burs, or a TOML file"))->capture_default_str();
   if (runs) {
     verb.add_option("--runs", a.runs, tr("of each kind, each with an offset, an encoder phase and a noise of its own"))
         ->capture_default_str()
@@ -121,7 +121,7 @@ void run_cube(CubeArgs a) {
   require_picture(a.out);
   const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
   if (!a.csv.empty()) {
-    require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.point}});
+    require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.bur}});
     require_rigs_own(rig_toml);
     if (fs::path(a.csv).filename() == "rig.toml")
       throw Error(Name{"--csv " + a.csv}, msg("is the name of the description beside it"), msg("use a name ending in .csv"));
@@ -134,7 +134,7 @@ void run_cube(CubeArgs a) {
   for (const auto& name : a.models) models.push_back({name.ends_with(".toml") ? fs::path(name).stem().string() : name, load_model(name)});
   a.options.runs = a.runs;
   a.options.seed = a.seed;
-  const CubeResult result = run_cube_rig(models, load_point(a.point), a.options);
+  const CubeResult result = run_cube_rig(models, load_bur(a.bur), a.options);
   if (!a.csv.empty()) {
     write_text_file(a.csv, recordings_csv(result));
     write_text_file(rig_toml, recordings_rig_toml(result));
@@ -149,7 +149,7 @@ void run_tooth(ToothArgs a) {
   a.options.runs = a.runs;
   a.options.seed = a.seed;
   const Tooth tooth = load_tooth_file(a.tooth.empty() ? scenarios::find_data_file("teeth", "lower_molar.cvt", "") : a.tooth);
-  const ToothRigResult result = run_tooth_rig(tooth, load_model(a.model), load_point(a.point), a.options);
+  const ToothRigResult result = run_tooth_rig(tooth, load_model(a.model), load_bur(a.bur), a.options);
   finish(a, result, tooth_svg(result), [&] { return to_text(result); });
 }
 
@@ -170,13 +170,13 @@ bool run_press(PressArgs a) {
     a.options.hand_n_per_mm.clear();
     for (const double k : a.hand_n_per_m) a.options.hand_n_per_mm.push_back(k / 1000.0);
   }
-  const PressResult result = run_press_rig(a.options, load_point(a.point));
+  const PressResult result = run_press_rig(a.options, load_bur(a.bur));
   finish(a, result, press_svg(result), [&] { return to_text(result, a.cells); });
   return result.within_limits();
 }
 
 void run_grind(const GrindArgs& a) {
-  const GrindResult result = run_grind_rig(load_model(a.model), load_point(a.point), a.options);
+  const GrindResult result = run_grind_rig(load_model(a.model), load_bur(a.bur), a.options);
   if (a.json)
     print_json(to_json(result));
   else
@@ -185,10 +185,10 @@ void run_grind(const GrindArgs& a) {
 
 bool run_servo(const ServoArgs& a) {
   require_writable(a.out);
-  const std::string point = data_path("points", a.point), model = data_path("materials", a.model);
-  static_cast<void>(load_point(a.point));  // their mistakes are named with their files
+  const std::string bur = data_path("burs", a.bur), model = data_path("materials", a.model);
+  static_cast<void>(load_bur(a.bur));  // their mistakes are named with their files
   static_cast<void>(load_model(a.model));
-  const ServoRigResult result = run_servo_rig(servo_rig_setup(read_text_file(point), read_text_file(model), a.tick_ms / 1000), a.out, a.options);
+  const ServoRigResult result = run_servo_rig(servo_rig_setup(read_text_file(bur), read_text_file(model), a.tick_ms / 1000), a.out, a.options);
   if (a.json) {
     print_json(to_json(result));
   } else {
@@ -202,10 +202,10 @@ void run_record(const RecordArgs& a) {
   const std::string rig_toml = (fs::path(a.csv).parent_path() / "rig.toml").string();
   if (fs::path(a.csv).filename() == "rig.toml")
     throw Error(Name{"--csv " + a.csv}, msg("is the name of the description beside it"), msg("use a name ending in .csv"));
-  require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.motion}, {"", a.model}, {"", a.point}});
+  require_own_places({{"--csv " + a.csv, a.csv}, {rig_toml, rig_toml}}, {{"", a.motion}, {"", a.model}, {"", a.bur}});
   require_rigs_own(rig_toml);
   const Motion motion = parse_motion(read_text_file(a.motion, k_largest_table), a.motion);
-  const RecordResult result = run_record_rig(motion, load_model(a.model), load_point(a.point), a.options);
+  const RecordResult result = run_record_rig(motion, load_model(a.model), load_bur(a.bur), a.options);
   write_text_file(a.csv, record_csv(result));
   write_text_file(rig_toml, record_rig_toml(result));
   const auto sessions = static_cast<std::int64_t>(a.options.sessions);
@@ -271,14 +271,14 @@ void add_press(CLI::App& rig, int& exit_code) {
 }
 
 void add_grind(CLI::App& rig, int& exit_code) {
-  auto* verb = rig.add_subcommand("grind", tr("How fast a point under a constant load removes each tissue, and how fast it turns meanwhile"));
+  auto* verb = rig.add_subcommand("grind", tr("How fast a bur under a constant load removes each tissue, and how fast it turns meanwhile"));
   const auto a = std::make_shared<GrindArgs>();
   GrindOptions& o = a->options;
   verb->add_option("--model", a->model, tr("force model: paper, consistent, clinical, or a TOML file"))->capture_default_str();
-  verb->add_option("--point", a->point, tr("diamond point: a name of data/points, or a TOML file"))->capture_default_str();
+  verb->add_option("--bur", a->bur, tr("bur: a name of data/burs, or a TOML file"))->capture_default_str();
   verb->add_option("--load-n", o.load_n, tr("loads, N"))->delimiter(',')->check(between(0.05, 10.0))->capture_default_str();
   verb->add_option("--rpm", o.rpm, tr("free speed of the handpiece"))->check(between(1000.0, 1e6))->capture_default_str();
-  verb->add_flag("--side", o.side, tr("the point lies on its side instead of standing on its end"));
+  verb->add_flag("--side", o.side, tr("the bur lies on its side instead of standing on its end"));
   verb->add_flag("--json", a->json, tr("one JSON object on standard output"));
   verb->callback([a, &exit_code] {
     run_grind(*a);
@@ -293,7 +293,7 @@ void add_servo(CLI::App& rig, int& exit_code) {
   verb->add_option("--out", a->out, tr("session file to write (.cavum)"))->required();
   verb->add_option("--seconds", a->options.seconds, tr("how long"))->check(between(1.0, 36000.0))->capture_default_str();
   verb->add_option("--tick-ms", a->tick_ms, tr("length of a tick"))->check(between(0.1, 10.0))->capture_default_str();
-  verb->add_option("--point", a->point, tr("diamond point: a name of data/points, or a TOML file"))->capture_default_str();
+  verb->add_option("--bur", a->bur, tr("bur: a name of data/burs, or a TOML file"))->capture_default_str();
   verb->add_option("--model", a->model, tr("force model: paper, consistent, or a TOML file"))->capture_default_str();
   verb->add_flag("--json", a->json, tr("one JSON object on standard output"));
   verb->callback([a, &exit_code] { exit_code = run_servo(*a) ? 0 : 1; });
@@ -305,7 +305,7 @@ void add_record(CLI::App& rig, int& exit_code) {
   verb->add_option("--motion", a->motion, tr("motion (.csv), z = height over the cube; `cavum explain --protocol` writes one"))->required();
   verb->add_option("--csv", a->csv, tr("recording to write; rig.toml is written beside it"))->required();
   verb->add_option("--model", a->model, tr("force model: paper, consistent, or a TOML file"))->capture_default_str();
-  verb->add_option("--point", a->point, tr("diamond point: a name of data/points, or a TOML file"))->capture_default_str();
+  verb->add_option("--bur", a->bur, tr("bur: a name of data/burs, or a TOML file"))->capture_default_str();
   verb->add_option("--sessions", a->options.sessions, tr("each at a new place"))->check(between(1, 100))->capture_default_str();
   verb->add_option("--rate-hz", a->options.rate_hz, tr("rows in a second"))->check(between(1.0, 1000.0))->capture_default_str();
   verb->add_option("--noise-n", a->options.noise_n, tr("sd of a reading of the load cell"))->check(between(0.0, 1.0))->capture_default_str();

@@ -216,7 +216,7 @@ int solve(const ScenarioArguments& o) {
   if (o.json) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"tooth", setup->tooth.name}, {"passed", passed}, {"time_limit_s", limit_s}};
     if (solved.result) {
-      j["point"] = solved.point;
+      j["bur"] = solved.bur;
       auto result = grading::with_words(grading::to_json(*solved.result));
       for (const char* key : {"verdict", "score", "time_s", "finish", "steps", "criteria"}) j[key] = result[key];
     }
@@ -236,8 +236,7 @@ int solve(const ScenarioArguments& o) {
     const Term verdict = grading::word_of(r.verdict);
     say(r.compensatory ? msg("score: {} of {} points, {}; pass mark {}", points, most, verdict, mark)
                        : msg("score: {} of {} points, {}; pass mark {} of each criterion", points, most, verdict, mark));
-    say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0),
-            solved.point));
+    say(msg("time: {} of {} ({}), with {}", as_s(r.motion.time_s, 1), as_s(limit_s, 1), as_percent(100 * r.motion.time_s / limit_s, 0), solved.bur));
     say(msg("steps: {} of {} completed, ended: {}", r.progress.steps_completed, r.progress.steps, Term{finish_name(r.progress.finish)}));
     for (const auto& c : r.criteria) say(msg("{}: {} of {}, {}", c.id, as_points(c.points), as_points(c.max), c.reason()), 2);
   }

@@ -65,7 +65,7 @@ void add_session_verbs(CLI::App& app, int& exit_code) {
                    "or its final tooth to be printed"));
   auto o = std::make_shared<ExportArguments>();
   v->add_option("session", o->session, tr("a recorded exam (.cavum)"))->required();
-  v->add_option("--motion", o->motion, tr("CSV to write: a row for each tick, with point and step of the encoder"));
+  v->add_option("--motion", o->motion, tr("CSV to write: a row for each tick, with bur and step of the encoder"));
   v->add_option("--stl", o->stl, tr("surface of the tooth as it was left to write (.stl or .ply): closed, one part, mm, pulp filled"));
   v->callback([o, &exit_code] {
     if (o->motion.empty() && o->stl.empty())

@@ -25,7 +25,7 @@ Message advice_for_expert(const grading::Result& r) {
   for (const auto& c : r.criteria)
     if (worst == nullptr || c.max - c.points > worst->max - worst->points) worst = &c;
   if (worst == nullptr) return msg("give the rubric criteria");
-  return msg("begin with '{}', which cost most: set its full and zero within what the expert reaches, or allow a point that fits the target",
+  return msg("begin with '{}', which cost most: set its full and zero within what the expert reaches, or allow a bur that fits the target",
              worst->id);
 }
 
@@ -52,7 +52,7 @@ Solved solve_exam(const scenarios::ExamSetup& setup, std::uint64_t seed, const s
     solved.advice = msg("see what `cavum scenario check` warns of");
     return solved;
   }
-  solved.point = setup.point_names[expert->point()];
+  solved.bur = setup.bur_names[expert->bur()];
   const grading::Result& r = solved.result.emplace(sat_by(setup, *expert, session));
   if (r.verdict == grading::Verdict::pass) return solved;
   for (const grading::Finding& reason : r.verdict_reasons) solved.reasons.push_back(reason.message());

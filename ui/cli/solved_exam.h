@@ -19,7 +19,7 @@ namespace cavum::ui {
 /// What `solve` found out; `result` is missing when the expert could not even begin.
 struct Solved {
   std::optional<grading::Result> result;
-  std::string point;
+  std::string bur;
   std::vector<Message> reasons;  ///< why it was not passed
   Message advice;                ///< what to change then
 };

@@ -64,11 +64,10 @@ class StylusSource final : public LiveSource {
     return notes;
   }
   void begin(const scenarios::ExamSetup& setup) override {
-    if (!options_.point.empty()) {
-      const auto at = std::find(setup.point_names.begin(), setup.point_names.end(), options_.point);
-      if (at == setup.point_names.end())
-        throw Error(Name{"--point " + options_.point}, msg("is not on this scenario's tray"), msg("name one of its points"));
-      desk_.point = static_cast<int>(at - setup.point_names.begin());
+    if (!options_.bur.empty()) {
+      const auto at = std::find(setup.bur_names.begin(), setup.bur_names.end(), options_.bur);
+      if (at == setup.bur_names.end()) throw Error(Name{"--bur " + options_.bur}, msg("is not on this scenario's tray"), msg("name one of its burs"));
+      desk_.bur = static_cast<int>(at - setup.bur_names.begin());
     }
     using Clock = std::chrono::steady_clock;
     constexpr auto k_patience = std::chrono::seconds(60);
@@ -118,8 +117,8 @@ std::unique_ptr<LiveSource> open_live_source(const LiveSourceOptions& options) {
   if (kind.hand == StylusHand::candidate) {
     if (options.operator_name.empty())
       throw Error(Name{"--device simulated"}, msg("needs a hand"), msg("add --operator expert, novice, perforator or careless"));
-    if (!options.point.empty())
-      throw Error(Name{"--point"}, msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the point that fits"));
+    if (!options.bur.empty())
+      throw Error(Name{"--bur"}, msg("is for a stylus in a hand"), msg("leave it out: the operator chooses the bur that fits"));
     return std::make_unique<SimulatedSource>(options);
   }
   if (!options.operator_name.empty())

@@ -17,7 +17,7 @@ struct LiveSourceOptions {
   std::string device;         ///< id in the table of styluses
   std::string operator_name;  ///< of the simulated one
   std::uint64_t seed = 1;
-  std::string point;  ///< of a real one: name of the diamond point mounted; empty: the tray's first
+  std::string bur;  ///< of a real one: name of the bur mounted; empty: the tray's first
 };
 
 class LiveSource {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
 #include "scenarios/review/picture.h"
@@ -56,16 +56,16 @@ json motion_json(const ReportSource& s) {
           {"tip_50um_s", packed_array(m.tip_50um_s)}};
 }
 
-/// Silhouettes of the points that were mounted, from when.
+/// Silhouettes of the burs that were mounted, from when.
 json instruments_json(const ReportSource& s) {
   json list = json::array();
   int mounted = -1;
   for (std::size_t i = 0; i < s.input.inputs.size(); ++i) {
-    const std::size_t point = s.input.inputs[i].point;
-    if (static_cast<int>(point) == mounted) continue;
-    mounted = static_cast<int>(point);
-    if (point >= s.facts.points_toml.size()) continue;
-    const DiamondPoint p = parse_diamond_point(s.facts.points_toml[point], fmt::format("point_{:03}.toml", point));
+    const std::size_t bur = s.input.inputs[i].bur;
+    if (static_cast<int>(bur) == mounted) continue;
+    mounted = static_cast<int>(bur);
+    if (bur >= s.facts.burs_toml.size()) continue;
+    const Bur p = parse_bur(s.facts.burs_toml[bur], fmt::format("bur_{:03}.toml", bur));
     json profile = json::array({{0.0, 0.0}});
     for (const auto& at : p.profile.walk(k_silhouette_step_mm, std::min(k_silhouette_mm, p.profile.length_mm())))
       profile.push_back({rounded(at.at.z_mm, 1e-3), rounded(at.at.r_mm, 1e-3)});

@@ -398,7 +398,7 @@ std::string floor_words() {
   return tr(
       "Overcut of the floor is what was cut of hard tissue below it: where the pulp lies under it the overcut ends at the pulp's own wall, however "
       "far "
-      "the instrument went on. An opened pulp is told as a perforation, not as overcut.");
+      "the bur went on. An opened pulp is told as a perforation, not as overcut.");
 }
 
 Message finish_words(Finish finish) {

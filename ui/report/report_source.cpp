@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "scenarios/exam/runner.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report_document.h"
@@ -12,7 +12,7 @@
 namespace cavum::report {
 namespace {
 
-ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
+ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, const std::vector<std::string>& burs_toml) {
   const auto say = [&](EventGroup kind, const Message& text, std::optional<Vec3> site_mm = {}) {
     return ReportEvent{static_cast<double>(std::max<std::int64_t>(0, e.tick)) * k_tick_s, kind, text, site_mm};
   };
@@ -30,12 +30,11 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
           [&](const StepTimeUp& of) { return say(EventGroup::limit, msg("time limit of step {}", number(of))); },
           [&](const TimeUp&) { return say(EventGroup::limit, msg("time limit of the exam")); },
           [&](const OverSpeed&) { return say(EventGroup::violation, msg("handpiece faster than {} rpm", as_number(input.scenario.max_rpm))); },
-          [&](const PointNotAllowed& of) {
-            const auto at = static_cast<std::size_t>(of.point);
-            return say(EventGroup::violation, at < points_toml.size()
-                                                  ? msg("diamond point not allowed here: {}",
-                                                        Term{parse_diamond_point(points_toml[at], fmt::format("point_{:03}.toml", at)).title})
-                                                  : msg("diamond point not allowed here"));
+          [&](const BurNotAllowed& of) {
+            const auto at = static_cast<std::size_t>(of.bur);
+            return say(EventGroup::violation, at < burs_toml.size() ? msg("bur not allowed here: {}",
+                                                                          Term{parse_bur(burs_toml[at], fmt::format("bur_{:03}.toml", at)).title})
+                                                                    : msg("bur not allowed here"));
           },
           [&](const AimReached& of) { return say(EventGroup::aim, msg("{} reached: the aim", tissue(of)), of.site_mm); },
           [&](const Perforated& of) { return say(EventGroup::perforation, msg("{} broken into (tissue)", tissue(of)), of.site_mm); },
@@ -89,10 +88,10 @@ Message word_of(EventGroup group) {
   return msg("gap");
 }
 
-std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input, const std::vector<std::string>& points_toml) {
+std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input, const std::vector<std::string>& burs_toml) {
   std::vector<ReportEvent> list;
   for (const auto& e : input.events)
-    if (e.as<ServoLateness>() == nullptr) list.push_back(event_of(e, input, points_toml));
+    if (e.as<ServoLateness>() == nullptr) list.push_back(event_of(e, input, burs_toml));
   for (const auto& e : result.perforation.events)
     list.push_back({static_cast<double>(e.tick) * k_tick_s, e.fault ? EventGroup::perforation : EventGroup::aim,
                     e.confirmed
@@ -111,7 +110,7 @@ ReportSource report_source(const grading::Result& result, const grading::GradeIn
   for (const auto& c : result.criteria)
     if (c.max - c.points > k_nothing) s.lost.push_back(grading::why(input, result, rubric, c.id));
   s.lessons = grading::lessons(input, result);
-  s.events = report_events(result, input, facts.points_toml);
+  s.events = report_events(result, input, facts.burs_toml);
   return s;
 }
 

@@ -111,7 +111,7 @@ struct ReportSource {
 
 /// The events of the exam and the breakthroughs seen in the force, in words and in order of time.
 [[nodiscard]] std::vector<ReportEvent> report_events(const grading::Result& result, const grading::GradeInput& input,
-                                                     const std::vector<std::string>& points_toml);
+                                                     const std::vector<std::string>& burs_toml);
 
 /// Title of a report: the exam's.
 [[nodiscard]] std::string report_title(const ReportSource& source);

@@ -14,11 +14,11 @@ namespace cavum::ui {
 /// What is heard. All zero is silence.
 struct SoundParameters {
   double rpm = 0.0;     ///< of the handpiece, without load
-  double load_n = 0.0;  ///< force on the diamond point, >= 0
+  double load_n = 0.0;  ///< force on the bur, >= 0
   bool cutting = false;
   double enamel_share = 0.0, dentin_share = 0.0;  ///< of what is cut, 0..1; what is missing to 1 makes no sound of its own
   double volume = 1.0;                            ///< 0 = muted .. 1
-  double spray = 0.0, suction = 0.0;              ///< water on the point, and the tip that takes it away: 0 = off .. 1
+  double spray = 0.0, suction = 0.0;              ///< water on the bur, and the tip that takes it away: 0 = off .. 1
   friend bool operator==(const SoundParameters&, const SoundParameters&) = default;
 };
 

@@ -226,7 +226,7 @@ class Author {
   std::vector<scenarios::Problem> mistakes_;  // of the text alone
   std::vector<AuthorZone> zones_;
   std::vector<AuthorLandmark> landmarks_;
-  std::vector<DiamondPoint> shelf_;
+  std::vector<Bur> shelf_;
   ui::Interrupt interrupt_;
   Window window_;
   Script script_;

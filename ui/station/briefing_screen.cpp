@@ -38,14 +38,14 @@ void briefing_screen(const ScreenContext& c) {
   const std::optional<Begun>& begun = c.sitting->begun();
   fact(t, msg("Time"),
        begun && limit > 0 ? msg("{} of {} minutes left", ClockTime{begun->left_s}, ClockTime{limit}) : msg("{} minutes", ClockTime{limit}));
-  if (begun) fact(t, msg("Mounted"), msg("{}", Authored{c.sitting->setup().points.at(static_cast<std::size_t>(begun->point)).title}));
+  if (begun) fact(t, msg("Mounted"), msg("{}", Authored{c.sitting->setup().burs.at(static_cast<std::size_t>(begun->bur)).title}));
   const Message granted = scenarios::accommodations_text(scenario.accommodations);
   if (!granted.empty()) fact(t, msg("Granted"), granted);
   fact(t, msg("Pauses"), pauses_text(scenario.pauses));
   if (scenario.force_limit_n > 0) fact(t, msg("Force"), msg("at most {}", as_n(scenario.force_limit_n, 1)));
-  List points{{}, true};
-  for (const auto& p : c.sitting->setup().points) points.items.push_back(msg("{}", Authored{p.title}));
-  fact(t, msg("Diamond points"), msg("{}", points));
+  List burs{{}, true};
+  for (const auto& p : c.sitting->setup().burs) burs.items.push_back(msg("{}", Authored{p.title}));
+  fact(t, msg("Burs"), msg("{}", burs));
   ImGui::Dummy({0, t.px(8)});
   ImGui::Separator();
   ImGui::Dummy({0, t.px(4)});
@@ -75,7 +75,7 @@ void briefing_screen(const ScreenContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_area(t, "briefing tooth", {s.left_handed ? 0 : words, 0}, {screen.x - words, screen.y}, false);
   ImGui::PopStyleVar();
-  s.view.point = -1;
+  s.view.bur = -1;
   tooth_area(c, ImGui::GetContentRegionAvail());
   end_area();
 }

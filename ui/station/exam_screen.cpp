@@ -99,7 +99,7 @@ void side_panel(const ScreenContext& c, const scenarios::LiveView& view, const L
 
 void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout& l) {
   const Theme& t = c.theme;
-  const auto& allowed = c.sitting->setup().point_names;
+  const auto& allowed = c.sitting->setup().bur_names;
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {t.px(14), t.px(8)});
   begin_area(t, "tray", l.tray_at, l.tray, true);
   ImGui::PopStyleVar();
@@ -112,15 +112,15 @@ void tray(const ScreenContext& c, const scenarios::LiveView& view, const Layout&
     const bool may = place != allowed.end();
     const auto number = static_cast<int>(place - allowed.begin());
     const ImVec2 at{first.x + static_cast<float>(i) * each, first.y}, size{each - t.px(6), height};
-    const bool mounted = may && view.input.point == number;
+    const bool mounted = may && view.input.bur == number;
     ImGui::SetCursorScreenPos(at);
     ImGui::PushID(static_cast<int>(i));
     ImGui::BeginDisabled(!may);
-    const bool chosen = ImGui::InvisibleButton("point", size) || (may && key_pressed(GLFW_KEY_F1 + static_cast<int>(i)));
+    const bool chosen = ImGui::InvisibleButton("bur", size) || (may && key_pressed(GLFW_KEY_F1 + static_cast<int>(i)));
     const bool marked = ImGui::IsItemHovered() || ImGui::IsItemFocused();
     ImGui::EndDisabled();
     ImGui::PopID();
-    if (chosen) c.sitting->desk().point.store(number, std::memory_order_relaxed);
+    if (chosen) c.sitting->desk().bur.store(number, std::memory_order_relaxed);
     if (may) draw.AddRectFilled(at, {at.x + size.x, at.y + size.y}, ink(t.raised), t.px(5));
     if (mounted || marked)
       draw.AddRect(at, {at.x + size.x, at.y + size.y}, ink(mounted ? t.accent : t.quiet), t.px(5), 0, t.px(mounted ? 3.0F : 1.0F));
@@ -163,7 +163,7 @@ bool asked_something(const StationState& s) { return s.confirm_end || s.confirm_
 
 Vec3 to_vec3(const glm::vec3& v) { return {v.x, v.y, v.z}; }
 
-/// B brings a lost point back above the tooth, by a way that the hand goes.
+/// B brings a lost bur back above the tooth, by a way that the hand goes.
 void come_back(const ScreenContext& c, const scenarios::LiveView& now, Vec3 out) {
   StationState& s = c.state;
   if (key_pressed(GLFW_KEY_B) && !asked_something(s)) {
@@ -247,9 +247,9 @@ void exam_screen(const ScreenContext& c) {
   live.look_at_tooth([&](const Octree& tooth) { c.scene->tooth().take(tooth); });
   c.scene->tooth().update();
   s.view.tool = {view.output.proxy_mm, view.input.pose().rotation};
-  s.view.point = view.ticks > 0 ? view.input.point : -1;
+  s.view.bur = view.ticks > 0 ? view.input.bur : -1;
   s.view.pressed = view.output.contact;
-  turn_point(s.view, view.output.rpm, c.frame_s);
+  turn_bur(s.view, view.output.rpm, c.frame_s);
   spray_on(s.view.spray, view.output.rpm, view.output.cutting, view.enamel_share, view.dentin_share, c.frame_s);
   if (s.tutorial && view.ticks > 0) s.tutorial->see(tutorial_sight(c, view));
 
@@ -260,7 +260,7 @@ void exam_screen(const ScreenContext& c) {
   begin_area(t, "tooth", l.tooth_at, l.tooth, false);
   ImGui::PopStyleVar();
   const bool over = tooth_area(c, l.tooth);
-  const bool lost = s.view.point >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
+  const bool lost = s.view.bur >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
   const bool by_pointer = c.sitting->device().pointer() != nullptr;
   if (!view.recording_error.empty()) {
     words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"),
@@ -290,9 +290,9 @@ void exam_screen(const ScreenContext& c) {
   } else if (view.paused) {
     words_in_picture(t, l.tooth_at, l.tooth, msg("PAUSE"), msg("The clock stands still and the handpiece stays off. Press P to go on."), t.warn);
   } else if (lost) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("POINT"),
-                     by_pointer ? msg("The point is out of the picture, where the arrow shows. B brings it back above the tooth.")
-                                : msg("The point is out of the picture, where the arrow shows."),
+    words_in_picture(t, l.tooth_at, l.tooth, msg("BUR"),
+                     by_pointer ? msg("The bur is out of the picture, where the arrow shows. B brings it back above the tooth.")
+                                : msg("The bur is out of the picture, where the arrow shows."),
                      t.warn);
   } else if (s.tutorial) {
     const Message where = s.tutorial->done() ? msg("TUTORIAL") : msg("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);

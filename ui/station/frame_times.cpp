@@ -97,10 +97,10 @@ void print_frame_times(const StationOptions& options, int frames) {
   const Window window({"Cavum", options.width, options.height, options.monitor});
   const auto began = Clock::now();
   const double processor_before_s = processor_s();
-  Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->points, nullptr);
+  Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->burs, nullptr);
   const double made_s = seconds_since(began), made_processor_s = processor_s() - processor_before_s;
   SceneView view;
-  view.point = 0;
+  view.bur = 0;
   view.tool.tip_mm = {0, 0, 3};
   std::printf("%s, %d x %d: %zu triangles, %zu of them kept for drawing; first mesh %.2f s (processor %.2f s)\n", renderer_name().c_str(),
               options.width, options.height, scene.tooth().triangles(), scene.tooth().triangles_kept(), made_s, made_processor_s);
@@ -147,7 +147,7 @@ void print_frame_times(const StationOptions& options, int frames) {
   };
   at_each_level([&](const std::string& level) {
     draw(level, "view turns", true, k_beside, [] {});
-    draw(level, "point moves", false, k_beside, [] {});
+    draw(level, "bur moves", false, k_beside, [] {});
   });
 
   Opened opened(setup->tooth.octree, setup->zones);

@@ -69,19 +69,19 @@ void close(std::vector<Ring>& rings, bool below) {
 }
 
 /// So high is what stays while the rest fades from who looks along the instrument: the head with a little neck, of a long one its lower end.
-float working_end_mm(const DiamondPoint& point) {
+float working_end_mm(const Bur& bur) {
   constexpr float k_neck_mm = 0.7F, k_most_mm = 2.2F;
-  return std::min(static_cast<float>(point.cutting_length_mm) + k_neck_mm, k_most_mm);
+  return std::min(static_cast<float>(bur.cutting_length_mm) + k_neck_mm, k_most_mm);
 }
 constexpr double k_fine_mm = 0.12, k_coarse_mm = 0.5;  // from ring to ring, of head and shank
 
 /// The profile from one height to another.
-std::vector<Ring> rings_of(const DiamondPoint& point, float from_mm, float to_mm, double step_mm) {
+std::vector<Ring> rings_of(const Bur& bur, float from_mm, float to_mm, double step_mm) {
   std::vector<Ring> rings;
-  for (const auto& p : point.profile.walk(step_mm, point.profile.length_mm())) {
+  for (const auto& p : bur.profile.walk(step_mm, bur.profile.length_mm())) {
     const auto z = static_cast<float>(p.at.z_mm);
     if (z < from_mm || z > to_mm) continue;
-    const bool coated = p.at.z_mm <= point.cutting_length_mm;
+    const bool coated = p.at.z_mm <= bur.cutting_length_mm;
     rings.push_back({static_cast<float>(p.at.r_mm), z, static_cast<float>(p.normal.r_mm), static_cast<float>(p.normal.z_mm),
                      coated ? k_diamond : k_steel, coated});
   }
@@ -90,9 +90,9 @@ std::vector<Ring> rings_of(const DiamondPoint& point, float from_mm, float to_mm
 
 }  // namespace
 
-MeshData diamond_head_mesh(const DiamondPoint& point) {
+MeshData diamond_head_mesh(const Bur& bur) {
   // a ring farther than where the shank begins: no gap between the two
-  std::vector<Ring> rings = rings_of(point, -1.0F, working_end_mm(point) + static_cast<float>(k_fine_mm), k_fine_mm);
+  std::vector<Ring> rings = rings_of(bur, -1.0F, working_end_mm(bur) + static_cast<float>(k_fine_mm), k_fine_mm);
   MeshData mesh;
   if (rings.empty()) return mesh;
   close(rings, true);
@@ -101,13 +101,13 @@ MeshData diamond_head_mesh(const DiamondPoint& point) {
   return mesh;
 }
 
-MeshData shank_mesh(const DiamondPoint& point) {
+MeshData shank_mesh(const Bur& bur) {
   constexpr float k_shank_ends_mm = 13.0F;
   // the coated part finely, so that its bands wind round; the rest as its profile needs
-  const auto coated_to = static_cast<float>(point.cutting_length_mm), from_mm = working_end_mm(point);
-  std::vector<Ring> rings = rings_of(point, from_mm, coated_to, k_fine_mm);
-  for (const Ring& ring : rings_of(point, std::max(from_mm, coated_to), k_shank_ends_mm, k_coarse_mm)) rings.push_back(ring);
-  Ring end = rings.empty() ? rings_of(point, -1.0F, k_shank_ends_mm, k_coarse_mm).back() : rings.back();
+  const auto coated_to = static_cast<float>(bur.cutting_length_mm), from_mm = working_end_mm(bur);
+  std::vector<Ring> rings = rings_of(bur, from_mm, coated_to, k_fine_mm);
+  for (const Ring& ring : rings_of(bur, std::max(from_mm, coated_to), k_shank_ends_mm, k_coarse_mm)) rings.push_back(ring);
+  Ring end = rings.empty() ? rings_of(bur, -1.0F, k_shank_ends_mm, k_coarse_mm).back() : rings.back();
   end.normal_r = 1;
   end.normal_z = 0;
   end.grain = false;

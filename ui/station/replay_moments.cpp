@@ -28,9 +28,9 @@ EventMark event_mark(const Event& event) {
           [](const RecordingGap&) { return bad_mark(msg("recording interrupted")); },
           [](const TimeUp&) { return mark(msg("time is up")); },
           [](const Finished&) { return mark(msg("finished")); },
-          [](const AnyOf<StepStarted, PointNotAllowed, OverSpeed, PauseEnded, PauseRefused, HoldEnded, RecordingMoved, ServoGap, Overruns,
-                         StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt,
-                         OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return mark({}); },
+          [](const AnyOf<StepStarted, BurNotAllowed, OverSpeed, PauseEnded, PauseRefused, HoldEnded, RecordingMoved, ServoGap, Overruns, StylusSilent,
+                         StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness, WorkAfterEnd, LockAttempt, OfficeHold,
+                         OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&) { return mark({}); },
       },
       event);
 }

@@ -66,7 +66,7 @@ void ReplayPlayer::seek(std::int64_t tick) {
   if (goal_ < now_->servo.tick || from->servo.tick > now_->servo.tick) now_ = std::make_unique<Moment>(*from);
 }
 
-scenarios::Runner ReplayPlayer::make_runner() const { return {setup_->scenario, setup_->zones, setup_->tooth, setup_->point_names}; }
+scenarios::Runner ReplayPlayer::make_runner() const { return {setup_->scenario, setup_->zones, setup_->tooth, setup_->bur_names}; }
 
 void ReplayPlayer::take_tick(Moment& moment, scenarios::Runner& runner) const {
   moment.input = inputs_[static_cast<std::size_t>(moment.servo.tick)];

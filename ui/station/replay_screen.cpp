@@ -159,9 +159,9 @@ void replay_screen(const ScreenContext& c) {
     c.scene->tooth().update();
     player.show();
     s.view.tool = {player.shown().output.proxy_mm, player.shown().input.pose().rotation};
-    s.view.point = player.shown().input.point;
+    s.view.bur = player.shown().input.bur;
     s.view.pressed = player.shown().output.contact;
-    if (s.playing) turn_point(s.view, player.shown().output.rpm, c.frame_s);
+    if (s.playing) turn_bur(s.view, player.shown().output.rpm, c.frame_s);
   }
   constexpr double k_pale = 0.5;  // of what it cut is not at hand here
   if (s.playing)

@@ -127,7 +127,7 @@ void result_screen(const ScreenContext& c) {
   ImGui::PushStyleVar(ImGuiStyleVar_WindowPadding, {0, 0});
   begin_area(t, "result tooth", {s.left_handed ? 0 : words, top}, {screen.x - words, high}, false);
   ImGui::PopStyleVar();
-  s.view.point = -1;
+  s.view.bur = -1;
   tooth_area(c, ImGui::GetContentRegionAvail());
   end_area();
 }

@@ -22,7 +22,7 @@ constexpr glm::vec3 k_night(0.085F, 0.105F, 0.130F);
 
 bool same(const SceneView& a, const SceneView& b) {
   const auto facts = [](const SceneView& v) {
-    return std::tie(v.camera, v.point, v.pressed, v.spin_rad, v.handpiece, v.foot, v.drops, v.spray, v.clear, v.stereo, v.high_contrast);
+    return std::tie(v.camera, v.bur, v.pressed, v.spin_rad, v.handpiece, v.foot, v.drops, v.spray, v.clear, v.stereo, v.high_contrast);
   };
   return facts(a) == facts(b) && a.tool.tip_mm == b.tool.tip_mm && a.tool.rotation == b.tool.rotation;
 }
@@ -47,12 +47,12 @@ float along_tool(const SceneView& view, int eye) {
   const glm::vec3 sight_line = glm::normalize(view.camera.target_mm - view.camera.position_mm(eye));
   return std::fabs(glm::dot(sight_line, glm::normalize(glm::vec3(to_glm(view.tool)[2]))));
 }
-/// The handpiece would hide the work from whoever looks along it, and so would the shank; the head of the point stays.
+/// The handpiece would hide the work from whoever looks along it, and so would the shank; the head of the bur stays.
 float handpiece_opacity(const SceneView& view, int eye) { return 1.0F - glm::smoothstep(0.35F, 0.62F, along_tool(view, eye)); }
 float shank_opacity(const SceneView& view, int eye) { return 1.0F - 0.86F * glm::smoothstep(0.80F, 0.94F, along_tool(view, eye)); }
 
 template <class Make>
-std::vector<GpuMesh> meshes_of(const std::vector<DiamondPoint>& tray, const Make& make) {
+std::vector<GpuMesh> meshes_of(const std::vector<Bur>& tray, const Make& make) {
   std::vector<GpuMesh> meshes(tray.size());
   for (std::size_t i = 0; i < tray.size(); ++i) {
     const MeshData data = make(tray[i]);
@@ -66,23 +66,23 @@ constexpr int k_radii = 96, k_heights = 256;
 constexpr float k_widest_mm = 3.0F, k_lowest_mm = -1.5F, k_highest_mm = 8.5F;
 constexpr glm::vec3 k_tool_table(1.0F / k_widest_mm, 1.0F / (k_highest_mm - k_lowest_mm), -k_lowest_mm / (k_highest_mm - k_lowest_mm));
 
-Table2D distances_of(const DiamondPoint& point) {
+Table2D distances_of(const Bur& bur) {
   std::vector<float> mm;
   for (int j = 0; j < k_heights; ++j)
     for (int i = 0; i < k_radii; ++i)
       mm.push_back(
-          static_cast<float>(point.profile.distance_mm({(i + 0.5) / k_radii * static_cast<double>(k_widest_mm), 0,
-                                                        k_lowest_mm + (j + 0.5) / k_heights * static_cast<double>(k_highest_mm - k_lowest_mm)})));
+          static_cast<float>(bur.profile.distance_mm({(i + 0.5) / k_radii * static_cast<double>(k_widest_mm), 0,
+                                                      k_lowest_mm + (j + 0.5) / k_heights * static_cast<double>(k_highest_mm - k_lowest_mm)})));
   Table2D table;
   table.put(k_radii, k_heights, 1, mm);
   return table;
 }
 
 /// Places of the head's surface, tool frame: enough to tell whether it touches.
-std::vector<Vec3> surface_of_head(const DiamondPoint& point, double up_to_mm, int around) {
+std::vector<Vec3> surface_of_head(const Bur& bur, double up_to_mm, int around) {
   constexpr double k_step_mm = 0.12;
   std::vector<Vec3> all;
-  for (const auto& p : point.head.walk(k_step_mm, up_to_mm))
+  for (const auto& p : bur.head.walk(k_step_mm, up_to_mm))
     for (int i = 0; i < around; ++i) {
       const double a = 6.283185307179586 * i / around;
       all.push_back({p.at.r_mm * std::cos(a), p.at.r_mm * std::sin(a), p.at.z_mm});
@@ -98,7 +98,7 @@ constexpr std::size_t k_level_by_processor = 3;
 
 }  // namespace
 
-void turn_point(SceneView& view, double rpm, double frame_s) {
+void turn_bur(SceneView& view, double rpm, double frame_s) {
   constexpr double k_two_pi = 6.283185307179586, k_seen_rad = 0.3;  // a third of the way from one band of the head to the next
   view.spin_rad = static_cast<float>(std::fmod(view.spin_rad + std::min(k_seen_rad, rpm / 60.0 * k_two_pi * frame_s), k_two_pi));
 }
@@ -129,7 +129,7 @@ Scene::Programs::Programs(const Effects& effects) {
   metal = std::make_unique<ShaderProgram>(metal_vertex(), metal_fragment(), defines);
 }
 
-Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const scenarios::ZoneMap* target)
+Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<Bur>& tray, const scenarios::ZoneMap* target)
     : tooth_(tooth),
       tissues_(tissues),
       heads_(meshes_of(tray, diamond_head_mesh)),
@@ -140,11 +140,11 @@ Scene::Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std:
       drop_program_(drop_vertex(), drop_fragment()),
       smooth_program_(WholePicture::vertex_shader, smooth_fragment()),
       governor_(drawn_by_processor() ? EffectGovernor(k_budget_by_processor_ms, k_level_by_processor) : EffectGovernor(k_budget_ms, 0)) {
-  for (const DiamondPoint& point : tray) {
-    distances_.push_back(distances_of(point));
-    surfaces_.push_back(surface_of_head(point, point.cutting_length_mm, 18));
-    ends_.push_back(surface_of_head(point, std::min(1.0, point.cutting_length_mm), 9));
-    radii_mm_.push_back(point.head_radius_mm);
+  for (const Bur& bur : tray) {
+    distances_.push_back(distances_of(bur));
+    surfaces_.push_back(surface_of_head(bur, bur.cutting_length_mm, 18));
+    ends_.push_back(surface_of_head(bur, std::min(1.0, bur.cutting_length_mm), 9));
+    radii_mm_.push_back(bur.head_radius_mm);
   }
   const MeshData handpiece = handpiece_mesh();
   handpiece_.put(handpiece.vertices, handpiece.indices);
@@ -200,13 +200,13 @@ void Scene::light(const ShaderProgram& program, const SceneView& view, const Too
 
 glm::vec3 Scene::background_of(const SceneView& view) { return view.high_contrast ? glm::vec3(0) : k_night; }
 
-bool Scene::has_tool(const SceneView& view) const { return view.point >= 0 && static_cast<std::size_t>(view.point) < heads_.size(); }
+bool Scene::has_tool(const SceneView& view) const { return view.bur >= 0 && static_cast<std::size_t>(view.bur) < heads_.size(); }
 
 float Scene::touch(const SceneView& view) const {
   if (view.pressed) return 1.0F;
   const Mat3 r = rotation(view.tool.rotation);
   double nearest_mm = 1.0;
-  for (const Vec3 p : surfaces_[static_cast<std::size_t>(view.point)])
+  for (const Vec3 p : surfaces_[static_cast<std::size_t>(view.bur)])
     nearest_mm = std::min(nearest_mm, tooth_.distance_mm(view.tool.tip_mm + Vec3{dot(r.row_x, p), dot(r.row_y, p), dot(r.row_z, p)}));
   constexpr float k_touching_mm = 0.03F, k_clear_mm = 0.09F;  // the surface is cut a little wider than the head
   return 1.0F - glm::smoothstep(k_touching_mm, k_clear_mm, static_cast<float>(nearest_mm));
@@ -217,7 +217,7 @@ float Scene::above_mm(const SceneView& view) const {
   const Vec3 axis{r.row_x.z, r.row_y.z, r.row_z.z};
   const auto touches = [&](double down_mm) {
     const Vec3 tip = view.tool.tip_mm - axis * down_mm;
-    return std::ranges::any_of(ends_[static_cast<std::size_t>(view.point)], [&](Vec3 p) {
+    return std::ranges::any_of(ends_[static_cast<std::size_t>(view.bur)], [&](Vec3 p) {
       return tooth_.distance_mm(tip + Vec3{dot(r.row_x, p), dot(r.row_y, p), dot(r.row_z, p)}) <= 0.0;
     });
   };
@@ -257,8 +257,8 @@ void Scene::cast_shadows(const SceneView& view, const Effects& effects) {
   shadow_.begin_with(resting_shadow_);
   if (has_tool(view)) {
     depth_program_.set("model", tool_matrix(view));
-    heads_[static_cast<std::size_t>(view.point)].draw(count_);
-    shanks_[static_cast<std::size_t>(view.point)].draw(count_);
+    heads_[static_cast<std::size_t>(view.bur)].draw(count_);
+    shanks_[static_cast<std::size_t>(view.bur)].draw(count_);
   }
   DepthMap::end();
   glDisable(GL_POLYGON_OFFSET_FILL);
@@ -288,10 +288,10 @@ void Scene::draw_tooth(const SceneView& view, const ToothDrawing::Sight& sight, 
   const float above = view.foot ? above_mm(view) : k_foot_ends_mm;
   const float shows = (1.0F - touches) * (1.0F - glm::smoothstep(k_foot_ends_mm - 1.0F, k_foot_ends_mm, above));
   constexpr float k_beside_mm = 0.15F, k_opens = 0.6F, k_bends_per_mm = 0.15F, k_deeper_mm = 2.0F;
-  const auto head_mm = static_cast<float>(radii_mm_[static_cast<std::size_t>(view.point)]);
+  const auto head_mm = static_cast<float>(radii_mm_[static_cast<std::size_t>(view.bur)]);
   touched.set("foot", glm::vec4(head_mm + k_beside_mm + k_opens * above / (1.0F + k_bends_per_mm * above), -above - k_deeper_mm, shows, 0));
   touched.set("tool_axis", glm::vec3(to_glm(view.tool)[2]));
-  touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.point)].texture());
+  touched.set_texture("tool_mm", 2, GL_TEXTURE_2D, distances_[static_cast<std::size_t>(view.bur)].texture());
   // the tip's ball, and as far as its touch and its foot are seen
   constexpr float k_around_mm = 5.5F;
   const glm::vec3 middle(to_glm(view.tool)[3]);
@@ -391,7 +391,7 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   };
   if (tool) {
     metal(tool_matrix(view));
-    heads_[static_cast<std::size_t>(view.point)].draw(count_);
+    heads_[static_cast<std::size_t>(view.bur)].draw(count_);
   }
   if (view.clear) {
     draw_clear_tissue(view, sight, programs);
@@ -402,7 +402,7 @@ void Scene::draw_eye(const SceneView& view, int eye, int x, int width, int heigh
   if (has_drops(view)) draw_drops(view, sight, static_cast<float>(width), static_cast<float>(height));
   if (tool) {
     metal(tool_matrix(view));
-    draw_metal(shanks_[static_cast<std::size_t>(view.point)], *programs.metal, shank_opacity(view, eye));
+    draw_metal(shanks_[static_cast<std::size_t>(view.bur)], *programs.metal, shank_opacity(view, eye));
     programs.metal->set("model", to_glm(view.tool));
     if (view.handpiece) draw_metal(handpiece_, *programs.metal, handpiece_opacity(view, eye));
   }
@@ -469,7 +469,7 @@ unsigned Scene::picture(const SceneView& view, int width, int height) {
     lamp_ = lamp_of(view.camera, effects.shadow_edge);
   else
     cast_shadows(view, effects);
-  if (has_drops(view)) drops_.put(drops_of(view.spray, radii_mm_[static_cast<std::size_t>(view.point)], effects.drops));
+  if (has_drops(view)) drops_.put(drops_of(view.spray, radii_mm_[static_cast<std::size_t>(view.bur)], effects.drops));
   target_picture_.resize(wide, high, effects.samples);
   target_picture_.begin(background_of(view));
   if (view.stereo) {

@@ -1,4 +1,4 @@
-// The picture of the work: tooth, diamond point and handpiece, lit by a lamp over the mouth, whose shadows show how far the head is from what it will
+// The picture of the work: tooth, bur and handpiece, lit by a lamp over the mouth, whose shadows show how far the head is from what it will
 // touch, and by the room. A soft dark ring says that it touches. In practice the tooth is as clear as water, with the pulp and what is to be removed
 // in colour within; an exam shows none of that. How much is done for a picture follows what the last ones took.
 #pragma once
@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "scenarios/zones/zone_map.h"
 #include "ui/station/camera.h"
 #include "ui/station/effects.h"
@@ -24,9 +24,9 @@ namespace cavum::station {
 struct SceneView {
   Camera camera;
   Pose tool;              ///< tip as the tooth allows it
-  int point = -1;         ///< of the tray; -1 = no instrument
+  int bur = -1;           ///< of the tray; -1 = no instrument
   bool pressed = false;   ///< the tooth holds the instrument, also by its side or shank: seen where it is
-  float spin_rad = 0;     ///< how far the running point has turned, as shown
+  float spin_rad = 0;     ///< how far the running bur has turned, as shown
   bool handpiece = true;  ///< shown; it fades where one looks along it
   bool foot = true;       ///< the ring on the tissue below the head, wider the higher the head is
   bool drops = true;      ///< spray and chips, where effects have any
@@ -36,13 +36,13 @@ struct SceneView {
   bool high_contrast = false;
 };
 
-/// The running point turns as far as an eye can follow from one picture to the next.
-void turn_point(SceneView& view, double rpm, double frame_s);
+/// The running bur turns as far as an eye can follow from one picture to the next.
+void turn_bur(SceneView& view, double rpm, double frame_s);
 
 class Scene {
  public:
   /// `target`: of practice; null = none is shown.
-  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<DiamondPoint>& tray, const scenarios::ZoneMap* target);
+  Scene(const Octree& tooth, const std::vector<Tissue>& tissues, const std::vector<Bur>& tray, const scenarios::ZoneMap* target);
 
   [[nodiscard]] ToothDrawing& tooth() noexcept { return tooth_; }
   /// Bodies seen through clear tissue, one over the other in this order, in the colours and opacities of their corners.
@@ -99,7 +99,7 @@ class Scene {
   ToothDrawing tooth_;
   std::vector<Tissue> tissues_;
   std::vector<GpuMesh> heads_, shanks_, bodies_;
-  std::vector<Table2D> distances_;                  // of the points
+  std::vector<Table2D> distances_;                  // of the burs
   std::vector<std::vector<Vec3>> surfaces_, ends_;  // of the whole heads; of their lowest millimetre
   std::vector<double> radii_mm_;                    // of the heads
   GpuMesh handpiece_, target_;

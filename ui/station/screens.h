@@ -15,12 +15,12 @@ namespace cavum::station {
 struct ScreenContext {
   Theme theme;
   StationState& state;
-  const scenarios::Scenario& scenario;     ///< as its file says
-  const std::vector<DiamondPoint>& shelf;  ///< all diamond points there are
-  Sitting* sitting = nullptr;              ///< null before sign-in
-  Scene* scene = nullptr;                  ///< null before there is a tooth
-  ReplayPlayer* replay = nullptr;          ///< only on the replay's screen
-  double frame_s = 0.0;                    ///< since the frame before
+  const scenarios::Scenario& scenario;  ///< as its file says
+  const std::vector<Bur>& shelf;        ///< all burs there are
+  Sitting* sitting = nullptr;           ///< null before sign-in
+  Scene* scene = nullptr;               ///< null before there is a tooth
+  ReplayPlayer* replay = nullptr;       ///< only on the replay's screen
+  double frame_s = 0.0;                 ///< since the frame before
   bool practice = false;
   const InputQueue& input;              ///< what this picture plays
   bool mouse_captured = false;          ///< the mouse is the stylus
@@ -55,7 +55,7 @@ bool arrow_to_what_is_out(const ScreenContext& c, Vec3 place_mm, ImVec2 at, ImVe
 /// All over a picture whose hand is a simulated one, pixels.
 void demonstration_in_picture(const Theme& theme, ImVec2 at, ImVec2 size);
 
-/// The silhouette of a diamond point in a box of the screen, pixels.
-void draw_silhouette(const DiamondPoint& point, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated);
+/// The silhouette of a bur in a box of the screen, pixels.
+void draw_silhouette(const Bur& bur, ImVec2 at, ImVec2 size, ImU32 colour, ImU32 coated);
 
 }  // namespace cavum::station

@@ -84,7 +84,7 @@ Begun begun_so_far(const std::string& path) {
   player.show();
   const scenarios::RunnerState& at = player.shown().runner;
   const auto limit = static_cast<double>(scenarios::exam_limit_ticks(player.setup().scenario));
-  return {player.tooth(), std::max(0.0, (limit - static_cast<double>(at.ticks - at.paused_ticks)) * k_tick_s), player.shown().input.point};
+  return {player.tooth(), std::max(0.0, (limit - static_cast<double>(at.ticks - at.paused_ticks)) * k_tick_s), player.shown().input.bur};
 }
 
 }  // namespace
@@ -126,7 +126,7 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
     if (held) records::require_promised(*held, setup->session);
     if (!options_.resume.empty()) {
       begun_ = begun_so_far(options_.resume);
-      desk_.point.store(begun_->point, std::memory_order_relaxed);
+      desk_.bur.store(begun_->bur, std::memory_order_relaxed);
     }
     device_->prepare(*setup);
     return setup;

@@ -47,7 +47,7 @@ enum class Stage {
 struct Begun {
   Octree tooth;
   double left_s = 0.0;  ///< of its time; 0 where it has no limit
-  int point = 0;        ///< of the tray, that was mounted
+  int bur = 0;          ///< of the tray, that was mounted
 };
 
 class Sitting {

@@ -19,7 +19,7 @@ struct Spray {
   friend bool operator==(const Spray&, const Spray&) = default;
 };
 
-/// A picture later: water runs while the point turns, chips fly while it cuts; both take a moment to come and to go. Shares of what is cut: 0..1.
+/// A picture later: water runs while the bur turns, chips fly while it cuts; both take a moment to come and to go. Shares of what is cut: 0..1.
 void spray_on(Spray& spray, double rpm, bool cutting, double enamel_share, double dentin_share, double frame_s);
 
 /// At most `count` drops for a head of this radius, tool frame (tip at 0, handpiece towards +z), mm. None when nothing flies.

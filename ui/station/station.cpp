@@ -37,11 +37,11 @@ constexpr double k_least_width = 720.0, k_least_height = 450.0, k_least_scale = 
 
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
-std::vector<DiamondPoint> read_shelf(const std::string& scenario_path) {
-  std::vector<DiamondPoint> shelf;
-  for (const auto& name : scenarios::data_names("points", scenario_path)) {
-    const std::string path = scenarios::find_data_file("points", name + ".toml", scenario_path);
-    shelf.push_back(parse_diamond_point(read_text_file(path), path));
+std::vector<Bur> read_shelf(const std::string& scenario_path) {
+  std::vector<Bur> shelf;
+  for (const auto& name : scenarios::data_names("burs", scenario_path)) {
+    const std::string path = scenarios::find_data_file("burs", name + ".toml", scenario_path);
+    shelf.push_back(parse_bur(read_text_file(path), path));
   }
   return shelf;
 }
@@ -474,7 +474,7 @@ class Station {
   }
 
   void make_scene(const scenarios::ExamSetup& setup, bool practice) {
-    scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.points, practice ? &setup.zones : nullptr);
+    scene_ = std::make_unique<Scene>(setup.tooth.octree, setup.tooth.tissues, setup.burs, practice ? &setup.zones : nullptr);
     scene_->fix_effects(options_.effects);
     const Vec3 low = setup.zones.target_low_mm(), high = setup.zones.target_high_mm();
     state_.view = {};
@@ -495,7 +495,7 @@ class Station {
   StationOptions options_;
   std::unique_ptr<ReplayPlayer> replay_;
   scenarios::Scenario scenario_;
-  std::vector<DiamondPoint> shelf_;
+  std::vector<Bur> shelf_;
   ui::Interrupt interrupt_;
   ui::SoundOutput sound_;
   StationLock lock_;

@@ -104,7 +104,7 @@ CubeFit fit(const std::vector<CubeRow>& rows, bool friction) {
 
 }  // namespace
 
-CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint& point, const CubeOptions& options) {
+CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, const CubeOptions& options) {
   CubeResult result;
   result.options = options;
   const Tooth cube = make_cube(k_cube_mm, k_tissue, k_leaf_mm);
@@ -121,7 +121,7 @@ CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint
       const Material& own = m.force.materials.find(k_tissue)->second;
       set.damping_ratio = own.voigt.damping_n_s_per_mm / std::sqrt(own.voigt.stiffness_n_per_mm);
       set.tau_s = material.tau_s;
-      servos.back().push_back(machine_servo(cube, point, force, options.machine.omni));
+      servos.back().push_back(machine_servo(cube, bur, force, options.machine.omni));
       CubeRow row;
       row.k_n_per_mm = k;
       row.c_n_s_per_mm = material.voigt.damping_n_s_per_mm;

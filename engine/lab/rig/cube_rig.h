@@ -79,7 +79,7 @@ struct CubeResult {
 };
 
 /// Throws Error when a model has no material "dentin" with k, c and τ.
-[[nodiscard]] CubeResult run_cube_rig(const std::vector<CubeModel>& models, const DiamondPoint& point, const CubeOptions& options);
+[[nodiscard]] CubeResult run_cube_rig(const std::vector<CubeModel>& models, const Bur& bur, const CubeOptions& options);
 
 /// Whether a set's forces leave a straight line by more than the scatter of a run, with a √k term that is not nothing.
 [[nodiscard]] bool is_bent(const CubeSet& set);

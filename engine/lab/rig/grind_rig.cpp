@@ -17,7 +17,7 @@ constexpr double k_groove_mm = 0.05;                       // on its side: so sh
 constexpr double k_end_in_mm = 0.1;                        // on its end: so far beyond the height where the head is widest
 constexpr double k_seconds_per_min = 60.0;
 
-/// The bench: a block, a point over it, and the way of its tip to the surface.
+/// The bench: a block, a bur over it, and the way of its tip to the surface.
 struct GrindBench {
   Tooth block;
   Quat rotation;
@@ -25,20 +25,20 @@ struct GrindBench {
   double from_mm = 0;  ///< depth at which the rate is taken
 };
 
-GrindBench make_grind_bench(const std::string& tissue, const DiamondPoint& point, bool side) {
+GrindBench make_grind_bench(const std::string& tissue, const Bur& bur, bool side) {
   GrindBench b;
-  const double r = point.head_radius_mm;
-  b.from_mm = side ? k_groove_mm : point.widest_from_mm + k_end_in_mm;
+  const double r = bur.head_radius_mm;
+  b.from_mm = side ? k_groove_mm : bur.widest_from_mm + k_end_in_mm;
   const double high = b.from_mm + k_grind_window_mm + 0.6;
   if (!side) {
     b.block = make_block({2 * r + 1.0, 2 * r + 1.0, high}, {{tissue, high}}, k_bench_leaf_mm);
     b.start_mm = {0, 0, k_over_bench_mm};
     return b;
   }
-  const double wide = std::min(2.0, 0.6 * point.cutting_length_mm);  // narrower than the head is long: only the head lies on it
+  const double wide = std::min(2.0, 0.6 * bur.cutting_length_mm);  // narrower than the head is long: only the head lies on it
   b.block = make_block({2 * r + 1.0, wide, high}, {{tissue, high}}, k_bench_leaf_mm);
   b.rotation = rotation_between({0, 0, 1}, {0, 1, 0});
-  b.start_mm = {0, -0.5 * point.cutting_length_mm, r + k_over_bench_mm};
+  b.start_mm = {0, -0.5 * bur.cutting_length_mm, r + k_over_bench_mm};
   return b;
 }
 
@@ -51,13 +51,13 @@ double ground_away_mm3(const Octree& before, const Octree& now) {
 
 }  // namespace
 
-GrindRow grind(const ForceModel& force, const DiamondPoint& point, const std::string& tissue, double load_n, const GrindOptions& options) {
-  const GrindBench bench = make_grind_bench(tissue, point, options.side);
+GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissue, double load_n, const GrindOptions& options) {
+  const GrindBench bench = make_grind_bench(tissue, bur, options.side);
   ServoConfig config;
   config.max_rpm = options.rpm;
   ForceModel undamped = force;  // a weight that comes on presses no harder than it weighs
   for (auto& [name, material] : undamped.materials) material.voigt.damping_n_s_per_mm = 0.0;
-  const ServoModel model = make_servo_model(bench.block, {point}, undamped, config);
+  const ServoModel model = make_servo_model(bench.block, {bur}, undamped, config);
   ServoState state = make_servo_state(model, bench.block, bench.start_mm);
   TickInput input;
   const auto tick = [&](Vec3 tip) {
@@ -101,11 +101,11 @@ GrindRow grind(const ForceModel& force, const DiamondPoint& point, const std::st
   return row;
 }
 
-GrindResult run_grind_rig(const ForceModel& force, const DiamondPoint& point, const GrindOptions& options) {
-  GrindResult result{.options = options, .model = force.name, .point = point.title, .rows = {}};
+GrindResult run_grind_rig(const ForceModel& force, const Bur& bur, const GrindOptions& options) {
+  GrindResult result{.options = options, .model = force.name, .bur = bur.title, .rows = {}};
   for (const auto& [name, material] : force.materials) {
     if (!(material.tau_s > 0 || material.wear_mm3_per_n_m > 0)) continue;
-    for (const double load_n : options.load_n) result.rows.push_back(grind(force, point, name, load_n, options));
+    for (const double load_n : options.load_n) result.rows.push_back(grind(force, bur, name, load_n, options));
   }
   return result;
 }
@@ -113,8 +113,8 @@ GrindResult run_grind_rig(const ForceModel& force, const DiamondPoint& point, co
 Lines to_text(const GrindResult& r) {
   Lines out;
   const Number rpm = as_unit(r.options.rpm, Unit::rpm, 0);
-  out.add(r.options.side ? msg("{}, {} on its side, {} free", r.model, Term{r.point}, rpm)
-                         : msg("{}, {} on its end, {} free", r.model, Term{r.point}, rpm));
+  out.add(r.options.side ? msg("{}, {} on its side, {} free", r.model, Term{r.bur}, rpm)
+                         : msg("{}, {} on its end, {} free", r.model, Term{r.bur}, rpm));
   out.row({msg("tissue"), msg("load, N"), msg("rpm"), msg("torque, N mm"), msg("depth, mm/s"), msg("mm³/min")}, 2);
   for (const GrindRow& row : r.rows)
     out.row({msg("{}", Term{row.tissue}), msg("{}", as_number(row.load_n, 2)), msg("{}", as_number(row.rpm, 0)),
@@ -134,7 +134,7 @@ nlohmann::json to_json(const GrindResult& r) {
                     {"sunk", row.sunk},
                     {"depth_mm_s", row.depth_mm_s},
                     {"mm3_per_min", row.mm3_per_min}});
-  return {{"model", r.model}, {"point", r.point}, {"side", r.options.side}, {"free_rpm", r.options.rpm}, {"rows", rows}};
+  return {{"model", r.model}, {"bur", r.bur}, {"side", r.options.side}, {"free_rpm", r.options.rpm}, {"rows", rows}};
 }
 
 }  // namespace cavum

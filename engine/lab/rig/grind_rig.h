@@ -1,4 +1,4 @@
-// How fast a diamond point grinds each tissue under a constant load: a weight rests on the turning point, on its end or on its side, and the depth is
+// How fast a bur grinds each tissue under a constant load: a weight rests on the turning bur, on its end or on its side, and the depth is
 // read while it sinks in. As bench tests of burs do, so that their published rates can stand beside ours (docs/cutting_rates.md).
 #pragma once
 
@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/base/lines.h"
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "engine/physics/force/force_model.h"
 
 namespace cavum {
@@ -15,7 +15,7 @@ namespace cavum {
 struct GrindOptions {
   std::vector<double> load_n{0.35, 0.65, 1.05};  ///< clinical loads: 35 to 105 g (Liao 1995)
   double rpm = 200000.0;                         ///< free speed at a pedal pressed to the floor
-  bool side = false;                             ///< the point lies on its side, and grinds a groove
+  bool side = false;                             ///< the bur lies on its side, and grinds a groove
 };
 
 struct GrindRow {
@@ -29,16 +29,15 @@ struct GrindRow {
 
 struct GrindResult {
   GrindOptions options;
-  std::string model, point;
+  std::string model, bur;
   std::vector<GrindRow> rows;
 };
 
 /// Each solid tissue of the model at each load. The rate is taken over `k_grind_window_mm`: on its end from where the whole end is in, on its side in
 /// a shallow groove. Volume is what leaves the tooth meanwhile. Throws Error when a tissue cannot be cut.
-[[nodiscard]] GrindResult run_grind_rig(const ForceModel& force, const DiamondPoint& point, const GrindOptions& options);
+[[nodiscard]] GrindResult run_grind_rig(const ForceModel& force, const Bur& bur, const GrindOptions& options);
 /// One of its rows.
-[[nodiscard]] GrindRow grind(const ForceModel& force, const DiamondPoint& point, const std::string& tissue, double load_n,
-                             const GrindOptions& options);
+[[nodiscard]] GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissue, double load_n, const GrindOptions& options);
 inline constexpr double k_grind_window_mm = 0.2;
 
 [[nodiscard]] Lines to_text(const GrindResult& result);

@@ -46,7 +46,7 @@ ServoConfig config_of(const PressOptions& o, Rendering rendering) {
 class Loop {
  public:
   Loop(const PressBench& bench, const PressCell& cell, const PressOptions& o, Rendering rendering)
-      : model_(make_servo_model(bench.block, {bench.point}, force_of(cell, o, rendering), config_of(o, rendering))),
+      : model_(make_servo_model(bench.block, {bench.bur}, force_of(cell, o, rendering), config_of(o, rendering))),
         omni_(o.omni),
         device_(make_omni_state({0, 0, k_above_mm})),
         state_(make_servo_state(model_, bench.block, {0, 0, k_above_mm})) {
@@ -116,7 +116,7 @@ double damping_n_s_per_mm(DampingRule rule, double k_n_per_mm, double mass_kg) n
   return 0.0;
 }
 
-PressBench make_press_bench(const DiamondPoint& point) { return {make_block({6, 6, 2}, {{"dentin", 2.0}}, 0.05), point}; }
+PressBench make_press_bench(const Bur& bur) { return {make_block({6, 6, 2}, {{"dentin", 2.0}}, 0.05), bur}; }
 
 PressOutcome press(const PressBench& bench, const PressCell& cell, const PressOptions& o, Rendering rendering) {
   Loop loop(bench, cell, o, rendering);
@@ -173,7 +173,7 @@ bool PressResult::within_limits() const noexcept {
          std::all_of(contacts.begin(), contacts.end(), [](const ContactRow& r) { return r.ours.bounces == 0; });
 }
 
-PressResult run_press_rig(const PressOptions& options, const DiamondPoint& point) {
+PressResult run_press_rig(const PressOptions& options, const Bur& bur) {
   PressResult result;
   result.options = options;
   for (const double k : options.k_n_per_mm)
@@ -184,7 +184,7 @@ PressResult run_press_rig(const PressOptions& options, const DiamondPoint& point
           for (const double speed : options.contact_mm_s)
             result.contacts.push_back({{k, damping, delay, hand, options.contact_press_n}, speed, {}, {}});
         }
-  const PressBench bench = make_press_bench(point);
+  const PressBench bench = make_press_bench(bur);
   const std::size_t presses = result.presses.size();
   independent_runs(presses + result.contacts.size(), [&](std::size_t i) {
     if (i < presses) {

@@ -82,12 +82,12 @@ struct PressResult {
   [[nodiscard]] bool within_limits() const noexcept;  ///< every press with our rendering, and no bounce with it
 };
 
-/// A block and the diamond point that presses on it with its tip.
+/// A block and the bur that presses on it with its tip.
 struct PressBench {
   Tooth block;
-  DiamondPoint point;
+  Bur bur;
 };
-[[nodiscard]] PressBench make_press_bench(const DiamondPoint& point);
+[[nodiscard]] PressBench make_press_bench(const Bur& bur);
 
 /// One press: within a second the hand comes down to where its spring and the tissue's balance at `press_n`, and holds.
 [[nodiscard]] PressOutcome press(const PressBench& bench, const PressCell& cell, const PressOptions& options, Rendering rendering);
@@ -95,7 +95,7 @@ struct PressBench {
 [[nodiscard]] ContactOutcome come_down(const PressBench& bench, const PressCell& cell, double speed_mm_s, const PressOptions& options,
                                        Rendering rendering);
 /// Every combination of the options.
-[[nodiscard]] PressResult run_press_rig(const PressOptions& options, const DiamondPoint& point);
+[[nodiscard]] PressResult run_press_rig(const PressOptions& options, const Bur& bur);
 
 /// `every_cell`: one line for each press, not only for each k, c and delay.
 [[nodiscard]] Lines to_text(const PressResult& result, bool every_cell);

@@ -55,7 +55,7 @@ std::vector<RecordRow> session_rows(const Motion& motion, const ServoModel& serv
 
 }  // namespace
 
-RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const DiamondPoint& point, const RecordOptions& options) {
+RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const Bur& bur, const RecordOptions& options) {
   const auto material = force.materials.find(k_tissue);
   if (material == force.materials.end())
     throw Error(msg("force model '{}'", force.name), msg("has no material '{}'", k_tissue), msg("add [materials.{}]", k_tissue));
@@ -64,7 +64,7 @@ RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const
       throw Error(msg("motion"), msg("goes {} below the surface", as_mm(-s.pose.tip_mm.z, k_as_needed)),
                   msg("stay above 3 mm: z is the height over the cube"));
   const Tooth cube = make_cube(k_cube_mm, k_tissue, k_leaf_mm);
-  const ServoModel servo = make_servo_model(cube, {point}, force, {});
+  const ServoModel servo = make_servo_model(cube, {bur}, force, {});
   RecordResult result;
   result.k_n_per_mm = material->second.voigt.stiffness_n_per_mm;
   result.c_n_s_per_mm = material->second.voigt.damping_n_s_per_mm;
@@ -73,7 +73,7 @@ RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const
   independent_runs(sessions.size(), [&](std::size_t s) {
     sessions[s] = session_rows(motion, servo, cube, options, static_cast<int>(s) + 1, Random(Random(options.seed + 7919 * s).next()));
   });
-  double worn = 0.0;  // the point stays: what it removed goes on from session to session
+  double worn = 0.0;  // the bur stays: what it removed goes on from session to session
   for (auto& rows : sessions) {
     for (auto& row : rows) {
       row.removed_mm3 += worn;

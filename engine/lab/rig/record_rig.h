@@ -30,10 +30,10 @@ struct RecordResult {
 };
 
 /// Heights of `motion` (its z) count from the surface of the cube; where cutting has lowered it, the crosshead follows while it is in air, at 0.5
-/// mm/s at most. Each session is a new place on a cube, the point stays. No friction of joints: the load cell holds the cube. Rows in which only
+/// mm/s at most. Each session is a new place on a cube, the bur stays. No friction of joints: the load cell holds the cube. Rows in which only
 /// wall or rim of the hole press on the head are left out. Throws Error when the
 /// motion goes deeper than 3 mm, or the model has no material "dentin".
-[[nodiscard]] RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const DiamondPoint& point, const RecordOptions& options);
+[[nodiscard]] RecordResult run_record_rig(const Motion& motion, const ForceModel& force, const Bur& bur, const RecordOptions& options);
 
 /// session,t_s,x_mm,f_n,v_mm_s,spindle_rpm,removed_mm3
 [[nodiscard]] std::string record_csv(const RecordResult& result);

@@ -19,7 +19,7 @@ HandIntent drilling_hand(double t_s) {
   return {{k_radius_mm * turn.cos, k_radius_mm * turn.sin, k_start_mm - depth_mm + lift_mm}, t_s > 0.1 ? 1.0 : 0.0};
 }
 
-SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s) {
+SessionSetup servo_rig_setup(const std::string& bur_toml, const std::string& force_model_toml, double tick_s) {
   SessionSetup setup;
   setup.candidate = "rig";
   setup.device = "simulated Omni in a simulated hand";
@@ -31,7 +31,7 @@ SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& f
   config.tick_s = tick_s;
   config.position_quantum_mm = OmniModel{}.quantum_mm;
   setup.servo_toml = to_toml(config);
-  setup.points_toml = {point_toml};
+  setup.burs_toml = {bur_toml};
   setup.tooth = save_tooth(make_block({10, 10, 6}, {{"enamel", 0.5}, {"dentin", 5.5}}, 0.05));
   const Vec3 start = drilling_hand(0.0).tip_mm;
   setup.first_tip_nm = make_tick_input({start, {}}, 0, k_stylus_fresh, 0, {}).tip_nm;

@@ -28,8 +28,8 @@ struct ServoRigResult {
   [[nodiscard]] bool on_time() const noexcept { return servo.overruns == 0 && servo.skipped_late == 0 && servo.skipped_full == 0; }
 };
 
-/// A 10 x 10 x 6 mm block of dentin under a film of enamel, one diamond point, ticks of `tick_s`: what run_servo_rig drills.
-[[nodiscard]] SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s = k_tick_s);
+/// A 10 x 10 x 6 mm block of dentin under a film of enamel, one bur, ticks of `tick_s`: what run_servo_rig drills.
+[[nodiscard]] SessionSetup servo_rig_setup(const std::string& bur_toml, const std::string& force_model_toml, double tick_s = k_tick_s);
 
 /// What its hand wants at a time: down to the block, then in circles, pressing, and out of contact for a moment in every turn.
 [[nodiscard]] HandIntent drilling_hand(double t_s);

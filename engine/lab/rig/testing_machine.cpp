@@ -70,10 +70,10 @@ void require_penetration(const ForceModel& model) {
                 msg("name a model that cuts by penetration, such as paper or consistent; `cavum rig grind` measures this one"));
 }
 
-ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni) {
+ServoModel machine_servo(const Tooth& tooth, const Bur& bur, const ForceModel& force, const OmniModel& omni) {
   ServoConfig config;
   config.position_quantum_mm = omni.quantum_mm;
-  return make_servo_model(tooth, {point}, force, config);
+  return make_servo_model(tooth, {bur}, force, config);
 }
 
 }  // namespace cavum

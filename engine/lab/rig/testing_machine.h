@@ -57,7 +57,7 @@ class TestingMachine {
 /// Throws Error when the model cuts by pressure: the paper's feed of 0.25 mm/s is ten times what a dentist's force grinds enamel at, and has no τ.
 void require_penetration(const ForceModel& model);
 
-/// A servo for a machine: one diamond point, the limits of the Omni, and, as in an exam with one, told the step of its encoder.
-[[nodiscard]] ServoModel machine_servo(const Tooth& tooth, const DiamondPoint& point, const ForceModel& force, const OmniModel& omni);
+/// A servo for a machine: one bur, the limits of the Omni, and, as in an exam with one, told the step of its encoder.
+[[nodiscard]] ServoModel machine_servo(const Tooth& tooth, const Bur& bur, const ForceModel& force, const OmniModel& omni);
 
 }  // namespace cavum

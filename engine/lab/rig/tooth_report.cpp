@@ -36,7 +36,7 @@ void add_left_out(const ToothRigResult& r, Lines& out) {
 Lines to_text(const ToothRigResult& r) {
   const auto& o = r.options;
   Lines out;
-  out.add(msg("{}, force model '{}', {}, crosshead {}", r.tooth, r.model, Term{r.point}, as_unit(o.machine.speed_mm_s, Unit::mm_per_s, 2)));
+  out.add(msg("{}, force model '{}', {}, crosshead {}", r.tooth, r.model, Term{r.bur}, as_unit(o.machine.speed_mm_s, Unit::mm_per_s, 2)));
   out.add(msgn("{} run within {} of x = {}, y = {}; seed {}", "{} runs within {} of x = {}, y = {}; seed {}", o.runs, o.runs, as_mm(o.spread_mm, 2),
                as_mm(o.at_mm->first, 2), as_mm(o.at_mm->second, 2), std::to_string(o.seed)));
   out.add(load_cell_words(o.machine));
@@ -88,7 +88,7 @@ json to_json(const ToothRigResult& r) {
   return {{"experiment", "tooth"},
           {"tooth", r.tooth},
           {"model", r.model},
-          {"point", r.point},
+          {"bur", r.bur},
           {"crosshead_mm_s", o.machine.speed_mm_s},
           {"seed", o.seed},
           {"at_mm", {o.at_mm->first, o.at_mm->second}},

@@ -141,7 +141,7 @@ ToothRun run_once(const ServoModel& servo, const Tooth& tooth, const ToothRigOpt
     if (tries > 2000)
       throw Error(RigError::no_pulp, msg("tooth"), msg("has no pulp under solid tissue around the chosen place"), msg("name another with --at"));
   }
-  const double start_mm = highest_under_mm(tooth.octree, run.x_mm, run.y_mm, servo.tray[0].point.head_radius_mm) + k_air_mm;
+  const double start_mm = highest_under_mm(tooth.octree, run.x_mm, run.y_mm, servo.tray[0].bur.head_radius_mm) + k_air_mm;
   TestingMachine machine(servo, tooth, {run.x_mm, run.y_mm, start_mm}, o.machine, random);
   const double dt = servo.config.tick_s;
   double slowest_s = 0.0;
@@ -224,14 +224,14 @@ std::vector<ToothLayer> layers_of(const Tooth& tooth, const std::vector<ToothRun
 
 }  // namespace
 
-ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const DiamondPoint& point, const ToothRigOptions& options) {
+ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const Bur& bur, const ToothRigOptions& options) {
   require_penetration(force);
   ToothRigResult result;
   result.options = options;
   result.tooth = tooth.name;
   result.model = force.name;
-  result.point = point.title;
-  const ServoModel servo = machine_servo(tooth, point, force, options.machine.omni);
+  result.bur = bur.title;
+  const ServoModel servo = machine_servo(tooth, bur, force, options.machine.omni);
   const auto middle = options.at_mm ? *options.at_mm : middle_of_roof(tooth.octree);
   result.options.at_mm = middle;
   result.runs.resize(static_cast<std::size_t>(options.runs));

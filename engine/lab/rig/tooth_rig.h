@@ -55,7 +55,7 @@ struct ToothLayer {
 
 struct ToothRigResult {
   ToothRigOptions options;
-  std::string tooth, model, point;
+  std::string tooth, model, bur;
   std::vector<ToothRun> runs;
   std::vector<BandPoint> from_contact, around_pulp;  ///< the same runs, set to zero at the contact and at the pulp
   std::vector<ToothLayer> layers;
@@ -64,7 +64,7 @@ struct ToothRigResult {
 };
 
 /// Throws Error when the tooth has no pulp under solid tissue there.
-[[nodiscard]] ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const DiamondPoint& point, const ToothRigOptions& options);
+[[nodiscard]] ToothRigResult run_tooth_rig(const Tooth& tooth, const ForceModel& force, const Bur& bur, const ToothRigOptions& options);
 
 [[nodiscard]] Lines to_text(const ToothRigResult& result);
 [[nodiscard]] nlohmann::json to_json(const ToothRigResult& result);

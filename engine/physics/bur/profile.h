@@ -1,4 +1,4 @@
-// The shape of a diamond point: a profile of straight lines and circular arcs, turned about the tool's
+// The shape of a bur: a profile of straight lines and circular arcs, turned about the tool's
 // axis. Tip at the origin, +z towards the handle. The signed distance is exact.
 #pragma once
 

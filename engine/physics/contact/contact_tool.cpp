@@ -86,14 +86,14 @@ void group(ContactTool& tool, std::size_t first, double edge) {
 }
 
 /// The pieces of the coated head where the normal turns; edges as `round_edges` makes them.
-std::vector<TurningPiece> turning_pieces(const DiamondPoint& point) {
+std::vector<TurningPiece> turning_pieces(const Bur& bur) {
   std::vector<TurningPiece> out;
-  const Profile& profile = point.profile;
+  const Profile& profile = bur.profile;
   ProfilePoint normal{0, -1};  // of the axis, looking down
   ProfilePoint a;
   bool first = true;
   for (const auto& s : profile.segments()) {
-    if (a.z_mm >= point.cutting_length_mm) break;
+    if (a.z_mm >= bur.cutting_length_mm) break;
     ProfilePoint begins, ends;
     if (s.arc) {
       const double br = a.r_mm - s.centre.r_mm, bz = a.z_mm - s.centre.z_mm, er = s.end.r_mm - s.centre.r_mm, ez = s.end.z_mm - s.centre.z_mm;
@@ -116,7 +116,7 @@ std::vector<TurningPiece> turning_pieces(const DiamondPoint& point) {
     a = s.end;
   }
   // where the coating ends the shank goes on: that edge is no edge of the tool, but the head's furthest place on its way up
-  out.push_back({{profile.radius_mm(point.cutting_length_mm), point.cutting_length_mm}, normal, {0, 1}, 0.0});
+  out.push_back({{profile.radius_mm(bur.cutting_length_mm), bur.cutting_length_mm}, normal, {0, 1}, 0.0});
   return out;
 }
 
@@ -137,26 +137,26 @@ Vec3 ContactTool::furthest_along(Vec3 way) const noexcept {
   return {at.r_mm * way.x / across, at.r_mm * way.y / across, at.z_mm};
 }
 
-ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm) {
+ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm) {
   ContactTool tool;
-  tool.point = point;
-  tool.turning = turning_pieces(point);
+  tool.bur = bur;
+  tool.turning = turning_pieces(bur);
   // a long head is sampled more coarsely: its sides are straight, and the count decides the time of a tick
   constexpr double k_most_head_samples = 450;
   double head_area = 0;
   ProfilePoint before;
-  for (const auto& p : point.profile.walk(0.02, point.cutting_length_mm)) {
+  for (const auto& p : bur.profile.walk(0.02, bur.cutting_length_mm)) {
     const double dr = p.at.r_mm - before.r_mm, dz = p.at.z_mm - before.z_mm;
     head_area += 2 * k_pi * p.at.r_mm * std::sqrt(dr * dr + dz * dz);
     before = p.at;
   }
   head_spacing_mm = std::clamp(std::sqrt(head_area / k_most_head_samples), head_spacing_mm, 2 * head_spacing_mm);
-  spread(point.profile, 0, point.cutting_length_mm, head_spacing_mm, tool.samples);
-  tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 1e-4});  // the very tip: a sharp point touches with nothing else
+  spread(bur.profile, 0, bur.cutting_length_mm, head_spacing_mm, tool.samples);
+  tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 1e-4});  // the very tip: a sharp bur touches with nothing else
   group(tool, 0, 0.4);
   tool.head_patches = static_cast<std::uint32_t>(tool.patches.size());
   const auto head = tool.samples.size();
-  spread(point.profile, point.cutting_length_mm, std::min(point.profile.length_mm(), 16.0), 0.27, tool.samples);
+  spread(bur.profile, bur.cutting_length_mm, std::min(bur.profile.length_mm(), 16.0), 0.27, tool.samples);
   group(tool, head, 1.2);
   for (const auto& s : tool.samples) tool.reach_mm = std::max(tool.reach_mm, length(s.at_mm));
   return tool;

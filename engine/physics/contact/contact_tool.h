@@ -1,10 +1,10 @@
-// A diamond point made ready for contact: its whole surface (head, neck, shank) as weighted samples in
+// A bur made ready for contact: its whole surface (head, neck, shank) as weighted samples in
 // small patches, so that patches in free air cost nothing.
 #pragma once
 
 #include <vector>
 
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 
 namespace cavum {
 
@@ -31,7 +31,7 @@ struct TurningPiece {
 };
 
 struct ContactTool {
-  DiamondPoint point;
+  Bur bur;
   std::vector<ToolSample> samples;
   std::vector<ToolPatch> patches;
   std::vector<TurningPiece> turning;  ///< of the coated head
@@ -49,6 +49,6 @@ inline constexpr double k_edge_radius_mm = 0.08;
 
 /// Spreads samples at about `head_spacing_mm` (up to twice that on long heads) over the coated head, at 0.27 mm elsewhere. Each
 /// sample sits at a height of its own, so that no ring of them crosses a border in the same tick.
-[[nodiscard]] ContactTool make_contact_tool(const DiamondPoint& point, double head_spacing_mm = 0.09);
+[[nodiscard]] ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm = 0.09);
 
 }  // namespace cavum

@@ -49,9 +49,9 @@ double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rot
   return 0;
 }
 
-/// Forgets every clearance: another point was mounted, or the first tick.
-void reset(ContactState& state, const ContactTool& tool, int point) noexcept {
-  state.point = point;
+/// Forgets every clearance: another bur was mounted, or the first tick.
+void reset(ContactState& state, const ContactTool& tool, int bur) noexcept {
+  state.bur = bur;
   state.tool_air_until_mm = state.tool_near_until_mm = -1.0;
   std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
   std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
@@ -301,13 +301,13 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
   return state;
 }
 
-ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept {
+ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device, ContactState& state) noexcept {
   const Vec3 before = state.proxy_mm;
   state.looked_up = 0;
   const Mat3 turned = rotation(device.rotation);
   state.turned_rad += turn_bound_rad(state.rotation, turned);
   state.rotation = turned;
-  if (state.point != point) reset(state, tool, point);
+  if (state.bur != bur) reset(state, tool, bur);
 
   ContactResult result;
   bool blocked = false;
@@ -336,7 +336,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int p
 std::uint64_t hash_of(const ContactState& s, std::uint64_t seed) noexcept {
   const std::array<double, 9> real{s.proxy_mm.x, s.proxy_mm.y, s.proxy_mm.z, s.normal.x, s.normal.y,
                                    s.normal.z,   s.moved_mm,   s.turned_rad, s.stride_mm};
-  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.point), static_cast<std::uint64_t>(s.touching), s.gathered.edit,
+  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.bur), static_cast<std::uint64_t>(s.touching), s.gathered.edit,
                                            s.touched.edit};
   return fast_hash(whole.data(), sizeof whole, fast_hash(real.data(), sizeof real, seed));
 }

@@ -1,4 +1,4 @@
-// Surface-constrained proxy of the whole diamond point. The proxy is where the tooth lets the tool be:
+// Surface-constrained proxy of the whole bur. The proxy is where the tooth lets the tool be:
 // it follows the device without ever entering solid tissue, so a hard push cannot pop through and the
 // normal cannot flip. X, the distance from the proxy to the device, is what the force is made of.
 #pragma once
@@ -38,7 +38,7 @@ struct ContactState {
   Mat3 rotation;
   Vec3 normal;  ///< last contact normal, out of the tooth; zero before the first contact
   bool touching = false;
-  int point = -1;                           ///< diamond point that the arrays belong to
+  int bur = -1;                             ///< bur that the arrays belong to
   double moved_mm = 0.0, turned_rad = 0.0;  ///< of the tip and of the tool, so far
   double stride_mm = 0.0;                   ///< the longest next step of the proxy
   Vec3 last_step_mm;
@@ -69,7 +69,7 @@ struct ContactResult {
 /// After a carve what touches is gathered anew over a few ticks; then the proxy takes the way that was opened at once. Until then the half spaces
 /// from before hold it: `state.gathered.edit` says which tooth it has followed.
 /// Rotation follows the device.
-ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int point, const Pose& device, ContactState& state) noexcept;
+ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device, ContactState& state) noexcept;
 
 /// For state_hash.
 [[nodiscard]] std::uint64_t hash_of(const ContactState& state, std::uint64_t seed) noexcept;

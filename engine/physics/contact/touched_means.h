@@ -1,4 +1,4 @@
-// Means of the tissues that the diamond point touches: what force, damping and cutting go by.
+// Means of the tissues that the bur touches: what force, damping and cutting go by.
 #pragma once
 
 #include <cstdint>

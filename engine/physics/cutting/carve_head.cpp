@@ -25,7 +25,7 @@ struct Places {
 
 /// The head at a pose, as the octree asks for it.
 struct HeadShape {
-  const DiamondPoint& point;
+  const Bur& bur;
   Vec3 tip_mm;
   const Mat3& rotation;
   double leaf_mm;
@@ -35,8 +35,8 @@ struct HeadShape {
   double across_mm = 0;  // its part across the axis
   double band_mm = 0;    // leaves inside the head change too, as far as distances are kept
 
-  HeadShape(const DiamondPoint& head, Vec3 tip, const Mat3& turned, double leaf)
-      : point(head),
+  HeadShape(const Bur& head, Vec3 tip, const Mat3& turned, double leaf)
+      : bur(head),
         tip_mm(tip),
         rotation(turned),
         leaf_mm(leaf),
@@ -47,7 +47,7 @@ struct HeadShape {
   /// A lower bound of the distance, for the large cubes of the tree.
   double operator()(Vec3 mm) const noexcept {
     const Vec3 at = rotation.transposed(mm - tip_mm);
-    const double over = std::max(-at.z, at.z - point.cutting_length_mm), aside = std::sqrt(at.x * at.x + at.y * at.y) - point.head_radius_mm;
+    const double over = std::max(-at.z, at.z - bur.cutting_length_mm), aside = std::sqrt(at.x * at.x + at.y * at.y) - bur.head_radius_mm;
     return std::max(over, aside);
   }
 
@@ -79,7 +79,7 @@ struct HeadShape {
       r[i] = std::sqrt(x * x + y * y);
       z[i] = z0 + to.z[i];
     }
-    point.field.distances_mm(r, z, out);
+    bur.field.distances_mm(r, z, out);
   }
 
   [[nodiscard]] bool unchanged(Vec3 centre_mm, double radius_mm) const noexcept {
@@ -91,8 +91,8 @@ struct HeadShape {
   [[nodiscard]] bool unchanged_in_tool(Vec3 centre_mm, double radius_mm) const noexcept {
     const Vec3 c = centre_mm + way;  // as it lay before the move
     if (across_mm > 0 && c.x * way.x + c.y * way.y + radius_mm * across_mm > 0) return false;
-    if (way.z < 0 && c.z - radius_mm < point.widest_from_mm + band_mm) return false;
-    if (way.z > 0 && c.z + radius_mm > point.widest_to_mm - band_mm) return false;
+    if (way.z < 0 && c.z - radius_mm < bur.widest_from_mm + band_mm) return false;
+    if (way.z > 0 && c.z + radius_mm > bur.widest_to_mm - band_mm) return false;
     return true;
   }
 };
@@ -106,9 +106,9 @@ void begin_carving(HeadCarving& carving, const CarvedHead& head) noexcept {
   carving.swept_mm = 0.0;
 }
 
-void drop_carving(HeadCarving& carving) noexcept { carving.now.point = -1; }
+void drop_carving(HeadCarving& carving) noexcept { carving.now.bur = -1; }
 
-CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoint& head, int work, std::vector<RemovedLeaf>& removed) noexcept {
+CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, int work, std::vector<RemovedLeaf>& removed) noexcept {
   const CarvedHead &now = carving.now, &last = carving.last;
   bool all = carving.worked_out;
   if (!all && !carving.plan.full()) {
@@ -119,7 +119,7 @@ CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoin
     const Vec3 low{std::min(now.tip_mm.x, end.x) - r, std::min(now.tip_mm.y, end.y) - r, std::min(now.tip_mm.z, end.z) - r};
     const Vec3 high{std::max(now.tip_mm.x, end.x) + r, std::max(now.tip_mm.y, end.y) + r, std::max(now.tip_mm.z, end.z) + r};
     HeadShape shape(head, now.tip_mm, now.rotation, leaf);
-    if (last.point == now.point && last.rotation == now.rotation) {
+    if (last.bur == now.bur && last.rotation == now.rotation) {
       shape.only_leading = true;
       shape.band_mm = (k_distance_band_leaves + 0.25) * leaf;
       shape.way = now.rotation.transposed(now.tip_mm - last.tip_mm);
@@ -133,13 +133,13 @@ CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoin
   const bool room = tooth.apply(carving.plan, removed);
   if (room && !all) return work < k_at_once ? CarvingStep::under_way : go_on_carving(carving, tooth, head, work, removed);
   carving.last = room ? now : CarvedHead{};
-  carving.now.point = -1;
+  carving.now.bur = -1;
   return room ? CarvingStep::done : CarvingStep::no_room;
 }
 
 std::uint64_t hash_of(const HeadCarving& c, std::uint64_t seed) noexcept {
   const std::array<double, 7> ways{c.last.tip_mm.x, c.last.tip_mm.y, c.last.tip_mm.z, c.now.tip_mm.x, c.now.tip_mm.y, c.now.tip_mm.z, c.swept_mm};
-  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(c.last.point), static_cast<std::uint64_t>(c.now.point),
+  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(c.last.bur), static_cast<std::uint64_t>(c.now.bur),
                                            c.under_way() ? c.plan.progress() : 0};
   return fast_hash(whole.data(), sizeof whole, fast_hash(ways.data(), sizeof ways, seed));
 }

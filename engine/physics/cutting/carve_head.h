@@ -1,11 +1,11 @@
-// Removal of tissue by the coated head of a diamond point at one pose. How far the surface recedes is
+// Removal of tissue by the coated head of a bur at one pose. How far the surface recedes is
 // decided by the servo (v = X/τ · rpm/rpm_ref); here its shape becomes the shape of the head.
 #pragma once
 
 #include <vector>
 
 #include "engine/base/pose.h"
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "engine/tooth/octree.h"
 
 namespace cavum {
@@ -14,7 +14,7 @@ namespace cavum {
 struct CarvedHead {
   Vec3 tip_mm;
   Mat3 rotation;
-  int point = -1;  ///< of the tray; -1 = none
+  int bur = -1;  ///< of the tray; -1 = none
 };
 
 /// A carve is worked out over several ticks and made in the last of them.
@@ -24,7 +24,7 @@ struct HeadCarving {
   Octree::Plan plan;
   bool worked_out = false;  ///< the plan is complete
   double swept_mm = 0.0;    ///< way of the tool since `now` began; whoever moves it counts
-  [[nodiscard]] bool under_way() const noexcept { return now.point >= 0; }
+  [[nodiscard]] bool under_way() const noexcept { return now.bur >= 0; }
 };
 
 /// Begins to carve a head; what was under way is dropped.
@@ -39,7 +39,7 @@ inline constexpr int k_at_once = 1 << 30;
 /// its capacity. With `k_at_once` a single call does everything; a very large carve is otherwise made in parts. A head that only moved on since
 /// the last carve is carved on its leading side alone: behind it nothing can change, for all heads are convex.
 /// `no_room`: part of the head was not carved, and the carving is over.
-CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const DiamondPoint& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
+CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
 
 /// For state_hash; the tooth has its own.
 [[nodiscard]] std::uint64_t hash_of(const HeadCarving& carving, std::uint64_t seed) noexcept;

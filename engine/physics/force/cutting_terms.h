@@ -1,4 +1,4 @@
-// What cutting adds to the tissue's force: a point that wears, water, warmth, and a vibration at a rate of its own.
+// What cutting adds to the tissue's force: a bur that wears, water, warmth, and a vibration at a rate of its own.
 // Sources: docs/physics.md section 6. All are parts of the tissue's force: none in air, and the sum never pulls.
 #pragma once
 
@@ -6,7 +6,7 @@
 
 namespace cavum {
 
-/// A worn point needs more force: F w W, W the volume that it has removed since it was new.
+/// A worn bur needs more force: F w W, W the volume that it has removed since it was new.
 class Wear final : public ForceTerm {
  public:
   /// w in 1/mm³, either sign. `carried`: W goes on over the sessions of a recording that counts anew in each; an exam is one session.

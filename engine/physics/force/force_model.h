@@ -24,7 +24,7 @@ struct Material {
   double wear_mm3_per_n_m = 0.0;  ///< law `pressure`: K, volume removed for each newton and each metre that the coating slid; 0 = not cut
 };
 
-/// What turns the diamond point. Its torque falls in proportion to how far the speed is below what the pedal asks for:
+/// What turns the bur. Its torque falls in proportion to how far the speed is below what the pedal asks for:
 /// T = torque · clamp((wanted − rpm)/slip, −1, 1). An air turbine is slow to give torque (slip: its free speed), an electric motor quick (1 %).
 struct HandpieceDrive {
   double torque_n_mm = 0.0;  ///< the most it gives, at the bur; a turbine's stall torque. 0 = speed follows the pedal whatever the load

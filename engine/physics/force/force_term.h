@@ -24,8 +24,8 @@ struct TermInput {
   double dt_s = 0.0;            ///< since the last evaluation; 0: the first one of a recording, which may begin in contact
   double time_s = 0.0;          ///< since the start of the exam or of the recording
   double wet = 0.0;             ///< 0 dry … 1 water on. Servo: the spray runs while the handpiece turns
-  double removed_mm3 = 0.0;     ///< by the mounted point since it was new. Servo: every point is new at the start
-  double removed_on_mm3 = 0.0;  ///< the same, where a recording counts anew in each session though the point stayed; else equal
+  double removed_mm3 = 0.0;     ///< by the mounted bur since it was new. Servo: every bur is new at the start
+  double removed_on_mm3 = 0.0;  ///< the same, where a recording counts anew in each session though the bur stayed; else equal
   SinCos approach{};      ///< of 2φ, φ the angle of approach: of the contact normal from the tooth's z towards x, 0 = from above. Servo: shorter
                           ///< than 1 as the normal leaves that plane
   double warmer_k = 0.0;  ///< tissue above its first temperature, where it was measured

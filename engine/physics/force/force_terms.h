@@ -26,7 +26,7 @@ struct TermsState {
   Vec3 stretch_n;         ///< force of the spring that drag is rendered through, along the motion
   std::array<TermMemory, k_max_terms> memory{};
   bool counts_removed = false;                      ///< a term looks at what was removed
-  std::array<std::uint32_t, 256> removed_leaves{};  ///< by each point of the tray; 0 unless `counts_removed`
+  std::array<std::uint32_t, 256> removed_leaves{};  ///< by each bur of the tray; 0 unless `counts_removed`
 };
 /// Before the first tick of a model with these terms.
 [[nodiscard]] TermsState make_terms_state(const ForceTerms& terms) noexcept;

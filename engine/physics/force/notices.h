@@ -13,7 +13,7 @@ enum TickNotice : std::uint16_t {
   k_notice_force_budget = 16,  ///< sustained force above the continuous rating: reduced to it
   k_notice_not_finite = 32,    ///< a value was not finite: force set to zero
   k_notice_tooth_full = 64,    ///< no room left to record a carve: it was cut short in this tick
-  k_notice_bad_point = 128,    ///< no such diamond point in the tray: handpiece off, no contact
+  k_notice_bad_bur = 128,      ///< no such bur in the tray: handpiece off, no contact
 };
 
 }  // namespace cavum

@@ -1,4 +1,4 @@
-// A diamond point that turns off its axis presses once in every turn: a line at the spindle rate, seen at
+// A bur that turns off its axis presses once in every turn: a line at the spindle rate, seen at
 // its alias by whatever samples it (200,000 rpm at 1 kHz: 333 Hz). Only in contact and turning.
 #pragma once
 

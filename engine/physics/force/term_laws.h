@@ -81,7 +81,7 @@ namespace cavum {
 /// cos 2(φ − φ0), from the two of φ and of φ0.
 [[nodiscard]] constexpr double turned_share(SinCos phi, SinCos phi0) noexcept { return phi.cos * phi0.cos + phi.sin * phi0.sin; }
 
-/// Force, N, that a worn point adds to `voigt_n` for each part w per mm³: F W.
+/// Force, N, that a worn bur adds to `voigt_n` for each part w per mm³: F W.
 [[nodiscard]] constexpr double worn_n(double voigt_n, double removed_mm3) noexcept { return voigt_n * removed_mm3; }
 /// Force, N, that water adds for a fraction of 1: F wet.
 [[nodiscard]] constexpr double watered_n(double voigt_n, double wet) noexcept { return voigt_n * wet; }

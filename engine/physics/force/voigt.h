@@ -6,7 +6,7 @@
 
 namespace cavum {
 
-/// Spring and damper of a tissue, or of the mixture that a diamond point touches.
+/// Spring and damper of a tissue, or of the mixture that a bur touches.
 struct Viscoelastic {
   double stiffness_n_per_mm = 0.0;  ///< k, 0 for pulp (a cavity)
   double damping_n_s_per_mm = 0.0;  ///< c = 2·h·√k with h = 1 in the `paper` set

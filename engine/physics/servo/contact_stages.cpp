@@ -18,7 +18,7 @@ void carve_at_lift_off(const Recession& owed, double leaf_mm, HeadCarving& carvi
 
 void find_contact(ServoState& state, Tick& tick) noexcept {
   tick.was_touching = state.contact.touching;
-  tick.contact = update_contact(state.tooth, tick.tool, tick.input.point, tick.device, state.contact);
+  tick.contact = update_contact(state.tooth, tick.tool, tick.input.bur, tick.device, state.contact);
 }
 
 void settle_recession(ServoState& state, Tick& tick) noexcept {

@@ -18,7 +18,7 @@ constexpr double k_slide_mm = 0.1, k_slide_share = 0.5, k_void_share = 0.25;
 constexpr double k_sweep_leaves = 1.0;
 
 /// The head where the proxy is.
-CarvedHead head_here(const ServoState& state) noexcept { return {state.contact.proxy_mm, state.contact.rotation, state.contact.point}; }
+CarvedHead head_here(const ServoState& state) noexcept { return {state.contact.proxy_mm, state.contact.rotation, state.contact.bur}; }
 
 /// Is the proxy on a way of more than a leaf a tick? A tool pulled out of a deep hole touches its walls like that: it owes nothing there.
 bool travels(const Tick& tick, double leaf_mm) noexcept {
@@ -40,15 +40,15 @@ void begin_what_is_due(const ServoState& state, const Tick& tick, HeadCarving& c
   const double due_mm = share * carve_step_mm(leaf_mm);
   if (!sweeps && !(tick.means.touching && owed_mm >= due_mm)) return;
   const CarvedHead here = head_here(state), head = tick.means.touching ? receded(here, state.contact.normal, owed_mm) : here;
-  if (carving.last.point == head.point && way_mm(carving.last, head, tick.tool.point.cutting_length_mm) < due_mm) return;
+  if (carving.last.bur == head.bur && way_mm(carving.last, head, tick.tool.bur.cutting_length_mm) < due_mm) return;
   begin_carving(carving, head);
 }
 
 /// Goes on with the carve under way. Contact learns what was opened.
 void carve(const ServoModel& model, ServoState& state, TickOutput& out) noexcept {
   const CarvedHead head = state.carving.now;
-  const DiamondPoint& point = model.tray[static_cast<std::size_t>(head.point)].point;
-  const auto done = go_on_carving(state.carving, state.tooth, point, k_carve_work, state.removed);
+  const Bur& bur = model.tray[static_cast<std::size_t>(head.bur)].bur;
+  const auto done = go_on_carving(state.carving, state.tooth, bur, k_carve_work, state.removed);
   if (done == CarvingStep::no_room) out.notices |= k_notice_tooth_full;
   if (done == CarvingStep::done) state.contact.opened = {head.tip_mm, head.rotation == state.contact.rotation ? state.contact.turned_rad : -1.0};
 }
@@ -67,7 +67,7 @@ void cut(const ServoModel& model, ServoState& state, const Tick& tick, TickOutpu
   const double pressing_n = voigt_force_n(tick.tissue(), tick.penetration_mm, state.render.speed_mm_s);
   if (model.force.drive.torque_n_mm > 0.0) state.handpiece.load_n_mm = grinding_torque_n_mm(tick.means.grinding, pressing_n, model.force.force_ratio);
   const bool still = !turns(model.config, state.handpiece);
-  if (still || state.carving.now.point != tick.input.point) drop_carving(state.carving);
+  if (still || state.carving.now.bur != tick.input.bur) drop_carving(state.carving);
   if (still) return;
   state.carving.swept_mm += length(tick.contact.moved_mm);
   if (tick.means.touching) {
@@ -81,7 +81,7 @@ void cut(const ServoModel& model, ServoState& state, const Tick& tick, TickOutpu
   }
   if (!state.carving.under_way()) begin_what_is_due(state, tick, state.carving);
   if (state.carving.under_way()) carve(model, state, out);
-  if (state.terms.counts_removed) state.terms.removed_leaves[tick.input.point] += static_cast<std::uint32_t>(state.removed.size());
+  if (state.terms.counts_removed) state.terms.removed_leaves[tick.input.bur] += static_cast<std::uint32_t>(state.removed.size());
 }
 
 }  // namespace cavum

@@ -10,7 +10,7 @@ SinCos approach_of(Vec3 normal) noexcept { return {2.0 * normal.x * normal.z, no
 /// What the terms of the force model may look at.
 TermInput seen_by_terms(const ServoModel& model, const ServoState& state, const Tick& tick, double voigt_n) noexcept {
   const double dt_s = model.config.tick_s, rpm = state.handpiece.rpm;
-  const double removed_mm3 = state.terms.removed_leaves[tick.input.point] * state.tooth.leaf_volume_mm3();
+  const double removed_mm3 = state.terms.removed_leaves[tick.input.bur] * state.tooth.leaf_volume_mm3();
   return {.touching = tick.contact.touching,
           .penetration_mm = tick.penetration_mm,
           .approach_mm_s = state.render.speed_mm_s,

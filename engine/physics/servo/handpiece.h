@@ -1,4 +1,4 @@
-// The handpiece: how fast the diamond point turns under the pedal, and under what it grinds. It follows its pedal with a lag, and stops at once when
+// The handpiece: how fast the bur turns under the pedal, and under what it grinds. It follows its pedal with a lag, and stops at once when
 // nobody knows where the pedal is. With a drive (force_model.h) it slows down under load and stalls.
 #pragma once
 

@@ -66,7 +66,7 @@ struct RealTimeServo::Loop {
   void read_and_step(std::int64_t due_ns, std::int64_t periods) {
     const DeviceReading r = device.read(static_cast<double>(periods) * model.config.tick_s);
     constexpr auto k_of_device = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2 | k_hold);
-    input = make_tick_input(r.pose, r.pedal, r.flags & k_of_device, r.point, input);
+    input = make_tick_input(r.pose, r.pedal, r.flags & k_of_device, r.bur, input);
     silent_s = 0.0;
     TickOutput output;
     if (take_step(due_ns, output)) device.show(output);

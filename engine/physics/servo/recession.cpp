@@ -19,7 +19,7 @@ constexpr double k_same_hole_leaves = 0.5;
 
 /// What a proxy owes that comes back to where the head was carved, mm, at most 0: the hole is a clearance deeper than the head was.
 double owed_at_touch_mm(const ContactState& contact, const CarvedHead& carved, double leaf_mm) noexcept {
-  if (carved.point != contact.point) return 0.0;
+  if (carved.bur != contact.bur) return 0.0;
   const Vec3 way = carved.tip_mm - contact.proxy_mm;
   const double deeper_mm = dot(way, contact.normal);
   const bool there = length(way - contact.normal * deeper_mm) <= k_same_hole_leaves * leaf_mm;

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "engine/physics/contact/proxy.h"
 #include "engine/physics/cutting/carve_head.h"
 #include "engine/physics/force/force_model.h"
@@ -30,13 +30,12 @@ inline constexpr int k_physics_version = 1;
 struct ServoModel {
   ServoConfig config;
   ForceModel force;
-  std::vector<ContactTool> tray;              ///< diamond points ready for contact
+  std::vector<ContactTool> tray;              ///< burs ready for contact
   std::array<TissueConstants, 256> tissue{};  ///< by tissue id
   VoidMap voids;                              ///< of the intact tooth
 };
 /// Throws Error when a solid tissue has no material in the force model or the tray is empty.
-[[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force,
-                                          const ServoConfig& config);
+[[nodiscard]] ServoModel make_servo_model(const Tooth& tooth, const std::vector<Bur>& tray, const ForceModel& force, const ServoConfig& config);
 
 /// Everything that changes, by stages. Copy it to branch a simulation.
 struct ServoState {

@@ -1,4 +1,4 @@
-// Settings of the handpiece, the device and the tick: what a school or a rig may choose beside tooth, points and force model.
+// Settings of the handpiece, the device and the tick: what a school or a rig may choose beside tooth, burs and force model.
 #pragma once
 
 #include <string>

@@ -14,7 +14,7 @@ struct DeviceReading {
   Pose pose;
   double pedal = std::numeric_limits<double>::quiet_NaN();  ///< 0..1; anything else is unknown
   std::uint16_t flags = 0;                                  ///< k_stylus_fresh, k_pedal_fresh, k_button_1, k_button_2, k_hold
-  std::uint8_t point = 0;                                   ///< diamond point mounted
+  std::uint8_t bur = 0;                                     ///< bur mounted
 };
 
 class ServoDevice {

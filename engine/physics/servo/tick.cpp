@@ -17,10 +17,10 @@ std::int32_t to_whole(double value) noexcept {
 
 }  // namespace
 
-TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point, const TickInput& previous) noexcept {
+TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t bur, const TickInput& previous) noexcept {
   TickInput in = previous;
   in.flags = flags;
-  in.point = point;
+  in.bur = bur;
   constexpr double k_furthest_mm = 2000.0;  // nanometres in 32 bits end at 2147 mm
   const Quat q = pose.rotation;
   const double n2 = q.w * q.w + q.x * q.x + q.y * q.y + q.z * q.z;

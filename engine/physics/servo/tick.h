@@ -27,11 +27,11 @@ enum TickFlag : std::uint16_t {
 
 /// The recorded input of one tick, exactly as the step consumes it.
 struct TickInput {
-  std::array<std::int32_t, 3> tip_nm{};                        ///< tip of the diamond point in the tooth frame, nm
+  std::array<std::int32_t, 3> tip_nm{};                        ///< tip of the bur in the tooth frame, nm
   std::array<std::int32_t, 4> rotation_q30{1 << 30, 0, 0, 0};  ///< w, x, y, z of tool-to-tooth, 2^30 = 1
   std::uint16_t pedal_q16 = 0;                                 ///< 0 = released, 65535 = pressed to the floor
   std::uint16_t flags = 0;                                     ///< bits of TickFlag
-  std::uint8_t point = 0;                                      ///< which diamond point of the tray is mounted
+  std::uint8_t bur = 0;                                        ///< which bur of the tray is mounted
   friend bool operator==(const TickInput&, const TickInput&) = default;
 
   [[nodiscard]] Vec3 tip_mm() const noexcept { return {tip_nm[0] * 1e-6, tip_nm[1] * 1e-6, tip_nm[2] * 1e-6}; }
@@ -44,7 +44,7 @@ struct TickInput {
 
 /// Quantises a device's reading. A pose that is not finite, further than 2 m away or without direction
 /// gives `previous` with k_stylus_fault and without k_stylus_fresh; a pedal outside 0..1 or NaN is unknown.
-[[nodiscard]] TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t point, const TickInput& previous) noexcept;
+[[nodiscard]] TickInput make_tick_input(const Pose& pose, double pedal, std::uint16_t flags, std::uint8_t bur, const TickInput& previous) noexcept;
 
 /// The result of one tick. `removed` lists the leaves turned to air in this tick.
 struct TickOutput {
@@ -55,7 +55,7 @@ struct TickOutput {
   double penetration_mm = 0.0;      ///< X >= 0
   double approach_mm_s = 0.0;       ///< V, positive = deeper
   double stiffness_n_per_mm = 0.0;  ///< k of the tissues touched
-  Vec3 proxy_mm;                    ///< tip of the diamond point as the tooth allows it
+  Vec3 proxy_mm;                    ///< tip of the bur as the tooth allows it
   Vec3 normal;                      ///< contact normal, out of the tooth; zero out of contact
   double rpm = 0.0;
   bool contact = false;

@@ -7,7 +7,7 @@
 //   2. A leaf in no mesh is a gap, not outside, when it lies between two facing surfaces not more than 2 leaves
 //      apart in all (their directions opposed by more than 120 degrees), or when no way leads from it to the
 //      outside. A gap goes to enamel or dentin, whichever surface is nearer (dentin when equal).
-// So no tissue is lost where layers touch, and no seam is left that the diamond point could feel.
+// So no tissue is lost where layers touch, and no seam is left that the bur could feel.
 #pragma once
 
 #include <cstdint>

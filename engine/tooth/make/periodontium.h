@@ -1,5 +1,5 @@
 // The tissue around the roots, so that a perforation of the furcation or of a root wall meets a tissue, as
-// a perforation of the pulp does. It is not solid (k = 0): the diamond point enters it without resistance.
+// a perforation of the pulp does. It is not solid (k = 0): the bur enters it without resistance.
 #pragma once
 
 #include <cstdint>

@@ -30,17 +30,17 @@ void expect_error(const std::string& text, int line, ErrorCode code) {
   EXPECT_EQ(error->file_place()->line, line) << error->what();
 }
 
-TEST(MotionFile, ReadsColumnsInAnyOrderWithPointButtonsAndComments) {
+TEST(MotionFile, ReadsColumnsInAnyOrderWithBurButtonsAndComments) {
   const Motion m = parse_motion(
-      "# made by hand\r\n# point = round-1.0\r\n\r\npedal,point,b2,b1,qz,qy,qx,qw,z_mm,y_mm,x_mm,t_s\r\n"
+      "# made by hand\r\n# bur = round-1.0\r\n\r\npedal,bur,b2,b1,qz,qy,qx,qw,z_mm,y_mm,x_mm,t_s\r\n"
       "0.5,2,1,0,0,0,0,1,3,2,1,10\r\n"
       " 1 , 0, 0, 1, 0,0,0,-1, 6,4,2, 10.5\r\n",
       "m.csv");
-  EXPECT_EQ(m.point, "round-1.0");
+  EXPECT_EQ(m.bur, "round-1.0");
   ASSERT_EQ(m.samples.size(), 2u);
   EXPECT_EQ(m.samples[0].pose.tip_mm, (Vec3{1, 2, 3}));
   EXPECT_EQ(m.samples[0].pedal, 0.5);
-  EXPECT_EQ(m.samples[0].point, 2);
+  EXPECT_EQ(m.samples[0].bur, 2);
   EXPECT_FALSE(m.samples[0].button_1);
   EXPECT_TRUE(m.samples[0].button_2);
   EXPECT_TRUE(m.samples[1].button_1);
@@ -76,9 +76,8 @@ TEST(MotionFile, EveryFaultIsAnErrorWithItsLine) {
   expect_error(k_header + good + "2,0,,0,1,0,0,0,0\n", 4, MotionError::not_a_number);
   expect_error(k_header + good + "2,\"0\",0,0,1,0,0,0,0\n", 4, MotionError::not_a_number);
   expect_error(k_header + good + "2,0,0,501,1,0,0,0,0\n", 4, MotionError::too_far);
-  for (const char* point : {"0.5", "256", "-2"})
-    expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,point\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," + std::string(point) + "\n", 3,
-                 MotionError::point);
+  for (const char* bur : {"0.5", "256", "-2"})
+    expect_error("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,bur\n0,0,0,0,1,0,0,0,0,0\n1,1,0,0,1,0,0,0,0," + std::string(bur) + "\n", 3, MotionError::bur);
 }
 
 TEST(MotionFile, ReadsWhatSpreadsheetsWriteOnEverySystem) {
@@ -86,7 +85,7 @@ TEST(MotionFile, ReadsWhatSpreadsheetsWriteOnEverySystem) {
     for (const std::string mark : {"", "\xef\xbb\xbf"}) {
       const std::string rows = k_header.substr(0, k_header.size() - 1) + end + "0,0,0,0,1,0,0,0,0" + end + "1,1,0,0,1,0,0,0,0" + end;
       ASSERT_FALSE(error_in(mark + rows));
-      EXPECT_EQ(parse_motion(mark + "# point = round-1.0" + end + rows, "m.csv").point, "round-1.0");
+      EXPECT_EQ(parse_motion(mark + "# bur = round-1.0" + end + rows, "m.csv").bur, "round-1.0");
       expect_error(mark + rows + end + "2,nan,0,0,1,0,0,0,0" + end, 5, MotionError::not_finite);
     }
 }
@@ -107,7 +106,7 @@ TEST(MotionFile, FaultsOfTheWholeFileAreFound) {
 
 TEST(MotionFile, NoTruncationOrOddByteCrashesTheReader) {
   Random random(drawn_seed("MotionFile.NoTruncationOrOddByteCrashesTheReader"));
-  const std::string good = "# point = round-1.0\n" + k_header + "0,0.5,-1e-3,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0.25\n";
+  const std::string good = "# bur = round-1.0\n" + k_header + "0,0.5,-1e-3,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0.25\n";
   for (std::size_t n = 0; n < good.size(); ++n) (void)error_in(good.substr(0, n));
   for (int i = 0; i < 3000; ++i) {
     std::string bad = good;
@@ -116,19 +115,19 @@ TEST(MotionFile, NoTruncationOrOddByteCrashesTheReader) {
   }
 }
 
-TEST(MotionFile, ButtonsAreZeroOrOneAndAPointIsNamedOrNumbered) {
-  const std::string header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n", second = "1,1,0,0,1,0,0,0,0,0,0,0\n";
+TEST(MotionFile, ButtonsAreZeroOrOneAndABurIsNamedOrNumbered) {
+  const std::string header = "t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n", second = "1,1,0,0,1,0,0,0,0,0,0,0\n";
   EXPECT_FALSE(error_in(header + "0,0,0,0,1,0,0,0,0,0,0,0\n" + second));
   for (const auto& [bad, code] : {std::pair{"7,0,0", MotionError::button},
                                   {"0,-1,0", MotionError::button},
                                   {"0.5,0,0", MotionError::button},
-                                  {"0,0,-1", MotionError::point},
+                                  {"0,0,-1", MotionError::bur},
                                   {"0,0,", MotionError::not_a_number},
-                                  {"0,0,256", MotionError::point},
-                                  {"0,0,0.5", MotionError::point}})
+                                  {"0,0,256", MotionError::bur},
+                                  {"0,0,0.5", MotionError::bur}})
     expect_error(header + "0,0,0,0,1,0,0,0,0," + bad + "\n" + second, 2, code);
-  EXPECT_EQ(code_of(error_in("# point =\n" + k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n")), MotionError::setting)
-      << "not silently the first point";
+  EXPECT_EQ(code_of(error_in("# bur =\n" + k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n")), MotionError::setting)
+      << "not silently the first bur";
 }
 
 TEST(MotionFile, PlaysLinearlyBetweenRowsAndHoldsTheEnds) {
@@ -151,14 +150,14 @@ TEST(MotionFile, TurnsTheShorterWayRound) {
   EXPECT_LE(length(turned - Vec3{0, std::cos(k_pi / 4), std::sin(k_pi / 4)}), 1e-6);
 }
 
-TEST(MotionFile, ButtonsAndPointHoldUntilTheNextRow) {
-  const Motion m = parse_motion("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,point\n0,0,0,0,1,0,0,0,0,1,0,3\n1,1,0,0,1,0,0,0,0,0,1,4\n", "m.csv");
+TEST(MotionFile, ButtonsAndBurHoldUntilTheNextRow) {
+  const Motion m = parse_motion("t_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal,b1,b2,bur\n0,0,0,0,1,0,0,0,0,1,0,3\n1,1,0,0,1,0,0,0,0,0,1,4\n", "m.csv");
   EXPECT_TRUE(m.at(0.999).button_1);
-  EXPECT_EQ(m.at(0.999).point, 3);
+  EXPECT_EQ(m.at(0.999).bur, 3);
   EXPECT_FALSE(m.at(1.0).button_1);
   EXPECT_TRUE(m.at(1.0).button_2);
-  EXPECT_EQ(m.at(1.0).point, 4);
-  EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).point, -1);
+  EXPECT_EQ(m.at(1.0).bur, 4);
+  EXPECT_EQ(parse_motion(k_header + "0,0,0,0,1,0,0,0,0\n1,1,0,0,1,0,0,0,0\n", "m.csv").at(0).bur, -1);
 }
 
 TEST(MotionFile, SaysTheStepOfTheEncoder) {
@@ -191,7 +190,7 @@ TEST(MotionFile, GivesTheInputsOfAnExamAgainToTheLastBit) {
     std::uint16_t flags = k_stylus_fresh | k_pedal_fresh;
     if (s.button_1) flags |= k_button_1;
     if (s.button_2) flags |= k_button_2;
-    ASSERT_EQ(make_tick_input(s.pose, s.pedal, flags, static_cast<std::uint8_t>(s.point), {}), inputs[i]) << i;
+    ASSERT_EQ(make_tick_input(s.pose, s.pedal, flags, static_cast<std::uint8_t>(s.bur), {}), inputs[i]) << i;
   }
 }
 

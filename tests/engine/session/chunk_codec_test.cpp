@@ -33,7 +33,7 @@ TickInput draw_input(Random& random, const TickInput& b) {
   for (std::size_t i = 0; i < 4; ++i) in.rotation_q30[i] = draw(random, b.rotation_q30[i]);
   in.pedal_q16 = draw(random, b.pedal_q16);
   in.flags = draw(random, b.flags);
-  in.point = draw(random, b.point);
+  in.bur = draw(random, b.bur);
   return in;
 }
 

@@ -31,7 +31,7 @@ RealTimeReport punctuality() {
 TEST(SessionEvents, EveryKindIsReadAsItWasWritten) {
   std::vector<Event> events = k_one_of_each;
   events.insert(events.end(),
-                {StepFailed{7}, PointNotAllowed{3}, AimReached{{3, {-0.1, 1e-9, 12}}}, Finished{Finish::time}, PauseRefused{2},
+                {StepFailed{7}, BurNotAllowed{3}, AimReached{{3, {-0.1, 1e-9, 12}}}, Finished{Finish::time}, PauseRefused{2},
                  RecordingGap{-5, INT64_MAX, 0.1, "boot", "ab", {MotionSource{SourceKind::device, "falcon", "F1"}, "Falcon", false, {{"a", "b"}}}},
                  RecordingMoved{"e.cavum", 6000, "full"}, ServoGap{4, 2, 9}, Overruns{3, 2.5}, StylusSilent{true},
                  ServoStopped{ServoEnd::ticks, "why"}, ServoLateness{punctuality(), 8}, WorkAfterEnd{2500, 1200},

@@ -52,7 +52,7 @@ SessionSetup block_setup() {
   setup.scenario_toml = "title = \"drill the block\"\n";
   setup.force_model_toml = softened(read_text_file(testing_basics::data_path("materials/paper.toml")));
   setup.servo_toml = to_toml(ServoConfig{});
-  setup.points_toml = {read_text_file(testing_basics::data_path("points/round-1.0.toml"))};
+  setup.burs_toml = {read_text_file(testing_basics::data_path("burs/round-1.0.toml"))};
   setup.tooth = save_tooth(block_tooth());
   const TickInput first = motion_at(0);
   setup.first_tip_nm = first.tip_nm;

@@ -67,7 +67,7 @@ TEST(Session, ReadsBackEverythingThatWasRecorded) {
   EXPECT_EQ(kept.calibration, setup.calibration);
   EXPECT_EQ(kept.scenario_toml, setup.scenario_toml);
   EXPECT_EQ(kept.rubric_toml, "");
-  EXPECT_EQ(kept.points_toml, setup.points_toml);
+  EXPECT_EQ(kept.burs_toml, setup.burs_toml);
   EXPECT_EQ(kept.force_model_toml, setup.force_model_toml);
   EXPECT_EQ(kept.servo_toml, setup.servo_toml);
   EXPECT_EQ(kept.tooth, setup.tooth);

@@ -1,4 +1,4 @@
-// What the tests of the engine's rooms share: the shipped points and materials, teeth made from a closed-form signed distance, and a testing rig that
+// What the tests of the engine's rooms share: the shipped burs and materials, teeth made from a closed-form signed distance, and a testing rig that
 // turns poses into ticks.
 #pragma once
 
@@ -19,11 +19,11 @@ namespace cavum::testing_engine {
 
 using namespace testing_basics;
 
-inline std::string point_text(const std::string& name) { return read_text_file(data_path("points/" + name + ".toml")); }
-inline DiamondPoint diamond_point(const std::string& name) { return parse_diamond_point(point_text(name), name + ".toml"); }
+inline std::string bur_text(const std::string& name) { return read_text_file(data_path("burs/" + name + ".toml")); }
+inline Bur shipped_bur(const std::string& name) { return parse_bur(bur_text(name), name + ".toml"); }
 
-/// Names of the shipped diamond points, sorted.
-inline std::vector<std::string> point_names() { return testing_basics::toml_names(data_path("points")); }
+/// Names of the shipped burs, sorted.
+inline std::vector<std::string> bur_names() { return testing_basics::toml_names(data_path("burs")); }
 
 inline ForceModel shipped_model(const std::string& name) {
   return parse_force_model(read_text_file(data_path("materials/" + name + ".toml")), name + ".toml");
@@ -87,14 +87,14 @@ struct Rig {
   TickInput input;
   double tick_s = k_tick_s;
 
-  Rig(const Tooth& tooth, const std::vector<DiamondPoint>& tray, const ForceModel& force, Vec3 first_tip_mm, double dt_s = k_tick_s) : tick_s(dt_s) {
+  Rig(const Tooth& tooth, const std::vector<Bur>& tray, const ForceModel& force, Vec3 first_tip_mm, double dt_s = k_tick_s) : tick_s(dt_s) {
     ServoConfig config;
     config.tick_s = dt_s;
     model = make_servo_model(tooth, tray, force, config);
     state = make_servo_state(model, tooth, first_tip_mm);
   }
   TickOutput tick(Vec3 tip_mm, double pedal, Quat rotation = {}, std::uint16_t flags = k_stylus_fresh | k_pedal_fresh) {
-    input = make_tick_input({tip_mm, rotation}, pedal, flags, input.point, input);
+    input = make_tick_input({tip_mm, rotation}, pedal, flags, input.bur, input);
     return step(model, state, input);
   }
   /// Straight from `from` to `to` at `speed_mm_s`; returns the last output.
@@ -118,15 +118,15 @@ inline double removed_mm3(const Octree& before, const Octree& after) {
   return leaves * before.leaf_volume_mm3();
 }
 
-/// Signed distance, mm, from the whole point at a pose to the plane {p: dot(p, normal) = height}: the least height of
+/// Signed distance, mm, from the whole bur at a pose to the plane {p: dot(p, normal) = height}: the least height of
 /// its profile over the plane, found on a dense walk of the profile (closed form around the axis).
-inline double height_over_plane_mm(const DiamondPoint& point, Vec3 tip_mm, Quat rotation_q, Vec3 normal, double plane_mm) {
+inline double height_over_plane_mm(const Bur& bur, Vec3 tip_mm, Quat rotation_q, Vec3 normal, double plane_mm) {
   const Vec3 axis = rotation(rotation_q) * Vec3{0, 0, 1};
   const double along = dot(axis, normal), across = std::sqrt(std::max(0.0, 1 - along * along));
   double least = 0;  // the tip
-  for (const auto& p : point.profile.walk(0.004, point.profile.length_mm())) least = std::min(least, p.at.z_mm * along - p.at.r_mm * across);
+  for (const auto& p : bur.profile.walk(0.004, bur.profile.length_mm())) least = std::min(least, p.at.z_mm * along - p.at.r_mm * across);
   // walk() leaves out the ends of the pieces, which is where sharp edges are
-  for (const auto& s : point.profile.segments()) least = std::min(least, s.end.z_mm * along - s.end.r_mm * across);
+  for (const auto& s : bur.profile.segments()) least = std::min(least, s.end.z_mm * along - s.end.r_mm * across);
   return dot(tip_mm, normal) - plane_mm + least;
 }
 

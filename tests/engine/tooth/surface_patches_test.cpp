@@ -170,7 +170,7 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
   Tooth tooth = make_molar(shape);
   Octree& tree = tooth.octree;
   tree.reserve_edits(20000);
-  const auto names = testing_engine::point_names();
+  const auto names = testing_engine::bur_names();
   LeafBlocks leaves(tree);
   constexpr std::array<std::uint8_t, 4> k_tissues{SurfacePatches::k_hard_tissue, k_enamel, k_dentin, k_pulp};
   std::vector<SurfacePatches> surfaces;
@@ -178,14 +178,14 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 17);
   HeadCarving carving;
-  DiamondPoint point = testing_engine::diamond_point(names[random.below(names.size())]);
+  Bur bur = testing_engine::shipped_bur(names[random.below(names.size())]);
   Vec3 tip{random.uniform(-2, 2), random.uniform(-2, 2), 0.0};
   Mat3 turned = rotation(Quat{1, 0, 0, 0});
   std::size_t all_removed = 0, without_removed = 0;
   bool wall_of_pulp = false;
   for (int step = 0; step < 40; ++step) {
     if (step % 8 == 7) {
-      point = testing_engine::diamond_point(names[random.below(names.size())]);
+      bur = testing_engine::shipped_bur(names[random.below(names.size())]);
       tip = {random.uniform(-4, 4), random.uniform(-4, 4), random.uniform(-4, 1)};
       turned = rotation(normalized(Quat{1, random.uniform(-0.5, 0.5), random.uniform(-0.5, 0.5), 0}));
       carving = {};
@@ -193,7 +193,7 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
     tip += Vec3{random.uniform(-0.2, 0.2), random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.05)};
     removed.clear();
     begin_carving(carving, {tip, turned, 0});
-    ASSERT_EQ(go_on_carving(carving, tree, point, k_at_once, removed), CarvingStep::done);
+    ASSERT_EQ(go_on_carving(carving, tree, bur, k_at_once, removed), CarvingStep::done);
     all_removed += removed.size();
 
     std::vector<LeafBox> changed;

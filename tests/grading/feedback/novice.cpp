@@ -20,7 +20,7 @@ bool told(const std::vector<Lesson>& heard, std::initializer_list<Topic> of) {
   return std::any_of(heard.begin(), heard.end(), [&](const Lesson& l) { return std::find(of.begin(), of.end(), l.topic) != of.end(); });
 }
 
-/// Whether the head at `p` stays within what an expert's point may reach.
+/// Whether the head at `p` stays within what an expert's bur may reach.
 bool fits(const scenarios::ReachMap& map, Vec3 p) {
   const Vec3 l = map.tool.transposed(p);
   const int x = static_cast<int>(std::lround((l.x - map.origin_mm.x) / map.step_mm)),
@@ -34,7 +34,7 @@ class Way {
   Way(const NoviceTask& task, const Beginner& who, const std::vector<Lesson>& heard) : task_(task), who_(who), heard_(heard) {}
 
   [[nodiscard]] std::vector<Waypoint> planned() const {
-    scenarios::ChosenPoint own = task_.chosen;
+    scenarios::ChosenBur own = task_.chosen;
     own.map = scenarios::middle_of(own.map, who_.middle_percent);
     std::vector<Waypoint> way = erring(plan(own));
     // what he is told of as left, he takes away once more before he hands in: all of it, and nothing but the target
@@ -47,7 +47,7 @@ class Way {
   }
 
  private:
-  [[nodiscard]] std::vector<Waypoint> plan(const scenarios::ChosenPoint& chosen) const {
+  [[nodiscard]] std::vector<Waypoint> plan(const scenarios::ChosenBur& chosen) const {
     return plan_work(chosen, task_.setup->tooth, task_.tray, task_.setup->scenario.perforation.aims);
   }
   /// Shifted, too deep or short, unless he was told.
@@ -79,7 +79,7 @@ class Way {
       if (std::none_of(tissues.begin(), tissues.end(), [&](const auto& t) { return t.name == fault; })) continue;
       auto deeper = plan_perforation(task_.setup->zones, task_.setup->tooth, task_.chosen.map, task_.setup->tooth.tissue_id(fault));
       if (deeper.empty()) continue;
-      for (auto& w : deeper) w.point = static_cast<std::uint8_t>(task_.chosen.index);
+      for (auto& w : deeper) w.bur = static_cast<std::uint8_t>(task_.chosen.index);
       way.insert(way.end(), deeper.begin(), deeper.end());
       return;
     }
@@ -110,8 +110,8 @@ NoviceTask novice_task(const std::string& scenario, const std::string& tooth_fil
   options.tooth_file = tooth_file;
   NoviceTask t;
   t.setup = scenarios::prepare_exam(testing_basics::data_path("scenarios/" + scenario + ".toml"), options);
-  for (const auto& p : t.setup->points) t.tray.push_back(make_contact_tool(p));
-  t.chosen = scenarios::choose_point(t.setup->zones, t.setup->tooth, t.tray);
+  for (const auto& p : t.setup->burs) t.tray.push_back(make_contact_tool(p));
+  t.chosen = scenarios::choose_bur(t.setup->zones, t.setup->tooth, t.tray);
   return t;
 }
 

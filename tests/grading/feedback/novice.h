@@ -17,7 +17,7 @@ namespace cavum::testing {
 struct NoviceTask {
   std::unique_ptr<scenarios::ExamSetup> setup;
   std::vector<ContactTool> tray;
-  scenarios::ChosenPoint chosen;
+  scenarios::ChosenBur chosen;
 };
 /// `scenario`: name in data/scenarios.
 [[nodiscard]] NoviceTask novice_task(const std::string& scenario, const std::string& tooth_file);

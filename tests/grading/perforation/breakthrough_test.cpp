@@ -75,7 +75,7 @@ TEST(Breakthrough, IsSilentInSteadyCutting) {
   }
 }
 
-TEST(Breakthrough, IsSilentWhenThePointIsLiftedOff) {
+TEST(Breakthrough, IsSilentWhenTheBurIsLiftedOff) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Tape t = cutting(seed);
     t.run(80, {0, 0, 4}, 0).run(500, {0, 0, 2}, 0);
@@ -89,7 +89,7 @@ TEST(Breakthrough, IsSilentWhenThePedalIsReleased) {
   EXPECT_TRUE(t.events().empty());
 }
 
-TEST(Breakthrough, IsSilentWhenThePointSlipsSideways) {
+TEST(Breakthrough, IsSilentWhenTheBurSlipsSideways) {
   for (std::uint64_t seed = 1; seed <= 20; ++seed) {
     Tape t = cutting(seed);
     t.run(80, {8, 0, -1}, 0.02).run(400, {2, 0, 0}, 0);
@@ -97,7 +97,7 @@ TEST(Breakthrough, IsSilentWhenThePointSlipsSideways) {
   }
 }
 
-TEST(Breakthrough, IsSilentWhenThePointMillsAWallAway) {
+TEST(Breakthrough, IsSilentWhenTheBurMillsAWallAway) {
   // the same push and fall, once along the handle and once across it: there a wall ends, and the next one is met or not
   const auto told = [](std::uint64_t seed, Vec3 into) {
     Tape t(seed);
@@ -141,7 +141,7 @@ TEST(Breakthrough, SeesABreakthroughUnderAHandThatKeepsItsPace) {
 }
 
 TEST(Breakthrough, RemembersWhereTheTipHasBeen) {
-  // down into a hole and out; later, cutting a thin wall aside, the point falls back into that hole
+  // down into a hole and out; later, cutting a thin wall aside, the bur falls back into that hole
   Tape t(5);
   t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(2000, {0, 0, -0.5}, 0.9);
   t.run(250, {0, 0, 4}, 0).run(250, {0, 0, 4}, 0);
@@ -167,7 +167,7 @@ TEST(Breakthrough, IsSilentInChatter) {
   EXPECT_TRUE(t.events().empty());
 }
 
-TEST(Breakthrough, IsSilentWhenABoundPointIsPulledOut) {
+TEST(Breakthrough, IsSilentWhenABoundBurIsPulledOut) {
   Tape t(6);
   t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.9).run(1500, {0, 0, -0.25}, 0.9);
   t.run(300, {0, 0, 4}, 0).run(900, {0, 0, 0.3}, 0.9, true, {0, 0, 1}).run(60, {0, 0, 5}, 0.02, true, {0, 0, 1}).run(300, {0, 0, 5}, 0);

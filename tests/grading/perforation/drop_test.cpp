@@ -25,7 +25,7 @@ std::array<bool, 256> pulp_only() {
   return out;
 }
 
-/// A flat point of 1 mm goes down into a block at a constant speed, and rests at `deepest_mm`.
+/// A flat bur of 1 mm goes down into a block at a constant speed, and rests at `deepest_mm`.
 struct Descent {
   Tooth tooth = make_block({4, 4, 3}, {{"dentin", k_roof_mm}, {"pulp", 0.8}, {"dentin", 1.2}}, 0.05);
   std::vector<TickInput> inputs;
@@ -36,7 +36,7 @@ struct Descent {
   Descent(double speed_mm_s, double deepest_mm, double rest_s) {
     const double top = tooth.octree.origin_mm().z + tooth.octree.size().z * tooth.octree.leaf_mm();
     const Vec3 start{0, 0, top + 0.05};
-    const std::vector<DiamondPoint> tray{diamond_point("cylinder-flat-1.0")};
+    const std::vector<Bur> tray{shipped_bur("cylinder-flat-1.0")};
     Rig rig(tooth, tray, hard_model(k_k, k_c, k_tau_s), start);
     const auto go = [&](Vec3 tip) {
       const TickOutput out = rig.tick(tip, 1.0);

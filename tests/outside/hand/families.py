@@ -84,7 +84,7 @@ row("effect.stribeck_slow", "stribeck, to 2 mm/s", ["stribeck_friction"], vtop=2
 for a, b in (("coulomb_friction", "delay"), ("coulomb_friction", "nonlinear_stiffness"), ("relaxation", "contact_offset"), ("hysteresis", "hidden_layer"), ("inertia", "coulomb_friction"),
              ("gravity_posture", "viscous_friction"), ("thermal_softening", "coulomb_friction"), ("backlash", "drift")):
     row(f"pair.{a}.{b}", f"{a} and {b}, each of the size asked", [a, b])
-row("pair.run_out.coulomb_friction", "a turning point in a drive with friction", ["run_out", "coulomb_friction"], **SPIN)
+row("pair.run_out.coulomb_friction", "a turning bur in a drive with friction", ["run_out", "coulomb_friction"], **SPIN)
 
 # ---- 4: sessions differ
 two = lambda u: {f"delta_{i + 1}_mm": 0.03 * ((i + 1) % 2) for i in range(u.n)}

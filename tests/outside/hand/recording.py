@@ -79,7 +79,7 @@ def make_sessions(rng, o, hidden_names):
         s.posture_deg, s.approach_deg = 20 + 15 * rng.normal() + 8 * slow(), ((i * 37) % 180) + 6 * slow()
         s.fy_n, s.fz_n = 0.25 * F + 0.5 * slow(0.1, 2), -0.15 * F + 0.4 * slow(0.1, 2)
         s.grip_n = np.maximum(0.5, 6 + 2 * slow(0.1, 1.5))  # the squeeze of the fingers
-        s.removed_mm3 = (0 if i == o.n // 2 + 1 else cut) + np.cumsum(F * np.abs(s.V)) * DT * 0.02  # Archard; a new point halfway
+        s.removed_mm3 = (0 if i == o.n // 2 + 1 else cut) + np.cumsum(F * np.abs(s.V)) * DT * 0.02  # Archard; a new bur halfway
         cut = s.removed_mm3[-1]
         s.temperature_c = heat + lag(F * 4, 4.0, y0=0)  # T' = h F - (T - T0)/4 s
         if o.teeth:  # one session in a warm room, nothing else of it

@@ -132,7 +132,7 @@ def column(name, s, before, rng, d):
         return np.full(len(s.t), [0.0, 45, 90, 135][s.i % 4])
     if name in ("fy_n", "fz_n"):
         return slow(s, rng, 1.2)
-    if name == "removed_mm3":  # removed volume grows while the point is in the tissue
+    if name == "removed_mm3":  # removed volume grows while the bur is in the tissue
         start = before.true[name][-1] if before is not None else 0.0
         return start + np.cumsum(np.maximum(s.x, 0)) * s.dt * 0.15
     if name == "temperature_c":  # T' = 0.9 F - (T - room)/6, it warms in contact and cools in air

@@ -22,9 +22,9 @@ struct Exam {
   explicit Exam(Scenario s)
       : scenario(std::move(s)), zones(build_zones(scenario, tooth)), runner(scenario, zones, tooth, {"round-1.0", "needle-0.8"}) {}
 
-  void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t point = 0, double rpm = 0) {
+  void tick(std::span<const RemovedLeaf> removed = {}, std::uint8_t bur = 0, double rpm = 0) {
     TickInput in;
-    in.point = point;
+    in.bur = bur;
     TickOutput out;
     out.rpm = rpm;
     runner.advance(state, in, out, removed);
@@ -277,16 +277,16 @@ TEST(Runner, StepLimitsAndFailuresLeadOnOrEndTheExam) {
   EXPECT_EQ(exam.runner.instruction(exam.state), "");
 }
 
-TEST(Runner, NotesForbiddenPointsAndSpeedsOnceEach) {
+TEST(Runner, NotesForbiddenBursAndSpeedsOnceEach) {
   Exam exam(scenario_with());
   exam.tick({}, 0, 1000);
   exam.tick({}, 1, 250000);
   exam.tick({}, 1, 250000);
   exam.tick({}, 0, 1000);
   exam.tick({}, 1, 250000);
-  EXPECT_EQ(exam.events<PointNotAllowed>().size(), 2u);
+  EXPECT_EQ(exam.events<BurNotAllowed>().size(), 2u);
   EXPECT_EQ(exam.events<OverSpeed>().size(), 2u);
-  EXPECT_EQ(exam.events<PointNotAllowed>().at(0).event.point, 1);
+  EXPECT_EQ(exam.events<BurNotAllowed>().at(0).event.bur, 1);
 }
 
 TEST(Runner, TellsAimsFromFaultsAndWhereTheyWereFirstTouched) {

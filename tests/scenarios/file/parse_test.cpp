@@ -29,7 +29,7 @@ std::string with(const std::string& from, const std::string& to) {
 TEST(Scenario, ReadsWhatItWrites) {
   EXPECT_TRUE(read_scenario(good(), "s.toml").problems.empty());
   const Scenario s = parse_scenario(good(), "s.toml");
-  EXPECT_EQ(s.points, std::vector<std::string>{"round-1.0"});
+  EXPECT_EQ(s.burs, std::vector<std::string>{"round-1.0"});
   EXPECT_EQ(s.perforation.faults.size(), 2u);
   EXPECT_DOUBLE_EQ(s.zones.container.bottom_mm, 0.7);
   EXPECT_EQ(s.rubric.criteria.size(), 3u);
@@ -65,10 +65,10 @@ std::string stroke(std::size_t points) {
 
 // A tray of 50,000 names took 46 s and 2.1 GB, a stroke of 4,000 points over 100 s.
 TEST(ScenarioLimits, LongListsAreRefusedWithTheLimitNamed) {
-  expect_beyond(problems("points = [\"round-1.0\"]", "points = [" + list_of(50'000, "\"p\", ") + "]"), 50'000, 100);
+  expect_beyond(problems("burs = [\"round-1.0\"]", "burs = [" + list_of(50'000, "\"p\", ") + "]"), 50'000, 100);
   std::string seventeen;
   for (int i = 0; i < 17; ++i) seventeen += "\"p" + std::to_string(i) + "\", ";
-  expect_beyond(problems("points = [\"round-1.0\"]", "points = [" + seventeen + "]"), 17, 16);
+  expect_beyond(problems("burs = [\"round-1.0\"]", "burs = [" + seventeen + "]"), 17, 16);
   expect_beyond(problems(k_ball, stroke(4000)), 4000, 100);
   expect_beyond(problems(k_ball, list_of(101, k_ball)), 101, 100);
   EXPECT_TRUE(problems(k_ball, stroke(100)).empty());
@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"max_rpm = 200000", "max_rpm = \"fast\"", Mistake::wrong_type, "5:11", {"max_rpm"}},
         Broken{"time_limit_s = 10", "time_limit_s = -3", Mistake::out_of_range, "6:16", {"time_limit_s"}},
         Broken{"title = \"Test\"", "titel = \"Test\"", Mistake::missing, "1:1", {"title"}},
-        Broken{"points = [\"round-1.0\"]", "points = []", Mistake::missing, "4:10", {"points"}},
+        Broken{"burs = [\"round-1.0\"]", "burs = []", Mistake::missing, "4:10", {"burs"}},
         Broken{"99\"", "99 &&\"", Mistake::condition, "10:17", {"complete_when"}},
         Broken{"\"target_removed_percent >=",
                "\"target_remove_percent >=",

@@ -20,8 +20,8 @@ const char k_upright[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5
 const char k_leaning[] = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [3, 2, 3]\naxis = [0, -0.5, 0.8660254]\n";
 
 ContactTool cylinder() {
-  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/points/cylinder-flat-1.0.toml";
-  return make_contact_tool(parse_diamond_point(read_text_file(path), path));
+  const std::string path = std::string(CAVUM_SOURCE_DIR) + "/data/burs/cylinder-flat-1.0.toml";
+  return make_contact_tool(parse_bur(read_text_file(path), path));
 }
 
 struct Planned {
@@ -36,9 +36,9 @@ struct Planned {
     double furthest = -1e9;
     for (const auto& w : way) {
       if (!w.cut) continue;
-      for (double h = 0; h <= tool.point.cutting_length_mm; h += 0.1)
+      for (double h = 0; h <= tool.bur.cutting_length_mm; h += 0.1)
         for (const Vec3 side : {Vec3{1, 0, 0}, Vec3{-1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, -1, 0}}) {
-          const Vec3 p = w.tip_mm + held * (side * (0.99 * tool.point.profile.radius_mm(h)) + Vec3{0, 0, h});
+          const Vec3 p = w.tip_mm + held * (side * (0.99 * tool.bur.profile.radius_mm(h)) + Vec3{0, 0, h});
           const IVec3 leaf = tooth.octree.leaf_at(p);
           if (tooth.octree.tissue(leaf) == k_air || (zones.wall(leaf) == Wall::floor) != bottom) continue;
           furthest = std::max(furthest, zones.distance_mm(p));
@@ -48,7 +48,7 @@ struct Planned {
   }
 };
 
-// Whatever the width, no place of a layer is further from the point's ways than the head is wide: a pillar would be left.
+// Whatever the width, no place of a layer is further from the bur's ways than the head is wide: a pillar would be left.
 TEST(CutPlan, LeavesNoCoreBetweenItsLoops) {
   for (double width = 1.6; width < 4.4; width += 0.1) {
     const std::string box = "[[zones.target]]\nshape = \"box\"\nat_mm = [0, 0, -0.5]\nsize_mm = [" + std::to_string(width) + ", " +
@@ -85,8 +85,7 @@ TEST(CutPlan, FollowsALeaningTargetAlongItsAxisAndStaysInIt) {
   ASSERT_GT(way.size(), 20u);
   EXPECT_LT(p.furthest_mm(way, map.tool, false), 0.1);
   EXPECT_LT(p.furthest_mm(way, map.tool, true), 0.15);
-  EXPECT_GT(coverage(free_room(p.zones, p.tooth, k_expert_margin), map, p.tool), 0.9)
-      << "upright, the point could not get below the overhanging wall";
+  EXPECT_GT(coverage(free_room(p.zones, p.tooth, k_expert_margin), map, p.tool), 0.9) << "upright, the bur could not get below the overhanging wall";
 }
 
 /// The chambered block's roof is flat at z = -3 between its horns, which are no wider than the head.
@@ -96,7 +95,7 @@ TEST(CutPlan, ThePilotHoleGoesThroughTheFlatOfTheRoofAndNotIntoAHorn) {
   const ZoneMap zones = build_zones(scenario, tooth);
   const ContactTool tool = cylinder();
   const ReachMap map = reach_map(zones, tooth, tool, k_expert_margin);
-  const auto way = plan_pilot(map, tooth, tool.point.head_radius_mm, {"pulp"});
+  const auto way = plan_pilot(map, tooth, tool.bur.head_radius_mm, {"pulp"});
   ASSERT_EQ(way.size(), 4u);
   const Vec3 p = way[2].tip_mm;  // the horns: |x| from 0.9 to 1.4, |y| up to 0.3
   EXPECT_GT(std::hypot(std::max(0.0, 0.9 - std::abs(p.x)), std::max(0.0, std::abs(p.y) - 0.3)), 0.25);
@@ -105,7 +104,7 @@ TEST(CutPlan, ThePilotHoleGoesThroughTheFlatOfTheRoofAndNotIntoAHorn) {
   EXPECT_GT(way.front().tip_mm.z, 0);
   EXPECT_GT(way.back().tip_mm.z, 0);
   for (const auto& w : way) EXPECT_NEAR(std::hypot(w.tip_mm.x - way[0].tip_mm.x, w.tip_mm.y - way[0].tip_mm.y), 0, 1e-9);
-  EXPECT_TRUE(plan_pilot(map, tooth, tool.point.head_radius_mm, {}).empty());
+  EXPECT_TRUE(plan_pilot(map, tooth, tool.bur.head_radius_mm, {}).empty());
 }
 
 TEST(CutPlan, WithAWiderMarginGoesThatFarBeyondTheSidesOrTheFloorAndNotTheOther) {

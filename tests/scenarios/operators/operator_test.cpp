@@ -36,7 +36,7 @@ Pressed bore(const Skill& skill, double k) {
   return out;
 }
 
-/// A hand feels a force; how far a point has sunk into tissue it does not.
+/// A hand feels a force; how far a bur has sunk into tissue it does not.
 TEST(Operator, PressesWithTheSameForceWhateverTheStiffness) {
   for (const char* name : {"expert", "novice"}) {
     const Skill skill = make_skill(name, 3);

@@ -14,10 +14,10 @@ namespace cavum::scenarios {
 namespace {
 
 std::vector<Problem> warnings(const std::string& target, const Tooth& tooth) {
-  const std::string file = std::string(CAVUM_SOURCE_DIR) + "/data/points/round-1.0.toml";
+  const std::string file = std::string(CAVUM_SOURCE_DIR) + "/data/burs/round-1.0.toml";
   const Scenario s = parse_scenario(testing::scenario_text(target), "s.toml");
   ExpertsPart expert;
-  return advise(s, tooth, build_zones(s, tooth), {parse_diamond_point(read_text_file(file), file)}, expert);
+  return advise(s, tooth, build_zones(s, tooth), {parse_bur(read_text_file(file), file)}, expert);
 }
 
 /// Whether there is one of this kind in a line of the file that begins so.
@@ -25,18 +25,18 @@ bool any_at(const std::vector<Problem>& found, Mistake mistake, const std::strin
   const auto at = static_cast<int>(1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("\n" + line) + 1), '\n'));
   return std::any_of(found.begin(), found.end(), [&](const Problem& p) { return p.mistake == mistake && p.where.line == at; });
 }
-/// That the target or a point of the tray cannot be reached.
+/// That the target or a bur of the tray cannot be reached.
 bool any_unreachable(const std::vector<Problem>& found, const std::string& target, const char* line) {
   return any_at(found, Mistake::unreachable, testing::scenario_text(target), line);
 }
-constexpr const char *k_target = "[[zones.target]]", *k_tray = "points";
+constexpr const char *k_target = "[[zones.target]]", *k_tray = "burs";
 
 std::string hole(const std::string& radius) {
   return "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"circle\", radius_mm = " + radius +
          " }\nbottom = { kind = \"below_surface\", depth_mm = 1.2 }\n";
 }
 
-TEST(Advice, SaysThatABuriedTargetIsBuriedNotThatPointsAreTooThick) {
+TEST(Advice, SaysThatABuriedTargetIsBuriedNotThatBursAreTooThick) {
   const std::string ball = "[[zones.target]]\nshape = \"ball\"\nat_mm = [0, 0, -2]\nradius_mm = 1\n";
   const auto found = warnings(ball, testing::dentin_block(3, 4, 0.05));
   EXPECT_TRUE(any_unreachable(found, ball, k_target));
@@ -44,7 +44,7 @@ TEST(Advice, SaysThatABuriedTargetIsBuriedNotThatPointsAreTooThick) {
   EXPECT_FALSE(any_unreachable(warnings(hole("1.0"), testing::dentin_block(3, 4, 0.05)), hole("1.0"), k_target));
 }
 
-TEST(Advice, OnCoarseLeavesAPointIsNotSaidToMissWhatItReachesOnFineOnes) {
+TEST(Advice, OnCoarseLeavesABurIsNotSaidToMissWhatItReachesOnFineOnes) {
   for (const char* radius : {"0.55", "0.6", "0.7"}) {
     const auto fine = warnings(hole(radius), testing::dentin_block(3, 3, 0.05));
     const auto tells_leaf = [](const std::vector<Problem>& found, double mm) {

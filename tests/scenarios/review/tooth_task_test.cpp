@@ -115,7 +115,7 @@ TEST(ToothTask, WhatMakesNoSenseIsRefused) {
   EXPECT_THROW(static_cast<void>(write_tooth_task(incisor, {}, "i.cvt", "here.toml", "class_9")), Error);
 }
 
-TEST(ToothTask, ATaskThatNoPointReachesEnoughOfIsRefused) {
+TEST(ToothTask, ATaskThatNoBurReachesEnoughOfIsRefused) {
   PremolarShape shape;
   shape.leaf_mm = 0.2;  // margins of two leaves on either side of a groove of 1.2 mm
   const Tooth tooth = make_premolar(shape);

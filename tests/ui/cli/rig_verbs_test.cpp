@@ -67,7 +67,7 @@ TEST_F(RigVerbs, GrindSaysHowFastEachTissueGoesUnderALoad) {
   EXPECT_EQ(j["rows"][0]["tissue"], "dentin");
   EXPECT_LT(j["rows"][1]["rpm"], j["rows"][0]["rpm"]) << "more load, less speed";
   EXPECT_GT(j["rows"][1]["mm3_per_min"], j["rows"][0]["mm3_per_min"]);
-  EXPECT_NE(run("rig grind --point round-1.0 --load-n 0.65").out.find("enamel"), std::string::npos);
+  EXPECT_NE(run("rig grind --bur round-1.0 --load-n 0.65").out.find("enamel"), std::string::npos);
 }
 
 TEST_F(RigVerbs, BadInputIsRefusedInOneLineThatSaysWhatToDo) {

@@ -53,7 +53,7 @@ void Means::try_pedal(const Eye& eye) {
   see(eye, 2);
 }
 
-void KeyboardMeans::come_to_exam(const Eye& eye, int point, int /*shelf*/) {
+void KeyboardMeans::come_to_exam(const Eye& eye, int bur, int /*shelf*/) {
   await(eye, "sign-in");
   for (const char* letter : {"k", "1"}) hand_.tap(letter, 40);
   see(eye, 2);
@@ -67,7 +67,7 @@ void KeyboardMeans::come_to_exam(const Eye& eye, int point, int /*shelf*/) {
   await(eye, "briefing");
   hand_.tap("Return", 60);
   await(eye, "exam");
-  hand_.tap("F" + std::to_string(point + 1), 60);
+  hand_.tap("F" + std::to_string(bur + 1), 60);
   see(eye, 2);
 }
 
@@ -142,7 +142,7 @@ void MouseMeans::click_at(const Eye& eye, int x, int y) const {
   see(eye, 3);
 }
 
-void MouseMeans::come_to_exam(const Eye& eye, int point, int shelf) {
+void MouseMeans::come_to_exam(const Eye& eye, int bur, int shelf) {
   await(eye, "sign-in");
   leave(eye, "sign-in");
   await(eye, "device-check");
@@ -156,7 +156,7 @@ void MouseMeans::come_to_exam(const Eye& eye, int point, int shelf) {
   see(eye, 2);
   // the tray: along the window's lower edge, one field beside the other
   constexpr int k_wide = 800, k_tray_y = 430, k_edge = 14;  // of its 800 x 500 pixels
-  click_at(eye, k_edge + (2 * point + 1) * (k_wide - 2 * k_edge) / (2 * shelf), k_tray_y);
+  click_at(eye, k_edge + (2 * bur + 1) * (k_wide - 2 * k_edge) / (2 * shelf), k_tray_y);
   hand_.click(2, 60);  // the stylus again
   see(eye, 2);
 }

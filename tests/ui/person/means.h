@@ -34,8 +34,8 @@ class Means {
 
   /// Options of `cavum station`.
   [[nodiscard]] virtual std::string options() const = 0;
-  /// From sign-in to the exam; `point` lies at this place of the shelf's `shelf`.
-  virtual void come_to_exam(const Eye& eye, int point, int shelf) = 0;
+  /// From sign-in to the exam; `bur` lies at this place of the shelf's `shelf`.
+  virtual void come_to_exam(const Eye& eye, int bur, int shelf) = 0;
   /// Moves by so many of its units to the right, up in the picture, and towards the person; returns what it could.
   virtual Vec3 move(Vec3 units) = 0;
   virtual void pedal(bool down) = 0;
@@ -56,7 +56,7 @@ class KeyboardMeans : public Means {
  public:
   using Means::Means;
   [[nodiscard]] std::string options() const override { return "--device mouse"; }
-  void come_to_exam(const Eye& eye, int point, int shelf) override;
+  void come_to_exam(const Eye& eye, int bur, int shelf) override;
   Vec3 move(Vec3 units) override;
   void pedal(bool down) override { hand_.key("space", down); }
   void hand_in(const Eye& eye) override;
@@ -67,7 +67,7 @@ class MouseMeans final : public Means {
  public:
   using Means::Means;
   [[nodiscard]] std::string options() const override { return "--device mouse --candidate M1"; }
-  void come_to_exam(const Eye& eye, int point, int shelf) override;
+  void come_to_exam(const Eye& eye, int bur, int shelf) override;
   Vec3 move(Vec3 units) override;
   void pedal(bool down) override { hand_.button(1, down); }
   void hand_in(const Eye& eye) override;

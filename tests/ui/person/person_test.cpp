@@ -31,9 +31,9 @@ namespace {
 
 const std::string k_task = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml";
 
-std::vector<std::string> points_on_the_shelf() {
+std::vector<std::string> burs_on_the_shelf() {
   std::vector<std::string> names;
-  for (const auto& e : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/points")) names.push_back(e.path().stem().string());
+  for (const auto& e : std::filesystem::directory_iterator(std::string(CAVUM_SOURCE_DIR) + "/data/burs")) names.push_back(e.path().stem().string());
   std::sort(names.begin(), names.end());
   return names;
 }
@@ -125,9 +125,9 @@ class PersonAtTheStation : public ::testing::Test {
     Told told(kept + "/" + run + ".txt");
     const Eye eye = [&told] { return told(); };
     try {
-      const auto shelf = points_on_the_shelf();
-      const auto point = std::find(shelf.begin(), shelf.end(), "cylinder-flat-1.0") - shelf.begin();
-      means->come_to_exam(eye, static_cast<int>(point), static_cast<int>(shelf.size()));
+      const auto shelf = burs_on_the_shelf();
+      const auto bur = std::find(shelf.begin(), shelf.end(), "cylinder-flat-1.0") - shelf.begin();
+      means->come_to_exam(eye, static_cast<int>(bur), static_cast<int>(shelf.size()));
       Person person(*means, eye);
       const Seen first = eye();
       person.learn();

@@ -1,4 +1,4 @@
-// Does the picture show how far the head of the point is from the tooth? Drawn poses of an instrument, each touching and 0.3, 1 and 3 mm above, are
+// Does the picture show how far the head of the bur is from the tooth? Drawn poses of an instrument, each touching and 0.3, 1 and 3 mm above, are
 // rendered; what is compared is taken from pixels alone. Where the instrument stands in the picture is worked out from its profile and the camera,
 // the height of touching from the octree: nothing asks the renderer.
 //   CAVUM_DEEP=1 station_test --gtest_filter='DepthCues*'      60 poses instead of 12
@@ -63,7 +63,7 @@ glm::vec2 pixel_of(const Camera& camera, Vec3 mm) {
 }
 
 /// Places of the instrument's surface, tool frame.
-std::vector<Vec3> surface_of(const DiamondPoint& point) {
+std::vector<Vec3> surface_of(const Bur& bur) {
   constexpr int k_around = 40;
   constexpr double k_longest_mm = 13.0;
   std::vector<Vec3> all;
@@ -74,7 +74,7 @@ std::vector<Vec3> surface_of(const DiamondPoint& point) {
     }
   };
   double last_r = 0, last_z = 0;
-  for (const auto& p : point.profile.walk(0.05, point.profile.length_mm())) {
+  for (const auto& p : bur.profile.walk(0.05, bur.profile.length_mm())) {
     ring(p.at.r_mm, p.at.z_mm);
     last_r = p.at.r_mm;
     last_z = p.at.z_mm;
@@ -211,8 +211,8 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
   removed.reserve(1 << 17);
   const auto cavity = [top_mm](Vec3 mm) { return std::max(std::hypot(mm.x, mm.y) - 1.7, top_mm - 2.0 - mm.z); };
   ASSERT_TRUE(tooth.octree.carve({-2, -2, top_mm - 2.5}, {2, 2, top_mm + 3}, cavity, removed));
-  std::vector<DiamondPoint> tray;
-  for (const auto& name : testing_engine::point_names()) tray.push_back(testing_engine::diamond_point(name));
+  std::vector<Bur> tray;
+  for (const auto& name : testing_engine::bur_names()) tray.push_back(testing_engine::shipped_bur(name));
 
   const Window window({"Cavum", 640, 480, {}});
   Scene scene(tooth.octree, tooth.tissues, tray, nullptr);
@@ -227,25 +227,25 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
     const bool in_cavity = n % 3 == 0;
     // the end of the head touches, not its side at a cusp, at a place that the eye sees
     for (bool fits = false; !fits;) {
-      view.point = static_cast<int>(random.below(static_cast<std::uint32_t>(tray.size())));
+      view.bur = static_cast<int>(random.below(static_cast<std::uint32_t>(tray.size())));
       view.camera.turn_deg = static_cast<float>(random.uniform(-180, 180));
       view.camera.rise_deg = static_cast<float>(random.uniform(40, 80));
       view.camera.distance_mm = static_cast<float>(random.uniform(24, 40));
       const double wide = in_cavity ? 0.9 : 2.8;
       const Pose pose{{random.uniform(-wide, wide), random.uniform(-wide, wide), top_mm},
                       normalized(Quat{1, random.uniform(-0.1, 0.1), random.uniform(-0.1, 0.1), 0})};
-      const DiamondPoint& drawn = tray[static_cast<std::size_t>(view.point)];
+      const Bur& drawn = tray[static_cast<std::size_t>(view.bur)];
       surface = surface_of(drawn);
       touch = touching(tooth.octree, pose, surface);
       fits = touch.tool_mm.z < 0.8 * drawn.head_radius_mm && in_sight(tooth.octree, view.camera, placed(touch.pose, touch.tool_mm));
     }
     const Pose& pose = touch.pose;
-    const DiamondPoint& point = tray[static_cast<std::size_t>(view.point)];
+    const Bur& bur = tray[static_cast<std::size_t>(view.bur)];
     const Vec3 axis = placed({{0, 0, 0}, pose.rotation}, {0, 0, 1});
     // richest and poorest of what the processor draws
     scene.fix_effects(n % 2 == 0 ? 2 : k_effects.size() - 1);
     SceneView without = view;
-    without.point = -1;
+    without.bur = -1;
     const std::vector<Colour> bare = colours_seen(scene, without);
     std::array<Cues, k_above_mm.size()> cues;
     bool alone = true;
@@ -256,7 +256,7 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
       const std::vector<Colour> seen = colours_seen(scene, view);
       cues[h] = cues_of(bare, seen, covered(view.camera, view.tool, surface), tip.x, px_per_mm);
       if (n < k_kept) keep(fmt::format("depth-{}-{:.1f}", n, k_above_mm[h]), seen);
-      alone = alone && told_alone(cues[h], point.head_radius_mm) == h;
+      alone = alone && told_alone(cues[h], bur.head_radius_mm) == h;
     }
     const bool touches = cues[0].pixels < cues[1].pixels / 4;
     constexpr double k_wider_mm = 0.05;
@@ -266,9 +266,9 @@ TEST_F(DepthCues, TheRingTellsTouchingAndHowHighTheHeadIs) {
     right += touches && order ? 1 : 0;
     alone_right += alone ? 1 : 0;
     if (!touches || !order || !alone)
-      std::printf("pose %d, %s%s, rise %.0f: %d %d %d %d pixels; %.2f %.2f %.2f mm wide%s\n", n, point.name.c_str(),
-                  in_cavity ? " in the cavity" : "", static_cast<double>(view.camera.rise_deg), cues[0].pixels, cues[1].pixels, cues[2].pixels,
-                  cues[3].pixels, cues[1].wide_mm, cues[2].wide_mm, cues[3].wide_mm, touches && order ? " (in order)" : "");
+      std::printf("pose %d, %s%s, rise %.0f: %d %d %d %d pixels; %.2f %.2f %.2f mm wide%s\n", n, bur.name.c_str(), in_cavity ? " in the cavity" : "",
+                  static_cast<double>(view.camera.rise_deg), cues[0].pixels, cues[1].pixels, cues[2].pixels, cues[3].pixels, cues[1].wide_mm,
+                  cues[2].wide_mm, cues[3].wide_mm, touches && order ? " (in order)" : "");
   }
   std::printf("of %d poses: touching told from 0.3 mm in %d; 0.3, 1 and 3 mm in order in %d; all of it in %d; each height by its one picture in %d\n",
               poses, touch_right, order_right, right, alone_right);

@@ -181,10 +181,10 @@ TEST(InstrumentMesh, AllItsBodiesAreClosedAndFaceOutwards) {
     EXPECT_TRUE(pile.closed()) << name;
     EXPECT_GT(pile.volume(), 0.0) << name;
   };
-  for (const std::string& name : testing_engine::point_names()) {
-    const DiamondPoint point = testing_engine::diamond_point(name);
-    check(diamond_head_mesh(point), name);
-    check(shank_mesh(point), name + ", shank");
+  for (const std::string& name : testing_engine::bur_names()) {
+    const Bur bur = testing_engine::shipped_bur(name);
+    check(diamond_head_mesh(bur), name);
+    check(shank_mesh(bur), name + ", shank");
   }
   check(handpiece_mesh(), "handpiece");
 }

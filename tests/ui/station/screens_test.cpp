@@ -99,17 +99,17 @@ TEST(DeviceCheck, SaysWhatAFailingDeviceSaid) {
   EXPECT_TRUE(tells(items[0].detail, "the cable was pulled")) << items[0].detail;
 }
 
-TEST(Desk, PutsPointSpeedAndButtonsIntoTheReading) {
+TEST(Desk, PutsBurSpeedAndButtonsIntoTheReading) {
   Scripted device([](double) { return reading({1, 2, 3}, 0.8, k_stylus_fresh | k_pedal_fresh | k_button_1); });
   Desk desk;
   WithDesk with(device, desk);
-  EXPECT_EQ(with.read(0.001).point, 0);
+  EXPECT_EQ(with.read(0.001).bur, 0);
   EXPECT_EQ(with.read(0.001).pedal, 0.8);
-  desk.point = 3;
+  desk.bur = 3;
   desk.speed_share = 0.5;
   desk.buttons = k_button_2 | 16u;  // a fault cannot be pressed
   const DeviceReading r = with.read(0.001);
-  EXPECT_EQ(r.point, 3);
+  EXPECT_EQ(r.bur, 3);
   EXPECT_EQ(r.pedal, 0.4);
   EXPECT_EQ(r.flags, k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2);
   EXPECT_EQ(r.pose.tip_mm, (Vec3{1, 2, 3}));

@@ -278,11 +278,11 @@ TEST_F(SittingTest, AnInterruptedExamGoesOnByTheOneWhoBeganIt) {
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::checking; }));
     ASSERT_TRUE(sitting.begun());
     EXPECT_NEAR(sitting.begun()->left_s, 0.001 * static_cast<double>(scenarios::exam_limit_ticks(sitting.setup().scenario) - before), 1e-9);
-    EXPECT_EQ(sitting.begun()->point, SessionReader(options_.out).inputs().back().point);
+    EXPECT_EQ(sitting.begun()->bur, SessionReader(options_.out).inputs().back().bur);
     for (const auto& removed : SessionReader(options_.out).removed()) ASSERT_EQ(sitting.begun()->tooth.tissue(removed.leaf.leaf()), k_air);
     sitting.begin();
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done || sitting.live().view().ticks > before + 1500; }));
-    EXPECT_EQ(SessionReader(options_.out).inputs().back().point, sitting.begun()->point);
+    EXPECT_EQ(SessionReader(options_.out).inputs().back().bur, sitting.begun()->bur);
     sitting.ask_to_end();
     ASSERT_TRUE(goes_on(sitting, [&] { return sitting.stage() == Stage::done; }));
     EXPECT_EQ(sitting.path(), options_.out);

@@ -39,7 +39,7 @@ TEST(Spray, DropsStayBetweenTheHandpieceAndTheHead) {
   }
 }
 
-TEST(Spray, WaterRunsWhileThePointTurnsAndChipsFlyWhileItCuts) {
+TEST(Spray, WaterRunsWhileTheBurTurnsAndChipsFlyWhileItCuts) {
   EXPECT_TRUE(drops_of(spray_after(1, 0, false, 0, 0), 0.5, 100).empty());
   const std::size_t water = drops_of(spray_after(1, k_rpm, false, 0, 0), 0.5, 160).size();
   EXPECT_GT(water, 50u);
@@ -84,9 +84,9 @@ TEST_F(SprayPicture, IsSeenWhereItIsWantedAndHidesLittleOfTheWork) {
   if (!screen.there()) GTEST_SKIP() << "SKIPPED: no Xvfb on this computer, so no window can be opened";
   const Tooth block = make_block({8, 8, 5}, {{"enamel", 1.5}, {"dentin", 3.5}}, 0.1);
   const Window window({"Cavum", 640, 480, {}});
-  Scene scene(block.octree, block.tissues, {testing_engine::diamond_point("cylinder-flat-1.0")}, nullptr);
+  Scene scene(block.octree, block.tissues, {testing_engine::shipped_bur("cylinder-flat-1.0")}, nullptr);
   SceneView view;
-  view.point = 0;
+  view.bur = 0;
   view.camera.distance_mm = 30.0F;
   view.spray = spray_after(1, k_rpm, true, 1, 0);
   SceneView dry = view;

@@ -216,15 +216,15 @@ TEST_F(StationWindow, PracticeSaysSoInTheSession) {
   EXPECT_TRUE(verify_session(session()).verified);
 }
 
-TEST_F(StationWindow, PointAndSpeedChosenAtTheDeskAreRecordedInput) {
-  // F9 is the second allowed point; each [ takes a tenth of the speed away
+TEST_F(StationWindow, BurAndSpeedChosenAtTheDeskAreRecordedInput) {
+  // F9 is the second allowed bur; each [ takes a tenth of the speed away
   EXPECT_EQ(run(std::string(k_to_exam) + "until 1\nkey f9\nkey [\nkey [\nkey [\nuntil 6\nkey escape\nsleep 0.3\nkey enter\nwait result\nkey enter\n"),
             0)
       << said();
   EXPECT_TRUE(verify_session(session()).verified);
   const auto inputs = SessionReader(session()).inputs();
-  EXPECT_EQ(inputs.front().point, 0);
-  EXPECT_EQ(inputs.back().point, 1);
+  EXPECT_EQ(inputs.front().bur, 0);
+  EXPECT_EQ(inputs.back().bur, 1);
   double most = 0;
   for (std::size_t i = inputs.size() * 3 / 4; i < inputs.size(); ++i) most = std::max(most, inputs[i].pedal());
   EXPECT_NEAR(most, 0.7, 1e-4);
@@ -331,7 +331,7 @@ key enter
   EXPECT_GT(most_n, 0.3);
 }
 
-TEST_F(StationWindow, BBringsALostPointBackToWhereItBegan) {
+TEST_F(StationWindow, BBringsALostBurBackToWhereItBegan) {
   const std::string script = std::string(k_to_exam_by_hand) + R"(until 1
 hold left
 hold pagedown

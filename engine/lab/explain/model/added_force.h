@@ -8,7 +8,7 @@ namespace cavum::explain {
 
 /// Force that force terms add to the Voigt law of `tissue` on the motion of `scene`, N, shape [rows]: the engine's own terms, row by row, each
 /// session from the start. Without a column spindle_rpm the tool is taken to turn; without `wet` the spray runs while it turns; without
-/// `approach_deg` it comes from above; without removed_mm3 the point is new.
+/// `approach_deg` it comes from above; without removed_mm3 the bur is new.
 [[nodiscard]] Series terms_force_n(const ForceTerms& terms, Viscoelastic tissue, const Scene& scene);
 
 /// Force that the terms and measurement effects of `model` add to its Voigt law on the recorded motion, N, shape [rows]. k and c

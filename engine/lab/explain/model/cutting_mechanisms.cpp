@@ -1,4 +1,4 @@
-// What cutting adds: a constant edge force, wear of the diamond point, lines from the spindle or from chatter, water, heat.
+// What cutting adds: a constant edge force, wear of the bur, lines from the spindle or from chatter, water, heat.
 #include <cmath>
 
 #include "engine/base/text.h"
@@ -19,7 +19,7 @@ constexpr double k_turn = 2.0 * k_pi;
 
 bool has(const Scene& s, const char* column) { return s.recording->column(column) != nullptr; }
 
-/// Volume removed since the point was new. `removed_mm3` may count up, or hold what each row removed (then it goes up and
+/// Volume removed since the bur was new. `removed_mm3` may count up, or hold what each row removed (then it goes up and
 /// down all the time). Variants: 0 as counted, 1 carried on over resets at the start of a session.
 Series worn_mm3(const Scene& s, bool carried) {
   const Series& removed = *s.recording->column("removed_mm3");
@@ -126,9 +126,9 @@ Mechanism edge_force() {
 Mechanism wear() {
   return {
       .name = "wear",
-      .equation = said("F_sim w W, W removed volume since the point was new"),
-      .words = said("a diamond point that wears"),
-      .separate = said("cut the first site again last, with the worn and with a new point"),
+      .equation = said("F_sim w W, W removed volume since the bur was new"),
+      .words = said("a bur that wears"),
+      .separate = said("cut the first site again last, with the worn and with a new bur"),
       .seen_over = "removed_mm3",
       .term = &k_wear,
       .needs = {"removed_mm3"},
@@ -157,7 +157,7 @@ Mechanism run_out() {
   return {
       .name = "run_out",
       .equation = said("A sin(2 pi turns + phase) in contact and spinning"),
-      .words = said("a diamond point that turns off its axis"),
+      .words = said("a bur that turns off its axis"),
       .separate = said("record the force at more than twice the spindle's rate"),
       .term = &k_run_out,
       .needs = {"spindle_rpm"},

@@ -141,8 +141,8 @@ struct Mechanism {
 /// Known only where the motion turns back.
 [[nodiscard]] inline bool needs_reversal(const Mechanism& m) { return m.one_way != OneWay::told; }
 
-/// Volume that the diamond point had removed since it was new, mm³, shape [rows], from the columns removed_mm3 (which must be there) and
-/// bur_id. `carried`: it goes on where a session begins to count anew with the same point.
+/// Volume that the bur had removed since it was new, mm³, shape [rows], from the columns removed_mm3 (which must be there) and
+/// bur_id. `carried`: it goes on where a session begins to count anew with the same bur.
 [[nodiscard]] Series removed_since_new_mm3(const Scene& scene, bool carried);
 
 // Families, one file each; together they are `mechanisms()`, in this order (docs/laws.md).

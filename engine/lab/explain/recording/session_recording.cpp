@@ -59,7 +59,7 @@ Force force_of_events(const SessionReader& session, double tick_s) {
 
 /// One row, as the replay gives it.
 struct Row {
-  double t_s, x_mm, v_mm_s, f_n, k, c, rpm, removed_mm3, point, approach_deg, slide_mm_s, tilt_deg;
+  double t_s, x_mm, v_mm_s, f_n, k, c, rpm, removed_mm3, bur, approach_deg, slide_mm_s, tilt_deg;
 };
 
 double degrees(double rad) { return rad * 57.29577951308232; }
@@ -97,7 +97,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       const TickOutput out = step(simulation.model, simulation.state, input);
       if (!(make_tick_record(out) == motion.records[i]))
         throw Error(path, msg("its replay differs from the record at tick {}", tick), msg("see what `cavum replay --verify` says of it"));
-      double& worn = removed[input.point];
+      double& worn = removed[input.bur];
       worn += out.removed_count * simulation.state.tooth.leaf_volume_mm3();
       const Vec3 moved = simulation.state.estimate.tip_mm - last_tip;
       last_tip = simulation.state.estimate.tip_mm;
@@ -119,7 +119,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       const auto& touched = simulation.state.contact.touched.means.of;
       const Vec3 axis = simulation.state.contact.rotation * Vec3{0, 0, 1};
       contacts.back().push_back({t, out.penetration_mm, out.approach_mm_s, *force, touched.stiffness_n_per_mm, touched.damping_n_s_per_mm, out.rpm,
-                                 worn, static_cast<double>(input.point), degrees(std::atan2(out.normal.x, out.normal.z)),
+                                 worn, static_cast<double>(input.bur), degrees(std::atan2(out.normal.x, out.normal.z)),
                                  length(velocity_mm_s - out.normal * dot(velocity_mm_s, out.normal)),
                                  degrees(std::acos(std::clamp(dot(axis, out.normal), -1.0, 1.0)))});
     }
@@ -149,7 +149,7 @@ Recording joined(const std::vector<std::vector<Row>>& contacts, std::size_t leas
   r.relative_k = series(&Row::k) / reference.stiffness_n_per_mm;
   r.relative_c = series(&Row::c) / std::max(1e-12, reference.damping_n_s_per_mm);
   r.exact_motion = true;
-  r.columns = {{"spindle_rpm", series(&Row::rpm)},           {"removed_mm3", series(&Row::removed_mm3)}, {"bur_id", series(&Row::point)},
+  r.columns = {{"spindle_rpm", series(&Row::rpm)},           {"removed_mm3", series(&Row::removed_mm3)}, {"bur_id", series(&Row::bur)},
                {"approach_deg", series(&Row::approach_deg)}, {"slide_mm_s", series(&Row::slide_mm_s)},   {"tilt_deg", series(&Row::tilt_deg)}};
   r.rig.k_n_per_mm = reference.stiffness_n_per_mm;
   if (reference.damping_n_s_per_mm > 0.0) r.rig.c_n_s_per_mm = reference.damping_n_s_per_mm;

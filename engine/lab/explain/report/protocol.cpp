@@ -44,7 +44,7 @@ std::vector<Part> parts() {
 
 std::string protocol_motion_csv() {
   std::string out =
-      "# One session of the protocol that `cavum explain --protocol` describes: z is height above the surface.\n# point = "
+      "# One session of the protocol that `cavum explain --protocol` describes: z is height above the surface.\n# bur = "
       "round-1.0\nt_s,x_mm,y_mm,z_mm,qw,qx,qy,qz,pedal\n";
   double depth = -0.8;
   long row = 0;

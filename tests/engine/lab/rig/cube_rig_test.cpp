@@ -24,7 +24,7 @@ CubeOptions small() {
 }
 
 TEST(CubeRig, ForceIsKVTauPlusCVAndFrictionIsAnIntercept) {
-  const CubeResult r = run_cube_rig({quick("damped", 0.3), quick("undamped", 0.0)}, diamond_point("round-1.0"), small());
+  const CubeResult r = run_cube_rig({quick("damped", 0.3), quick("undamped", 0.0)}, shipped_bur("round-1.0"), small());
   for (const CubeSet& set : r.sets) {
     for (const CubeRow& row : set.rows) {
       ASSERT_EQ(row.left_out, 0);
@@ -43,7 +43,7 @@ TEST(CubeRig, SameSeedSameFiguresAnotherSeedOthers) {
   o.k_n_per_mm = {0.4, 0.8};
   const auto run = [&](std::uint64_t seed) {
     o.seed = seed;
-    return to_json(run_cube_rig({quick("damped", 0.3)}, diamond_point("round-1.0"), o)).dump();
+    return to_json(run_cube_rig({quick("damped", 0.3)}, shipped_bur("round-1.0"), o)).dump();
   };
   const std::string first = run(1);
   EXPECT_EQ(first, run(1));
@@ -54,7 +54,7 @@ TEST(CubeRig, RecordingsReadAsExplainWantsThem) {
   CubeOptions o = small();
   o.k_n_per_mm = {0.4, 0.8};
   o.recorded_k_n_per_mm = 0.8;
-  const CubeResult r = run_cube_rig({quick("damped", 0.3)}, diamond_point("round-1.0"), o);
+  const CubeResult r = run_cube_rig({quick("damped", 0.3)}, shipped_bur("round-1.0"), o);
   std::istringstream csv(recordings_csv(r));
   std::string line;
   std::getline(csv, line);
@@ -91,14 +91,14 @@ TEST(CubeRig, RecordingsReadAsExplainWantsThem) {
 TEST(CubeRig, ReadingSpeaksOfABendOnlyWhereThereIsOne) {
   CubeOptions o = small();
   o.k_n_per_mm = {0.0, 0.2, 0.6, 1.2};
-  const DiamondPoint point = diamond_point("round-1.0");
-  const CubeResult bent = run_cube_rig({quick("damped", 2.0)}, point, o), straight = run_cube_rig({quick("undamped", 0.0)}, point, o);
+  const Bur bur = shipped_bur("round-1.0");
+  const CubeResult bent = run_cube_rig({quick("damped", 2.0)}, bur, o), straight = run_cube_rig({quick("undamped", 0.0)}, bur, o);
   EXPECT_TRUE(is_bent(bent.sets[0]));
   EXPECT_FALSE(is_bent(straight.sets[0]));
   EXPECT_EQ(cube_reading(bent).size(), cube_reading(straight).size() + 1) << "a bend speaks against the force of c V";
   EXPECT_FALSE(to_text(bent).empty());
   o.k_n_per_mm = {0.4};
-  EXPECT_EQ(cube_reading(run_cube_rig({quick("one", 0.0)}, point, o)).size(), 1u) << "nothing can be said";
+  EXPECT_EQ(cube_reading(run_cube_rig({quick("one", 0.0)}, bur, o)).size(), 1u) << "nothing can be said";
 }
 
 }  // namespace

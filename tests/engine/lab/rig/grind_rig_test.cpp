@@ -13,8 +13,8 @@ namespace {
 
 using namespace testing_engine;
 
-GrindRow ground(const std::string& set, const std::string& point, const std::string& tissue, double load_n, const GrindOptions& options = {}) {
-  return grind(shipped_model(set), diamond_point(point), tissue, load_n, options);
+GrindRow ground(const std::string& set, const std::string& bur, const std::string& tissue, double load_n, const GrindOptions& options = {}) {
+  return grind(shipped_model(set), shipped_bur(bur), tissue, load_n, options);
 }
 
 TEST(GrindRig, EnamelOnTheSideOfACylinderGoesAtThePublishedRate) {
@@ -22,7 +22,7 @@ TEST(GrindRig, EnamelOnTheSideOfACylinderGoesAtThePublishedRate) {
   // the surface speed of a 1.2 mm bur at 250,000 rpm under load is assumed, which 1.0 mm has at 300,000.
   ForceModel stiff = shipped_model("clinical");
   stiff.drive = {};
-  const GrindRow row = grind(stiff, diamond_point("cylinder-flat-1.0"), "enamel", 0.64, {.load_n = {}, .rpm = 300000.0, .side = true});
+  const GrindRow row = grind(stiff, shipped_bur("cylinder-flat-1.0"), "enamel", 0.64, {.load_n = {}, .rpm = 300000.0, .side = true});
   std::printf("enamel, 0.64 N, on the side at 15.7 m/s: %.2f mm3/min\n", row.mm3_per_min);
   ASSERT_TRUE(row.sunk);
   EXPECT_GE(row.mm3_per_min, 2.8);
@@ -34,12 +34,12 @@ TEST(GrindRig, EnamelOnTheSideOfACylinderGoesAtThePublishedRate) {
 }
 
 TEST(GrindRig, DentinGoesFasterThanEnamelAndALesionFaster) {
-  for (const char* point : {"round-1.0", "cylinder-flat-1.0", "taper-round-1.2", "pear-1.0"}) {
-    const double enamel = ground("clinical", point, "enamel", 0.65).mm3_per_min, dentin = ground("clinical", point, "dentin", 0.65).mm3_per_min,
-                 lesion = ground("clinical", point, "lesion", 0.65).mm3_per_min;
-    std::printf("%-18s enamel %.2f, dentin %.2f, lesion %.2f mm3/min\n", point, enamel, dentin, lesion);
-    EXPECT_NEAR(dentin / enamel, 4.2, 0.3) << point;
-    EXPECT_NEAR(lesion / dentin, 4.0, 0.4) << point;
+  for (const char* bur : {"round-1.0", "cylinder-flat-1.0", "taper-round-1.2", "pear-1.0"}) {
+    const double enamel = ground("clinical", bur, "enamel", 0.65).mm3_per_min, dentin = ground("clinical", bur, "dentin", 0.65).mm3_per_min,
+                 lesion = ground("clinical", bur, "lesion", 0.65).mm3_per_min;
+    std::printf("%-18s enamel %.2f, dentin %.2f, lesion %.2f mm3/min\n", bur, enamel, dentin, lesion);
+    EXPECT_NEAR(dentin / enamel, 4.2, 0.3) << bur;
+    EXPECT_NEAR(lesion / dentin, 4.0, 0.4) << bur;
   }
 }
 

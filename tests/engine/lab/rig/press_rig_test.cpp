@@ -13,7 +13,7 @@ using namespace testing_engine;
 
 class PressRig : public testing::Test {
  protected:
-  PressBench bench_ = make_press_bench(diamond_point("round-1.0"));
+  PressBench bench_ = make_press_bench(shipped_bur("round-1.0"));
   PressOptions options_;
 };
 
@@ -63,7 +63,7 @@ TEST_F(PressRig, ContactIsMadeWithoutBouncingAndTheExplicitLawBounces) {
 }
 
 TEST_F(PressRig, EveryPressOfTheTableIsSteadyAndPassiveAndNoContactBounces) {
-  const PressResult r = run_press_rig(options_, bench_.point);
+  const PressResult r = run_press_rig(options_, bench_.bur);
   ASSERT_EQ(r.presses.size(), 216u);
   ASSERT_EQ(r.contacts.size(), 216u);
   double worst = 0;
@@ -97,15 +97,15 @@ TEST_F(PressRig, TableHasEveryCombinationInOrderAndIsTheSameTwice) {
   options_.press_n = {0.5, 1.0};
   options_.contact_mm_s = {20.0};
   options_.hold_s = 1.0;
-  const PressResult r = run_press_rig(options_, bench_.point);
+  const PressResult r = run_press_rig(options_, bench_.bur);
   ASSERT_EQ(r.presses.size(), 4u);
   ASSERT_EQ(r.contacts.size(), 2u);
   EXPECT_EQ(r.presses[1].cell.press_n, 1.0);
   EXPECT_EQ(r.presses[2].cell.k_n_per_mm, 0.8);
   EXPECT_TRUE(r.within_limits());
-  EXPECT_EQ(to_json(r).dump(), to_json(run_press_rig(options_, bench_.point)).dump());
+  EXPECT_EQ(to_json(r).dump(), to_json(run_press_rig(options_, bench_.bur)).dump());
   options_.limit_sd_n = -1;
-  EXPECT_FALSE(run_press_rig(options_, bench_.point).within_limits()) << "a limit that nothing can keep";
+  EXPECT_FALSE(run_press_rig(options_, bench_.bur).within_limits()) << "a limit that nothing can keep";
 }
 
 }  // namespace

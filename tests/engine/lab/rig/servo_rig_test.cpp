@@ -20,7 +20,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
     const Folder folder;
     ::setenv("CAVUM_HOME", folder.file("station").c_str(), 1);
     const std::string path = folder.file("rig.cavum");
-    const SessionSetup setup = servo_rig_setup(point_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+    const SessionSetup setup = servo_rig_setup(bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
     ServoRigOptions options;
     options.seconds = 2.5;
     const ServoRigResult r = run_servo_rig(setup, path, options);
@@ -57,7 +57,7 @@ TEST(ServoRig, DrillsInRealTimeCountsEveryTickAndItsSessionVerifies) {
 // that contact costs, and no clock disturbs it.
 TEST(ServoRig, ContactOfAHandHasABoundInEveryTickAndItsForceNeverDropsOut) {
   for (const double tick_s : {0.001, 0.00025}) {
-    const SessionSetup setup = servo_rig_setup(point_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
+    const SessionSetup setup = servo_rig_setup(bur_text("round-1.0"), read_text_file(data_path("materials/consistent.toml")), tick_s);
     Simulation simulation = make_simulation(setup, "test");
     ServoState& state = simulation.state;
     SimulatedStylus stylus({}, {}, tick_s, drilling_hand);
@@ -70,7 +70,7 @@ TEST(ServoRig, ContactOfAHandHasABoundInEveryTickAndItsForceNeverDropsOut) {
     bool was_touching = false;
     for (std::size_t i = 0; i < ticks; ++i) {
       const DeviceReading r = stylus.read(tick_s);
-      input = make_tick_input(r.pose, r.pedal, r.flags, r.point, input);
+      input = make_tick_input(r.pose, r.pedal, r.flags, r.bur, input);
       const TickOutput out = step(simulation.model, state, input);
       stylus.send_force(out.rendered_force_n);
       looked_up.push_back(state.contact.looked_up);

@@ -20,7 +20,7 @@ struct Steady {
 Steady steady(double k, double c, double tau_s, double speed_mm_s, MachineSettings settings) {
   settings.speed_mm_s = speed_mm_s;
   const Tooth block = make_block({4, 4, 4}, {{"dentin", 4.0}}, 0.05);
-  const ServoModel servo = machine_servo(block, diamond_point("round-1.0"), hard_model(k, c, tau_s), settings.omni);
+  const ServoModel servo = machine_servo(block, shipped_bur("round-1.0"), hard_model(k, c, tau_s), settings.omni);
   TestingMachine machine(servo, block, {0.1, 0.2, 0.3}, settings, Random(1));
   const double branch_s = c / servo.force.rendering.kvc_n_per_mm;
   const int ticks = static_cast<int>((0.3 / speed_mm_s + 6 * std::max(tau_s, branch_s)) / k_tick_s) + 500;
@@ -60,7 +60,7 @@ TEST(TestingMachine, CoarseEncoderChangesTheMeanByLessThanAStepOfForce) {
 
 TEST(TestingMachine, WithTheHandpieceStillItIndentsAndTheForceIsThatOfTheSpring) {
   const Tooth block = make_block({4, 4, 2}, {{"dentin", 2.0}}, 0.05);
-  const ServoModel servo = machine_servo(block, diamond_point("round-1.0"), hard_model(0.8, 0.0), exact_encoder().omni);
+  const ServoModel servo = machine_servo(block, shipped_bur("round-1.0"), hard_model(0.8, 0.0), exact_encoder().omni);
   TestingMachine machine(servo, block, {0, 0, 0.1}, exact_encoder(), Random(1), false);
   double removed = 0;
   for (int i = 0; i < 4000; ++i) removed += machine.tick().servo.removed_count;

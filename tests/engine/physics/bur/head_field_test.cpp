@@ -11,18 +11,18 @@ using namespace testing_engine;
 
 TEST(HeadField, IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters) {
   Random random(drawn_seed("HeadField.IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters"));
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
     double worst = 0;
     for (int i = 0; i < 20000;) {
       float r[8], z[8], d[8];
       for (int k = 0; k < 8; ++k) {
-        r[k] = static_cast<float>(random.uniform(0, point.head_radius_mm + 0.3));
-        z[k] = static_cast<float>(random.uniform(-0.3, point.cutting_length_mm + 0.3));
+        r[k] = static_cast<float>(random.uniform(0, bur.head_radius_mm + 0.3));
+        z[k] = static_cast<float>(random.uniform(-0.3, bur.cutting_length_mm + 0.3));
       }
-      point.field.distances_mm(r, z, d);
+      bur.field.distances_mm(r, z, d);
       for (int k = 0; k < 8; ++k, ++i) {
-        const double exact = point.head_distance_mm({r[k], 0, z[k]});
+        const double exact = bur.head_distance_mm({r[k], 0, z[k]});
         if (std::fabs(exact) > 0.15) {  // only its sign counts there
           ASSERT_GT(d[k] * exact, 0.0) << name << " at r " << r[k] << " z " << z[k];
           continue;
@@ -36,10 +36,10 @@ TEST(HeadField, IsTheDistanceToTheHeadWithinThreeMicrometresOfWhereItMatters) {
 }
 
 TEST(HeadField, FarAwayItIsNeverNearerThanItsMargin) {
-  const DiamondPoint point = diamond_point("round-1.0");
+  const Bur bur = shipped_bur("round-1.0");
   const float r[8] = {5, 0, 0, 5, 1000, 0, 0, 3}, z[8] = {0.5f, -5, 8, -5, 0, 1e6f, -1e6f, 9};
   float d[8];
-  point.field.distances_mm(r, z, d);
+  bur.field.distances_mm(r, z, d);
   for (const float v : d) EXPECT_GT(v, 0.38f);
 }
 

@@ -48,7 +48,7 @@ bool inside(const std::vector<ProfilePoint>& line, double r, double z) {
 
 TEST(Profile, DistanceIsThatOfABallAtARoundTip) {
   Random random(drawn_seed("Profile.DistanceIsThatOfABallAtARoundTip"));
-  const DiamondPoint round = diamond_point("round-1.0");
+  const Bur round = shipped_bur("round-1.0");
   for (int i = 0; i < 5000; ++i) {
     const Vec3 p{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 0.5)};  // below the equator the ball is nearest
     EXPECT_NEAR(round.profile.distance_mm(p), length(p - Vec3{0, 0, 0.5}) - 0.5, 1e-12);
@@ -57,7 +57,7 @@ TEST(Profile, DistanceIsThatOfABallAtARoundTip) {
 
 TEST(Profile, DistanceIsThatOfACylinderAtItsSide) {
   Random random(drawn_seed("Profile.DistanceIsThatOfACylinderAtItsSide"));
-  const DiamondPoint cylinder = diamond_point("cylinder-flat-1.0");
+  const Bur cylinder = shipped_bur("cylinder-flat-1.0");
   for (int i = 0; i < 5000; ++i) {
     const Vec3 p{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1, 2.5)};
     const double r = std::hypot(p.x, p.y), across = r - 0.5, below = -p.z;
@@ -68,7 +68,7 @@ TEST(Profile, DistanceIsThatOfACylinderAtItsSide) {
 
 TEST(Profile, DistanceIsThatOfAConeAtATaperedSide) {
   Random random(drawn_seed("Profile.DistanceIsThatOfAConeAtATaperedSide"));
-  const DiamondPoint taper = diamond_point("taper-flat-1.0");
+  const Bur taper = shipped_bur("taper-flat-1.0");
   const double lean = std::atan(0.14 / 4);
   for (int i = 0; i < 5000; ++i) {
     const double r = random.uniform(0.3, 0.8), z = random.uniform(1, 3), turn = random.uniform(-k_pi, k_pi);
@@ -77,17 +77,17 @@ TEST(Profile, DistanceIsThatOfAConeAtATaperedSide) {
   }
 }
 
-TEST(Profile, DistanceOfEveryPointIsThatToTheNearestOfItsDenseOutline) {
-  Random random(drawn_seed("Profile.DistanceOfEveryPointIsThatToTheNearestOfItsDenseOutline"));
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
-    const auto line = polyline(point.profile);
+TEST(Profile, DistanceOfEveryBurIsThatToTheNearestOfItsDenseOutline) {
+  Random random(drawn_seed("Profile.DistanceOfEveryBurIsThatToTheNearestOfItsDenseOutline"));
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
+    const auto line = polyline(bur.profile);
     for (int i = 0; i < 300; ++i) {
-      const double r = random.uniform(0, 1.6), z = i % 3 == 0 ? random.uniform(-1, 20) : random.uniform(-0.5, point.cutting_length_mm + 1);
+      const double r = random.uniform(0, 1.6), z = i % 3 == 0 ? random.uniform(-1, 20) : random.uniform(-0.5, bur.cutting_length_mm + 1);
       double nearest2 = 1e9;
       for (const auto& p : line) nearest2 = std::min(nearest2, (p.r_mm - r) * (p.r_mm - r) + (p.z_mm - z) * (p.z_mm - z));
       const double turn = random.uniform(-k_pi, k_pi);
-      const double d = point.profile.distance_mm({r * std::cos(turn), r * std::sin(turn), z});
+      const double d = bur.profile.distance_mm({r * std::cos(turn), r * std::sin(turn), z});
       // the nearest of points k_step apart is at most half a step from the foot, which may lie on an arc of 0.12 mm
       ASSERT_LE(std::fabs(d), std::sqrt(nearest2) + 1e-9) << name << " at r " << r << " z " << z;
       ASSERT_GE(std::sqrt(d * d + k_step_mm * k_step_mm / 4 * (1 + std::fabs(d) / 0.12)) + 1e-7, std::sqrt(nearest2))
@@ -100,19 +100,19 @@ TEST(Profile, DistanceOfEveryPointIsThatToTheNearestOfItsDenseOutline) {
 }
 
 TEST(Profile, GoesOnUpwardsAsACylinder) {
-  const DiamondPoint round = diamond_point("round-1.0");
+  const Bur round = shipped_bur("round-1.0");
   EXPECT_NEAR(round.profile.distance_mm({1.0, 0, 40}), 0.2, 1e-12);
   EXPECT_NEAR(round.profile.distance_mm({0, 0.5, 400}), -0.3, 1e-12);
   EXPECT_NEAR(round.profile.radius_mm(100), 0.8, 1e-12);
 }
 
 TEST(Profile, WalkStaysOnTheOutlineWithOutwardNormals) {
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
-    for (const auto& p : point.profile.walk(0.01, point.profile.length_mm())) {
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
+    for (const auto& p : bur.profile.walk(0.01, bur.profile.length_mm())) {
       EXPECT_NEAR(std::hypot(p.normal.r_mm, p.normal.z_mm), 1.0, 1e-9) << name;
-      EXPECT_NEAR(point.profile.distance_mm({p.at.r_mm, 0, p.at.z_mm}), 0.0, 1e-9) << name;
-      EXPECT_NEAR(point.profile.distance_mm({p.at.r_mm + 1e-3 * p.normal.r_mm, 0, p.at.z_mm + 1e-3 * p.normal.z_mm}), 1e-3, 1e-5)
+      EXPECT_NEAR(bur.profile.distance_mm({p.at.r_mm, 0, p.at.z_mm}), 0.0, 1e-9) << name;
+      EXPECT_NEAR(bur.profile.distance_mm({p.at.r_mm + 1e-3 * p.normal.r_mm, 0, p.at.z_mm + 1e-3 * p.normal.z_mm}), 1e-3, 1e-5)
           << name << " " << p.at.z_mm;
     }
   }

@@ -11,9 +11,9 @@ namespace {
 using namespace testing_engine;
 
 TEST(ContactTool, SamplesLieOnTheOutlineOrOnTheFilletOfAnEdge) {
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
-    const Profile& outline = tool.point.profile;
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
+    const Profile& outline = tool.bur.profile;
     int on_edges = 0;
     for (const auto& s : tool.samples) {
       EXPECT_NEAR(length(s.normal), 1.0, 1e-9) << name;
@@ -66,15 +66,15 @@ std::pair<double, double> area_and_height(const Profile& profile, double low, do
 
 TEST(ContactTool, TheFurthestPlaceLiesOnTheHeadAndNoSampleLiesFurther) {
   Random random(drawn_seed("ContactTool.TheFurthestPlaceLiesOnTheHeadAndNoSampleLiesFurther"));
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
     const std::uint32_t head = tool.patches[tool.head_patches - 1].last;
     double most = 0;
     for (int i = 0; i < 3000; ++i) {
       Vec3 way = random_direction(random);
       way.z = -std::fabs(way.z);  // towards the tooth; upwards the head ends in its neck
       const Vec3 at = tool.furthest_along(way);
-      EXPECT_LE(tool.point.profile.distance_mm(at), 1e-4) << name << ": outside the head, at height " << at.z;
+      EXPECT_LE(tool.bur.profile.distance_mm(at), 1e-4) << name << ": outside the head, at height " << at.z;
       double samples = -1e9;
       for (std::uint32_t s = 0; s < head; ++s) samples = std::max(samples, dot(tool.samples[s].at_mm, way));
       ASSERT_GE(dot(at, way), samples - 5e-5) << name << ": samples lie on the outline to 50 nm, where pieces of it meet";
@@ -85,9 +85,9 @@ TEST(ContactTool, TheFurthestPlaceLiesOnTheHeadAndNoSampleLiesFurther) {
 }
 
 TEST(ContactTool, AreasOfTheSamplesAddUpToTheHead) {
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
-    const auto [area, height] = area_and_height(tool.point.profile, 0, tool.point.cutting_length_mm);
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
+    const auto [area, height] = area_and_height(tool.bur.profile, 0, tool.bur.cutting_length_mm);
     double sum = 0, moment = 0, across_x = 0, across_y = 0;
     for (std::size_t i = 0; i < tool.patches[tool.head_patches - 1].last; ++i) {
       const auto& s = tool.samples[i];
@@ -97,17 +97,17 @@ TEST(ContactTool, AreasOfTheSamplesAddUpToTheHead) {
       across_y += s.area_mm2 * s.at_mm.y;
     }
     EXPECT_NEAR(sum / area, 1.0, 0.01) << name;
-    EXPECT_NEAR(moment / sum, height, 0.01 * tool.point.cutting_length_mm) << name;
-    EXPECT_LT(std::hypot(across_x, across_y) / sum, 0.02 * tool.point.head_radius_mm) << name << ": more samples on one side";
+    EXPECT_NEAR(moment / sum, height, 0.01 * tool.bur.cutting_length_mm) << name;
+    EXPECT_LT(std::hypot(across_x, across_y) / sum, 0.02 * tool.bur.head_radius_mm) << name << ": more samples on one side";
   }
   // once by hand: a ball cap of height 0.9 on radius 0.5 has 2 pi R h
-  const auto round = area_and_height(diamond_point("round-1.0").profile, 0, 0.9);
+  const auto round = area_and_height(shipped_bur("round-1.0").profile, 0, 0.9);
   EXPECT_NEAR(round.first, 2 * k_pi * 0.5 * 0.9, 1e-4);
 }
 
 TEST(ContactTool, PatchesHoldEverySampleOnceWithinTheirBall) {
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
     std::uint32_t next = 0;
     for (std::size_t p = 0; p < tool.patches.size(); ++p) {
       const auto& patch = tool.patches[p];
@@ -118,9 +118,9 @@ TEST(ContactTool, PatchesHoldEverySampleOnceWithinTheirBall) {
         EXPECT_LE(length(tool.samples[i].at_mm - patch.centre_mm), patch.radius_mm + 1e-12) << name;
         EXPECT_LE(length(tool.samples[i].at_mm), tool.reach_mm + 1e-12) << name;
         if (p < tool.head_patches) {
-          EXPECT_LE(tool.samples[i].at_mm.z, tool.point.cutting_length_mm + 1e-9) << name;
+          EXPECT_LE(tool.samples[i].at_mm.z, tool.bur.cutting_length_mm + 1e-9) << name;
         } else {
-          EXPECT_GE(tool.samples[i].at_mm.z, tool.point.cutting_length_mm - k_edge_radius_mm) << name;
+          EXPECT_GE(tool.samples[i].at_mm.z, tool.bur.cutting_length_mm - k_edge_radius_mm) << name;
         }
       }
     }

@@ -46,18 +46,18 @@ struct Figures {
   }
 };
 
-/// Presses a point onto a random plane to X = 0.25 mm and slides it 2 mm.
-Figures press_and_slide(Random& random, const DiamondPoint& point, double speed_mm_s = 2.0) {
+/// Presses a bur onto a random plane to X = 0.25 mm and slides it 2 mm.
+Figures press_and_slide(Random& random, const Bur& bur, double speed_mm_s = 2.0) {
   const Vec3 normal = random_direction(random), on_it = normal * random.uniform(-0.05, 0.05);
   const Tooth tooth = half_space_tooth(normal, on_it, 2.0, k_leaf);
   const Quat turned = leaning(random, normal, 50 * k_pi / 180);
   const Vec3 slide = normalized(cross(normal, random_direction(random)));
-  // where the tip is when the point just touches, 1 mm back along the slide
+  // where the tip is when the bur just touches, 1 mm back along the slide
   Vec3 touch = slide * -1.0;
   touch += normal * (dot(on_it, normal) - dot(touch, normal));
-  touch += normal * -height_over_plane_mm(point, touch, turned, normal, dot(on_it, normal));
+  touch += normal * -height_over_plane_mm(bur, touch, turned, normal, dot(on_it, normal));
   constexpr double x = 0.25;
-  Rig rig(tooth, {point}, hard_model(0.8, 0), touch + normal * 0.3);
+  Rig rig(tooth, {bur}, hard_model(0.8, 0), touch + normal * 0.3);
   (void)rig.travel(touch + normal * 0.3, touch - normal * x, 10, 0, turned);
   TickOutput out;
   for (int i = 0; i < 20; ++i) out = rig.tick(touch - normal * x, 0, turned);
@@ -81,7 +81,7 @@ Figures press_and_slide(Random& random, const DiamondPoint& point, double speed_
 TEST(Proxy, OnAPlaneXIsTheAnalyticDepthWhateverTheOrientation) {
   Random random(drawn_seed("Proxy.OnAPlaneXIsTheAnalyticDepthWhateverTheOrientation"));
   Figures worst;
-  for (int i = 0; i < 50; ++i) worst.grow(press_and_slide(random, diamond_point("round-1.0")));
+  for (int i = 0; i < 50; ++i) worst.grow(press_and_slide(random, shipped_bur("round-1.0")));
   std::printf("plane, round-1.0, 50 orientations: X at rest %.2f %% and %.2f deg; sliding at 2 mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n",
               worst.at_rest_percent, worst.at_rest_degrees, worst.depth_percent, worst.ripple_percent, worst.degrees);
   EXPECT_LE(worst.at_rest_percent, 1.0);
@@ -96,7 +96,7 @@ TEST(Proxy, DirectionDoesNotLagBehindAFasterSlide) {
   Random random(drawn_seed("Proxy.DirectionDoesNotLagBehindAFasterSlide"));
   for (const double speed : {0.5, 2.0, 10.0, 50.0}) {
     Figures worst;
-    for (int i = 0; i < 6; ++i) worst.grow(press_and_slide(random, diamond_point("round-1.0"), speed));
+    for (int i = 0; i < 6; ++i) worst.grow(press_and_slide(random, shipped_bur("round-1.0"), speed));
     std::printf("plane, round-1.0, sliding at %4.1f mm/s: X %.2f %%, ripple %.2f %%, direction %.2f deg\n", speed, worst.depth_percent,
                 worst.ripple_percent, worst.degrees);
     EXPECT_LE(worst.degrees, 3.0) << speed;
@@ -104,11 +104,11 @@ TEST(Proxy, DirectionDoesNotLagBehindAFasterSlide) {
   }
 }
 
-TEST(Proxy, EveryPointFeelsAPlane) {
-  Random random(drawn_seed("Proxy.EveryPointFeelsAPlane"));
-  for (const auto& name : point_names()) {
+TEST(Proxy, EveryBurFeelsAPlane) {
+  Random random(drawn_seed("Proxy.EveryBurFeelsAPlane"));
+  for (const auto& name : bur_names()) {
     Figures worst;
-    for (int i = 0; i < 5; ++i) worst.grow(press_and_slide(random, diamond_point(name)));
+    for (int i = 0; i < 5; ++i) worst.grow(press_and_slide(random, shipped_bur(name)));
     std::printf("plane, %-18s: X at rest %5.2f %%, sliding: X %5.2f %%, ripple %5.2f %%, direction %5.2f deg\n", name.c_str(), worst.at_rest_percent,
                 worst.depth_percent, worst.ripple_percent, worst.degrees);
     // An edge is felt 0.08 mm round (contact_tool.h), so up to 0.04 of 0.25 mm are missing on heads that end in one; on all others nothing is.
@@ -119,14 +119,14 @@ TEST(Proxy, EveryPointFeelsAPlane) {
   }
 }
 
-TEST(Proxy, ForceNeverDropsOutWhileTheToothHoldsThePointOff) {
-  // Sharp points touch with a single sample; still k must be that of the tissue, in every tick.
+TEST(Proxy, ForceNeverDropsOutWhileTheToothHoldsTheBurOff) {
+  // Sharp burs touch with a single sample; still k must be that of the tissue, in every tick.
   const auto drops = [](const char* name, std::uint64_t seed) {
     Random random(seed);
-    const double dropped = press_and_slide(random, diamond_point(name)).dropped;
+    const double dropped = press_and_slide(random, shipped_bur(name)).dropped;
     EXPECT_EQ(dropped, 0) << name << ", seed " << seed << ": ticks with F other than k X";
   };
-  const std::uint64_t seed = drawn_seed("Proxy.ForceNeverDropsOutWhileTheToothHoldsThePointOff");
+  const std::uint64_t seed = drawn_seed("Proxy.ForceNeverDropsOutWhileTheToothHoldsTheBurOff");
   for (const char* name : {"taper-flat-1.0", "cylinder-flat-1.0", "inverted-cone-1.0", "needle-0.8"})
     for (std::uint64_t i = 0; i < 8; ++i) drops(name, seed + i);
   drops("needle-0.8", 74);  // these once did
@@ -138,7 +138,7 @@ TEST(Proxy, ForceNeverDropsOutWhileTheToothHoldsThePointOff) {
 /// Presses the ball of round-1.0 radially onto a curved surface and slides it around; worst error of X in percent.
 double curved_error_percent(const Tooth& tooth, Vec3 middle, double radius, Vec3 from, Vec3 to) {
   constexpr double x = 0.25;
-  Rig rig(tooth, {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 9});
+  Rig rig(tooth, {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 9});
   double worst = 0;
   const auto pose = [&](double f, double depth) {
     const Vec3 out = normalized(from + (to - from) * f);
@@ -178,7 +178,7 @@ TEST(Proxy, OnABallAndACylinderForceIsWithin3Percent) {
   EXPECT_LE(cylinder, 3.0);
 }
 
-constexpr int k_pushes = 42;  // by each of twelve points, against a thin wall and into a corner: 1,008 in all
+constexpr int k_pushes = 42;  // by each of twelve burs, against a thin wall and into a corner: 1,008 in all
 
 struct PushFigures {
   double inside_leaves = 0, flipped = 0, peak_x = 0;
@@ -202,17 +202,17 @@ PushFigures push(Random& random, const ContactTool& tool, const Octree& tooth, V
   return f;
 }
 
-TEST(Proxy, NoPointPopsThroughAThinWallUpTo3_3N) {
-  Random random(drawn_seed("Proxy.NoPointPopsThroughAThinWallUpTo3_3N"));
+TEST(Proxy, NoBurPopsThroughAThinWallUpTo3_3N) {
+  Random random(drawn_seed("Proxy.NoBurPopsThroughAThinWallUpTo3_3N"));
   constexpr double thickness = 0.3;
   const Tooth wall = make_block({16, 16, thickness}, {{"enamel", thickness}}, k_leaf);
   const auto distance = [](Vec3 p) { return std::max(p.z, -thickness - p.z); };
   double inside = 0;
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
     for (int i = 0; i < k_pushes; ++i) {
       const Quat turned = leaning(random, {0, 0, 1}, 40 * k_pi / 180);
-      const double lift = -height_over_plane_mm(tool.point, {0, 0, 0}, turned, {0, 0, 1}, 0);
+      const double lift = -height_over_plane_mm(tool.bur, {0, 0, 0}, turned, {0, 0, 1}, 0);
       const Vec3 start{random.uniform(-1, 1), random.uniform(-1, 1), lift + random.uniform(0.02, 0.3)};
       const Vec3 end{start.x + random.uniform(-1.5, 1.5), start.y + random.uniform(-1.5, 1.5), lift - 3.3 / 0.8};
       const auto f = push(random, tool, wall.octree, start, end, turned, distance, {0, 0, 1});
@@ -225,13 +225,13 @@ TEST(Proxy, NoPointPopsThroughAThinWallUpTo3_3N) {
   std::printf("thin wall: proxy at most %.3f leaves inside\n", inside);
 }
 
-TEST(Proxy, NoPointPopsIntoAnInnerCornerUpTo3_3N) {
-  Random random(drawn_seed("Proxy.NoPointPopsIntoAnInnerCornerUpTo3_3N"));
+TEST(Proxy, NoBurPopsIntoAnInnerCornerUpTo3_3N) {
+  Random random(drawn_seed("Proxy.NoBurPopsIntoAnInnerCornerUpTo3_3N"));
   const auto distance = [](Vec3 p) { return p.x < 0 && p.z < 0 ? -std::hypot(p.x, p.z) : std::min(p.x, p.z); };
   const Tooth corner = tooth_of(distance, {-1, -2.5, -1}, {6, 2.5, 6}, k_leaf);
   double inside = 0;
-  for (const auto& name : point_names()) {
-    const ContactTool tool = make_contact_tool(diamond_point(name));
+  for (const auto& name : bur_names()) {
+    const ContactTool tool = make_contact_tool(shipped_bur(name));
     for (int i = 0; i < k_pushes; ++i) {
       const Vec3 out = normalized(Vec3{1, 0, 1});
       const Quat turned = leaning(random, out, 25 * k_pi / 180);
@@ -252,7 +252,7 @@ TEST(Proxy, ABallInAnInnerCornerRestsWhereGeometryPutsIt) {
   Random random(drawn_seed("Proxy.ABallInAnInnerCornerRestsWhereGeometryPutsIt"));
   const auto distance = [](Vec3 p) { return p.x < 0 && p.z < 0 ? -std::hypot(p.x, p.z) : std::min(p.x, p.z); };
   const Tooth corner = tooth_of(distance, {-1, -1.5, -1}, {4, 1.5, 4}, k_leaf);
-  const ContactTool tool = make_contact_tool(diamond_point("round-1.0"));
+  const ContactTool tool = make_contact_tool(shipped_bur("round-1.0"));
   const Quat turned = rotation_between({0, 0, 1}, normalized(Vec3{1, 0, 1}));
   const Vec3 to_centre = rotation(turned) * Vec3{0, 0, 0.5};
   double worst = 0, worst_degrees = 0;
@@ -278,16 +278,16 @@ TEST(Proxy, ABallInAnInnerCornerRestsWhereGeometryPutsIt) {
 TEST(Proxy, InAirThereIsNoForceAndTheProxyIsTheDevice) {
   Random random(drawn_seed("Proxy.InAirThereIsNoForceAndTheProxyIsTheDevice"));
   const Tooth block = make_block({2, 2, 2}, {{"enamel", 2}}, k_leaf);
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
-    Rig rig(block, {point}, shipped_model("paper"), {0, 0, 3});
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
+    Rig rig(block, {bur}, shipped_model("paper"), {0, 0, 3});
     Vec3 tip{0, 0, 3};
     for (int i = 0; i < 600; ++i) {
       // Nothing may stand in the way: the tool turns where it is, then moves; both places are over the top face.
       const Quat turned = leaning(random, {0, 0, 1}, 1.2);
       Vec3 next = tip + random_direction(random) * 0.1;
       next = {std::clamp(next.x, -3.0, 3.0), std::clamp(next.y, -3.0, 3.0), std::min(next.z, 4.0)};
-      const double over = std::min(height_over_plane_mm(point, next, turned, {0, 0, 1}, 0), height_over_plane_mm(point, tip, turned, {0, 0, 1}, 0));
+      const double over = std::min(height_over_plane_mm(bur, next, turned, {0, 0, 1}, 0), height_over_plane_mm(bur, tip, turned, {0, 0, 1}, 0));
       if (over < 0.005) continue;
       tip = next;
       const TickOutput out = rig.tick(tip, 1.0, turned);
@@ -309,7 +309,7 @@ TEST(Proxy, TheMeansOfTwoTissuesAreThoseOfTheAreasTouched) {
         tooth_of([](Vec3 p) { return p.z; }, {-1, -1, -1}, {1, 1, 1}, k_leaf, [&](Vec3 p) { return p.x < border ? k_enamel : k_dentin; });
     ForceModel force = hard_model(0.4, 0);
     force.materials.find("enamel")->second.voigt.stiffness_n_per_mm = 1.2;
-    Rig rig(tooth, {diamond_point("cylinder-flat-1.0")}, force, {0, 0, 0.2});
+    Rig rig(tooth, {shipped_bur("cylinder-flat-1.0")}, force, {0, 0, 0.2});
     (void)rig.travel({0, 0, 0.2}, {0, 0, -0.2}, 10);
     const TickOutput out = rig.tick({0, 0, -0.2}, 0);
     const double b = std::clamp(border, -r, r);

@@ -18,16 +18,16 @@ std::vector<RemovedLeaf> room() {
 }
 
 /// A whole carve in one call; false when room ran out.
-bool carve(Octree& tooth, const DiamondPoint& point, const CarvedHead& head, HeadCarving& carving, std::vector<RemovedLeaf>& removed) {
+bool carve(Octree& tooth, const Bur& bur, const CarvedHead& head, HeadCarving& carving, std::vector<RemovedLeaf>& removed) {
   begin_carving(carving, head);
-  return go_on_carving(carving, tooth, point, k_at_once, removed) == CarvingStep::done;
+  return go_on_carving(carving, tooth, bur, k_at_once, removed) == CarvingStep::done;
 }
 
 // The head is tabulated (head_field.h): what lies within 4 micrometres of its surface may fall either way.
 TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
   Random random(drawn_seed("CarveHead.RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther"));
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
     Tooth tooth = make_block({2, 2, 2}, {{"enamel", 1}, {"dentin", 1}}, 0.1);
     const TissueGrid before = tooth.octree.to_grid();
     tooth.octree.reserve_edits(20000);
@@ -41,7 +41,7 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
       if (random.below(12) == 0) turned = random_rotation(random);
       tip += way;
       poses.push_back({tip, turned});
-      ASSERT_TRUE(carve(tooth.octree, point, {tip, rotation(turned), 0}, carving, removed));
+      ASSERT_TRUE(carve(tooth.octree, bur, {tip, rotation(turned), 0}, carving, removed));
     }
     const TissueGrid after = tooth.octree.to_grid();
     std::size_t gone = 0;
@@ -51,7 +51,7 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
           const auto i = before.index({x, y, z});
           double nearest = 1e9;
           for (const auto& p : poses)
-            nearest = std::min(nearest, point.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
+            nearest = std::min(nearest, bur.head_distance_mm(rotation(p.rotation).transposed(before.centre_mm({x, y, z}) - p.tip_mm)));
           gone += before.tissue[i] != after.tissue[i];
           if (std::fabs(nearest) < 0.004) continue;
           ASSERT_EQ(after.tissue[i], nearest < 0 ? std::uint8_t{k_air} : before.tissue[i])
@@ -64,9 +64,9 @@ TEST(CarveHead, RemovesTheLeavesWhoseCentreTheHeadHeldAndNoOther) {
 
 TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
   Random random(drawn_seed("CarveHead.TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode"));
-  for (const auto& name : point_names())
+  for (const auto& name : bur_names())
     for (int round = 0; round < 3; ++round) {
-      const DiamondPoint point = diamond_point(name);
+      const Bur bur = shipped_bur(name);
       Tooth one = make_block({2, 2, 2}, {{"enamel", 2}}, 0.05);
       one.octree.reserve_edits(20000);
       Tooth two;
@@ -77,9 +77,9 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
       Vec3 tip{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-1.5, 0.3)};
       for (int i = 0; i < 30; ++i) {
         tip += random_direction(random) * random.uniform(0.002, 0.05);
-        ASSERT_TRUE(carve(one.octree, point, {tip, turned, 0}, carving, removed_one));
+        ASSERT_TRUE(carve(one.octree, bur, {tip, turned, 0}, carving, removed_one));
         HeadCarving anew;
-        ASSERT_TRUE(carve(two.octree, point, {tip, turned, 0}, anew, removed_two));
+        ASSERT_TRUE(carve(two.octree, bur, {tip, turned, 0}, anew, removed_two));
       }
       const TissueGrid a = one.octree.to_grid(), b = two.octree.to_grid();
       ASSERT_EQ(a.tissue, b.tissue) << name;
@@ -91,8 +91,8 @@ TEST(CarveHead, TheLeadingSideAloneGivesTheToothOfTheWholeHeadToOneCode) {
 void spread_over_many_ticks(std::uint64_t seed) {
   Random random(seed);
   int all_calls = 0, carves = 0;
-  for (const auto& name : point_names()) {
-    const DiamondPoint point = diamond_point(name);
+  for (const auto& name : bur_names()) {
+    const Bur bur = shipped_bur(name);
     Tooth one = make_block({2, 2, 2}, {{"enamel", 1}, {"dentin", 1}}, 0.05);
     one.octree.reserve_edits(20000);
     Tooth two;
@@ -104,7 +104,7 @@ void spread_over_many_ticks(std::uint64_t seed) {
     int calls = 0;
     for (int i = 0; i < 6; ++i) {
       tip += random_direction(random) * random.uniform(0.002, 0.05);
-      ASSERT_TRUE(carve(one.octree, point, {tip, turned, 0}, at_once, removed_one));
+      ASSERT_TRUE(carve(one.octree, bur, {tip, turned, 0}, at_once, removed_one));
       begin_carving(spread, {tip, turned, 0});
       const auto before = two.octree.edit_hash();
       const auto listed = removed_two.size();
@@ -114,7 +114,7 @@ void spread_over_many_ticks(std::uint64_t seed) {
         if (two.octree.edit_hash() == before) {
           ASSERT_EQ(removed_two.size(), listed);
         }
-        step = go_on_carving(spread, two.octree, point, static_cast<int>(random.below(600)) + 1, removed_two);
+        step = go_on_carving(spread, two.octree, bur, static_cast<int>(random.below(600)) + 1, removed_two);
         ASSERT_NE(step, CarvingStep::no_room);
         ASSERT_LT(calls, 100000) << "it never ends";
       }
@@ -136,34 +136,34 @@ TEST(CarveHead, SpreadOverManyTicksItGivesTheSameBitsAndNothingBeforeTheLast) {
 TEST(CarveHead, APlanThatIsAppliedInPartsGivesTheSameBits) { spread_over_many_ticks(70199232396505137); }  // drawn once
 
 TEST(CarveHead, WhatIsDroppedWasNeverCarved) {
-  const DiamondPoint point = diamond_point("round-1.0");
+  const Bur bur = shipped_bur("round-1.0");
   Tooth tooth = make_block({2, 2, 2}, {{"enamel", 2}}, 0.05);
   tooth.octree.reserve_edits(20000);
   auto removed = room();
   HeadCarving carving;
   const auto before = tooth.octree.edit_hash();
   begin_carving(carving, {{0, 0, -0.5}, Mat3{}, 0});
-  ASSERT_EQ(go_on_carving(carving, tooth.octree, point, 1000, removed), CarvingStep::under_way);
+  ASSERT_EQ(go_on_carving(carving, tooth.octree, bur, 1000, removed), CarvingStep::under_way);
   drop_carving(carving);
   EXPECT_FALSE(carving.under_way());
   EXPECT_EQ(tooth.octree.edit_hash(), before);
   EXPECT_TRUE(removed.empty());
-  EXPECT_EQ(carving.last.point, -1);
+  EXPECT_EQ(carving.last.bur, -1);
 }
 
 TEST(CarveHead, FullRoomIsToldAndTheNextCarveMakesUpForIt) {
-  const DiamondPoint point = diamond_point("round-1.0");
+  const Bur bur = shipped_bur("round-1.0");
   Tooth tooth = make_block({2, 2, 2}, {{"enamel", 2}}, 0.05);
   tooth.octree.reserve_edits(20000);
   std::vector<RemovedLeaf> little;
   little.reserve(10);
   HeadCarving carving;
-  EXPECT_FALSE(carve(tooth.octree, point, {{0, 0, -0.5}, Mat3{}, 0}, carving, little));
+  EXPECT_FALSE(carve(tooth.octree, bur, {{0, 0, -0.5}, Mat3{}, 0}, carving, little));
   EXPECT_LE(little.size(), little.capacity());
   EXPECT_EQ(little.capacity(), 10u) << "it grew";
-  EXPECT_EQ(carving.last.point, -1) << "an unfinished carve must not count as done";
+  EXPECT_EQ(carving.last.bur, -1) << "an unfinished carve must not count as done";
   auto removed = room();
-  EXPECT_TRUE(carve(tooth.octree, point, {{0, 0, -0.5}, Mat3{}, 0}, carving, removed));
+  EXPECT_TRUE(carve(tooth.octree, bur, {{0, 0, -0.5}, Mat3{}, 0}, carving, removed));
   const double expected = 2.0 / 3.0 * k_pi * 0.125;  // half a ball
   EXPECT_NEAR(static_cast<double>(removed.size() + little.size()) * 1.25e-4 / expected, 1.0, 0.02);
 }

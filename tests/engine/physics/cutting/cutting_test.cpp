@@ -38,7 +38,7 @@ void lift_off(Rig& rig, Vec3 tip) {
 /// Feeds round-1.0 straight down from the surface for `t_s`, and lifts off; X over the last second.
 Plunge plunge(double k, double leaf, double dt, double t_s) {
   const Tooth& tooth = block(leaf);
-  Rig rig(tooth, {diamond_point("round-1.0")}, hard_model(k, 2 * std::sqrt(k)), {0, 0, 0.05}, dt);
+  Rig rig(tooth, {shipped_bur("round-1.0")}, hard_model(k, 2 * std::sqrt(k)), {0, 0, 0.05}, dt);
   rig.spin_up({0, 0, 0.05});
   Plunge p;
   const double lead = 0.05 / k_feed;
@@ -85,7 +85,7 @@ TEST(Cutting, NoHeadIsHeldInTheHoleItCuts) {
     double most = 0;
     for (int i = 0; i < 8; ++i) {  // anywhere within a leaf: a width of whole leaves once let both walls hold the head
       const double x = random.uniform(-0.05, 0.05), y = i % 2 == 0 ? 0.0 : random.uniform(-0.05, 0.05), quantum = i % 4 < 2 ? 0.055 : 0.0;
-      Rig rig(block(0.05), {diamond_point(name)}, hard_model(0.8, 0), {x, y, 0.05});
+      Rig rig(block(0.05), {shipped_bur(name)}, hard_model(0.8, 0), {x, y, 0.05});
       rig.spin_up({x, y, 0.05});
       for (int t = 1; t <= 10000; ++t) {
         const double z = 0.05 - k_feed * 1e-3 * t;
@@ -111,7 +111,7 @@ TEST(Cutting, WhatIsOwedAtLiftOffIsCarvedWhereItWasOwed) {
   // 0.003 mm: what gathers by its long way to the device until it is out, and the least that is carved.
   for (const double dt : {0.001, 0.00025})
     for (double t_s = 5.9; t_s < 6.17; t_s += 0.05) {
-      Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05}, dt);
+      Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05}, dt);
       rig.spin_up({0, 0, 0.05});
       const double lead = 0.05 / k_feed;
       const int n = static_cast<int>((t_s + lead) / dt + 0.5);
@@ -125,7 +125,7 @@ TEST(Cutting, ASlotHasTheVolumeAndTheWallsOfItsSweep) {
   const double half = 1.2, depth = 0.8, r = 0.5;
   for (const double leaf : {0.05, 0.025}) {
     const Tooth& tooth = block(leaf);
-    Rig rig(tooth, {diamond_point("cylinder-flat-1.0")}, hard_model(0.8, 0, 0.2), {-2, 0, -depth});
+    Rig rig(tooth, {shipped_bur("cylinder-flat-1.0")}, hard_model(0.8, 0, 0.2), {-2, 0, -depth});
     rig.spin_up({-2, 0, -depth});
     const TickOutput out = rig.travel({-2, 0, -depth}, {0.4, 0, -depth}, 1.0, 1.0);
     EXPECT_NEAR(out.penetration_mm, 0.2, 0.01) << "X = V tau";
@@ -160,7 +160,7 @@ TEST(Cutting, ManyShortPecksCutAsDeepAsOneLongPress) {
   const double press_mm = 0.3;
   for (const double leaf : {0.05, 0.025})
     for (const int pecks : {1, 4, 20}) {
-      Rig rig(block(leaf), {diamond_point("cylinder-flat-1.0")}, hard_model(0.8, 0, k_tau), {0, 0, 0.05});
+      Rig rig(block(leaf), {shipped_bur("cylinder-flat-1.0")}, hard_model(0.8, 0, k_tau), {0, 0, 0.05});
       rig.spin_up({0, 0, 0.05});
       const int ticks = 800 / pecks;
       double depth = 0;
@@ -178,7 +178,7 @@ TEST(Cutting, ManyShortPecksCutAsDeepAsOneLongPress) {
 TEST(Cutting, NoTickOfSteadyDrillingLooksUpMoreThanAPart) {
   // What a carve changed is gathered anew over a few ticks, and not together with the means.
   for (const double leaf : {0.05, 0.025}) {
-    Rig rig(block(leaf), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05});
+    Rig rig(block(leaf), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.05});
     rig.spin_up({0, 0, 0.05});
     int most = 0;
     for (int t = 1; t <= 8000; ++t) {
@@ -192,7 +192,7 @@ TEST(Cutting, NoTickOfSteadyDrillingLooksUpMoreThanAPart) {
 
 TEST(Cutting, ACarveIsMadeLongBeforeTheNextIsDueThoughATickDoesLittleOfIt) {
   for (const char* name : {"round-1.4", "endo-access-1.0"}) {
-    Rig rig(block(0.025), {diamond_point(name)}, hard_model(0.8, 0), {0, 0, 0.05});
+    Rig rig(block(0.025), {shipped_bur(name)}, hard_model(0.8, 0), {0, 0, 0.05});
     rig.spin_up({0, 0, 0.05});
     int longest = 0, now = 0, carves = 0;
     double most_mm = 0;
@@ -213,7 +213,7 @@ TEST(Cutting, ACarveIsMadeLongBeforeTheNextIsDueThoughATickDoesLittleOfIt) {
 
 TEST(Cutting, RecessionIsProportionalToTheSpeedOfTheHandpiece) {
   for (const double pedal : {0.25, 0.5}) {
-    Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0, 0.5), {0, 0, 0.05});
+    Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0, 0.5), {0, 0, 0.05});
     for (int i = 0; i < 2000; ++i) (void)rig.tick({0, 0, 0.05}, pedal);
     const TickOutput out = rig.travel({0, 0, 0.05}, {0, 0, -2.5}, 0.25, pedal);
     EXPECT_NEAR(out.penetration_mm, 0.25 * 0.5 / pedal, 0.01) << pedal;
@@ -233,7 +233,7 @@ TEST(Cutting, NothingIsRemovedWithTheHandpieceStillThePedalUnknownOrOutOfContact
                {"pedal above 1", 1.5, -0.3, k_stylus_fresh | k_pedal_fresh},
                {"out of contact", 1.0, 0.01, k_stylus_fresh | k_pedal_fresh}};
   for (const auto& c : cases) {
-    Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.3});
+    Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.3});
     const auto untouched = rig.state.tooth.edit_hash();
     for (int i = 0; i < 1500; ++i) {
       const double z = std::max(c.z, 0.3 - i * 0.005);
@@ -244,14 +244,14 @@ TEST(Cutting, NothingIsRemovedWithTheHandpieceStillThePedalUnknownOrOutOfContact
     EXPECT_EQ(rig.state.tooth.edit_hash(), untouched) << c.what;
     EXPECT_EQ(removed_mm3(block(0.05).octree, rig.state.tooth), 0.0) << c.what;
   }
-  Rig control(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.3});
+  Rig control(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.3});
   control.spin_up({0, 0, 0.3});
   (void)control.travel({0, 0, 0.3}, {0, 0, -0.3}, 0.5, 1.0);
   EXPECT_GT(removed_mm3(block(0.05).octree, control.state.tooth), 0.0) << "the same press with the pedal down does cut";
 }
 
 TEST(Cutting, ALostPedalStopsTheHandpieceInTheSameTick) {
-  Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
+  Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
   rig.spin_up({0, 0, 0.1});
   (void)rig.travel({0, 0, 0.1}, {0, 0, -0.5}, 0.5, 1.0);
   ASSERT_NEAR(rig.state.handpiece.rpm, 200000, 10);
@@ -266,7 +266,7 @@ TEST(Cutting, ALostPedalStopsTheHandpieceInTheSameTick) {
 }
 
 TEST(Cutting, RemovedLeavesAreListedOnceAndWereSolid) {
-  Rig rig(block(0.05), {diamond_point("round-1.0")}, hard_model(0.8, 0, 0.3), {0, 0, 0.1});
+  Rig rig(block(0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 0, 0.3), {0, 0, 0.1});
   rig.spin_up({0, 0, 0.1});
   std::size_t listed = 0;
   for (int i = 0; i < 2000; ++i) {

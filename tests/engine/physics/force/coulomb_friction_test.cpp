@@ -16,7 +16,7 @@ ForceModel friction_model(double k_n_per_mm = 0.8, double c_n_s_per_mm = 0.012) 
   return with_terms(hard_model(k_n_per_mm, c_n_s_per_mm), {{"coulomb_friction", {{"fc_n", k_fc_n}, {"v0_mm_s", k_v0_mm_s}}}});
 }
 
-Rig rig_with(const ForceModel& force, Vec3 tip_mm = {0, 0, 1}) { return {make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, force, tip_mm}; }
+Rig rig_with(const ForceModel& force, Vec3 tip_mm = {0, 0, 1}) { return {make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, force, tip_mm}; }
 
 TEST(CoulombFriction, IsFcTanhOfSpeedAndFlipsInAirToo) {
   Random random(drawn_seed("CoulombFriction.IsFcTanhOfSpeedAndFlipsInAirToo"));
@@ -105,7 +105,7 @@ TEST(CoulombFriction, RenderedFrictionGivesBackNoMoreThanItTook) {
 TEST(CoulombFriction, HoldsStillUnderASteadyPushAndStaysCalmInAClosedLoop) {
   for (const int delay : {0, 1})
     for (const double tick_s : {0.001, 0.00025}) {
-      ClosedLoop loop(Rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, friction_model(), {0, 0, 0.3}, tick_s), {0, 0, 0.3});
+      ClosedLoop loop(Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, friction_model(), {0, 0, 0.3}, tick_s), {0, 0, 0.3});
       loop.omni.delay_ticks = delay;
       loop.omni.coulomb_n = 0.0;  // the hardest case: a device without friction of its own
       loop.hand.stiffness_n_per_mm = 1.0;

@@ -146,7 +146,7 @@ struct Drilled {
 };
 
 Drilled drill(const std::vector<std::pair<std::string, std::vector<std::pair<std::string, double>>>>& terms) {
-  Rig rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), terms), {0, 0, 0.1});
+  Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), terms), {0, 0, 0.1});
   Drilled out;
   rig.spin_up({0, 0, 0.1});
   for (int i = 0; i < 3000; ++i) {
@@ -159,7 +159,7 @@ Drilled drill(const std::vector<std::pair<std::string, std::vector<std::pair<std
   return out;
 }
 
-TEST(CuttingTerms, TheServoCountsWhatThePointRemovedAndFeelsItsWear) {
+TEST(CuttingTerms, TheServoCountsWhatTheBurRemovedAndFeelsItsWear) {
   const Drilled worn = drill({{"wear", {{"per_mm3", 5.0}}}}), fresh = drill({{"wear", {{"per_mm3", 0.0}}}});
   ASSERT_GT(worn.removed_mm3, 0.03);
   EXPECT_NEAR(worn.model_n.back(), worn.voigt_n.back() * (1 + 5.0 * worn.removed_mm3), 0.02 * worn.model_n.back());
@@ -176,12 +176,12 @@ TEST(CuttingTerms, TheServoSpraysWhileItTurnsAndTellsItsAngle) {
 }
 
 TEST(CuttingTerms, TheCountOfWearIsPartOfTheHashedState) {
-  Rig rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), {{"wear", {{"per_mm3", 0.5}}}}),
+  Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), {{"wear", {{"per_mm3", 0.5}}}}),
           {0, 0, 0.1});
   const std::uint64_t before = state_hash(rig.state);
   rig.state.terms.removed_leaves[3] += 1;
   EXPECT_NE(state_hash(rig.state), before);
-  Rig other(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), {{"coolant", {{"fraction", 0.5}}}}),
+  Rig other(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, with_terms(hard_model(0.8, 0.012, 2), {{"coolant", {{"fraction", 0.5}}}}),
             {0, 0, 0.1});
   EXPECT_FALSE(other.state.terms.counts_removed);
 }

@@ -77,7 +77,7 @@ TEST(RunOut, NeitherInAirNorAtRest) {
 TEST(RunOut, TheServoFeelsItWhileItDrills) {
   const ForceModel force = with_terms(hard_model(0.8, 0.012, 50), {{"run_out", {{"amplitude_n", 0.03}}}});
   for (const auto& base : {force, hard_model(0.8, 0.012, 50)}) {
-    Rig rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, base, {0, 0, 0.1});
+    Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, base, {0, 0, 0.1});
     rig.spin_up({0, 0, 0.1});
     (void)rig.travel({0, 0, 0.1}, {0, 0, -0.4}, 1.0, 1.0);
     std::vector<double> model, rendered;

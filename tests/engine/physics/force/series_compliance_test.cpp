@@ -49,7 +49,7 @@ TEST(SeriesCompliance, LeavesTheDamperAndTheAirAsTheyAre) {
 
 TEST(SeriesCompliance, AtRestTheServoRendersItWithin1Percent) {
   for (const double ks : {0.3, 0.8, 5.0}) {
-    Rig rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, compliant(0.8, 1.79, ks), {0, 0, 0.05});
+    Rig rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, compliant(0.8, 1.79, ks), {0, 0, 0.05});
     (void)rig.travel({0, 0, 0.05}, {0, 0, -0.8}, 2.0);
     TickOutput out;
     for (int i = 0; i < 20000; ++i) out = rig.tick({0, 0, -0.8}, 0);

@@ -31,12 +31,12 @@ const Tooth& block_of(const std::string& tissue) {
   return found->second;
 }
 
-/// A weight on a point that turns: the tip is put where k X = load.
+/// A weight on a bur that turns: the tip is put where k X = load.
 struct Weight {
   Rig rig;
   double load_n, z;
-  Weight(const Tooth& tooth, const ForceModel& force, double load, const char* point = "cylinder-flat-1.0", double dt_s = k_tick_s)
-      : rig(tooth, {diamond_point(point)}, force, {0, 0, 0.02}, dt_s), load_n(load), z(0.02) {
+  Weight(const Tooth& tooth, const ForceModel& force, double load, const char* bur = "cylinder-flat-1.0", double dt_s = k_tick_s)
+      : rig(tooth, {shipped_bur(bur)}, force, {0, 0, 0.02}, dt_s), load_n(load), z(0.02) {
     rig.spin_up({0, 0, 0.02});
   }
   TickOutput tick(double pedal = 1.0) {
@@ -125,7 +125,7 @@ TEST(Grinding, HalfOverAVoidAtTheSameForceThePressureDoubles) {
   const auto plane = [](Vec3 at) { return at.z; };
   const Tooth over = tooth_of(plane, {-1.2, -1.2, -1.0}, {1.2, 1.2, 0.3}, 0.05, half);
   const Tooth solid = tooth_of(plane, {-1.2, -1.2, -1.0}, {1.2, 1.2, 0.3}, 0.05, [](Vec3) { return k_dentin; });
-  // Under X/τ too: k falls with the area that bears, so X grows as the pressure does. The laws differ in tissue, point, speed and torque.
+  // Under X/τ too: k falls with the area that bears, so X grows as the pressure does. The laws differ in tissue, bur, speed and torque.
   for (const bool by_pressure : {true, false}) {
     const ForceModel model = by_pressure ? clinical() : shipped_model("consistent");
     Weight on_half(over, model, 0.3), on_all(solid, model, 0.3);
@@ -181,7 +181,7 @@ TEST(Grinding, AWeakTurbineStallsCutsNothingAndRunsAgainWhenLifted) {
 }
 
 TEST(Grinding, AnElectricMotorSpinsUpUnderItsWholeTorque) {
-  Rig rig(block_of("enamel"), {diamond_point("round-1.0")}, clinical(6.0, 2000.0), {0, 0, 0.5});
+  Rig rig(block_of("enamel"), {shipped_bur("round-1.0")}, clinical(6.0, 2000.0), {0, 0, 0.5});
   for (int i = 0; i < 75; ++i) (void)rig.tick({0, 0, 0.5}, 1.0);
   EXPECT_NEAR(rig.state.handpiece.rpm, 100000.0, 2000.0) << "half of spin_up_s";
   for (int i = 0; i < 200; ++i) (void)rig.tick({0, 0, 0.5}, 1.0);
@@ -211,7 +211,7 @@ TEST(Grinding, TheSameInputGivesTheSameStateAndTheLoadIsInItsHash) {
 TEST(Grinding, ASolidTissueWithoutAWearRateIsRefusedByName) {
   ForceModel force = clinical();
   force.materials.find("enamel")->second.wear_mm3_per_n_m = 0;
-  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(block_of("enamel"), {diamond_point("round-1.0")}, force, {}); }), "wear_mm3_per_n_m"));
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(block_of("enamel"), {shipped_bur("round-1.0")}, force, {}); }), "wear_mm3_per_n_m"));
 }
 
 }  // namespace

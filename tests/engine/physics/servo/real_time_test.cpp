@@ -26,7 +26,7 @@ Pose pressing(double t_s) { return {{0, 0, 0.1 - std::min(0.9, 20 * t_s)}, {}}; 
 
 /// Servo, stream and a device with a fault; emptied after the run.
 struct Live {
-  Rig rig{make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
+  Rig rig{make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
   TickStream stream;
   FaultyDevice device;
   RealTimeOptions options;
@@ -73,7 +73,7 @@ TEST(RealTime, KeepsThePaceOfTheClockAndTellsWhatItGot) {
 TEST(RealTime, GivesTheSameBitsAsTheSameInputsWithoutAClock) {
   Live run({});
   run.go(400);
-  Rig again{make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
+  Rig again{make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}};
   for (const auto& t : run.ticks) {
     ASSERT_EQ(make_tick_record(step(again.model, again.state, t.input)), make_tick_record(t.output)) << t.tick;
     ASSERT_EQ(state_hash(again.state), t.state_hash) << t.tick;
@@ -233,7 +233,7 @@ TEST(RealTime, ALongPauseIsMadeUpForInPartAndTheRestIsCounted) {
 TEST(RealTime, WhereStepsTakeLongerThanAPeriodTheDeviceIsStillReadAndTheRestIsCounted) {
   Live run({});
   const double tick_s = 1e-8;  // no computer keeps that
-  run.rig = Rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
+  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
   run.options.most_made_up = 1 << 30;  // so that only the time spent on it ends the making up
   run.options.ask_for_fifo = false;    // it would keep a processor busy
   const std::int64_t start = monotonic_ns();
@@ -255,7 +255,7 @@ SteadyCut steady(double tick_s) {
   SteadyCut s{};
   const Tooth tooth = make_cube(6, "dentin", 0.05);
   {
-    Rig rig(tooth, {diamond_point("cylinder-flat-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
+    Rig rig(tooth, {shipped_bur("cylinder-flat-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, tick_s);
     rig.spin_up({0, 0, 0.1});
     (void)rig.travel({0, 0, 0.1}, {0, 0, -2.4}, 0.25, 1.0);
     std::vector<double> x, f;
@@ -268,7 +268,7 @@ SteadyCut steady(double tick_s) {
     s.x_mm = mean_and_sd(x).mean;
     s.cutting_n = mean_and_sd(f).mean;
   }
-  ClosedLoop loop(Rig(tooth, {diamond_point("round-1.0")}, hard_model(0.8, 1.79), {0, 0, 0.2}, tick_s), {0, 0, 0.2});
+  ClosedLoop loop(Rig(tooth, {shipped_bur("round-1.0")}, hard_model(0.8, 1.79), {0, 0, 0.2}, tick_s), {0, 0, 0.2});
   loop.omni.quantum_mm = 0;  // which quantum it rests in would be chance
   loop.omni.coulomb_n = 0;
   std::vector<double> f, x;
@@ -295,7 +295,7 @@ TEST(RealTime, At4KilohertzThePhysicsIsThatOf1KilohertzWithin1Percent) {
 
 TEST(RealTime, RunsAt4KilohertzToo) {
   Live run({});
-  run.rig = Rig(make_cube(4, "dentin", 0.1), {diamond_point("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, 0.00025);
+  run.rig = Rig(make_cube(4, "dentin", 0.1), {shipped_bur("round-1.0")}, hard_model(0.8, 0.012), {0, 0, 0.1}, 0.00025);
   const std::int64_t start = monotonic_ns();
   run.go(2000);
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;

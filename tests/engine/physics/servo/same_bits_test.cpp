@@ -11,9 +11,9 @@ namespace {
 using namespace testing_engine;
 
 /// Down through enamel and dentin into pulp, swaying, tilted, with a pedal that is half released on the way.
-std::uint64_t drilled_hash(const std::string& set, const std::string& point) {
+std::uint64_t drilled_hash(const std::string& set, const std::string& bur) {
   static const Tooth block = make_block({3.0, 3.0, 2.4}, {{"enamel", 0.8}, {"dentin", 0.8}, {"pulp", 0.4}, {"dentin", 0.4}}, 0.05);
-  Rig rig(block, {diamond_point(point)}, shipped_model(set), {0.2, 0, 0.05});
+  Rig rig(block, {shipped_bur(bur)}, shipped_model(set), {0.2, 0, 0.05});
   rig.spin_up({0.2, 0, 0.05});
   for (int i = 0; i < 9000; ++i) {
     const SinCos sway = det_sincos(2 * k_pi * 0.7e-3 * i);

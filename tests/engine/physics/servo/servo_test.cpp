@@ -14,7 +14,7 @@ using namespace testing_engine;
 
 Tooth four_layers() { return make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05); }
 
-/// A wild but repeatable tick: drilling, sliding, leaving, changing the point, losing pedal and stylus.
+/// A wild but repeatable tick: drilling, sliding, leaving, changing the bur, losing pedal and stylus.
 TickInput wild(Random& random, int i, const TickInput& previous) {
   const double t = i * 1e-3;
   const Vec3 tip{0.5 * std::sin(2.1 * t), 0.4 * std::sin(1.3 * t),
@@ -26,7 +26,7 @@ TickInput wild(Random& random, int i, const TickInput& previous) {
   return make_tick_input({tip, turned}, i % 900 < 850 ? 1.0 : 0.0, flags, static_cast<std::uint8_t>(i / 1000 % 2), previous);
 }
 
-Rig wild_rig() { return {four_layers(), {diamond_point("round-1.0"), diamond_point("taper-round-1.2")}, hard_model(0.8, 1.79, 0.3), {0, 0, 0.3}}; }
+Rig wild_rig() { return {four_layers(), {shipped_bur("round-1.0"), shipped_bur("taper-round-1.2")}, hard_model(0.8, 1.79, 0.3), {0, 0, 0.3}}; }
 
 TEST(Servo, EqualInputsGiveEqualStatesTickByTickAndACopyGoesOnAlike) {
   const std::uint64_t seed = drawn_seed("Servo.EqualInputsGiveEqualStatesTickByTickAndACopyGoesOnAlike");
@@ -120,7 +120,7 @@ TEST(Servo, TheHandpieceSpinsUpExponentiallyWithThePedal) {
 
 TEST(Servo, ForceFallsWhenTheTipBreaksThroughIntoThePulp) {
   const Tooth tooth = make_block({2.4, 2.4, 3.0}, {{"enamel", 1.0}, {"pulp", 1.2}, {"dentin", 0.8}}, 0.05);
-  Rig rig(tooth, {diamond_point("round-1.0")}, shipped_model("paper"), {0, 0, 0.05});
+  Rig rig(tooth, {shipped_bur("round-1.0")}, shipped_model("paper"), {0, 0, 0.05});
   rig.spin_up({0, 0, 0.05});
   double before = 0, after = 1e9, worst_rise = 0, worst_model = 0, worst_rendered = 0, last_model = 0, last_rendered = 0, highest = 0;
   const int n = static_cast<int>(2.6 / 0.25 * 1000);
@@ -155,7 +155,7 @@ TEST(Servo, ForceStaysContinuousAcrossTheBorderOfTwoTissues) {
   const Tooth tooth = make_block({2.4, 2.4, 3.0}, {{"enamel", 1.0}, {"dentin", 2.0}}, 0.05);
   ForceModel force = hard_model(1.2, 0);
   force.materials.find("dentin")->second.voigt = {0.4, 0};
-  Rig rig(tooth, {diamond_point("round-1.0")}, force, {0, 0, 0.05});
+  Rig rig(tooth, {shipped_bur("round-1.0")}, force, {0, 0, 0.05});
   rig.spin_up({0, 0, 0.05});
   double worst = 0, last = 0, in_enamel = 0;
   TickOutput out;
@@ -176,9 +176,9 @@ TEST(Servo, GumIsFeltSofterThanAnyHardTissueAndANeighbourLikeTheToothItself) {
     double pressed_n, held_n;
   };
   for (const char* set : {"consistent", "paper", "clinical"}) {
-    // a resting point pressed 0.3 mm in at 1 mm/s, and held there for a second
+    // a resting bur pressed 0.3 mm in at 1 mm/s, and held there for a second
     const auto felt = [&](const std::string& tissue) {
-      Rig rig(make_block({2.4, 2.4, 2.0}, {{tissue, 2.0}}, 0.05), {diamond_point("round-1.0")}, shipped_model(set), {0, 0, 0.05});
+      Rig rig(make_block({2.4, 2.4, 2.0}, {{tissue, 2.0}}, 0.05), {shipped_bur("round-1.0")}, shipped_model(set), {0, 0, 0.05});
       EXPECT_NEAR(length(rig.tick({0, 0, 0.05}, 0).rendered_force_n), 0, 1e-6) << "nothing is touched yet";
       Felt f{length(rig.travel({0, 0, 0.05}, {0, 0, -0.3}, 1.0).rendered_force_n), 0};
       for (int i = 0; i < 1000; ++i) f.held_n = length(rig.tick({0, 0, -0.3}, 0).rendered_force_n);
@@ -199,7 +199,7 @@ TEST(Servo, GumIsFeltSofterThanAnyHardTissueAndANeighbourLikeTheToothItself) {
 TEST(Servo, NoticesTellWhatWentWrong) {
   const Tooth tooth = four_layers();
   const auto pressed = [&] {
-    Rig rig(tooth, {diamond_point("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
+    Rig rig(tooth, {shipped_bur("round-1.0")}, hard_model(0.8, 0), {0, 0, 0.1});
     (void)rig.travel({0, 0, 0.1}, {0, 0, -1}, 20);
     for (int i = 0; i < 50; ++i) (void)rig.tick({0, 0, -1}, 0);
     return rig;
@@ -222,10 +222,10 @@ TEST(Servo, NoticesTellWhatWentWrong) {
   }
   {
     Rig rig = pressed();
-    rig.input.point = 1;
+    rig.input.bur = 1;
     TickOutput out;
     for (int i = 0; i < 10; ++i) out = rig.tick({0, 0, -1}, 1.0);
-    EXPECT_EQ(out.notices, k_notice_bad_point);
+    EXPECT_EQ(out.notices, k_notice_bad_bur);
     EXPECT_EQ(out.rpm, 0.0);
     EXPECT_EQ(length(out.rendered_force_n), 0.0);
     EXPECT_FALSE(out.contact);
@@ -266,7 +266,7 @@ TEST(Servo, BadReadingsBecomeFaultsAndNeverNumbers) {
     for (auto& v : rig.input.rotation_q30) v = random.below(10) ? static_cast<std::int32_t>(random.next()) : 0;
     rig.input.pedal_q16 = static_cast<std::uint16_t>(random.next());
     rig.input.flags = static_cast<std::uint16_t>(random.next());
-    rig.input.point = static_cast<std::uint8_t>(random.below(3));
+    rig.input.bur = static_cast<std::uint8_t>(random.below(3));
     const TickOutput out = step(rig.model, rig.state, rig.input);
     ASSERT_TRUE(is_finite(out.rendered_force_n) && std::isfinite(out.model_force_n) && std::isfinite(out.penetration_mm) && is_finite(out.proxy_mm) &&
                 std::isfinite(out.rpm));
@@ -313,10 +313,10 @@ TEST(Servo, AModelWithoutAMaterialForASolidTissueIsRefused) {
   ForceModel force = shipped_model("paper");
   force.materials.erase("dentin");
   const Tooth tooth = four_layers();
-  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }), "dentin"));
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {shipped_bur("round-1.0")}, force, {}); }), "dentin"));
   EXPECT_THROW((void)make_servo_model(tooth, {}, shipped_model("paper"), {}), Error);
   force = hard_model(0.8, 0, 0);
-  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {diamond_point("round-1.0")}, force, {}); }), "tau_s"));
+  EXPECT_TRUE(tells(thrown_by([&] { (void)make_servo_model(tooth, {shipped_bur("round-1.0")}, force, {}); }), "tau_s"));
 }
 
 }  // namespace

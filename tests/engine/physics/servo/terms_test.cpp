@@ -17,7 +17,7 @@ ForceModel all_terms() {
 
 Rig rig_with(const ForceModel& force) {
   return {make_block({2.4, 2.4, 3.0}, {{"enamel", 0.7}, {"dentin", 0.5}, {"pulp", 0.8}, {"dentin", 1.0}}, 0.05),
-          {diamond_point("round-1.0")},
+          {shipped_bur("round-1.0")},
           force,
           {0, 0, 0.3}};
 }

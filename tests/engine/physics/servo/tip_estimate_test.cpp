@@ -106,7 +106,7 @@ TEST(TipEstimate, TheFastestSpeedLeavesConstantSpeedsAloneAndFallsWhenAStepIsOve
 
 /// A tooth pressed straight down, its surface at z = 0.
 Rig pressed(double quantum_mm, double dt_s) {
-  Rig rig(make_block({6, 6, 6}, {{"dentin", 6.0}}, 0.05), {diamond_point("round-1.0")}, hard_model(0.8, 2 * std::sqrt(0.8)), {0, 0, 0.1}, dt_s);
+  Rig rig(make_block({6, 6, 6}, {{"dentin", 6.0}}, 0.05), {shipped_bur("round-1.0")}, hard_model(0.8, 2 * std::sqrt(0.8)), {0, 0, 0.1}, dt_s);
   rig.model.config.position_quantum_mm = quantum_mm;
   rig.model.config.limits = {.peak_n = 100, .continuous_n = 100, .slew_n_per_s = 1e5};
   return rig;

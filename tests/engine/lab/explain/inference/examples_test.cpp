@@ -10,7 +10,7 @@
 #include "engine/lab/explain/report/protocol.h"
 #include "engine/lab/rig/published.h"
 #include "engine/lab/rig/record_rig.h"
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::explain {
@@ -116,21 +116,20 @@ TEST(Hunt, WhatWasHiddenIsFoundAndItsModelLeavesNothing) {
 
 TEST(Hunt, TheCommandOfItsReadmeMakesTheSameFile) {
   const ForceModel answer = parse_force_model(read_text_file(k_data + "measured/hunt/answer/model.toml"), "answer");
-  const std::string point = k_data + "points/round-1.0.toml";
+  const std::string bur = k_data + "burs/round-1.0.toml";
   RecordOptions options;
   options.rate_hz = 25.0;
-  const RecordResult made =
-      run_record_rig(parse_motion(protocol_motion_csv(), "protocol.csv"), answer, parse_diamond_point(read_text_file(point), point), options);
+  const RecordResult made = run_record_rig(parse_motion(protocol_motion_csv(), "protocol.csv"), answer, parse_bur(read_text_file(bur), bur), options);
   EXPECT_TRUE(record_csv(made) == read_text_file(k_data + "measured/hunt/recording.csv"));
   EXPECT_EQ(record_rig_toml(made), read_text_file(k_data + "measured/hunt/rig.toml"));
 }
 
 TEST(RecordRig, WithNothingHiddenItsRecordingIsCleanAndItsKIsThatOfTheModel) {
-  const std::string point = k_data + "points/round-1.0.toml", model = k_data + "materials/consistent.toml";
+  const std::string bur = k_data + "burs/round-1.0.toml", model = k_data + "materials/consistent.toml";
   RecordOptions options;
   options.rate_hz = 25.0;
   const RecordResult made = run_record_rig(parse_motion(protocol_motion_csv(), "protocol.csv"), parse_force_model(read_text_file(model), model),
-                                           parse_diamond_point(read_text_file(point), point), options);
+                                           parse_bur(read_text_file(bur), bur), options);
   Recording r = parse_recording(record_csv(made), "recording.csv");
   r.rig = parse_rig(record_rig_toml(made), "rig.toml");
   const Explanation e = explain(r);

@@ -1,4 +1,4 @@
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 
 #include <gtest/gtest.h>
 
@@ -11,11 +11,11 @@ namespace {
 
 using namespace testing_engine;
 
-TEST(DiamondPoint, ExactlyTwelveShipAndAllCanBeRead) {
-  const auto names = point_names();
+TEST(Bur, ExactlyTwelveShipAndAllCanBeRead) {
+  const auto names = bur_names();
   EXPECT_EQ(names.size(), 12u);  // the paper's number of tip shapes
   for (const auto& name : names) {
-    const DiamondPoint p = diamond_point(name);
+    const Bur p = shipped_bur(name);
     EXPECT_EQ(p.name, name);
     EXPECT_FALSE(p.title.empty());
     // the name ends with the diameter; a slightly tapered shape may be a little wider at its top
@@ -25,10 +25,10 @@ TEST(DiamondPoint, ExactlyTwelveShipAndAllCanBeRead) {
   }
 }
 
-TEST(DiamondPoint, HeadsAreConvex) {
-  Random random(drawn_seed("DiamondPoint.HeadsAreConvex"));
-  for (const auto& name : point_names()) {
-    const DiamondPoint p = diamond_point(name);
+TEST(Bur, HeadsAreConvex) {
+  Random random(drawn_seed("Bur.HeadsAreConvex"));
+  for (const auto& name : bur_names()) {
+    const Bur p = shipped_bur(name);
     const double r = p.head_radius_mm;
     const auto inside = [&] {
       for (;;) {
@@ -43,10 +43,10 @@ TEST(DiamondPoint, HeadsAreConvex) {
   }
 }
 
-TEST(DiamondPoint, HeadDistanceNeverChangesFasterThanTheWay) {  // what carving asks of a shape
-  Random random(drawn_seed("DiamondPoint.HeadDistanceNeverChangesFasterThanTheWay"));
-  for (const auto& name : point_names()) {
-    const DiamondPoint p = diamond_point(name);
+TEST(Bur, HeadDistanceNeverChangesFasterThanTheWay) {  // what carving asks of a shape
+  Random random(drawn_seed("Bur.HeadDistanceNeverChangesFasterThanTheWay"));
+  for (const auto& name : bur_names()) {
+    const Bur p = shipped_bur(name);
     for (int i = 0; i < 5000; ++i) {
       const Vec3 a{random.uniform(-1, 1), random.uniform(-1, 1), random.uniform(-0.5, p.cutting_length_mm + 0.5)};
       const Vec3 b = a + random_direction(random) * random.uniform(0, 0.3);
@@ -55,9 +55,9 @@ TEST(DiamondPoint, HeadDistanceNeverChangesFasterThanTheWay) {  // what carving 
   }
 }
 
-TEST(DiamondPoint, WidestHeightsBoundWhereTheHeadNarrows) {
-  for (const auto& name : point_names()) {
-    const DiamondPoint p = diamond_point(name);
+TEST(Bur, WidestHeightsBoundWhereTheHeadNarrows) {
+  for (const auto& name : bur_names()) {
+    const Bur p = shipped_bur(name);
     double before = 0;
     for (double z = 0; z < p.cutting_length_mm; z += 0.001) {
       const double r = p.profile.radius_mm(z);
@@ -72,7 +72,7 @@ TEST(DiamondPoint, WidestHeightsBoundWhereTheHeadNarrows) {
   }
 }
 
-TEST(DiamondPoint, BrokenFilesAreErrorsWithLineAndColumn) {
+TEST(Bur, BrokenFilesAreErrorsWithLineAndColumn) {
   using Broken = std::array<const char*, 3>;
   for (const auto& [what, from, to] : {Broken{"syntax", "profile = [", "profile = [["},
                                        {"missing title", "title = \"Round, 1.0 mm\"\n", ""},
@@ -90,28 +90,28 @@ TEST(DiamondPoint, BrokenFilesAreErrorsWithLineAndColumn) {
                                        {"arc about NaN", "centre = [0, 0.5]", "centre = [nan, 0.5]"},
                                        {"hollow head", "cutting_length_mm = 0.9", "cutting_length_mm = 11.5"},
                                        {"empty profile", "profile = [", "profile = []\nrest = ["}}) {
-    std::string text = point_text("round-1.0");
+    std::string text = bur_text("round-1.0");
     const auto at = text.find(from);
     ASSERT_NE(at, std::string::npos) << from;
     text.replace(at, std::string(from).size(), to);
-    const std::string place = place_of(thrown_by([&] { (void)parse_diamond_point(text, "p.toml"); }));
+    const std::string place = place_of(thrown_by([&] { (void)parse_bur(text, "p.toml"); }));
     EXPECT_TRUE(std::regex_match(place, std::regex("p\\.toml:[0-9]+:[0-9]+"))) << what << ": '" << place << "'";
   }
 }
 
-TEST(DiamondPoint, MorePiecesThanTheLimitAreRefusedByIt) {
+TEST(Bur, MorePiecesThanTheLimitAreRefusedByIt) {
   std::string text = "name = \"many\"\ntitle = \"Many\"\ncutting_length_mm = 1\nprofile = [";
   for (int i = 0; i < 65; ++i) text += "{ r_mm = 0.3, z_mm = 1.2 }, ";
-  const auto error = thrown_by([&] { static_cast<void>(parse_diamond_point(text + "]\n", "p.toml")); });
+  const auto error = thrown_by([&] { static_cast<void>(parse_bur(text + "]\n", "p.toml")); });
   EXPECT_TRUE(tells(error, 65) && tells(error, 64));
 }
 
-TEST(DiamondPoint, APieceWithoutLengthIsRefusedOrHarmless) {
-  std::string text = point_text("cylinder-flat-1.0");
+TEST(Bur, APieceWithoutLengthIsRefusedOrHarmless) {
+  std::string text = bur_text("cylinder-flat-1.0");
   const std::string piece = "{ r_mm = 0.5, z_mm = 4 },\n";
   text.insert(text.find(piece), piece);
   try {
-    const ContactTool tool = make_contact_tool(parse_diamond_point(text, "p.toml"));
+    const ContactTool tool = make_contact_tool(parse_bur(text, "p.toml"));
     for (const auto& s : tool.samples) ASSERT_TRUE(is_finite(s.at_mm) && is_finite(s.normal) && std::isfinite(s.area_mm2));
   } catch (const Error&) {
   }

@@ -1,4 +1,4 @@
-#include "engine/physics/bur/diamond_point.h"
+#include "engine/physics/bur/bur.h"
 
 #include <fmt/core.h>
 
@@ -10,7 +10,7 @@
 namespace cavum {
 namespace {
 
-/// Titles in data/points: the catalogue takes them from here.
+/// Titles in data/burs: the catalogue takes them from here.
 [[maybe_unused]] constexpr std::array k_titles{said("Cylinder, flat end, 1.0 mm"),
                                                said("Cylinder, round end, 1.0 mm"),
                                                said("Endodontic access, long, 1.0 mm ball end"),
@@ -26,13 +26,13 @@ namespace {
 
 }  // namespace
 
-DiamondPoint parse_diamond_point(const std::string& text, const std::string& where) {
+Bur parse_bur(const std::string& text, const std::string& where) {
   const toml::table document = parse_toml(text, where);
   TomlReader in(document, where);
-  DiamondPoint point;
-  point.name = in.text("name");
-  point.title = in.text("title");
-  point.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
+  Bur bur;
+  bur.name = in.text("name");
+  bur.title = in.text("title");
+  bur.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
   const toml::array* pieces = in.array("profile");
   if (pieces == nullptr) in.fail("profile", msg("is missing"), msg("list {{r_mm, z_mm}} from the tip upwards"));
   constexpr std::size_t k_most_pieces = 64;  // the distance to each is taken at each node of the head's table
@@ -55,29 +55,29 @@ DiamondPoint parse_diamond_point(const std::string& text, const std::string& whe
   }
   in.finish();
   try {
-    point.profile = Profile(std::move(segments));
+    bur.profile = Profile(std::move(segments));
   } catch (const Error& e) {
     in.fail("profile", e.problem(), msg("correct it"));
   }
-  point.head = point.profile.below(point.cutting_length_mm);
+  bur.head = bur.profile.below(bur.cutting_length_mm);
   ProfilePoint facing{0, -1};
-  for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm)) {
+  for (const auto& p : bur.profile.walk(0.005, bur.cutting_length_mm)) {
     // carving relies on it: see carve_head
     if (facing.r_mm * p.normal.z_mm - facing.z_mm * p.normal.r_mm < -1e-6)
       in.fail("profile", msg("is hollow at a height of {}", as_mm(p.at.z_mm, k_as_needed)), msg("make it convex up to cutting_length_mm"));
     facing = p.normal;
-    point.head_radius_mm = std::max(point.head_radius_mm, p.at.r_mm);
-    if (p.normal.z_mm < -1e-9) point.widest_from_mm = p.at.z_mm;  // still facing down
+    bur.head_radius_mm = std::max(bur.head_radius_mm, p.at.r_mm);
+    if (p.normal.z_mm < -1e-9) bur.widest_from_mm = p.at.z_mm;  // still facing down
   }
-  point.field = HeadField(point.head, point.cutting_length_mm, point.head_radius_mm);
-  point.smallest_radius_mm = point.head.smallest_arc_mm(point.head_radius_mm);
-  point.widest_to_mm = point.cutting_length_mm;
-  for (const auto& p : point.profile.walk(0.005, point.cutting_length_mm))
+  bur.field = HeadField(bur.head, bur.cutting_length_mm, bur.head_radius_mm);
+  bur.smallest_radius_mm = bur.head.smallest_arc_mm(bur.head_radius_mm);
+  bur.widest_to_mm = bur.cutting_length_mm;
+  for (const auto& p : bur.profile.walk(0.005, bur.cutting_length_mm))
     if (p.normal.z_mm > 1e-9) {
-      point.widest_to_mm = p.at.z_mm;  // faces up from here on
+      bur.widest_to_mm = p.at.z_mm;  // faces up from here on
       break;
     }
-  return point;
+  return bur;
 }
 
 }  // namespace cavum

@@ -1,5 +1,5 @@
-// A diamond point as the catalogue lists it: its profile, and up to which height it is coated and cuts.
-// Shapes and sizes ship in data/points/, one TOML file each.
+// A bur as the catalogue lists it: its profile, and up to which height it is coated and cuts.
+// Shapes and sizes ship in data/burs/, one TOML file each.
 #pragma once
 
 #include <algorithm>
@@ -10,7 +10,7 @@
 
 namespace cavum {
 
-struct DiamondPoint {
+struct Bur {
   std::string name;                             ///< file name without ending: "round-1.0"
   std::string title;                            ///< for people
   double cutting_length_mm = 0;                 ///< coated from the tip up to this height
@@ -27,6 +27,6 @@ struct DiamondPoint {
 
 /// Reads `name, title, cutting_length_mm, profile = [{r_mm, z_mm, centre = [r, z]}, ...]` (centre makes an arc).
 /// Throws Error(where:line:column, ...).
-[[nodiscard]] DiamondPoint parse_diamond_point(const std::string& text, const std::string& where);
+[[nodiscard]] Bur parse_bur(const std::string& text, const std::string& where);
 
 }  // namespace cavum
