@@ -40,7 +40,7 @@ void copy_database(const std::string& from, const std::string& to) {
       Database source = Database::open(from, false);
       source.copy_to(copy);
     } catch (const DatabaseError& e) {
-      if (e.code() == SQLITE_FULL || e.code() == SQLITE_IOERR) throw;
+      if (e.refusal().fault == DiskFault::full || e.refusal().fault == DiskFault::input_output) throw;
       std::vector<Message> findings;  // a folder that may only be read
       Database source = Database::from_image(read_session_image(from, findings), from);
       source.copy_to(copy);

@@ -207,7 +207,7 @@ void Exam::keep(const DatabaseError& refusal) {
   problem_ = refusal.message();
   if (second_place_.empty() || recorder_->path() == second_place_) return;
   try {
-    recorder_->move_to(second_place_, refusal.what());
+    recorder_->move_to(second_place_, refusal.refusal());
   } catch (const Error& also) {
     problem_ = msg("{}; and elsewhere: {}", problem_, also.message());
   }

@@ -227,8 +227,9 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), ServoLateness{report.servo, report.first_disagreement});
   const Number worst = as_unit(report.servo.lateness.worst_us() * 1e-3, Unit::ms, 1);
   if (!o.json && !o.quiet)
-    std::cerr << (report.servo.fifo ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
-                                    : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
+    std::cerr << (report.servo.fifo.granted()
+                      ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
+                      : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
               << "\n";
   if (exam.over()) {
     return finish(o, exam, servo);

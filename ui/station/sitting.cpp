@@ -161,7 +161,7 @@ void Sitting::advance() {
       closed_ = grading_.get();
       stage_ = Stage::done;
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
       stage_ = Stage::unsaved;
     }
   } else if (stage_ == Stage::unsaved && std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
@@ -170,7 +170,7 @@ void Sitting::advance() {
     try {
       save("");
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
     }
   }
 }
@@ -246,7 +246,7 @@ void Sitting::rescue() {
     try {
       save(tries == 0 ? "" : scenarios::rescue_place(path_));
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
     }
   }
 }
@@ -266,7 +266,7 @@ void Sitting::end_running() {
   trouble_ = why_stopped();
   stage_ = Stage::interrupted;
   if (unwritten_s() <= 0.0) return;
-  trouble_ = report_.writer.error;
+  refused(report_.writer.error, report_.writer.refusal);
   stage_ = Stage::unsaved;
 }
 
@@ -294,7 +294,7 @@ void Sitting::save(const std::string& place) {
     const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
     if (file.extension() != ".cavum")
       throw Error(Name{place}, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
-    exam.recorder().move_to(file.string(), english_text(trouble_));
+    exam.recorder().move_to(file.string(), refusal_);
   }
   exam.recorder().flush();
   path_ = exam.recorder().path();
