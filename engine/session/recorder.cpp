@@ -34,7 +34,6 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
       {"candidate", setup.candidate},
-      {"device", setup.device},
       {"calibration", setup.calibration},
       {k_source_fact, text_of(setup.source.kind)},
       {k_source_name_fact, setup.source.name},

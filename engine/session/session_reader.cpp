@@ -208,7 +208,6 @@ SessionSetup SessionReader::setup() const {
     return a == nullptr ? std::string() : std::string(a->bytes.begin(), a->bytes.end());
   };
   s.candidate = fact("candidate");
-  s.device = fact("device");
   s.calibration = fact("calibration");
   s.source = {source_kind_of(fact(k_source_fact)).value_or(SourceKind::unnamed), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");

@@ -101,7 +101,6 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
   if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
   s.candidate = options.candidate;
-  s.device = options.device;
   s.source = options.source;
   require_sound(options.grant, msg("the accommodations"));
   s.notes = options.notes;

@@ -70,7 +70,7 @@ std::string require_resumable(const std::string& path, const std::string& candid
   if (setup.candidate != candidate && setup.candidate != records::pseudonym_typed(candidate))
     throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
-    throw Error(Name{device.name()}, msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
+    throw Error(in_words(device.source()), msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
   return setup.candidate;
 }
 
@@ -96,7 +96,6 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.tooth_file = options_.tooth;
   exam.force_model = options_.model;
   exam.rubric_file = options_.rubric;
-  exam.device = device_->name();
   exam.position_quantum_mm = device_->position_quantum_mm();
   exam.peak_n = device_->peak_n();
   exam.continuous_n = device_->continuous_n();
@@ -202,7 +201,7 @@ void Sitting::begin() {
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       const bool remembered = records::require_not_closed(setup_->session.notes, first);
-      auto exam = scenarios::Exam::resume(*setup_, first, {source(), device_->name(), remembered, device_->notes()});
+      auto exam = scenarios::Exam::resume(*setup_, first, {source(), remembered, device_->notes()});
       exam->set_second_place(second);
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     }

@@ -23,7 +23,6 @@ HandIntent drilling_hand(double t_s) {
 SessionSetup servo_rig_setup(const std::string& point_toml, const std::string& force_model_toml, double tick_s) {
   SessionSetup setup;
   setup.candidate = "rig";
-  setup.device = "simulated Omni in a simulated hand";
   setup.calibration = "exact";
   setup.source = {SourceKind::program, "servo rig"};
   setup.scenario_toml = "title = \"servo rig\"\n";

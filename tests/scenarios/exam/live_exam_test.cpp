@@ -56,7 +56,6 @@ class LiveExamTest : public ::testing::Test {
                save_tooth(make_block({6, 6, 5}, {{"enamel", 1.0}, {"dentin", 1.5}, {"pulp", 1.0}, {"dentin", 1.5}}, 0.05)));
     ExamOptions options;
     options.candidate = "t";
-    options.device = "simulated Omni";
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     options.tooth_file = folder_.file("block.cvt");
     setup_ = prepare_exam(folder_.file("task.toml"), options);
