@@ -151,7 +151,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
       plan.findings.push_back(
           {FindingKind::tree_differs, msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size)});
   } catch (const Error& e) {
-    plan.findings.push_back({FindingKind::malformed, e.without_advice()});
+    plan.findings.push_back({FindingKind::malformed, e.where_and_problem()});
   }
 }
 
