@@ -52,9 +52,9 @@ class Error : public std::runtime_error {
   [[nodiscard]] const FilePlace* file_place() const noexcept {
     return where_.values().size() == 1 ? std::get_if<FilePlace>(static_cast<const Value::variant*>(&where_.values()[0])) : nullptr;
   }
-  /// All of it, and all but the advice, for what says itself what to do.
   [[nodiscard]] Message message() const { return msg("{}: {}; {}", where_, problem_, advice_); }
-  [[nodiscard]] Message without_advice() const { return msg("{}: {}", where_, problem_); }
+  /// For what says itself what to do.
+  [[nodiscard]] Message where_and_problem() const { return msg("{}: {}", where_, problem_); }
 
  private:
   ErrorCode code_;

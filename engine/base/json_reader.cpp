@@ -1,5 +1,6 @@
 #include "engine/base/json_reader.h"
 
+#include <algorithm>
 #include <functional>
 
 #include "engine/base/error.h"
@@ -11,11 +12,11 @@ namespace {
 
 using nlohmann::json;
 
-/// What the library says, without its own name and number in brackets in front.
-std::string said(const json::exception& e) {
-  const std::string text = one_line(e.what());
-  const auto end = text.find("] ");
-  return (end == std::string::npos ? text : text.substr(end + 2)).substr(0, 200);
+/// Line and column of a byte, both from 1.
+Message place_of(std::string_view text, std::size_t byte) {
+  const std::string_view before = text.substr(0, byte > 0 ? byte - 1 : 0);
+  const auto line_from = before.rfind('\n') + 1;  // npos + 1 is 0
+  return msg("line {}, column {}", std::count(before.begin(), before.end(), '\n') + 1, before.size() - line_from + 1);
 }
 
 /// Walks through the text and keeps nothing of it. The library's own callback, which could count while it keeps, looks at all members of an object
@@ -69,8 +70,10 @@ json parse_json(std::string_view text, const Where& where, const JsonLimits& lim
   static_cast<void>(json::sax_parse(text, &counted));
   try {
     return json::parse(text);
-  } catch (const json::exception& e) {
-    throw Error(FileError::malformed, where, msg("is no JSON ({})", said(e)), msg("correct it, or use an intact copy"));
+  } catch (const json::parse_error& e) {
+    throw Error(FileError::malformed, where, msg("is no JSON ({})", place_of(text, e.byte)), msg("correct it, or use an intact copy"));
+  } catch (const json::exception&) {
+    throw Error(FileError::out_of_range, where, msg("holds a number that is too large"), msg("correct it, or use an intact copy"));
   }
 }
 

@@ -7,7 +7,7 @@ namespace cavum {
 
 StylusFacts simulated_facts(const OmniModel& omni) {
   return {.id = "simulated",
-          .name = "simulated Omni in a simulated hand",
+          .name = msg("simulated Omni in a simulated hand"),
           .position_quantum_mm = omni.quantum_mm,
           .peak_n = omni.saturation_n,
           .continuous_n = 0.88,

@@ -14,7 +14,7 @@ namespace cavum {
 /// What a stylus is; the same for as long as it is open.
 struct StylusFacts {
   std::string id;                    ///< of its record in the table of styluses: a lower-case word
-  std::string name;                  ///< in words, with what the device says of itself
+  Message name;                      ///< product, with what the device says of itself
   std::string serial = {};           ///< of this very device; empty when it tells none
   double position_quantum_mm = 0.0;  ///< step of the positions it reports; 0 = exact
   double peak_n = 0.0;               ///< force that it can give for a moment; more is cut to it

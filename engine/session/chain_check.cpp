@@ -56,7 +56,7 @@ void check_facts(const SessionReader& session, Findings& findings) {
       findings.push_back(
           msg("table meta: a tick is said to last '{}' s, and by servo.toml it lasts {}", session.fact("tick_s"), as_s(tick_s, k_as_needed)));
   } catch (const Error& e) {
-    findings.push_back(e.without_advice());
+    findings.push_back(e.where_and_problem());
   }
 }
 

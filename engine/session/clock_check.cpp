@@ -30,8 +30,8 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
     if (gap == nullptr) continue;
     gaps.push_back(e.tick);
     out.push_back({ClockRemark::Kind::interrupted, e.tick, 0,
-                   gap->by.device.empty() ? msg("interrupted for {} and taken up again", seconds(gap->utc_s()))
-                                          : msg("interrupted for {} and taken up again with {}", seconds(gap->utc_s()), gap->by.device),
+                   !gap->by.source ? msg("interrupted for {} and taken up again", seconds(gap->utc_s()))
+                                   : msg("interrupted for {} and taken up again with {}", seconds(gap->utc_s()), in_words(*gap->by.source)),
                    false});
   }
   Clocks before = session.created();

@@ -10,12 +10,12 @@
 #include "engine/base/json_reader.h"
 #include "engine/base/json_struct.h"
 #include "engine/base/text.h"
+#include "engine/physics/servo/real_time_json.h"
 #include "engine/session/source_json.h"
 
 namespace cavum {
 
 constexpr auto names_of(Finish) { return k_finish_names; }
-constexpr auto names_of(ServoEnd) { return k_servo_end_names; }
 constexpr auto names_of(LockTry) {
   return std::array{"close_asked", "close_refused", "close_granted",  "focus_lost",    "focus_back",
                     "screen_lost", "screen_back",   "second_station", "keyboard_added"};
@@ -31,19 +31,15 @@ CAVUM_JSON_OF(OfEntry, (entry), (text))
 CAVUM_JSON_OF(BurNotAllowed, (bur))
 CAVUM_JSON_OF(Finished, (how))
 CAVUM_JSON_OF(PauseRefused, (pauses))
-CAVUM_JSON_OF(ResumedBy, (device), (notes), (source), (ticket_remembered))
+CAVUM_JSON_OF(ResumedBy, (notes), (source), (ticket_remembered))
 CAVUM_JSON_OF(RecordingGap, (boot_id), (boot_s), (by), (last_utc_ns), (resumed_utc_ns), (station_key))
+CAVUM_JSON_OF(DiskRefusal, (error), (fault))
 CAVUM_JSON_OF(RecordingMoved, (from), (ticks), (why))
 CAVUM_JSON_OF(ServoGap, (first_tick), (periods), (times))
 CAVUM_JSON_OF(Overruns, (count), (worst_late_ms))
 CAVUM_JSON_OF(StylusSilent, (fault))
-CAVUM_JSON_OF(ServoStopped, (error), (why))
 CAVUM_JSON_OF(Lateness, (counts), (sum_ns), (ticks), (worst_ns))
-void json_fields(auto& of, JsonOf<RealTimeReport> auto& self) {
-  CAVUM_NAMES((ticks), (overruns), (made_up), (skipped_late), (skipped_full), (guard_cuts), (lateness), (work),
-              (memory_locked), (memory_refused), (error))
-  of("sched_fifo", self.fifo), of("sched_fifo_refused", self.fifo_refused), of("ended", self.why);
-}
+CAVUM_JSON_OF(RealTimeReport, (ticks), (overruns), (made_up), (skipped_late), (skipped_full), (guard_cuts), (lateness), (work), (fifo), (memory), (ended))
 CAVUM_JSON_OF(ServoLateness, (first_disagreement), (servo))
 CAVUM_JSON_OF(WorkAfterEnd, (pedal_ticks), (ticks))
 CAVUM_JSON_OF(LockAttempt, (by_supervisor), (keyboard), (screens_left), (what))

@@ -16,6 +16,7 @@
 #include "engine/base/vec.h"
 #include "engine/base/where.h"
 #include "engine/physics/servo/real_time.h"
+#include "engine/session/disk_refusal.h"
 #include "engine/session/motion_source.h"
 
 namespace cavum {
@@ -92,7 +93,7 @@ struct RecordingMoved {  ///< the disk refused: from here on at another place
   static constexpr char k_kind[] = "moved";
   std::string from;        ///< file name without folder
   std::int64_t ticks = 0;  ///< written there
-  std::string why;
+  DiskRefusal why;
 };
 struct ServoGap {  ///< periods of the last second that passed without a tick
   static constexpr char k_kind[] = "servo_gap";
@@ -110,11 +111,7 @@ struct StylusSilent {  ///< no fresh pose for longer than the watchdog allows
 using StylusBack = EventKind<"stylus_back">;
 using PedalLost = EventKind<"pedal_lost">;
 using PedalBack = EventKind<"pedal_back">;
-struct ServoStopped {
-  static constexpr char k_kind[] = "servo_stopped";
-  ServoEnd why = ServoEnd::asked;
-  std::string error;
-};
+using ServoStopped = EventKind<"servo_stopped", ServoStop>;
 using ServoDisagrees = EventKind<"servo_disagrees">;  ///< servo and recording had different states, first at this tick
 struct ServoLateness {
   static constexpr char k_kind[] = "servo_lateness";

@@ -30,6 +30,27 @@ Message in_words(SourceKind kind) {
   return msg("a program");
 }
 
+Message in_words(const MotionSource& source) {
+  if (source.name.empty()) return in_words(source.kind);
+  switch (source.kind) {
+    case SourceKind::unnamed:
+      break;
+    case SourceKind::device:
+      return msg("stylus {}", source.name);
+    case SourceKind::pointer:
+      return in_words(source.kind);
+    case SourceKind::practice:
+      return msg("practice with {}", source.name);
+    case SourceKind::simulated_operator:
+      return msg("simulated candidate {}", source.name);
+    case SourceKind::motion_file:
+      return msg("file of motion {}", source.name);
+    case SourceKind::program:
+      return msg("program {}", source.name);
+  }
+  return Name{source.name};
+}
+
 std::vector<SourceFrom> sources_of(const SessionReader& session) {
   std::vector<SourceFrom> out{{0,
                                {source_kind_of(session.fact(k_source_fact)).value_or(SourceKind::unnamed), session.fact(k_source_name_fact),

@@ -34,19 +34,20 @@ inline constexpr std::array<const char*, 7> k_source_kinds{"", "device", "pointe
 
 struct MotionSource {
   SourceKind kind = SourceKind::program;
-  std::string name = {};    ///< of the device, operator or file
+  std::string name = {};    ///< id of the stylus, or name of the operator, file or program
   std::string serial = {};  ///< of the device; empty when it tells none
 
   [[nodiscard]] bool is_hand() const { return kind == SourceKind::device; }
   friend bool operator==(const MotionSource&, const MotionSource&) = default;
 };
+/// "stylus falcon"
+[[nodiscard]] Message in_words(const MotionSource& source);
 /// Further facts by key.
 using Notes = std::vector<std::pair<std::string, std::string>>;
 
 /// What gives the input of an exam that is taken up again.
 struct ResumedBy {
   std::optional<MotionSource> source;  ///< none: nothing does, it is closed as it stands
-  std::string device = {};             ///< as SessionSetup::device
   bool ticket_remembered = true;       ///< false: the station has no memory of having begun the exam of its ticket
   Notes notes = {};
 };

@@ -34,7 +34,6 @@ std::map<std::string, std::string> meta_of(const SessionSetup& setup, const Cloc
       {"engine_version", version()},
       {"physics_version", std::to_string(k_physics_version)},
       {"candidate", setup.candidate},
-      {"device", setup.device},
       {"calibration", setup.calibration},
       {k_source_fact, text_of(setup.source.kind)},
       {k_source_name_fact, setup.source.name},
@@ -81,7 +80,7 @@ void put_session_in_place(const std::string& made, const std::string& path) {
     placed = put_in_place(made, path);
   } catch (const Error& refusal) {
     ::unlink(made.c_str());
-    throw DatabaseError(refusal, SQLITE_IOERR);  // the disk's, as any while recording: an exam then begins at its second place
+    throw DatabaseError(refusal, DiskFault::input_output);  // the disk's, as any while recording: an exam then begins at its second place
   }
   if (placed) return;
   ::unlink(made.c_str());
@@ -237,7 +236,7 @@ void Recorder::flush() {
   write_pending();
 }
 
-void Recorder::move_to(const std::string& path, const std::string& why) {
+void Recorder::move_to(const std::string& path, const DiskRefusal& why) {
   if (database_ && !database_->is_open() && sealed_)
     throw Error(SessionError::closed, Name{path_}, msg("the session is closed"), msg("copy its file"));
   require_database();

@@ -47,7 +47,7 @@ class Recorder {
   /// what waits is written, and what comes goes there. The first file stays as it is: a session that was never closed.
   /// Throws Error when `path` exists, or cannot be written either; before the copy is whole nothing has changed then, afterwards what waits goes on
   /// waiting for the new place.
-  void move_to(const std::string& path, const std::string& why);
+  void move_to(const std::string& path, const DiskRefusal& why);
 
   /// Where it records.
   [[nodiscard]] const std::string& path() const noexcept { return path_; }

@@ -28,7 +28,6 @@ inline constexpr std::int64_t k_chunk_ticks = 1000;
 /// recording never depends on a file outside it.
 struct SessionSetup {
   std::string candidate;    ///< pseudonym, never a name
-  std::string device;       ///< name of the stylus, or of the simulated operator
   std::string calibration;  ///< the device's calibration, as text
   MotionSource source;      ///< what moves the stylus
   std::string scenario_toml;

@@ -68,7 +68,7 @@ Bytes read_session_image(const std::string& path, std::vector<Message>& findings
   try {
     return apply(file, log, journal);
   } catch (const DatabaseError& e) {
-    findings.push_back(msg("file: the log beside it cannot be applied, and was left out: {}", e.without_advice()));
+    findings.push_back(msg("file: the log beside it cannot be applied, and was left out: {}", e.where_and_problem()));
     return file;
   }
 }

@@ -35,7 +35,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(msg("table {}, row {}: {}", table, rows, e.without_advice()));
+    findings.push_back(msg("table {}, row {}: {}", table, rows, e.where_and_problem()));
   }
 }
 
@@ -63,7 +63,7 @@ void quick_check(Database& database, std::vector<Message>& findings) {
     while (s.step())
       if (const std::string line = s.text(0); line != "ok") findings.push_back(msg("file: {}", line));
   } catch (const DatabaseError& e) {
-    findings.push_back(msg("file: {}", e.without_advice()));
+    findings.push_back(msg("file: {}", e.where_and_problem()));
   }
 }
 
@@ -117,7 +117,7 @@ void SessionReader::read(Bytes image) {
     if (!marked)
       throw Error(SessionError::not_a_session, Name{path_}, msg("is an SQLite database, but not a Cavum session"),
                   msg("name a .cavum file that an exam wrote"));
-    findings_.push_back(msg("file: {}", e.without_advice()));
+    findings_.push_back(msg("file: {}", e.where_and_problem()));
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -208,7 +208,6 @@ SessionSetup SessionReader::setup() const {
     return a == nullptr ? std::string() : std::string(a->bytes.begin(), a->bytes.end());
   };
   s.candidate = fact("candidate");
-  s.device = fact("device");
   s.calibration = fact("calibration");
   s.source = {source_kind_of(fact(k_source_fact)).value_or(SourceKind::unnamed), fact(k_source_name_fact), fact(k_source_serial_fact)};
   s.scenario_toml = text("scenario.toml");

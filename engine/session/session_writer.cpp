@@ -27,6 +27,8 @@ template <class Action>
 void SessionWriter::guarded(const Action& action) noexcept {
   try {
     action();
+  } catch (const DatabaseError& e) {
+    if (report_.error.empty()) report_.error = e.message(), report_.refusal = e.refusal();
   } catch (const std::exception& e) {
     if (report_.error.empty()) report_.error = said_by(e);
   } catch (...) {
@@ -45,7 +47,7 @@ void SessionWriter::run() noexcept {
   }
   guarded([&] {
     note_counts(recorder_.ticks());
-    recorder_.add_event(recorder_.ticks(), ServoStopped{stream_.why(), stream_.detail()});
+    recorder_.add_event(recorder_.ticks(), ServoStopped{stream_.stop()});
   });
   guarded([&] { recorder_.flush(); });
 }

@@ -19,6 +19,7 @@ struct WriterReport {
   std::int64_t ticks = 0;         ///< taken from the stream
   std::int64_t most_waiting = 0;  ///< ticks that were waiting at the worst moment
   Message error;                  ///< first error of recorder or watch; empty = everything is on disk
+  DiskRefusal refusal;            ///< where it was the disk's
 };
 
 /// Events it writes: Overruns and ServoGap each second, StylusSilent and StylusBack, PedalLost and PedalBack, ServoStopped.

@@ -16,15 +16,6 @@ Simulation make_simulation(const SessionSetup& setup, const std::string& where, 
   return s;
 }
 
-Tooth drilled_tooth(const Simulation& simulation) {
-  Tooth tooth;
-  tooth.octree = simulation.state.tooth;
-  tooth.tissues = simulation.tooth.tissues;
-  tooth.name = simulation.tooth.name;
-  tooth.source = simulation.tooth.source;
-  tooth.placed_landmarks = simulation.tooth.placed_landmarks;
-  tooth.notes = simulation.tooth.notes;
-  return tooth;
-}
+Tooth drilled_tooth(const Simulation& simulation) { return {simulation.tooth, simulation.state.tooth, simulation.tooth.tissues}; }
 
 }  // namespace cavum

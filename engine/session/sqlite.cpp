@@ -20,35 +20,42 @@ constexpr int k_most_calls = 2000;
   if ((code & 0xff) == SQLITE_NOMEM) throw std::bad_alloc();  // nothing is wrong with the file
   const std::string what = db != nullptr ? sqlite3_errmsg(db) : sqlite3_errstr(code);
   const int system_error = db != nullptr ? sqlite3_system_errno(db) : 0;
+  DiskRefusal refusal{DiskFault::other, system_error};
   Message detail = Name{what}, to_do = msg("try again; if it stays, copy the file elsewhere and report this");
   switch (code & 0xff) {
     case SQLITE_FULL:
+      refusal.fault = DiskFault::full;
       to_do = msg("make room on the disk and try again: nothing recorded so far is lost");
       break;
     case SQLITE_IOERR:
+      refusal.fault = DiskFault::input_output;
       if (system_error != 0) detail = msg("{} ({})", what, std::strerror(system_error));
       to_do = msg("make room on the disk, check that it is still there, and try again: nothing recorded so far is lost");
       break;
     case SQLITE_BUSY:
     case SQLITE_LOCKED:
+      refusal.fault = DiskFault::held;
       detail = holder_of(where);
       to_do = msg("try again when it is done, or close it");
       break;
     case SQLITE_CANTOPEN:
+      refusal.fault = DiskFault::not_opened;
       to_do = msg("check that the path exists and is writable");
       break;
     case SQLITE_READONLY:
     case SQLITE_PERM:
+      refusal.fault = DiskFault::read_only;
       to_do = msg("make the file and its folder writable");
       break;
     case SQLITE_CORRUPT:
     case SQLITE_NOTADB:
+      refusal.fault = DiskFault::damaged;
       to_do = msg("use an intact copy");
       break;
     default:
       break;
   }
-  throw DatabaseError(where, detail, to_do, code & 0xff);
+  throw DatabaseError(where, detail, to_do, refusal);
 }
 
 int limit_work(void* calls) { return ++*static_cast<int*>(calls) > k_most_calls ? 1 : 0; }
@@ -93,7 +100,7 @@ void Statement::wrong_type(int column, const Message& wanted) const {
   const char* name = sqlite3_column_name(statement_.get(), column);
   if (name == nullptr) throw std::bad_alloc();
   throw DatabaseError(where_, msg("column {} does not hold {}", name, wanted), msg("the file was damaged or edited: use an intact copy"),
-                      SQLITE_CORRUPT);
+                      {DiskFault::damaged});
 }
 
 std::int64_t Statement::integer(int column) const {
@@ -129,14 +136,14 @@ Database Database::open(const std::string& path, bool make, std::chrono::millise
   try {
     if (make && path != ":memory:") make_private_file(path);
   } catch (const Error& refusal) {
-    throw DatabaseError(refusal, SQLITE_CANTOPEN);
+    throw DatabaseError(refusal, DiskFault::not_opened);
   }
   if (path != ":memory:")
     for (const char* end : {"", "-wal", "-shm", "-journal"}) {  // a pipe would be waited for
       std::error_code none;
       const auto type = std::filesystem::status(path + end, none).type();
       if (type != std::filesystem::file_type::regular && type != std::filesystem::file_type::not_found && type != std::filesystem::file_type::none)
-        throw DatabaseError(path + end, msg("is no regular file"), msg("remove it, or name another place"), SQLITE_CANTOPEN);
+        throw DatabaseError(path + end, msg("is no regular file"), msg("remove it, or name another place"), {DiskFault::not_opened});
     }
   database.connect(path, SQLITE_OPEN_READWRITE);
   sqlite3_busy_timeout(database.db_.get(), static_cast<int>(wait.count()));

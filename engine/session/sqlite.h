@@ -15,20 +15,21 @@
 
 #include "engine/base/bytes.h"
 #include "engine/base/error.h"
+#include "engine/session/disk_refusal.h"
 
 namespace cavum {
 
-/// SQLite said no. `code()` is its primary result code.
+/// SQLite, or the disk below it, said no.
 class DatabaseError : public Error {
  public:
-  DatabaseError(const std::string& where, Message what_happened, Message what_to_do, int code)
-      : Error(Name{where}, std::move(what_happened), std::move(what_to_do)), code_(code) {}
+  DatabaseError(const std::string& where, Message what_happened, Message what_to_do, DiskRefusal refusal)
+      : Error(Name{where}, std::move(what_happened), std::move(what_to_do)), refusal_(refusal) {}
   /// A file of a database that the system refused before SQLite saw it.
-  DatabaseError(const Error& refusal, int code) : Error(refusal), code_(code) {}
-  [[nodiscard]] int code() const noexcept { return code_; }
+  DatabaseError(const Error& error, DiskFault fault) : Error(error), refusal_{fault} {}
+  [[nodiscard]] const DiskRefusal& refusal() const noexcept { return refusal_; }
 
  private:
-  int code_;
+  DiskRefusal refusal_;
 };
 
 /// One prepared statement. Bind from 1, step, read columns from 0.

@@ -162,14 +162,7 @@ Octree octree_without(const Octree& tree, const TissueSet& gone) {
 
 Tooth own_tooth(const Tooth& tooth) {
   if (!has_beside(tooth)) return tooth;
-  Tooth own;
-  own.octree = octree_without(tooth.octree, tissues_beside(tooth));
-  own.tissues = tooth.tissues;
-  own.name = tooth.name;
-  own.source = tooth.source;
-  own.placed_landmarks = tooth.placed_landmarks;
-  own.notes = tooth.notes;
-  return own;
+  return {tooth, octree_without(tooth.octree, tissues_beside(tooth)), tooth.tissues};
 }
 
 Octree neighbours_alone(const Tooth& tooth) {

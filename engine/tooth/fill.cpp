@@ -82,13 +82,8 @@ Tooth filled_tooth(const Tooth& tooth, const std::array<bool, 256>& tissues) {
     if ((marks[grid.index(leaf)] & k_near) != 0) grid.distance[grid.index(leaf)] = encode_distance(leaves_to_surface(grid, solid, leaf));
   });
   grid.make_consistent(tooth.tissues);
-  Tooth out;
-  out.octree = Octree(grid, tooth.tissues);
-  out.tissues = tooth.tissues;
-  out.name = tooth.name + ", filled";
-  out.source = tooth.source;
-  out.placed_landmarks = tooth.placed_landmarks;
-  out.notes = tooth.notes;
+  Tooth out{tooth, Octree(grid, tooth.tissues), tooth.tissues};
+  out.name += ", filled";
   return out;
 }
 

@@ -6,6 +6,8 @@
 #include <vector>
 
 #include "engine/tooth/octree.h"
+#include "engine/tooth/tooth_number.h"
+#include "engine/tooth/tooth_source.h"
 
 namespace cavum {
 
@@ -25,13 +27,18 @@ struct ToothNote {
   friend bool operator==(const ToothNote&, const ToothNote&) = default;
 };
 
-struct Tooth {
-  Octree octree;
-  std::vector<Tissue> tissues = standard_tissues();
+/// What is said of a tooth beside its shape.
+struct ToothFacts {
   std::string name;                          ///< for people: "lower first molar (parametric)"
-  std::string source;                        ///< what it was made from, and every assumption made on the way (spacing, frame)
+  ToothKind kind;                            ///< which one of the jaw
+  ToothSource source;                        ///< what it was made from, and every assumption made on the way (spacing, frame)
   std::vector<NamedPoint> placed_landmarks;  ///< that a person put; they stand in place of what find_landmarks finds
   std::vector<ToothNote> notes;
+};
+
+struct Tooth : ToothFacts {
+  Octree octree;
+  std::vector<Tissue> tissues = standard_tissues();
 
   /// Name of a tissue id; "air" for 0, "tissue N" for one that the table does not list.
   [[nodiscard]] std::string tissue_name(std::uint8_t id) const;
@@ -52,7 +59,7 @@ inline constexpr std::size_t k_most_placed = 64, k_longest_landmark_name = 32;
 void save_tooth_file(const Tooth& tooth, const std::string& path);
 [[nodiscard]] Tooth load_tooth_file(const std::string& path);
 
-/// SHA-256 (hex) of tissues, octree and, where there are any, placed landmarks; name and source do not count. What sessions and scenarios pin.
+/// SHA-256 (hex) of tissues, octree and, where there are any, placed landmarks; name, kind and source do not count. What sessions and scenarios pin.
 [[nodiscard]] std::string tooth_hash(const Tooth& tooth);
 
 }  // namespace cavum

@@ -1,6 +1,8 @@
 // Compact tooth file, version 1, little-endian:
 //   "CVTOOTH1"            8 bytes
-//   name, source          each u32 length + text
+//   name                  u32 length + text
+//   FDI number u8 (0: not said), jaw u8 (0 not said, 1 upper, 2 lower), class u8 (0 not said, 1 incisor, 2 canine, 3 premolar, 4 molar)
+//   entry count u32 (0 to 256), each what was done to it: u32 length + JSON, see tooth_source.h
 //   tissue count u8, each tissue {u8 id, u8 solid, name}
 //   packed octree         see packed_octree.cpp
 //   landmark count u32 (0 to 64), each {name, f64 x, y, z, mm}: those that a person put
@@ -100,10 +102,43 @@ std::vector<ToothNote> read_notes(ByteReader& in, const std::string& where) {
   return notes;
 }
 
-Tooth read_all_but_octree(ByteReader& in) {
+void write_kind(const ToothKind& kind, ByteWriter& out) {
+  out.put(static_cast<std::uint8_t>(kind.number ? kind.number->fdi : 0));
+  out.put(static_cast<std::uint8_t>(kind.jaw));
+  out.put(static_cast<std::uint8_t>(kind.tooth_class));
+}
+
+ToothKind read_kind(ByteReader& in) {
+  const ToothNumber number{in.get<std::uint8_t>()};
+  const auto jaw = in.get<std::uint8_t>(), tooth_class = in.get<std::uint8_t>();
+  if (jaw > static_cast<std::uint8_t>(Jaw::lower) || tooth_class > static_cast<std::uint8_t>(ToothClass::molar))
+    in.fail(msg("its jaw or class is none"));
+  const ToothKind said(static_cast<Jaw>(jaw), static_cast<ToothClass>(tooth_class));
+  if (number.fdi == 0) return said;
+  if (!number.exists()) in.fail(msg("its number is that of no permanent tooth"));
+  const ToothKind kind(number);
+  if (kind.jaw != said.jaw || kind.tooth_class != said.tooth_class) in.fail(msg("its number contradicts its jaw or class"));
+  return kind;
+}
+
+void write_source(const ToothSource& source, ByteWriter& out) {
+  out.put(static_cast<std::uint32_t>(source.size()));
+  for (const auto& entry : source) out.put_string(encode(entry).dump(-1, ' ', false, nlohmann::json::error_handler_t::replace));
+}
+
+ToothSource read_source(ByteReader& in, const std::string& where) {
+  const auto count = in.get<std::uint32_t>();
+  if (count > k_most_notes) in.fail(msg("a tooth has at most {} entries of its source", k_most_notes));
+  ToothSource source;
+  for (std::uint32_t i = 0; i < count; ++i) source.push_back(decode_tooth_entry(parse_json(in.get_string(), where, k_json_part), where));
+  return source;
+}
+
+Tooth read_all_but_octree(ByteReader& in, const std::string& where) {
   Tooth tooth;
   tooth.name = one_line(in.get_string());
-  tooth.source = one_line(in.get_string());
+  tooth.kind = read_kind(in);
+  tooth.source = read_source(in, where);
   tooth.tissues.resize(in.get<std::uint8_t>());
   for (auto& t : tooth.tissues) {
     t.id = in.get<std::uint8_t>();
@@ -141,10 +176,13 @@ Bytes save_tooth(const Tooth& tooth) {
     throw Error(msg("tooth '{}'", tooth.name), fault, msg("put fewer landmarks, or others"));
   if (tooth.notes.size() > k_most_notes)
     throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} notes", k_most_notes), msg("import it anew"));
+  if (tooth.source.size() > k_most_notes)
+    throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} entries of its source", k_most_notes), msg("make it anew"));
   ByteWriter out;
   for (const char c : k_magic) out.put(c);
   out.put_string(tooth.name);
-  out.put_string(tooth.source);
+  write_kind(tooth.kind, out);
+  write_source(tooth.source, out);
   write_tissues(tooth, out);
   ByteWriter canonical;
   tooth.octree.write(canonical);
@@ -168,7 +206,7 @@ Tooth load_tooth_like(std::span<const std::uint8_t> bytes, const std::string& wh
   ByteReader in(signed_bytes.subspan(k_magic.size()), where);
   if (!std::equal(sum.begin(), sum.end(), bytes.begin() + static_cast<std::ptrdiff_t>(signed_bytes.size())))
     in.fail(msg("the checksum does not match"));
-  Tooth tooth = read_all_but_octree(in);
+  Tooth tooth = read_all_but_octree(in, where);
   const Bytes canonical = unpack_octree(in, tooth.tissues, like, keep);
   ByteReader from(canonical, where);
   tooth.octree = Octree::read(from, tooth.tissues);

@@ -29,7 +29,6 @@ struct Student {
 void sit(const Student& student, const std::string& scenario) {
   scenarios::ExamOptions options;
   options.candidate = student.candidate;
-  options.device = "simulated Omni, operator " + student.skill;
   options.source = {SourceKind::simulated_operator, student.skill};
   options.position_quantum_mm = OmniModel{}.quantum_mm;
   options.notes = {{"operator", student.skill}, {"operator_seed", std::to_string(student.seed)}, {records::k_ticket_note, student.ticket}};

@@ -41,7 +41,6 @@ std::vector<std::unique_ptr<scenarios::ExamSetup>> prepared(const std::vector<st
   for (const auto& file : files) {
     scenarios::ExamOptions options;
     options.candidate = "simulated student";
-    options.device = "simulated Omni";
     forms.push_back(scenarios::prepare_exam(file, options));
     const scenarios::Scenario& s = forms.back()->scenario;
     if (std::find(sat.ids.begin(), sat.ids.end(), s.id) != sat.ids.end())

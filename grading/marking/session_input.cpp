@@ -34,7 +34,7 @@ std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGround
     s->beside.emplace(GradeBeside{*s->apart, *s->before, s->after.octree, s->removed});
   }
   s->sealed_result_json = reader.result_json();
-  s->facts = {setup.candidate, setup.device, utc_text(reader.created().utc_ns), path, ground->hash, setup.calibration, setup.burs_toml, setup.notes};
+  s->facts = {setup.candidate, setup.source, utc_text(reader.created().utc_ns), path, ground->hash, setup.calibration, setup.burs_toml, setup.notes};
   return s;
 }
 

@@ -15,7 +15,8 @@ namespace cavum::grading {
 /// What a reader is told of a session beside its figures.
 struct ReportFacts {
   std::string candidate;  ///< pseudonym
-  std::string device, created, session_file, tooth_hash;
+  MotionSource source;    ///< what moved the stylus
+  std::string created, session_file, tooth_hash;
   std::string calibration;                                      ///< of the device, as text
   std::vector<std::string> burs_toml;                           ///< burs in the order of the tray
   std::vector<std::pair<std::string, std::string>> notes = {};  ///< of the session: what gave the input, and how

@@ -127,7 +127,7 @@ std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& g
   } catch (const std::bad_alloc&) {
     throw;  // nothing is wrong with the session
   } catch (const Error& e) {
-    failed(e.without_advice());
+    failed(e.where_and_problem());
   } catch (const std::exception& e) {
     failed(Name{e.what()});
   }

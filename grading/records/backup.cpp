@@ -40,7 +40,7 @@ void copy_database(const std::string& from, const std::string& to) {
       Database source = Database::open(from, false);
       source.copy_to(copy);
     } catch (const DatabaseError& e) {
-      if (e.code() == SQLITE_FULL || e.code() == SQLITE_IOERR) throw;
+      if (e.refusal().fault == DiskFault::full || e.refusal().fault == DiskFault::input_output) throw;
       std::vector<Message> findings;  // a folder that may only be read
       Database source = Database::from_image(read_session_image(from, findings), from);
       source.copy_to(copy);
@@ -151,7 +151,7 @@ void check_own_checkpoint(RestorePlan& plan, const History& history, const std::
       plan.findings.push_back(
           {FindingKind::tree_differs, msg("the backup was taken of {} entries, and holds {}: it was changed since", p.size, own.size)});
   } catch (const Error& e) {
-    plan.findings.push_back({FindingKind::malformed, e.without_advice()});
+    plan.findings.push_back({FindingKind::malformed, e.where_and_problem()});
   }
 }
 

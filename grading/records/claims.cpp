@@ -53,9 +53,10 @@ Findings check_course(const SessionReader& session, const SessionSetup& setup, c
     if (ticket && gap->resumed_utc_ns > ticket->ticket.not_after_utc_ns)
       findings.push_back(
           {FindingKind::ticket_time, msg("the exam was taken up again on {}, when its ticket was no longer good", utc_text(gap->resumed_utc_ns))});
-    const std::string& source = gap->by.device;
-    if (!source.empty() && source != setup.device)
-      findings.push_back({FindingKind::device_other, msg("the exam was begun with {}, and taken up again with {}", setup.device, source)});
+    const std::optional<MotionSource>& source = gap->by.source;
+    if (source && (source->kind != setup.source.kind || source->name != setup.source.name))
+      findings.push_back(
+          {FindingKind::device_other, msg("the exam was begun with {}, and taken up again with {}", in_words(setup.source), in_words(*source))});
   }
   return findings;
 }

@@ -211,7 +211,7 @@ CosignedNoteCheck check_cosigned(const std::string& text, const std::vector<Note
           {FindingKind::cosignature_unknown, msg("whether anybody cosigned it: it bears no cosignature of a cosigner that is known here")});
     if (out.checkpoint) check_history(ledger, read.ledger_id, read.checkpoint, msg("the cosigned note"), out.findings);
   } catch (const Error& e) {
-    out.findings.push_back({FindingKind::malformed, e.without_advice()});
+    out.findings.push_back({FindingKind::malformed, e.where_and_problem()});
   }
   return out;
 }

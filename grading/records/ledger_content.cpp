@@ -36,7 +36,7 @@ LedgerEntry parse_entry(std::uint64_t seq, const std::string& text, const Sha256
     if (e.as<InitEntry>() != nullptr && seq != 0)
       findings.push_back({FindingKind::entry_out_of_order, msg("{}: begins a ledger a second time", name), seq});
   } catch (const Error& wrong) {
-    findings.push_back({FindingKind::entry_malformed, wrong.without_advice(), seq});
+    findings.push_back({FindingKind::entry_malformed, wrong.where_and_problem(), seq});
     e.text = text;
   }
   e.seq = seq;
@@ -136,7 +136,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
         c.findings.push_back({FindingKind::malformed, msg("{}: its note is not as the school wrote it", name)});
       c.checkpoints.push_back(read.checkpoint);
     } catch (const Error& e) {
-      c.findings.push_back({FindingKind::malformed, e.without_advice()});
+      c.findings.push_back({FindingKind::malformed, e.where_and_problem()});
     }
   }
   for (const auto& [size, line] : stored.cosignatures) {
@@ -144,7 +144,7 @@ void take_notes(LedgerContent& c, const StoredNotes& stored) {
     try {
       c.cosignatures.push_back({size, parse_signature_line(line, name)});
     } catch (const Error& e) {
-      c.findings.push_back({FindingKind::malformed, e.without_advice()});
+      c.findings.push_back({FindingKind::malformed, e.where_and_problem()});
     }
   }
 }

@@ -100,7 +100,6 @@ std::unique_ptr<ExamSetup> prepare_exam(const std::string& scenario_path, const 
   Scenario scenario = parse_scenario(s.scenario_toml, scenario_path);
   if (const auto wrong = read_surfaces(scenario, s.attachments); !wrong.empty()) throw Error(wrong[0].where, wrong[0].what, wrong[0].what_to_do);
   s.candidate = options.candidate;
-  s.device = options.device;
   s.source = options.source;
   require_sound(options.grant, msg("the accommodations"));
   s.notes = options.notes;
@@ -206,7 +205,7 @@ void Exam::keep(const DatabaseError& refusal) {
   problem_ = refusal.message();
   if (second_place_.empty() || recorder_->path() == second_place_) return;
   try {
-    recorder_->move_to(second_place_, refusal.what());
+    recorder_->move_to(second_place_, refusal.refusal());
   } catch (const Error& also) {
     problem_ = msg("{}; and elsewhere: {}", problem_, also.message());
   }

@@ -31,7 +31,6 @@ namespace cavum::scenarios {
 /// What may be chosen beside the scenario itself.
 struct ExamOptions {
   std::string candidate;                                   ///< pseudonym
-  std::string device;                                      ///< name of what gives the input
   MotionSource source;                                     ///< what moves the stylus, as it is signed
   double position_quantum_mm = 0.0;                        ///< step of its encoder; 0 = exact
   double peak_n = 0.0, continuous_n = 0.0;                 ///< forces that it bears; 0 or more than usual = the usual limits

@@ -4,8 +4,6 @@
 
 #include <filesystem>
 
-#include "engine/base/text.h"
-
 namespace cavum::scenarios {
 
 std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string& second_place,
@@ -15,10 +13,10 @@ std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string
     exam = begin(path);
   } catch (const DatabaseError& refusal) {
     if (second_place.empty())
-      throw Error(path, msg("cannot be written, and the exam has not begun ({})", one_line(refusal.what())),
+      throw Error(path, msg("cannot be written, and the exam has not begun ({})", in_words(refusal.refusal())),
                   msg("make room, or name a file on another disk too: --out-if-full"));
     exam = begin(second_place);
-    exam->recorder().add_event(0, RecordingMoved{std::filesystem::path(path).filename().string(), 0, refusal.what()});
+    exam->recorder().add_event(0, RecordingMoved{std::filesystem::path(path).filename().string(), 0, refusal.refusal()});
   }
   exam->set_second_place(second_place);
   return exam;

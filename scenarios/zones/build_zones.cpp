@@ -5,7 +5,6 @@
 
 #include "engine/base/error.h"
 #include "engine/tooth/anatomy/landmarks_file.h"
-#include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/leaf_parts.h"
 #include "scenarios/zones/placed.h"
@@ -76,8 +75,8 @@ Vec3 approach_of(const ZoneSpec& spec, ShapeMaker& maker) {
   return axis.z >= k_steep ? axis : Vec3{0, 0, 1};
 }
 
-Facing facing_of(const ZoneSpec& spec, const std::string& tooth_name) {
-  return {!spec.target.empty() && spec.target[0].kind == ShapeSpec::Kind::side_cavity ? spec.target[0].side : 0, anterior_in(tooth_name)};
+Facing facing_of(const ZoneSpec& spec, const ToothKind& tooth) {
+  return {!spec.target.empty() && spec.target[0].kind == ShapeSpec::Kind::side_cavity ? spec.target[0].side : 0, tooth.anterior()};
 }
 
 /// Of a leaf outside the target that is not protected: by its distance, towards the sides or the bottom.
@@ -150,7 +149,7 @@ void ZoneBuilder::place_box() {
   map_.leaf_mm_ = tree_.leaf_mm();
   map_.origin_mm_ = tree_.origin_mm();
   map_.approach_ = approach_of(spec_, maker_);
-  map_.facing_ = facing_of(spec_, tooth_.name);
+  map_.facing_ = facing_of(spec_, tooth_.kind);
   const int margin = static_cast<int>(margin_mm(spec_) / map_.leaf_mm_) + 2;
   const IVec3 n = tree_.size();
   const IVec3 high{std::min(n.x, box.high.x + margin), std::min(n.y, box.high.y + margin), std::min(n.z, box.high.z + margin)};

@@ -189,7 +189,7 @@ def note_of_practice_left(s):
 @attack("claim", UNSTATED, "a device's name that stands for none")
 def device_is_simulated(s):
     """source `device`, named as the simulated stylus is."""
-    return insider(s, lambda r: r.facts.update(source_name="simulated Omni, operator expert", device="simulated Omni, operator expert"))
+    return insider(s, lambda r: r.facts.update(source_name="simulated"))
 
 
 @attack("claim", FOUND, "makes a ticket up: the ledger, on filing", "ticket_other_school")

@@ -18,7 +18,7 @@ def forged_gap(s):
                 c[n] += int(31.3 * 10**9)
         clocks = {n: before[n] + int(31.2 * 10**9) for n in ("utc_ns", "boot_ns", "monotonic_ns")}
         detail = {"boot_id": r.facts["boot_id"], "boot_s": 31.2, "last_utc_ns": before["utc_ns"], "resumed_utc_ns": clocks["utc_ns"],
-                  "by": {"device": "Novint Falcon", "notes": {}, "source": {"kind": "device", "name": "Novint Falcon", "serial": "F-1"}, "ticket_remembered": True},
+                  "by": {"notes": {}, "source": {"kind": "device", "name": "Novint Falcon", "serial": "F-1"}, "ticket_remembered": True},
                   "station_key": s.station().hex}
         empty = dict(before, seq=2, first_tick=2000, ticks=0, inputs=pack(b""), records=pack(b""), removed=pack(b""), **clocks)
         sample = Session.read(s.p("cut.cavum"))

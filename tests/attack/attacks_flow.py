@@ -92,7 +92,7 @@ def contested(s):
     for e in second.events:
         if e["kind"] == "gap":
             d = json.loads(e["detail_json"])
-            d["by"].update(device="Novint Falcon", source={"kind": "device", "name": "Novint Falcon", "serial": "F-1"})
+            d["by"].update(source={"kind": "device", "name": "Novint Falcon", "serial": "F-1"})
             e["detail_json"] = lf.json_text(d)
     s.write(second.rebuild(s.station(), s.station()), "m.cavum")
     s.must(s.add("m.cavum").rc != 0, "the second is filed as clean")

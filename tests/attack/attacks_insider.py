@@ -193,7 +193,7 @@ def made_up_faster_than_time(s):
     def change(r):
         for n in ("note.operator", "note.operator_seed"):
             del r.facts[n]
-        r.facts.update(source="device", source_name="Novint Falcon", source_serial="F-1", device="Novint Falcon")
+        r.facts.update(source="device", source_name="Novint Falcon", source_serial="F-1")
     return insider(s, change, "op_anna.cavum")
 
 

@@ -79,7 +79,7 @@ def scenario_texts(s):
 def facts_with_escapes(s):
     """Candidate, device, source, calibration and notes of a signed recording with escapes and markup; every verb shows it."""
     r = s.session("x.cavum")
-    for fact in ("candidate", "device", "source_name", "source_serial", "calibration", "boot_id", "engine_version", "created_utc"):
+    for fact in ("candidate", "source_name", "source_serial", "calibration", "boot_id", "engine_version", "created_utc"):
         r.facts[fact] = EVIL
     r.facts["note." + EVIL] = EVIL
     s.write(r.rebuild(s.station(), s.station()), "m.cavum")

@@ -165,7 +165,7 @@ def as_hand(session, key, seconds_ago, seal_key=None, source="device", device="N
     s = session.copy()
     for name in ("note.operator", "note.operator_seed"):
         s.facts.pop(name, None)
-    s.facts.update(source=source, source_name=device, source_serial=serial, device=device)
+    s.facts.update(source=source, source_name=device, source_serial=serial)
     s.set_clocks(time.time_ns() - seconds_ago * 10**9, int(session.facts["created_boot_ns"]) - seconds_ago * 10**9)
     return s.rebuild(key, seal_key or key)
 

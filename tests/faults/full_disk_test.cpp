@@ -28,7 +28,7 @@ class FullDiskTest : public testing::Test {
       recorder_.append(input, record, simulation_.state.removed, state_hash(simulation_.state));
       return false;
     } catch (const DatabaseError& e) {
-      complaint_ = e.code();
+      complaint_ = e.refusal().fault;
       return true;
     }
   }
@@ -39,7 +39,7 @@ class FullDiskTest : public testing::Test {
   SessionSetup setup_ = test::block_setup();
   Simulation simulation_ = make_simulation(setup_, "test");
   Recorder recorder_ = Recorder::create(path_, setup_);
-  int complaint_ = SQLITE_OK;
+  DiskFault complaint_ = DiskFault::other;
 };
 
 TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
@@ -50,7 +50,7 @@ TEST_F(FullDiskTest, IsReportedAndLosesNothingOnceThereIsRoom) {
     for (std::int64_t tick = 1500; tick < 4600; ++tick) complaints += drill_tick(tick);
   }
   EXPECT_EQ(complaints, 3) << "once for each second that could not be written";
-  EXPECT_TRUE(complaint_ == SQLITE_FULL || complaint_ == SQLITE_IOERR) << complaint_;
+  EXPECT_TRUE(complaint_ == DiskFault::full || complaint_ == DiskFault::input_output) << k_disk_faults[static_cast<std::size_t>(complaint_)];
   EXPECT_EQ(recorder_.ticks(), 4600);
   EXPECT_EQ(recorder_.ticks_on_disk(), 1000);
   EXPECT_EQ(SessionReader(path_).ticks(), 1000);
@@ -74,13 +74,13 @@ TEST_F(FullDiskTest, GoesOnAtAnotherPlaceWithAllThatWaited) {
     const FullDisk full(std::filesystem::file_size(path_ + "-wal") + 1500);
     for (std::int64_t tick = 6500; tick < 8300; ++tick) static_cast<void>(drill_tick(tick));
     ASSERT_EQ(recorder_.ticks_on_disk(), 6000);
-    EXPECT_THROW(recorder_.move_to(path_, "full"), Error) << "what is there is never overwritten";
-    EXPECT_THROW(recorder_.move_to(folder_.file("no/such/folder.cavum"), "full"), Error);
-    EXPECT_THROW(recorder_.move_to(elsewhere, "full"), Error) << "it is as full there";
+    EXPECT_THROW(recorder_.move_to(path_, {DiskFault::full}), Error) << "what is there is never overwritten";
+    EXPECT_THROW(recorder_.move_to(folder_.file("no/such/folder.cavum"), {DiskFault::full}), Error);
+    EXPECT_THROW(recorder_.move_to(elsewhere, {DiskFault::full}), Error) << "it is as full there";
     EXPECT_EQ(recorder_.path(), path_);
     EXPECT_FALSE(std::filesystem::exists(elsewhere));
   }
-  recorder_.move_to(elsewhere, "full");  // where there is room
+  recorder_.move_to(elsewhere, {DiskFault::full});  // where there is room
   EXPECT_EQ(recorder_.path(), elsewhere);
   EXPECT_EQ(recorder_.ticks_on_disk(), 8300);
   for (std::int64_t tick = 8300; tick < 8600; ++tick) ASSERT_FALSE(drill_tick(tick));
@@ -132,7 +132,7 @@ TEST(FullDisk, AnExamIsResumedOnItAndSavedElsewhere) {
     resumed.emplace(resume_session(path));
     EXPECT_EQ(drill(resumed->recorder, 2000, 3100), 1) << "the candidate is told with the first second";
   }
-  resumed->recorder.move_to(elsewhere, "full");
+  resumed->recorder.move_to(elsewhere, {DiskFault::full});
   EXPECT_EQ(resumed->recorder.ticks_on_disk(), 3100);
   resumed->recorder.close(save_tooth(drilled_tooth(simulation)), "{}");
   const VerifyReport report = verify_session(elsewhere);
@@ -153,7 +153,7 @@ TEST_F(FullDiskTest, ASealThatDoesNotFitIsSetElsewhere) {
     const FullDisk full(std::filesystem::file_size(path_ + "-wal") + 1500);
     EXPECT_THROW(recorder_.close(last, R"({"verdict":"pass"})"), DatabaseError);
   }
-  recorder_.move_to(elsewhere, "full");
+  recorder_.move_to(elsewhere, {DiskFault::full});
   recorder_.close(last, R"({"verdict":"pass"})");
   const VerifyReport report = verify_session(elsewhere);
   EXPECT_TRUE(report.verified) << testing_basics::text_of(report.findings);

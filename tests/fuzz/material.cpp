@@ -57,7 +57,7 @@ Bytes record_session() {
       const TickRecord record = make_tick_record(step(simulation.model, simulation.state, input));
       recorder.append(input, record, simulation.state.removed, state_hash(simulation.state));
       if (tick == 15) {
-        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{SourceKind::device, "none"}, "none"}});
+        recorder.add_event(tick, RecordingGap{1, 2, 1.5, "x", "", {MotionSource{SourceKind::device, "none"}}});
         recorder.flush();
       }
     }
@@ -101,7 +101,6 @@ SessionSetup small_setup() {
   static_cast<void>(work_folder());
   SessionSetup setup;
   setup.candidate = records::parse_ticket(small_ticket(), "", "ticket").candidate;
-  setup.device = "none";
   setup.scenario_toml = "title = \"drill\"\n";
   setup.force_model_toml = data_text("materials/paper.toml");
   setup.servo_toml = to_toml(ServoConfig{});

@@ -372,7 +372,6 @@ TEST_F(CommandLine, AResumedExamKeepsWhatItsSessionHoldsAndNamesItsNewSource) {
     if (const auto* gap = row.as<RecordingGap>()) {
       ++gaps;
       EXPECT_EQ(gap->by.source, (MotionSource{SourceKind::motion_file, "go_on.csv", ""}));
-      EXPECT_EQ(gap->by.device, "motion file");
       EXPECT_EQ(gap->by.notes, (Notes{{"motion_file", "go_on.csv"}}));
     }
   EXPECT_EQ(gaps, 1) << "a refused call leaves no gap";

@@ -38,7 +38,7 @@ class HostileFiles : public testing_ui::Program {
   /// A session that holds, with `text` as its verdict, the kind of an event, the candidate and the device: of a program other than this one.
   void seal_with(const std::string& file, const std::string& text) const {
     scenarios::ExamOptions options;
-    options.candidate = options.device = text;
+    options.candidate = options.source.name = text;
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     const auto setup = scenarios::prepare_exam(scenario(), options);
     auto candidate = scenarios::make_simulated_candidate(*setup, "expert", 7, OmniModel{});

@@ -36,7 +36,6 @@ class Library : public ::testing::TestWithParam<std::string> {
   [[nodiscard]] std::unique_ptr<scenarios::ExamSetup> prepared() const {
     scenarios::ExamOptions options;
     options.candidate = "simulated";
-    options.device = "simulated Omni";
     return scenarios::prepare_exam(file(), options);
   }
   /// Recorded and read back.

@@ -92,8 +92,6 @@ std::unique_ptr<scenarios::InputSource> make_source(const ExamArguments& o, cons
   return std::make_unique<scenarios::SimulatedCandidate>(scenarios::make_simulated_candidate(setup, o.operator_name, o.seed, omni));
 }
 
-std::string source_name(const ExamArguments& o) { return o.motion.empty() ? "simulated Omni, operator " + o.operator_name : "motion file"; }
-
 MotionSource motion_source(const ExamArguments& o) {
   if (!o.motion.empty()) return {SourceKind::motion_file, std::filesystem::path(o.motion).filename().string()};
   return {SourceKind::simulated_operator, o.operator_name};
@@ -110,12 +108,10 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const L
   options.tooth_file = o.tooth;
   options.force_model = o.model;
   options.rubric_file = o.rubric;
-  options.device = source_name(o);
   options.source = motion_source(o);
   options.notes = source_notes(o);
   options.position_quantum_mm = o.motion.empty() ? OmniModel{}.quantum_mm : motion_quantum_mm(read_text_file(o.motion, k_largest_table), o.motion);
   if (live != nullptr) {
-    options.device = live->name();
     options.source = live->source();
     options.notes = live->notes();
     options.position_quantum_mm = live->position_quantum_mm();
@@ -227,8 +223,9 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
   exam.recorder().add_event(std::max<std::int64_t>(0, exam.state().tick - 1), ServoLateness{report.servo, report.first_disagreement});
   const Number worst = as_unit(report.servo.lateness.worst_us() * 1e-3, Unit::ms, 1);
   if (!o.json && !o.quiet)
-    std::cerr << (report.servo.fifo ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
-                                    : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
+    std::cerr << (report.servo.fifo.granted()
+                      ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
+                      : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
               << "\n";
   if (exam.over()) {
     return finish(o, exam, servo);
@@ -336,12 +333,12 @@ int run_resumed(const ExamArguments& o) {
       throw Error(Name{"--device " + o.device}, msg("has another encoder than the one that {} was begun with", o.out),
                   msg("go on with the same device, or close the exam with --end"));
     live->begin(*setup);
-    return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, {live->source(), live->name(), by.ticket_remembered, live->notes()}));
+    return run_live(o, *setup, *live, scenarios::Exam::resume(*setup, o.out, {live->source(), by.ticket_remembered, live->notes()}));
   }
   const bool moves = !o.motion.empty() || !o.operator_name.empty();
   // Before the session is opened for writing: a source that cannot be had leaves no gap behind.
   const auto source = moves ? make_source(o, *setup) : nullptr;
-  if (moves) by = {motion_source(o), source_name(o), by.ticket_remembered, source_notes(o)};
+  if (moves) by = {motion_source(o), by.ticket_remembered, source_notes(o)};
   const auto exam = scenarios::Exam::resume(*setup, o.out, by);
   exam->set_second_place(o.out_if_full);
   if (source && exam->over()) {
@@ -371,7 +368,7 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
       tr("simulated candidate: expert, novice, perforator, student-0 to student-100, or careless, who does what the scenario's [careless] says"));
   auto* device = exam->add_option("--device", o->device,
                                   tr("in real time, without a window: {}, or {} with --operator as its hand",
-                                     as_is(stylus_kinds().ids({StylusHand::person})), as_is(stylus_kinds().ids({StylusHand::candidate}))));
+                                     list_of(stylus_kinds().ids({StylusHand::person})), list_of(stylus_kinds().ids({StylusHand::candidate}))));
   motion->excludes(name);
   device->excludes(motion);
   exam->add_option("--bur", o->bur, tr("with --device: bur mounted, of the scenario's tray; its first unless given"))->needs(device);

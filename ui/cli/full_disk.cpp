@@ -15,7 +15,7 @@ double waiting_s(scenarios::Exam& exam) {
 }
 
 /// True when the exam is at `place` by now, whole or not.
-bool moved(scenarios::Exam& exam, const std::string& place, const std::string& why) {
+bool moved(scenarios::Exam& exam, const std::string& place, const DiskRefusal& why) {
   try {
     exam.recorder().move_to(place, why);
   } catch (const Error& e) {
@@ -54,11 +54,11 @@ void RecordingWatch::look(const Message& problem, const std::string& path) {
 void write_somewhere(scenarios::Exam& exam, const std::string& second_place, const std::function<void()>& write) {
   bool second_tried = second_place.empty(), nobody = false;
   for (;;) {
-    std::string why;
+    DiskRefusal why;
     try {
       return write();
     } catch (const DatabaseError& refusal) {
-      why = refusal.what();
+      why = refusal.refusal();
       std::cerr << "\n";
       say_error(refusal.message());
     }

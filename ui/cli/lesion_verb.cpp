@@ -30,7 +30,8 @@ void grow(const LesionArgs& a) {
   const std::string what =
       fmt::format("{} lesion, {} mm wide, {} mm into dentin", a.site.surface, fixed(a.site.width_mm, 1), fixed(a.site.depth_mm, 1));
   tooth.name += ", " + what;
-  tooth.source += fmt::format("; {} at [{}, {}, {}] mm", what, fixed(shape.centre_mm.x, 2), fixed(shape.centre_mm.y, 2), fixed(shape.centre_mm.z, 2));
+  auto& planted = std::get<LesionPlanted>(tooth.source.back());
+  planted.surface = a.site.surface, planted.width_mm = a.site.width_mm, planted.depth_mm = a.site.depth_mm;
   save_tooth_file(tooth, a.out);
   const auto leaves = tooth.octree.count_leaves()[tooth.tissue_id("lesion")];
   const double leaf = tooth.octree.leaf_mm(), mm3 = static_cast<double>(leaves) * leaf * leaf * leaf;

@@ -107,7 +107,7 @@ void write_completion(std::ostream& out, const CLI::App& app) {
 void write_udev_rules(std::ostream& out) {
   out << "# Whoever sits at the screen may use the stylus. `cavum devices` names the line that another device needs.\n";
   for (const auto& kind : stylus_kinds().all())
-    if (kind.usb) out << "# " << kind.facts.name << "\n" << udev_rule(kind.usb->vendor, kind.usb->product, false) << "\n";
+    if (kind.usb) out << "# " << english_text(kind.facts.name) << "\n" << udev_rule(kind.usb->vendor, kind.usb->product, false) << "\n";
 }
 
 }  // namespace

@@ -196,7 +196,7 @@ int solve(const ScenarioArguments& o) {
   options.candidate = "built-in expert";
   options.tooth_file = o.tooth;
   options.force_model = o.model;
-  options.device = "simulated Omni, operator expert";
+  options.source = {SourceKind::simulated_operator, "expert"};
   options.notes = {{"operator", "expert"}, {"operator_seed", std::to_string(o.seed)}};
   const auto setup = scenarios::prepare_exam(o.scenario, options);
   if (o.careless && setup->scenario.careless.fails_by.empty())

@@ -71,7 +71,7 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   if (o.sitting.device.name.empty())
     throw Error(
         msg("station"), msg("no device given"),
-        msg("say what is in the candidate's hand: --device {}", stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate})));
+        msg("say what is in the candidate's hand: --device {}", list_of(stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}))));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error(Name{"--resume " + o.sitting.resume}, msg("was asked for together with a scenario or tickets"),
@@ -195,7 +195,7 @@ void add_places(CLI::App* station, station::StationOptions& s) {
 void add_device(CLI::App* station, station::StationOptions& s) {
   station->add_option("--device", s.sitting.device.name,
                       tr("what is in the candidate's hand: {}; with --practice mouse unless another is named",
-                         as_is(stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))));
+                         list_of(stylus_kinds().ids({StylusHand::candidate, StylusHand::mouse, StylusHand::person}))));
   station
       ->add_option("--operator", s.sitting.device.operator_name,
                    tr("of the simulated device: expert, novice, perforator, student-0 to student-100, careless"))
@@ -255,10 +255,8 @@ void add_enrolment(CLI::App* station, EnrolOptions& enrol) {
                       tr("ask the school to enrol this station, with the one-time code that it gave; --out is the request to write"));
   station->add_flag("--replace-key", enrol.replace_key,
                     tr("make a new key for this enrolled station, and ask for it to take the old one's place; --out as above"));
-  std::string kinds = stylus_kinds().ids({StylusHand::person});
-  for (std::size_t at = kinds.find(", "); at != kinds.npos; at = kinds.find(", ", at)) kinds.replace(at, 2, "|");
   station->add_option("--stylus", enrol.styluses, tr("with --enrol or --replace-key: only recordings of this stylus count then; may be repeated"))
-      ->type_name(kinds);
+      ->type_name(fmt::format("{}", fmt::join(stylus_kinds().ids({StylusHand::person}), "|")));
 }
 
 }  // namespace

@@ -75,7 +75,7 @@ Lines styluses_text(bool again) {
   Lines out;
   out.add(msg("styluses"));
   for (const auto& s : list_styluses(!again)) {
-    out.row({Name{s.id}, Name{s.name}, s.there ? Message() : msg("(not there)"), placed(s.id) ? msg("(placed)") : Message()}, 2);
+    out.row({Name{s.id}, s.name, s.there ? Message() : msg("(not there)"), placed(s.id) ? msg("(placed)") : Message()}, 2);
     if (s.problem) out.add(s.problem->message(), 4);
   }
   return out;

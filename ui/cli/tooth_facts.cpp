@@ -41,8 +41,15 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
     if (count[t.id] > 0)
       tissues.push_back(
           {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
+  Json source = Json::array();
+  for (const auto& entry : tooth.source) source.push_back(encode(entry));
   return {{"name", tooth.name},
-          {"source", tooth.source},
+          {"jaw", tooth.kind.jaw == Jaw::upper   ? Json("upper")
+                  : tooth.kind.jaw == Jaw::lower ? Json("lower")
+                                                 : Json()},
+          {"class", name_of(tooth.kind.tooth_class)},
+          {"fdi", tooth.kind.number ? Json(tooth.kind.number->fdi) : Json()},
+          {"source", source},
           {"leaf_mm", o.leaf_mm()},
           {"bounds_mm", {{"low", triple(b.low)}, {"high", triple(b.high)}}},
           {"tissues", tissues},
@@ -57,7 +64,7 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
 void print_tooth(const Tooth& tooth, const nlohmann::ordered_json& d) {
   Lines out;
   out.add(Name{tooth.name});
-  out.add(msg("from: {}", tooth.source), 2);
+  for (const auto& entry : tooth.source) out.add(msg("from: {}", in_words(entry)), 2);
   const auto corner = [&d](const char* which) {
     const auto& at = d["bounds_mm"][which];
     return Vec3{at[0].get<double>(), at[1].get<double>(), at[2].get<double>()};

@@ -354,8 +354,8 @@ void run_import(const ImportArgs& a) {
   options.frame = frame;
   const VolumeImport done = import_volume(a.volume, options);
   finish(done.tooth, a.out, a.json,
-         {{"spacing", done.spacing_note},
-          {"spacing_assumed", done.spacing_assumed},
+         {{"spacing", in_words(done.spacing)},
+          {"spacing_assumed", done.spacing.by == VoxelSpacing::By::assumed},
           {"native_voxels", {{"enamel", done.native_enamel}, {"dentin", done.native_dentin}, {"pulp", done.native_pulp}}},
           {"pulp_bodies", done.pulp_bodies},
           {"rim_percent", done.rim_percent},
@@ -365,7 +365,7 @@ void run_import(const ImportArgs& a) {
     say(msg("voxels: enamel {}, dentin {}, pulp {} (bodies: {}); rim {}", done.native_enamel, done.native_dentin, done.native_pulp, done.pulp_bodies,
             as_percent(done.rim_percent, 2)),
         2);
-    say(msg("{}", done.spacing_note), 2);
+    say(in_words(done.spacing), 2);
   }
 }
 #else

@@ -120,7 +120,7 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
   const auto another = asked.another ? records::Another::allow : records::Another::refuse;
   for (const auto& one : records::issue_list(turn.book, identities, {ticket, roster.people, times, k_list, first, out.done, {}, another}, keep)) {
     if (one.refused)
-      out.refused.push_back({one.person.id, one.person.name, tr(one.refused->without_advice())});
+      out.refused.push_back({one.person.id, one.person.name, tr(one.refused->where_and_problem())});
     else
       out.issued.push_back({one.candidate, one.person.id, one.person.name, one.person.station, utc_text(one.ticket.not_before_utc_ns),
                             utc_text(one.ticket.not_after_utc_ns)});

@@ -45,7 +45,7 @@ Roster roster_of(const ClassList& asked) {
 
 Preview shown_roster(const Roster& roster) {
   Preview out{roster.headed, roster.encoding, std::string(1, roster.separator), roster.rows, roster.columns, {}, {}, {}};
-  for (const std::string& line : shown_each(roster.problems)) out.problem += (out.problem.empty() ? "" : "\n") + line;
+  out.problems = shown_each(roster.problems);
   for (const auto& p : roster.people)
     out.people.push_back(
         {p.id, p.name, p.station, tr(scenarios::accommodations_text(scenarios::granted({}, scenarios::notes_of(p.grant), msg("the list"))))});

@@ -108,7 +108,8 @@ void Arriving::keep() {
   Sha256 hash{};
   crypto_hash_sha256_final(&hash_, hash.data());
   if (to_hex(hash) != sha256_) throw Error(msg("the session"), msg("is not the one whose hash was named"), msg("send it again"));
-  if (refused_ || ::fsync(file_) != 0) throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), 0);
+  if (refused_ || ::fsync(file_) != 0)
+    throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
   ::close(file_);
   file_ = -1;
   // the same exam sent twice at once: either file is it

@@ -24,7 +24,7 @@ namespace {
 class OpenFile {
  public:
   OpenFile(const std::string& path, int how) : number_(::open(path.c_str(), how | O_CLOEXEC | O_NOFOLLOW, 0600)) {
-    if (number_ < 0) throw DatabaseError(path, msg("cannot be opened"), msg("make room on the disk, and send it again"), 0);
+    if (number_ < 0) throw DatabaseError(path, msg("cannot be opened"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
   }
   ~OpenFile() { ::close(number_); }
   OpenFile(const OpenFile&) = delete;
@@ -100,7 +100,7 @@ void Pieces::begin(const Key& key, std::uint64_t of) {
     remove(Key(*oldest));
   }
   if (announced > limits_.all_bytes)
-    throw DatabaseError(folder_, msg("holds as many exams that are not whole as it may"), msg("wait until others are handed in"), 0);
+    throw DatabaseError(folder_, msg("holds as many exams that are not whole as it may"), msg("wait until others are handed in"), {DiskFault::full});
   uploads_[key] = {0, of, now_s_(), false};
 }
 
@@ -131,7 +131,7 @@ Pieces::Have Pieces::add(const std::string& station, const std::string& sha256, 
     const OpenFile file(path, O_WRONLY | O_CREAT);
     if (!write_at(file.number(), at, bytes)) {
       static_cast<void>(::ftruncate(file.number(), static_cast<off_t>(at)));
-      throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), 0);
+      throw DatabaseError(folder_, msg("cannot be written"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
     }
   }
   u.have += bytes.size();
@@ -161,13 +161,14 @@ bool Pieces::is_whole(const std::string& path, const std::string& sha256) const 
   std::vector<unsigned char> part(k_largest_piece);
   for (ssize_t n = 0; (n = ::read(file.number(), part.data(), part.size())) != 0;) {
     if (n < 0 && errno == EINTR) continue;
-    if (n < 0) throw DatabaseError(path, msg("cannot be read"), msg("look at the disk, and send it again"), 0);
+    if (n < 0) throw DatabaseError(path, msg("cannot be read"), msg("look at the disk, and send it again"), {DiskFault::input_output});
     crypto_hash_sha256_update(&state, part.data(), static_cast<std::size_t>(n));
   }
   Sha256 hash{};
   crypto_hash_sha256_final(&state, hash.data());
   if (to_hex(hash) != sha256) return false;
-  if (::fsync(file.number()) != 0) throw DatabaseError(path, msg("cannot be written"), msg("make room on the disk, and send it again"), 0);
+  if (::fsync(file.number()) != 0)
+    throw DatabaseError(path, msg("cannot be written"), msg("make room on the disk, and send it again"), {DiskFault::input_output});
   return true;
 }
 

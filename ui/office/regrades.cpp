@@ -116,7 +116,7 @@ void Regrades::mark() {
   } catch (const std::bad_alloc&) {
     problem = msg("there is not enough memory");
   } catch (const Error& wrong) {
-    problem = wrong.without_advice();
+    problem = wrong.where_and_problem();
   } catch (const std::exception& wrong) {
     problem = Name{wrong.what()};
   }

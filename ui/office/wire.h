@@ -78,7 +78,7 @@ CAVUM_JSON(RosterColumn, (std::string, heading), (std::string, use), (bool, know
 CAVUM_JSON(ListedPerson, (std::string, id), (std::string, name), (std::string, station), (std::string, accommodations))
 /// `longest_s`: of each exam, for who of the list has most time.
 CAVUM_JSON(Preview, (bool, headed), (std::string, encoding), (std::string, separator), (std::size_t, rows), (List<RosterColumn>, columns),
-           (List<ListedPerson>, people), (std::string, problem), (Texts, uses), (ByName<std::int64_t>, longest_s))
+           (List<ListedPerson>, people), (Texts, problems), (Texts, uses), (ByName<std::int64_t>, longest_s))
 /// Sittings of `at_once` candidates follow each other `minutes_apart`. Of the list those from `first` on, `most` of them: a portion at a time, so
 /// that stations are heard in between.
 /// `another`: also to those who have a ticket that is good, or have sat the exam; `overlap`: one may begin while the last is still sat.

@@ -22,7 +22,6 @@ namespace {
 class SimulatedSource final : public LiveSource {
  public:
   explicit SimulatedSource(LiveSourceOptions options) : options_(std::move(options)) {}
-  [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + options_.operator_name; }
   [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, options_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] Notes notes() const override {
@@ -51,7 +50,6 @@ class StylusSource final : public LiveSource {
     with_pedal_ = std::make_unique<WithPedal>(*stylus_, *pedal_);
     with_desk_ = std::make_unique<WithDesk>(*with_pedal_, desk_);
   }
-  [[nodiscard]] std::string name() const override { return stylus_->facts().name; }
   [[nodiscard]] MotionSource source() const override { return {SourceKind::device, stylus_->facts().id, stylus_->facts().serial}; }
   [[nodiscard]] double position_quantum_mm() const override { return stylus_->facts().position_quantum_mm; }
   [[nodiscard]] double peak_n() const override { return stylus_->facts().peak_n; }

@@ -23,7 +23,6 @@ struct LiveSourceOptions {
 class LiveSource {
  public:
   virtual ~LiveSource() = default;
-  [[nodiscard]] virtual std::string name() const = 0;
   /// As the station signs it.
   [[nodiscard]] virtual MotionSource source() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;

@@ -21,7 +21,7 @@ struct SelfCheckOptions {
 
 struct SelfChecked {
   CheckedStylus stylus;
-  std::string name;  ///< of the stylus, in words
+  Message name;      ///< of the stylus
   CheckEntry entry;  ///< as it was added
 };
 

@@ -186,7 +186,7 @@ void add_servo(ReportTable& t, const RealTimeReport& servo) {
 void add_device(Document& d, const ReportSource& s) {
   d.blocks.push_back(Heading{tr("Device and calibration")});
   ReportTable t{{{tr("What"), false, 3}, {tr("Details"), false, 7}}, {}, tr("Device and calibration"), 0, "device"};
-  t.rows.push_back({{{tr("device")}, {tr("{}", as_is(s.facts.device))}}});
+  t.rows.push_back({{{tr("device")}, {tr(in_words(s.facts.source))}}});
   t.rows.push_back({{{tr("calibration")}, {s.facts.calibration.empty() ? tr("none recorded") : s.facts.calibration}}});
   for (const auto& [key, value] : s.facts.notes)
     if (key != "ticket") t.rows.push_back({{{tr("{}", as_is(key))}, {value}}});

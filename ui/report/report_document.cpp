@@ -423,7 +423,7 @@ namespace {
 Message subtitle_of(const ReportSource& s) {
   const bool named = s.filing && s.filing->name && s.filing->released;
   const Message who = named ? msg("{}, candidate {}", *s.filing->name, s.facts.candidate) : msg("Candidate {}", s.facts.candidate);
-  const Message all = msg("{} · {} · {} · {}", who, s.facts.created, Authored{s.result.tooth_name}, Name{s.facts.device});
+  const Message all = msg("{} · {} · {} · {}", who, s.facts.created, Authored{s.result.tooth_name}, in_words(s.facts.source));
   return s.reader == ReportReader::instructor ? msg("{} · instructor's report", all) : all;
 }
 

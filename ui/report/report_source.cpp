@@ -44,11 +44,11 @@ ReportEvent event_of(const TimedEvent& e, const grading::GradeInput& input, cons
           [&](const HoldStarted&) { return say(EventGroup::pause, msg("the exam office pauses the exam")); },
           [&](const HoldEnded&) { return say(EventGroup::pause, msg("the exam office lets the exam go on")); },
           [&](const PauseRefused&) { return say(EventGroup::pause, msg("pause refused")); },
-          [&](const RecordingMoved&) { return say(EventGroup::gap, msg("the disk refused: recorded at another place from here on")); },
+          [&](const RecordingMoved& of) { return say(EventGroup::gap, msg("recorded at another place from here on: {}", in_words(of.why))); },
+          [&](const ServoStopped& of) { return say(EventGroup::device, msg("the servo stopped: {}", in_words(of))); },
           [&](const RecordingGap&) { return say(EventGroup::gap, msg("the recording was interrupted here and taken up again")); },
-          [&](const AnyOf<ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoStopped, ServoDisagrees, ServoLateness,
-                          WorkAfterEnd, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto&
-                  of) {
+          [&](const AnyOf<ServoGap, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack, ServoDisagrees, ServoLateness, WorkAfterEnd,
+                          LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead, TutorialStep, MeasuredForce> auto& of) {
             std::string name = of.k_kind;
             std::replace(name.begin(), name.end(), '_', ' ');
             return say(EventGroup::device, msg("{}", Term{name}));

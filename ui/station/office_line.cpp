@@ -79,7 +79,7 @@ office::StationReport office_report(const StationState& state, Sitting* sitting)
   if (!view.recording_error.empty())
     r.alarm = short_line(tr(view.recording_error));
   else if (const std::optional<Error> problem = sitting->device().problem())
-    r.alarm = short_line(tr(problem->without_advice()));
+    r.alarm = short_line(tr(problem->where_and_problem()));
   else if (state.attempt_shown_s > 0)
     r.alarm = short_line(tr(state.attempt));
   return r;

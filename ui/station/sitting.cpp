@@ -70,7 +70,7 @@ std::string require_resumable(const std::string& path, const std::string& candid
   if (setup.candidate != candidate && setup.candidate != records::pseudonym_typed(candidate))
     throw Error(msg("candidate '{}'", one_line(candidate)), msg("did not begin this exam"), msg("type the code that it was begun with"));
   if (parse_servo_config(setup.servo_toml, path).position_quantum_mm != device.position_quantum_mm())
-    throw Error(Name{device.name()}, msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
+    throw Error(in_words(device.source()), msg("has another encoder than the stylus that this exam was begun with"), msg("go on with that one"));
   return setup.candidate;
 }
 
@@ -96,7 +96,6 @@ Sitting::Sitting(SittingOptions options, std::string candidate)
   exam.tooth_file = options_.tooth;
   exam.force_model = options_.model;
   exam.rubric_file = options_.rubric;
-  exam.device = device_->name();
   exam.position_quantum_mm = device_->position_quantum_mm();
   exam.peak_n = device_->peak_n();
   exam.continuous_n = device_->continuous_n();
@@ -161,7 +160,7 @@ void Sitting::advance() {
       closed_ = grading_.get();
       stage_ = Stage::done;
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
       stage_ = Stage::unsaved;
     }
   } else if (stage_ == Stage::unsaved && std::chrono::steady_clock::now() - last_try_ > std::chrono::seconds(2)) {
@@ -170,7 +169,7 @@ void Sitting::advance() {
     try {
       save("");
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
     }
   }
 }
@@ -202,7 +201,7 @@ void Sitting::begin() {
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     } else {
       const bool remembered = records::require_not_closed(setup_->session.notes, first);
-      auto exam = scenarios::Exam::resume(*setup_, first, {source(), device_->name(), remembered, device_->notes()});
+      auto exam = scenarios::Exam::resume(*setup_, first, {source(), remembered, device_->notes()});
       exam->set_second_place(second);
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);
     }
@@ -246,7 +245,7 @@ void Sitting::rescue() {
     try {
       save(tries == 0 ? "" : scenarios::rescue_place(path_));
     } catch (const DatabaseError& refusal) {
-      trouble_ = refusal.message();
+      refused(refusal.message(), refusal.refusal());
     }
   }
 }
@@ -266,7 +265,7 @@ void Sitting::end_running() {
   trouble_ = why_stopped();
   stage_ = Stage::interrupted;
   if (unwritten_s() <= 0.0) return;
-  trouble_ = report_.writer.error;
+  refused(report_.writer.error, report_.writer.refusal);
   stage_ = Stage::unsaved;
 }
 
@@ -294,7 +293,7 @@ void Sitting::save(const std::string& place) {
     const auto file = std::filesystem::is_directory(wanted) ? wanted / std::filesystem::path(path_).filename() : wanted;
     if (file.extension() != ".cavum")
       throw Error(Name{place}, msg("is neither a folder nor a session file"), msg("name a folder, or a new file ending in .cavum"));
-    exam.recorder().move_to(file.string(), english_text(trouble_));
+    exam.recorder().move_to(file.string(), refusal_);
   }
   exam.recorder().flush();
   path_ = exam.recorder().path();

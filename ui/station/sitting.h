@@ -111,6 +111,7 @@ class Sitting {
  private:
   [[nodiscard]] MotionSource source() const;
   void end_running();
+  void refused(const Message& trouble, const DiskRefusal& refusal) { trouble_ = trouble, refusal_ = refusal; }
   [[nodiscard]] Message why_stopped() const;
   void close_exam();
   [[nodiscard]] std::string new_path(const std::string& out) const;
@@ -135,6 +136,7 @@ class Sitting {
   scenarios::LiveReport report_;
   std::string path_;
   Message trouble_, moved_;
+  DiskRefusal refusal_;  ///< when `unsaved`
   const std::chrono::steady_clock::time_point signed_in_at_ = std::chrono::steady_clock::now();
   std::chrono::steady_clock::time_point moved_at_;
   std::chrono::steady_clock::time_point last_try_;  ///< to save by itself

@@ -22,7 +22,6 @@ class SimulatedHand final : public StationDevice {
   explicit SimulatedHand(DeviceChoice choice) : choice_(std::move(choice)) {
     static_cast<void>(scenarios::make_skill(choice_.operator_name, choice_.seed));
   }
-  [[nodiscard]] std::string name() const override { return "simulated Omni, operator " + choice_.operator_name; }
   [[nodiscard]] MotionSource source() const override { return {SourceKind::simulated_operator, choice_.operator_name}; }
   [[nodiscard]] double position_quantum_mm() const override { return OmniModel{}.quantum_mm; }
   [[nodiscard]] std::vector<std::pair<std::string, std::string>> notes() const override {
@@ -49,8 +48,7 @@ class SimulatedHand final : public StationDevice {
 class Mouse final : public StationDevice {
  public:
   explicit Mouse(const StylusKind& kind) : kind_(kind) {}
-  [[nodiscard]] std::string name() const override { return kind_.facts.name; }
-  [[nodiscard]] MotionSource source() const override { return {SourceKind::pointer, "mouse and keyboard"}; }
+  [[nodiscard]] MotionSource source() const override { return {SourceKind::pointer, kind_.facts.id}; }
   [[nodiscard]] double position_quantum_mm() const override { return kind_.facts.position_quantum_mm; }
   void prepare(const scenarios::ExamSetup& setup) override {
     constexpr double k_above_mm = 4.0;
@@ -78,7 +76,6 @@ class Mouse final : public StationDevice {
 class PluggedIn final : public StationDevice {
  public:
   explicit PluggedIn(const DeviceChoice& choice) : source_(ui::open_live_source({choice.name, "", 1, ""})) {}
-  [[nodiscard]] std::string name() const override { return source_->name(); }
   [[nodiscard]] MotionSource source() const override { return source_->source(); }
   [[nodiscard]] double position_quantum_mm() const override { return source_->position_quantum_mm(); }
   [[nodiscard]] double peak_n() const override { return source_->peak_n(); }

@@ -22,8 +22,6 @@ struct DeviceChoice {
 class StationDevice {
  public:
   virtual ~StationDevice() = default;
-  /// As it is recorded with the session.
-  [[nodiscard]] virtual std::string name() const = 0;
   /// As the station signs it, unless this is practice.
   [[nodiscard]] virtual MotionSource source() const = 0;
   [[nodiscard]] virtual double position_quantum_mm() const = 0;

@@ -26,7 +26,7 @@ FalconDrive drive_of(const StationStylus& station) {
 
 StylusFacts falcon_facts() {
   return {.id = "falcon",
-          .name = "Novint Falcon",
+          .name = cavum::Name{"Novint Falcon"},
           .position_quantum_mm = k_falcon_quantum_mm,
           .peak_n = 8.9,
           .continuous_n = 2.0,

@@ -90,7 +90,7 @@ Inverse3Message parse_inverse3(std::string_view text) {
   try {
     message = parse_json(text, "inverse3", k_limits);
   } catch (const Error& e) {
-    refuse(msg("what is no message of it ({})", e.without_advice()));
+    refuse(msg("what is no message of it ({})", e.where_and_problem()));
   }
   if (!message.is_object()) refuse(msg("what is no message of it"));
   Inverse3Message m;

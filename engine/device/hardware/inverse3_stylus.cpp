@@ -66,7 +66,7 @@ std::string id_if_there(const StationStylus& station) {
 
 StylusFacts inverse3_facts() {
   return {.id = "inverse3",
-          .name = "Haply Inverse3",
+          .name = cavum::Name{"Haply Inverse3"},
           .position_quantum_mm = 0.01,
           .peak_n = 5.0,
           .continuous_n = 2.0,

@@ -13,7 +13,8 @@ namespace cavum {
 
 /// What was found of one kind of stylus.
 struct StylusInfo {
-  std::string id, name;
+  std::string id;
+  Message name;
   bool there = false;
   std::optional<Error> problem = {};  ///< why it cannot be opened
 };

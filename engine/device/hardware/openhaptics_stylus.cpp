@@ -45,7 +45,7 @@ std::string code_text(unsigned code) { return fmt::format("0x{:04x}", code); }
 
 StylusFacts touch_facts() {
   return {.id = "touch",
-          .name = "Touch or PHANTOM Omni through OpenHaptics",
+          .name = msg("Touch or PHANTOM Omni through OpenHaptics"),
           .position_quantum_mm = 0.055,
           .peak_n = 3.3,
           .continuous_n = 0.88,
@@ -189,7 +189,7 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   };
   const std::string& name = station.text("device_name");
   facts_ = touch_facts();
-  facts_.name = "OpenHaptics, " + (name.empty() ? std::string("default device") : name);
+  facts_.name = name.empty() ? msg("OpenHaptics, default device") : msg("OpenHaptics, {}", name);
   facts_.peak_n = number(k_max_force, facts_.peak_n);
   facts_.continuous_n = number(k_continuous_force, facts_.continuous_n);
   library_->enable(k_force_output);

@@ -28,7 +28,7 @@ StylusKind simulated_kind() {
 StylusKind mouse_kind() {
   StylusFacts facts = simulated_facts(pointer_omni());
   facts.id = "mouse";
-  facts.name = "mouse and keyboard, simulated Omni";
+  facts.name = msg("mouse and keyboard, simulated Omni");
   return {.facts = facts, .hand = StylusHand::mouse};
 }
 
@@ -69,14 +69,14 @@ const StylusKind& StylusKinds::at(const std::string& id, const Message& where, s
   for (const auto& k : kinds_)
     if (k.facts.id == id && among(hands, k.hand)) return k;
   throw Error(DeviceError::unknown_stylus, where, msg("is no stylus that can be used here"),
-              msg("name one of {}; `cavum devices` lists what is there", ids(hands)));
+              msg("name one of {}; `cavum devices` lists what is there", list_of(ids(hands))));
 }
 
-std::string StylusKinds::ids(std::initializer_list<StylusHand> hands) const {
-  std::string words;
+std::vector<std::string> StylusKinds::ids(std::initializer_list<StylusHand> hands) const {
+  std::vector<std::string> ids;
   for (const auto& k : kinds_)
-    if (among(hands, k.hand)) words += (words.empty() ? "" : ", ") + k.facts.id;
-  return words;
+    if (among(hands, k.hand)) ids.push_back(k.facts.id);
+  return ids;
 }
 
 const StylusKinds& stylus_kinds() {

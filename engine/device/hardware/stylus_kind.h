@@ -60,8 +60,8 @@ class StylusKinds {
   [[nodiscard]] std::span<const StylusKind> all() const noexcept { return kinds_; }
   /// The record of `id`. Throws Error at `where` for a name that is none of `hands`, naming those that are.
   [[nodiscard]] const StylusKind& at(const std::string& id, const Message& where, std::initializer_list<StylusHand> hands) const;
-  /// Ids of those that `hands` hold, in the order of the table: "falcon, touch".
-  [[nodiscard]] std::string ids(std::initializer_list<StylusHand> hands) const;
+  /// Ids of those that `hands` hold, in the order of the table.
+  [[nodiscard]] std::vector<std::string> ids(std::initializer_list<StylusHand> hands) const;
 
  private:
   std::vector<StylusKind> kinds_;

@@ -96,7 +96,7 @@ CheckHistory::CheckHistory(std::string path) : path_(std::move(path)) {
     try {
       entry = read_check_entry(parse_json(line, where), where);
     } catch (const Error& e) {
-      throw Error(FileError::damaged, Name{where}, msg("is damaged ({})", e.without_advice()), msg(k_put_away));
+      throw Error(FileError::damaged, Name{where}, msg("is damaged ({})", e.where_and_problem()), msg(k_put_away));
     }
     if (entry.previous != (lines_.empty() ? std::string() : to_hex(sha256(lines_.back()))))
       throw Error(FileError::damaged, Name{where}, msg("does not follow the line before it: lines were changed or taken out"), msg(k_put_away));

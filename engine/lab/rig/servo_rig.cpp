@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "engine/base/det_math.h"
@@ -22,7 +23,6 @@ HandIntent drilling_hand(double t_s) {
 SessionSetup servo_rig_setup(const std::string& bur_toml, const std::string& force_model_toml, double tick_s) {
   SessionSetup setup;
   setup.candidate = "rig";
-  setup.device = "simulated Omni in a simulated hand";
   setup.calibration = "exact";
   setup.source = {SourceKind::program, "servo rig"};
   setup.scenario_toml = "title = \"servo rig\"\n";
@@ -86,13 +86,14 @@ nlohmann::json to_json(const ServoRigResult& r) {
 }
 
 Lines to_text(const ServoRigResult& r) {
+  const auto reason = [](const SystemGrant& g) { return g.asked ? msg("{}", std::strerror(g.error)) : msg("not asked for"); };
   const RealTimeReport& s = r.servo;
   const Number tick = as_unit(r.tick_s * 1e3, Unit::ms), seconds = as_s(r.seconds, 2);
   Lines out;
   out.add(r.on_time() ? msgn("{} tick of {} in {}: on time", "{} ticks of {} in {}: on time", s.ticks, s.ticks, tick, seconds)
                       : msgn("{} tick of {} in {}: NOT always on time", "{} ticks of {} in {}: NOT always on time", s.ticks, s.ticks, tick, seconds));
-  out.add(s.fifo ? msg("SCHED_FIFO: granted") : msg("SCHED_FIFO: refused ({})", s.fifo_refused), 2);
-  out.add(s.memory_locked ? msg("memory: locked") : msg("memory: not locked ({})", s.memory_refused), 2);
+  out.add(s.fifo.granted() ? msg("SCHED_FIFO: granted") : msg("SCHED_FIFO: refused ({})", reason(s.fifo)), 2);
+  out.add(s.memory.granted() ? msg("memory: locked") : msg("memory: not locked ({})", reason(s.memory)), 2);
   out.row({msg("overruns (more than a period late)"), msg("{}", s.overruns)}, 2);
   out.row({msg("ticks made up for"), msg("{}", s.made_up)}, 2);
   out.row({msg("periods skipped late"), msg("{}", s.skipped_late)}, 2);
@@ -110,7 +111,7 @@ Lines to_text(const ServoRigResult& r) {
   out.add(msgn("recorded {} tick, at most {} waiting, slowest write {}", "recorded {} ticks, at most {} waiting, slowest write {}", r.writer.ticks,
                r.writer.ticks, r.writer.most_waiting, as_unit(r.slowest_write_s * 1e3, Unit::ms, 1)),
           2);
-  if (!s.error.empty()) out.add(msg("device: {}", s.error), 2);
+  if (!s.failure.empty()) out.add(msg("device: {}", s.failure), 2);
   if (!r.writer.error.empty()) out.add(msg("recording: {}", r.writer.error), 2);
   out.gap();
   out.row({msg("late by up to, µs"), msg("ticks"), {}}, 2);

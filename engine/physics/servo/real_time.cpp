@@ -1,14 +1,13 @@
 #include "engine/physics/servo/real_time.h"
 
 #include <cmath>
+#include <cstring>
 #include <exception>
-#include <string>
 #include <system_error>
 #include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/said_by.h"
-#include "engine/physics/servo/scheduling.h"
 
 namespace cavum {
 
@@ -23,7 +22,8 @@ struct RealTimeServo::Loop {
   TickInput input;
   double silent_s = 0.0;     // since the last reading
   std::int64_t skipped = 0;  // periods without a tick since the last one
-  RealTimeReport report;     // the servo thread's; the guard keeps its own count
+  ServoFault doing = ServoFault::reading;
+  RealTimeReport report;  // the servo thread's; the guard keeps its own count
   std::atomic<bool> stop{false}, finished{false};
   std::atomic<std::int64_t> alive_ns{0}, guard_cuts{0};
   std::thread thread, guard;
@@ -64,12 +64,14 @@ struct RealTimeServo::Loop {
   }
 
   void read_and_step(std::int64_t due_ns, std::int64_t periods) {
+    doing = ServoFault::reading;
     const DeviceReading r = device.read(static_cast<double>(periods) * model.config.tick_s);
     constexpr auto k_of_device = static_cast<std::uint16_t>(k_stylus_fresh | k_pedal_fresh | k_button_1 | k_button_2 | k_hold);
     input = make_tick_input(r.pose, r.pedal, r.flags & k_of_device, r.bur, input);
     silent_s = 0.0;
     TickOutput output;
     if (take_step(due_ns, output)) device.show(output);
+    doing = ServoFault::sending;
     device.send_force(output.rendered_force_n);
   }
 
@@ -111,35 +113,34 @@ struct RealTimeServo::Loop {
       alive_ns.store(end, std::memory_order_release);
       if (enough()) break;
     }
-    report.why = enough() ? ServoEnd::ticks : ServoEnd::asked;
+    report.ended.why = enough() ? ServoEnd::ticks : ServoEnd::asked;
   }
   [[nodiscard]] bool enough() const noexcept { return options.max_ticks > 0 && report.ticks >= options.max_ticks; }
 
   void run() noexcept {
     ask_for_sharp_timers();
-    if (options.ask_for_memory) report.memory_locked = (report.memory_refused = ask_for_memory()).empty();  // with this thread's stack
-    if (options.ask_for_fifo) report.fifo = (report.fifo_refused = ask_for_fifo(options.priority)).empty();
+    if (options.ask_for_memory) report.memory = ask_for_memory();  // with this thread's stack
+    if (options.ask_for_fifo) report.fifo = ask_for_fifo(options.priority);
     alive_ns.store(monotonic_ns(), std::memory_order_release);
     try {
       run_periods();
     } catch (const std::exception& e) {
-      fail(said_by(e));
+      fail(doing, said_by(e));
     } catch (...) {
-      fail(msg("something that is no std::exception"));
+      fail(doing, msg("something that is no std::exception"));
     }
     device.cut_force();
     try {
       device.send_force({});
     } catch (...) {  // it was cut already
-      if (report.why != ServoEnd::device_failed) fail(msg("zero force could not be sent"));
+      if (report.ended.why != ServoEnd::device_failed) fail(ServoFault::zero_force, msg("zero force could not be sent"));
     }
-    stream.close(report.why, report.error.c_str());
+    stream.close(report.ended);
     finished.store(true, std::memory_order_release);
   }
-  void fail(const Message& what) {
+  void fail(ServoFault fault, const Message& what) {
     device.cut_force();  // before anything else
-    report.why = ServoEnd::device_failed;
-    report.error = english_text(what);
+    report.ended = {ServoEnd::device_failed, fault};
     report.failure = what;
   }
 
@@ -163,6 +164,22 @@ struct RealTimeServo::Loop {
   }
 };
 
+Message in_words(const ServoStop& stop) {
+  switch (stop.fault) {
+    case ServoFault::none:
+      break;
+    case ServoFault::reading:
+      return msg("the device failed when it was read");
+    case ServoFault::sending:
+      return msg("the device failed when a force was sent");
+    case ServoFault::zero_force:
+      return msg("zero force could not be sent");
+    case ServoFault::threads:
+      return msg("the system gave no threads ({})", std::strerror(stop.error));
+  }
+  return stop.why == ServoEnd::ticks ? msg("all ticks that were wanted were taken") : msg("it was asked to stop");
+}
+
 RealTimeServo::RealTimeServo(const ServoModel& model, ServoState& state, ServoDevice& device, TickStream& stream, const TickInput& before_first,
                              const RealTimeOptions& options)
     : loop_(std::make_unique<Loop>(model, state, device, stream, before_first, options)) {}
@@ -182,7 +199,7 @@ void RealTimeServo::start() {
     loop->finished.store(true, std::memory_order_release);
     if (loop->guard.joinable()) loop->guard.join();
     loop->device.cut_force();
-    loop->stream.close(ServoEnd::device_failed, e.what());  // who empties it must not wait
+    loop->stream.close({ServoEnd::device_failed, ServoFault::threads, e.code().value()});  // who empties it must not wait
     throw Error(msg("servo"), msg("cannot have its two threads ({})", e.what()),
                 msg("close other programs, or raise the limits of memory and processes"));
   }
@@ -196,7 +213,7 @@ const RealTimeReport& RealTimeServo::join() {
   if (loop_->thread.joinable()) {
     loop_->thread.join();
     loop_->guard.join();
-    if (loop_->report.memory_locked) give_memory_back();
+    if (loop_->report.memory.granted()) give_memory_back();
     loop_->report.guard_cuts = loop_->guard_cuts.load(std::memory_order_relaxed);
   }
   return loop_->report;

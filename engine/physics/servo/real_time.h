@@ -5,10 +5,10 @@
 
 #include <atomic>
 #include <memory>
-#include <string>
 
 #include "engine/base/message.h"
 #include "engine/physics/servo/lateness.h"
+#include "engine/physics/servo/scheduling.h"
 #include "engine/physics/servo/servo.h"
 #include "engine/physics/servo/servo_device.h"
 #include "engine/physics/servo/tick_stream.h"
@@ -33,12 +33,13 @@ struct RealTimeReport {
   std::int64_t guard_cuts = 0;    ///< times the guard took the force away because the loop hung
   Lateness lateness;              ///< start of the ticks
   Lateness work;                  ///< duration of reading, step and sending, in the same bins
-  bool fifo = false, memory_locked = false;
-  std::string fifo_refused = "not asked for", memory_refused = "not asked for";  ///< the system's reason; empty when granted
-  ServoEnd why = ServoEnd::asked;
-  std::string error;  ///< what the device threw
-  Message failure;    ///< the same, to be told in any language
+  SystemGrant fifo, memory;       ///< SCHED_FIFO; all pages kept in memory
+  ServoStop ended;
+  Message failure;  ///< what the device threw, to be told
 };
+
+/// "the device failed when it was read"
+[[nodiscard]] Message in_words(const ServoStop& stop);
 
 /// Late ticks: their input repeats the last one without k_stylus_fresh (and, past the watchdog's time, without
 /// k_pedal_fresh), so the recorded time is real time and the watchdog sees the silence. When `read` or `send_force`

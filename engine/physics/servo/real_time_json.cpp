@@ -24,12 +24,9 @@ nlohmann::json to_json(const RealTimeReport& s) {
           {"guard_cuts", s.guard_cuts},
           {"lateness", histogram(s.lateness)},
           {"work", histogram(s.work)},
-          {"sched_fifo", s.fifo},
-          {"sched_fifo_refused", s.fifo_refused},
-          {"memory_locked", s.memory_locked},
-          {"memory_refused", s.memory_refused},
-          {"ended", k_servo_end_names[static_cast<std::size_t>(s.why)]},
-          {"error", s.error}};
+          {"fifo", to_json_value(s.fifo)},
+          {"memory", to_json_value(s.memory)},
+          {"ended", to_json_value(s.ended)}};
 }
 
 }  // namespace cavum

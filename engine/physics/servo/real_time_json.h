@@ -3,12 +3,16 @@
 
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_struct.h"
 #include "engine/physics/servo/real_time.h"
 
 namespace cavum {
 
+CAVUM_JSON_OF(ServoStop, (error), (fault), (why))
+CAVUM_JSON_OF(SystemGrant, (asked), (error))
+
 /// ticks, overruns, made_up, skipped_late, skipped_full, guard_cuts, lateness and work (mean_us, p50_us, p99_us, p999_us, worst_us, histogram),
-/// sched_fifo, memory_locked and why they were refused, ended, error.
+/// fifo, memory, ended.
 [[nodiscard]] nlohmann::json to_json(const RealTimeReport& report);
 
 }  // namespace cavum

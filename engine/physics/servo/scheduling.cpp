@@ -7,7 +7,6 @@
 #include <time.h>
 
 #include <cerrno>
-#include <cstring>
 
 namespace cavum {
 namespace {
@@ -16,14 +15,13 @@ constexpr std::int64_t k_second_ns = 1'000'000'000;
 
 }  // namespace
 
-std::string ask_for_fifo(int priority) {
+SystemGrant ask_for_fifo(int priority) noexcept {
   sched_param parameter{};
   parameter.sched_priority = priority;
-  const int refused = ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter);
-  return refused == 0 ? "" : std::strerror(refused);
+  return {true, ::pthread_setschedparam(::pthread_self(), SCHED_FIFO, &parameter)};
 }
 
-std::string ask_for_memory() { return ::mlockall(MCL_CURRENT) == 0 ? "" : std::strerror(errno); }
+SystemGrant ask_for_memory() noexcept { return {true, ::mlockall(MCL_CURRENT) == 0 ? 0 : errno}; }
 
 void give_memory_back() noexcept { ::munlockall(); }
 

@@ -2,15 +2,20 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 
 namespace cavum {
 
-/// SCHED_FIFO for the calling thread. Empty when granted, else the reason.
-[[nodiscard]] std::string ask_for_fifo(int priority);
+/// What the system said to a request.
+struct SystemGrant {
+  bool asked = false;
+  std::int32_t error = 0;  ///< errno where it refused
+  [[nodiscard]] bool granted() const noexcept { return asked && error == 0; }
+};
+/// SCHED_FIFO for the calling thread.
+[[nodiscard]] SystemGrant ask_for_fifo(int priority) noexcept;
 /// Brings all pages of the process into memory, those reserved and never touched too, and keeps them there: a page that
-/// came in during a tick would wait for whoever else is changing the process's memory. Empty when granted, else the reason.
-[[nodiscard]] std::string ask_for_memory();
+/// came in during a tick would wait for whoever else is changing the process's memory.
+[[nodiscard]] SystemGrant ask_for_memory() noexcept;
 void give_memory_back() noexcept;
 /// Wake-ups of the calling thread may be off by 1 µs instead of 50, where it has no SCHED_FIFO.
 void ask_for_sharp_timers() noexcept;

@@ -6,7 +6,6 @@
 #include <atomic>
 #include <cstdint>
 #include <span>
-#include <string>
 #include <vector>
 
 #include "engine/base/spsc_ring.h"
@@ -27,6 +26,19 @@ struct ServoTick {
 /// Why nothing follows: it was asked for, as many ticks as wanted were taken, or the device failed.
 enum class ServoEnd : std::uint8_t { asked, ticks, device_failed };
 inline constexpr std::array k_servo_end_names{"asked", "ticks", "device_failed"};
+[[nodiscard]] constexpr auto names_of(ServoEnd) { return k_servo_end_names; }
+/// What of the device failed: it threw when it was read, or when a force was sent to it; it did not take the last, zero force; or the system gave the
+/// servo no threads.
+enum class ServoFault : std::uint8_t { none, reading, sending, zero_force, threads };
+inline constexpr std::array k_servo_fault_names{"none", "reading", "sending", "zero_force", "threads"};
+static_assert(k_servo_fault_names.size() == static_cast<std::size_t>(ServoFault::threads) + 1);
+[[nodiscard]] constexpr auto names_of(ServoFault) { return k_servo_fault_names; }
+struct ServoStop {
+  ServoEnd why = ServoEnd::asked;
+  ServoFault fault = ServoFault::none;
+  std::int32_t error = 0;  ///< errno; 0: the system gave none
+  friend bool operator==(const ServoStop&, const ServoStop&) = default;
+};
 
 class TickStream {
  public:
@@ -40,10 +52,9 @@ class TickStream {
   bool push(const ServoTick& tick, std::span<const RemovedLeaf> removed) noexcept {
     return ticks_.room() > 0 && leaves_.push(removed) && ticks_.push(tick);  // leaves first: whoever sees the tick finds them
   }
-  /// Nothing follows. `detail` is any text, cut to what fits.
-  void close(ServoEnd why, const char* detail) noexcept {
-    why_ = why;
-    for (std::size_t i = 0; i + 1 < detail_.size() && detail[i] != '\0'; ++i) detail_[i] = detail[i];
+  /// Nothing follows.
+  void close(const ServoStop& stop) noexcept {
+    stop_ = stop;
     closed_.store(true, std::memory_order_release);
   }
 
@@ -56,14 +67,12 @@ class TickStream {
   [[nodiscard]] std::size_t waiting() const noexcept { return ticks_.ready(); }
   [[nodiscard]] bool closed() const noexcept { return closed_.load(std::memory_order_acquire); }
   /// After `closed`.
-  [[nodiscard]] ServoEnd why() const noexcept { return why_; }
-  [[nodiscard]] std::string detail() const { return detail_.data(); }
+  [[nodiscard]] const ServoStop& stop() const noexcept { return stop_; }
 
  private:
   SpscRing<ServoTick> ticks_;
   SpscRing<RemovedLeaf> leaves_;
-  ServoEnd why_ = ServoEnd::asked;
-  std::array<char, 224> detail_{};
+  ServoStop stop_;
   std::atomic<bool> closed_{false};
 };
 

@@ -13,7 +13,6 @@
 
 namespace cavum {
 
-enum class ToothClass : std::uint8_t { unknown, incisor, canine, premolar, molar };
 /// "incisor", "unknown", ...
 [[nodiscard]] std::string_view name_of(ToothClass kind) noexcept;
 /// For people: "a molar".

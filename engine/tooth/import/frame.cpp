@@ -1,9 +1,6 @@
 #include "engine/tooth/import/frame.h"
 
-#include <fmt/core.h>
-
 #include <cmath>
-#include <sstream>
 
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
@@ -18,13 +15,6 @@ Vec3 unit(Vec3 v, const char* name) {
   return normalized(v);
 }
 
-std::string text(Vec3 v) {
-  std::ostringstream s;
-  s.precision(4);
-  s << '(' << v.x << ' ' << v.y << ' ' << v.z << ')';
-  return s.str();
-}
-
 }  // namespace
 
 ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOptions& options) {
@@ -32,7 +22,6 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
   if (!options.occlusal_axis && !(length(enamel_centroid - dentin_centroid) > 1e-6))
     throw Error(msg("frame"), msg("enamel and dentin have the same centroid, so there is no occlusal direction"), msg("give --occlusal-axis x,y,z"));
   const Vec3 z = options.occlusal_axis ? unit(*options.occlusal_axis, "--occlusal-axis") : normalized(enamel_centroid - dentin_centroid);
-  out.note = fmt::format("frame: occlusal axis {}{}", options.occlusal_axis ? "given " : "from dentin to enamel centroid ", text(z));
   const bool x_is_upright = std::fabs(z.x) > 0.9;
   const Vec3 wish = options.mesial_axis ? unit(*options.mesial_axis, "--mesial-axis") : x_is_upright ? Vec3{0, 1, 0} : Vec3{1, 0, 0};
   const Vec3 across = wish - z * dot(z, wish);
@@ -43,10 +32,8 @@ ToothAxes tooth_axes(Vec3 dentin_centroid, Vec3 enamel_centroid, const FrameOpti
   if (!std::isfinite(options.rotate_deg) || std::fabs(options.rotate_deg) > 3600)
     throw Error("--rotate-deg", msg("is not an angle"), msg("give degrees"));
   x = normalized(x * turn.cos + cross(z, x) * turn.sin);
-  out.note += options.mesial_axis ? ", mesial axis given "
-              : x_is_upright      ? ", mesial axis assumed along the file's y "
-                                  : ", mesial axis assumed along the file's x ";
-  out.note += text(x);
+  using By = SourceFrame::Mesial;
+  out.source = {options.occlusal_axis.has_value(), z, options.mesial_axis ? By::given : x_is_upright ? By::file_y : By::file_x, x};
   const Vec3 y = cross(z, x);
   out.axes = {x, options.mirror ? -y : y, z};
   return out;

@@ -4,9 +4,9 @@
 #pragma once
 
 #include <optional>
-#include <string>
 
 #include "engine/base/pose.h"
+#include "engine/tooth/tooth_source.h"
 
 namespace cavum {
 
@@ -21,7 +21,7 @@ struct FrameOptions {
 /// Rows (+y turned over where mirrored) are the tooth's axes in the file's frame, so that `axes * v` carries a file vector into the tooth frame.
 struct ToothAxes {
   Mat3 axes;
-  std::string note;  ///< for Tooth::source: which axes were given and which assumed
+  SourceFrame source;  ///< which axes were given and which assumed
 };
 
 /// Throws Error when an axis is zero or not finite, or mesial and occlusal are parallel.

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -220,19 +219,13 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   out.periodontium_leaves = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
 
-  const auto file = [](const std::string& p) { return std::filesystem::path(p).filename().string(); };
-  std::ostringstream source;
-  source << "import of meshes " << file(paths.enamel) << ", " << file(paths.dentin) << ", " << file(paths.pulp) << "; unit "
-         << (options.sense.units.empty() ? "assumed mm" : "given: " + options.sense.units) << "; leaf " << options.leaf_mm << " mm; " << frame.note
-         << "; overlaps (pulp, enamel, dentin) " << out.overlap_leaves << " leaves, gaps to the nearer hard tissue " << out.gap_leaves << " leaves; ";
-  if (out.periodontium_leaves > 0)
-    source << "periodontium " << options.periodontium_mm << " mm added around the roots";
-  else
-    source << "no periodontium";
-  for (const auto* m : {&enamel, &dentin, &pulp})
-    for (const auto& note : m->notes) source << "; " << english_text(note);
+  const auto read = [](const std::string& path, const ReadMesh& mesh) {
+    return SourceMesh{std::filesystem::path(path).filename().string(), mesh.unused_vertices, mesh.turned};
+  };
+  out.tooth.source = {ImportedMeshes{read(paths.enamel, enamel), read(paths.dentin, dentin), read(paths.pulp, pulp), options.sense.units,
+                                     options.leaf_mm, frame.source, out.overlap_leaves, out.gap_leaves,
+                                     out.periodontium_leaves > 0 ? options.periodontium_mm : 0.0}};
   out.tooth.name = "tooth from " + std::filesystem::path(paths.enamel).stem().string();
-  out.tooth.source = source.str();
   sense_tooth(out.tooth, settled, options.sense, paths.enamel, out.sense);
   name_tooth(out.sense, options.sense, settled.mirror, out.tooth);
   return out;

@@ -1,12 +1,9 @@
 #include "engine/tooth/import/import_volume.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <sstream>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -163,23 +160,30 @@ void require_few_gray(const Volume& volume, const std::string& path) {
                 msg("crop the volume to the tooth, or save it uncompressed"));
 }
 
-/// A volume's tissues, and in words how they were found.
+/// A volume's tissues, and how they were told apart by gray.
 struct Reading {
   Segmentation tissues;
-  std::string how;
+  std::optional<GrayReading> gray;
 };
 Reading read_tissues(const Volume& volume, const VolumeImportOptions& options, const std::string& path) {
   if (options.labels.empty()) {
     require_few_gray(volume, path);
     const auto levels = find_gray_levels(volume, options.thresholds, path);
     Segmentation s = segment(volume, levels, path);
-    const std::string how = fmt::format("CT volume; {}; {}", levels.note, s.note);
-    return {std::move(s), how};
+    const GrayReading gray{.dentin_from = levels.hard,
+                           .enamel_from = levels.enamel,
+                           .dentin_given = options.thresholds.dentin.has_value(),
+                           .enamel_given = options.thresholds.enamel.has_value(),
+                           .peaks = levels.peaks,
+                           .specks = s.specks,
+                           .pores = s.pores,
+                           .rim_percent = s.rim_percent};
+    return {std::move(s), gray};
   }
   Segmentation s = from_labels(volume, options.labels, path);
   if (s.voxels[k_enamel] > 0 && s.voxels[k_dentin] > 0)
     require_layer_order(pulp_faces(s.size, s.tissue), path, msg("exchange enamel and dentin in --map"));
-  return {std::move(s), "label map"};
+  return {std::move(s), std::nullopt};
 }
 
 /// Where the tooth stands in its own frame: z towards the occlusal surface, the middle of the crown at the origin.
@@ -231,7 +235,7 @@ void require_size_of_a_tooth(const Volume& volume, const Extent& box, const std:
 
 VolumeImport import_volume(const std::string& path, const VolumeImportOptions& options) {
   Volume volume = read_volume(path, options.spacing_mm);
-  const auto [s, how] = read_tissues(volume, options, path);
+  const auto [s, gray] = read_tissues(volume, options, path);
   volume.gray = {};
   const FrameOptions settled = settled_frame(options.frame, options.sense);
   const Placement placed = place_tooth(volume, s, settled, path);
@@ -250,22 +254,19 @@ VolumeImport import_volume(const std::string& path, const VolumeImportOptions& o
   }
   const auto around = add_periodontium(grid, options.periodontium_mm);
   out.tooth.octree = Octree(grid, out.tooth.tissues);
-  out.spacing_assumed = volume.spacing_assumed;
-  out.spacing_note = volume.spacing_note;
+  using By = VoxelSpacing::By;
+  out.spacing = {options.spacing_mm       ? By::given
+                 : volume.spacing_assumed ? By::assumed
+                                          : By::file,
+                 {volume.spacing_mm[0], volume.spacing_mm[1], volume.spacing_mm[2]}};
   out.native_enamel = s.voxels[k_enamel];
   out.native_dentin = s.voxels[k_dentin];
   out.native_pulp = s.voxels[k_pulp];
   out.pulp_bodies = s.pulp_bodies;
   out.rim_percent = s.rim_percent;
-  std::ostringstream source;
   const auto file = std::filesystem::path(path).filename().string();
-  source << "import of " << (file.empty() ? path : file) << ", " << how << "; " << volume.spacing_note << "; leaf " << options.leaf_mm << " mm; "
-         << placed.frame.note << "; ";
-  if (around > 0)
-    source << "periodontium " << options.periodontium_mm << " mm added around the roots";
-  else
-    source << "no periodontium added";
-  out.tooth.source = source.str();
+  out.tooth.source = {ImportedVolume{file.empty() ? path : file, gray, out.spacing, options.leaf_mm, placed.frame.source,
+                                     around > 0 ? options.periodontium_mm : 0.0}};
   out.tooth.name = "tooth from " + (file.empty() ? path : file);
   sense_tooth(out.tooth, settled, options.sense, path, out.sense);
   name_tooth(out.sense, options.sense, settled.mirror, out.tooth);

@@ -26,8 +26,7 @@ struct VolumeImportOptions {
 
 struct VolumeImport {
   Tooth tooth;
-  bool spacing_assumed = false;
-  std::string spacing_note;
+  VoxelSpacing spacing;
   std::uint64_t native_enamel = 0, native_dentin = 0, native_pulp = 0;  ///< voxels of the file
   std::uint64_t pulp_bodies = 0;
   ToothSense sense;

@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "engine/tooth/anatomy/landmarks.h"
-#include "engine/tooth/anatomy/tooth_number.h"
+#include "engine/tooth/tooth_number.h"
 
 namespace cavum {
 

@@ -1,7 +1,6 @@
 #include "engine/tooth/import/read_volume.h"
 
 #include <fcntl.h>
-#include <fmt/core.h>
 #include <spawn.h>
 #include <sys/wait.h>
 #include <unistd.h>
@@ -13,7 +12,6 @@
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
-#include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/file_error.h"
@@ -118,22 +116,16 @@ Volume read_volume(const std::string& path, const std::optional<Vec3>& spacing_m
   for (std::size_t i = 0; i < v.gray.size(); ++i)
     if (!std::isfinite(v.gray[i])) throw Error(FileError::malformed, Name{path}, msg("voxel {} is not a number", i), msg("export the volume again"));
 
-  std::ostringstream note;
   const auto& s = v.spacing_mm;
   const bool told = s[0] > 0 && s[1] > 0 && s[2] > 0 && std::isfinite(s[0] + s[1] + s[2]) && !(s[0] == 1 && s[1] == 1 && s[2] == 1);
   if (spacing_mm) {
     for (const double d : {spacing_mm->x, spacing_mm->y, spacing_mm->z})
       if (!(d > 0 && d < 100)) throw Error("--spacing-mm", msg("must lie between 0 and 100 mm"), msg("give the edge of a voxel, such as 0.125"));
     v.spacing_mm = {spacing_mm->x, spacing_mm->y, spacing_mm->z};
-    note << "spacing given " << v.spacing_mm[0] << ',' << v.spacing_mm[1] << ',' << v.spacing_mm[2] << " mm";
-  } else if (told) {
-    note << "spacing from the file " << s[0] << ',' << s[1] << ',' << s[2] << " mm";
-  } else {
+  } else if (!told) {
     v.spacing_mm = {k_assumed_spacing_mm, k_assumed_spacing_mm, k_assumed_spacing_mm};
     v.spacing_assumed = true;
-    note << "spacing assumed " << k_assumed_spacing_mm << " mm (the file gives none): sizes and volumes are not measured";
   }
-  v.spacing_note = note.str();
   return v;
 }
 

@@ -1,7 +1,5 @@
 #include "engine/tooth/import/segment.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -290,16 +288,14 @@ Segmentation segment(const Volume& volume, const GrayLevels& levels, const std::
   const double mean_spacing_mm = (volume.spacing_mm[0] + volume.spacing_mm[1] + volume.spacing_mm[2]) / 3;
   const Mask outside = outside_of(s.size, hard.in_tooth, std::clamp(k_cap_mm / mean_spacing_mm, 2.0, 40.0));
   const Hollows hollows = find_hollows(s.size, hard.in_tooth, outside, where);
-  const std::uint64_t pores = label_by_gray(s, volume, levels.enamel, hard.in_tooth, hollows);
+  s.pores = label_by_gray(s, volume, levels.enamel, hard.in_tooth, hollows);
   drop_specks_of_enamel(s, levels.enamel, where);
   const Mask air = voxels_of(s, k_air);
   give_rim_to_what_lies_beneath(s, air);
   s.rim_percent = measure_rim_percent(s, volume, air);
   s.solid = solid_field(s, volume, levels, hard);
   count(s);
-  std::ostringstream note;
-  note << hard.specks() << " loose specks ignored, " << pores << " pore voxels filled, rim " << s.rim_percent << " %";
-  s.note = note.str();
+  s.specks = hard.specks();
   return s;
 }
 

@@ -32,7 +32,7 @@ struct Segmentation {
   std::array<std::uint64_t, 256> voxels{};  ///< per tissue
   std::uint64_t pulp_bodies = 0;            ///< connected bodies of pulp
   double rim_percent = 0.0;                 ///< share of the enamel's outer voxels that a dentin voxel covers
-  std::string note;
+  std::uint64_t specks = 0, pores = 0;      ///< loose specks ignored, voxels of pores filled
 };
 
 /// Segments a CT volume. Throws Error naming `where` when no tooth or no pulp is found.

@@ -269,8 +269,7 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
 void name_tooth(const ToothSense& sense, const SenseOptions& options, bool mirrored, Tooth& tooth) {
   if (options.number) {
     tooth.name = fmt::format("{}{}; {}", name_with(*options.number), mirrored ? ", mirror image" : "", tooth.name);
-    tooth.source += fmt::format("; tooth number given: FDI {}, universal {}; +y is {}", options.number->fdi, options.number->universal(),
-                                options.number->place() <= 3 ? "labial" : "buccal");
+    tooth.kind = ToothKind(*options.number);
   }
   if (mirrored) tooth.notes.push_back({ToothNote::Kind::mirror_image, {}});
   for (const auto& g : sense.guesses) tooth.notes.push_back({ToothNote::Kind::guess, g});

@@ -10,11 +10,11 @@
 
 #include "engine/base/vec.h"
 #include "engine/tooth/anatomy/landmarks.h"
-#include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/import/frame.h"
 #include "engine/tooth/import/layers_fit.h"
 #include "engine/tooth/mesh/mesh_units.h"
 #include "engine/tooth/tooth.h"
+#include "engine/tooth/tooth_number.h"
 
 namespace cavum {
 
@@ -73,7 +73,7 @@ void check_upright(Vec3 occlusal, Vec3 dentin_centroid, Vec3 enamel_centroid, co
 /// contradict the options.
 void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptions& options, const std::string& where, ToothSense& sense);
 
-/// Writes number and guesses into the tooth's name and source.
+/// Writes the number into the tooth's name and kind, and the guesses into its notes.
 void name_tooth(const ToothSense& sense, const SenseOptions& options, bool mirrored, Tooth& tooth);
 
 }  // namespace cavum

@@ -1,10 +1,7 @@
 #include "engine/tooth/import/thresholds.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <cmath>
-#include <sstream>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -86,15 +83,12 @@ double medium_gray(const Volume& v) {
 }  // namespace
 
 GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& options, const std::string& where) {
-  std::ostringstream note;
   GrayLevels out;
   if (options.dentin && options.enamel) {
     if (!(*options.dentin < *options.enamel))
       throw Error(ImportError::bad_option, Name{"--enamel-threshold"}, msg("is not above --dentin-threshold"), msg("enamel is the brighter tissue"));
     out.hard = out.enamel_surface = out.pulp_surface = *options.dentin;
     out.enamel = *options.enamel;
-    note << "thresholds given: dentin from " << out.hard << ", enamel from " << out.enamel;
-    out.note = note.str();
     return out;
   }
   const double low = quantile(volume.gray, 0.0005), high = quantile(volume.gray, 0.9995);
@@ -138,11 +132,7 @@ GrayLevels find_gray_levels(const Volume& volume, const ThresholdOptions& option
   out.enamel_surface = options.dentin ? out.hard : (gray(*medium) + gray(enamel)) / 2;
   out.pulp_surface = options.dentin ? out.hard : (pulp + gray(*dentin)) / 2;
   if (medium != peaks.begin()) out.dark = (pulp + gray(*medium)) / 2;
-  const auto whole = [](double v) { return std::lround(v); };
-  note << "gray levels found: medium " << whole(gray(*medium)) << ", pulp " << whole(pulp) << ", dentin " << whole(gray(*dentin)) << ", enamel "
-       << whole(gray(enamel)) << "; thresholds " << (options.dentin ? "given" : "automatic") << " dentin " << whole(out.hard) << ", "
-       << (options.enamel ? "given" : "automatic") << " enamel " << whole(out.enamel);
-  out.note = note.str();
+  out.peaks = GrayPeaks{gray(*medium), pulp, gray(*dentin), gray(enamel)};
   return out;
 }
 

@@ -6,17 +6,18 @@
 #include <string>
 
 #include "engine/tooth/import/read_volume.h"
+#include "engine/tooth/tooth_source.h"
 
 namespace cavum {
 
 /// Where one tissue ends and the next begins, in the volume's gray.
 struct GrayLevels {
-  double hard = 0;             ///< dentin above, medium or pulp below
-  double enamel = 0;           ///< enamel above, dentin below
-  double enamel_surface = 0;   ///< half way from the medium to enamel: where enamel's outer surface lies
-  double pulp_surface = 0;     ///< half way from the pulp to dentin: where the pulp's wall lies
-  std::optional<double> dark;  ///< pulp below, medium above; only where the pulp is darker than the medium
-  std::string note;            ///< for Tooth::source
+  double hard = 0;                 ///< dentin above, medium or pulp below
+  double enamel = 0;               ///< enamel above, dentin below
+  double enamel_surface = 0;       ///< half way from the medium to enamel: where enamel's outer surface lies
+  double pulp_surface = 0;         ///< half way from the pulp to dentin: where the pulp's wall lies
+  std::optional<double> dark;      ///< pulp below, medium above; only where the pulp is darker than the medium
+  std::optional<GrayPeaks> peaks;  ///< as they were found; none: both thresholds were given
 };
 
 /// What the user may say instead.

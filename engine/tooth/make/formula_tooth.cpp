@@ -1,7 +1,5 @@
 #include "engine/tooth/make/formula_tooth.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <utility>
 
@@ -62,14 +60,14 @@ void join_tissues(TissueGrid& grid, std::vector<float>& field) {
 }
 
 Tooth finish_formula_tooth(TissueGrid& grid, const std::vector<float>& field, const std::function<double(Vec3)>& solid, double periodontium_mm,
-                           const std::string& name, const std::string& source) {
+                           const std::string& name, const FormulaKind& what) {
   Tooth tooth;
   set_surface_from_field(grid, tooth.tissues, field, solid);
   const auto around = add_periodontium(grid, periodontium_mm);
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name = name;
-  tooth.source = fmt::format("{}; leaf {:f} mm; ", source, grid.leaf_mm);
-  tooth.source += around > 0 ? fmt::format("periodontium {:f} mm around the roots", periodontium_mm) : "no periodontium";
+  tooth.kind = kind_of(what.design);
+  tooth.source = {MadeByFormula{what.design, what.seed, grid.leaf_mm, around > 0 ? periodontium_mm : 0.0}};
   return tooth;
 }
 

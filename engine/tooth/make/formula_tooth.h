@@ -6,6 +6,7 @@
 #include <cmath>
 #include <concepts>
 #include <functional>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -13,6 +14,12 @@
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
+
+/// Which of our teeth; without a seed the parametric one.
+struct FormulaKind {
+  ToothDesign design{};
+  std::optional<std::uint64_t> seed = {};
+};
 
 /// How fast the functions of a shape may change, mm per mm: of its class, or of each tooth.
 template <class T>
@@ -48,13 +55,13 @@ void check_choice(const char* name, double value, double low, double high);
 void join_tissues(TissueGrid& grid, std::vector<float>& field);
 /// Surface, periodontium and octree from labels and field; `solid` is the field anywhere, mm.
 [[nodiscard]] Tooth finish_formula_tooth(TissueGrid& grid, const std::vector<float>& field, const std::function<double(Vec3)>& solid,
-                                         double periodontium_mm, const std::string& name, const std::string& source);
+                                         double periodontium_mm, const std::string& name, const FormulaKind& what);
 
 /// Distances are true distances to a triangulation whose corners lie on the formulae's zero (a few micrometres at a 0.05 mm
-/// leaf). About 9 s for a molar at 0.05 mm. `source` says which program made it; leaf and periodontium are added to it.
+/// leaf). About 9 s for a molar at 0.05 mm.
 template <FormulaTooth T>
 [[nodiscard]] Tooth build_formula_tooth(const T& shape, const FormulaBox& box, double leaf_mm, double periodontium_mm, const std::string& name,
-                                        const std::string& source) {
+                                        const FormulaKind& what) {
   TissueGrid grid = formula_grid(box, leaf_mm, periodontium_mm, name);
   std::vector<float> field(grid.count());
   // The centre of a block of leaves speaks for all of them while its value is larger than the functions can
@@ -89,7 +96,7 @@ template <FormulaTooth T>
       }
   if constexpr (requires { T::k_join; }) join_tissues(grid, field);
   return finish_formula_tooth(
-      grid, field, [&shape](Vec3 p) { return std::max(shape.outside(p), -shape.pulp(p)); }, periodontium_mm, name, source);
+      grid, field, [&shape](Vec3 p) { return std::max(shape.outside(p), -shape.pulp(p)); }, periodontium_mm, name, what);
 }
 
 }  // namespace cavum

@@ -103,7 +103,7 @@ ToothPlan incisor_plan(std::uint64_t seed) {
 Tooth grow_incisor(const SeedTooth& what) {
   const GrownTooth shape(incisor_plan(what.seed));
   return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("upper central incisor (seed {}, one canal)", what.seed),
-                    fmt::format("make incisor, upper central incisor of Cavum, seed {}", what.seed));
+                    {ToothDesign::incisor, what.seed});
 }
 
 }  // namespace cavum

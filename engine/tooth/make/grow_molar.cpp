@@ -131,7 +131,7 @@ ToothPlan molar_plan(std::uint64_t seed) {
 Tooth grow_molar(const SeedTooth& what) {
   const GrownTooth shape(molar_plan(what.seed));
   return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("lower first molar (seed {}, 3 canals)", what.seed),
-                    fmt::format("make molar, lower first molar of Cavum, seed {}", what.seed));
+                    {ToothDesign::molar, what.seed});
 }
 
 }  // namespace cavum

@@ -111,7 +111,7 @@ ToothPlan premolar_plan(std::uint64_t seed) {
 Tooth grow_premolar(const SeedTooth& what) {
   const GrownTooth shape(premolar_plan(what.seed));
   return grow_tooth(shape, what.leaf_mm, what.periodontium_mm, fmt::format("upper second premolar (seed {}, one canal)", what.seed),
-                    fmt::format("make premolar, upper second premolar of Cavum, seed {}", what.seed));
+                    {ToothDesign::premolar, what.seed});
 }
 
 }  // namespace cavum

@@ -176,8 +176,8 @@ FormulaBox GrownTooth::box() const {
           {std::max(most(w.mesial), high_x) + 0.3, most(w.buccal) + 0.5, plan_.base_z_mm + highest_tip_ + 0.2}};
 }
 
-Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm, const std::string& name, const std::string& source) {
-  return build_formula_tooth(shape, shape.box(), leaf_mm, periodontium_mm, name, source);
+Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm, const std::string& name, const FormulaKind& what) {
+  return build_formula_tooth(shape, shape.box(), leaf_mm, periodontium_mm, name, what);
 }
 
 }  // namespace cavum

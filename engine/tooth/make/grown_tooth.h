@@ -45,6 +45,6 @@ class GrownTooth {
 };
 
 /// The tooth of a plan. Throws Error on a leaf outside 0.03..0.5 mm or a periodontium outside 0..5 mm.
-[[nodiscard]] Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm, const std::string& name, const std::string& source);
+[[nodiscard]] Tooth grow_tooth(const GrownTooth& shape, double leaf_mm, double periodontium_mm, const std::string& name, const FormulaKind& what);
 
 }  // namespace cavum

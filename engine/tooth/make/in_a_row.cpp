@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <optional>
 
-#include "engine/tooth/anatomy/tooth_number.h"
-
 namespace cavum {
 namespace {
 
@@ -16,11 +14,16 @@ struct Places {
   int first = 0, last = 0;
 };
 
+/// As it was said, else by the shape.
+ToothClass class_of(const RowTooth& tooth) {
+  if (tooth.kind.tooth_class != ToothClass::unknown) return tooth.kind.tooth_class;
+  return tooth.shape.sureness < k_sure_class ? ToothClass::unknown : tooth.shape.kind;
+}
+
 /// Where a tooth may stand. By shape alone incisors and canines pass for one another.
 Places places_of(const RowTooth& tooth) {
-  if (const auto n = number_in(tooth.name)) return {n->place(), n->place()};
-  if (tooth.shape.sureness < k_sure_class) return {};
-  switch (tooth.shape.kind) {
+  if (const auto& n = tooth.kind.number) return {n->place(), n->place()};
+  switch (class_of(tooth)) {
     case ToothClass::incisor:
     case ToothClass::canine:
       return {1, 3};
@@ -34,13 +37,13 @@ Places places_of(const RowTooth& tooth) {
 }
 
 Message words_for(const RowTooth& tooth) {
-  if (const auto n = number_in(tooth.name)) return msg("tooth {}", n->fdi);
+  if (const auto& n = tooth.kind.number) return msg("tooth {}", n->fdi);
   return msg("'{}', by its shape {}", tooth.name, in_words(tooth.shape.kind));
 }
 
 /// By numbers alone; none where one of them was not said.
 std::optional<RowVerdict> by_numbers(const RowTooth& tooth, const RowTooth& beside, int side) {
-  const auto n = number_in(tooth.name), other = number_in(beside.name);
+  const auto &n = tooth.kind.number, &other = beside.kind.number;
   if (!n || !other) return std::nullopt;
   if (side > 0 && n->place() == 1)
     return RowVerdict{msg("mesial of tooth {} stands {}, and they meet with their mesial surfaces: here the neighbour's distal one would meet it",
@@ -58,10 +61,10 @@ std::optional<RowVerdict> by_numbers(const RowTooth& tooth, const RowTooth& besi
 
 RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int side) {
   if (const auto verdict = by_numbers(tooth, beside, side)) return *verdict;
-  const auto jaw = upper_in(tooth.name), other_jaw = upper_in(beside.name);
-  if (jaw && other_jaw && *jaw != *other_jaw)
-    return {*jaw ? msg("'{}' is an upper tooth and '{}' a lower one", tooth.name, beside.name)
-                 : msg("'{}' is a lower tooth and '{}' an upper one", tooth.name, beside.name),
+  const Jaw jaw = tooth.kind.jaw, other_jaw = beside.kind.jaw;
+  if (jaw != Jaw::unknown && other_jaw != Jaw::unknown && jaw != other_jaw)
+    return {jaw == Jaw::upper ? msg("'{}' is an upper tooth and '{}' a lower one", tooth.name, beside.name)
+                              : msg("'{}' is a lower tooth and '{}' an upper one", tooth.name, beside.name),
             {}};
   const Places own = places_of(tooth), other = places_of(beside);
   if (own.first == 0)
@@ -71,8 +74,8 @@ RowVerdict stand_in_a_row(const RowTooth& tooth, const RowTooth& beside, int sid
     return {side > 0 ? msg("no tooth like {} stands mesial of {}", words_for(beside), words_for(tooth))
                      : msg("no tooth like {} stands distal of {}", words_for(beside), words_for(tooth)),
             {}};
-  const bool made = jaw && other_jaw && !number_in(tooth.name) && !number_in(beside.name);  // by our makers: they have kinds, and no numbers
-  if (made) return {};
+  const auto made = [](const RowTooth& t) { return t.kind.tooth_class != ToothClass::unknown && !t.kind.number; };  // by us: without a number
+  if (made(tooth) && made(beside)) return {};
   return {{}, msg("whether '{}' is the very neighbour of '{}' was not checked: their numbers were not both said", beside.name, tooth.name)};
 }
 

@@ -4,12 +4,14 @@
 #include <string>
 
 #include "engine/tooth/anatomy/landmarks.h"
+#include "engine/tooth/tooth_number.h"
 
 namespace cavum {
 
 /// What is known of a tooth that stands in a row.
 struct RowTooth {
-  const std::string& name;  ///< Tooth::name, see tooth_number.h
+  const std::string& name;
+  const ToothKind& kind;  ///< as it was said
   const ClassGuess& shape;
 };
 

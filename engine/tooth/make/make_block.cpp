@@ -135,10 +135,7 @@ Tooth make_block(Vec3 size_mm, const std::vector<Layer>& layers, double leaf_mm)
   grid.make_consistent(tooth.tissues);
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name = fmt::format("block {} x {} x {} mm", plain_number(size_mm.x), plain_number(size_mm.y), plain_number(size_mm.z));
-  tooth.source = "make block; layers from the top:";
-  for (const auto& layer : layers) tooth.source += fmt::format(" {} {} mm,", layer.tissue, plain_number(layer.thickness_mm));
-  tooth.source.back() = ';';
-  tooth.source += " origin at the centre of the top face";
+  tooth.source = {MadeBlock{layers}};
   return tooth;
 }
 

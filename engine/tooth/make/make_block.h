@@ -10,12 +10,7 @@
 
 namespace cavum {
 
-/// One layer of a block. `pulp` and `periodontium` are not solid: a layer of them is a cavity, open at the
-/// block's sides. A name outside the standard four becomes a new solid tissue with the next free id (>= 5).
-struct Layer {
-  std::string tissue;
-  double thickness_mm = 0.0;  ///< > 0
-};
+using Layer = MadeBlock::Layer;
 
 /// A block of `size_mm` (x, y, z), its layers from top to bottom, with four leaves of air around.
 /// A leaf belongs to the layer that holds its centre. Throws Error when a size or a layer is not positive or less than

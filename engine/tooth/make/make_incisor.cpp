@@ -65,7 +65,7 @@ Tooth make_incisor(const IncisorShape& shape) {
   check_choice("--lateral-enamel-mm", shape.lateral_enamel_mm, 0.5, 1.0);
   check_choice("--chamber-top-mm", shape.chamber_top_mm, -1.0, 2.0);
   return build_formula_tooth(Incisor(shape), {{-4.4, -3.7, k_apex_z - 0.1}, {4.4, 3.6, k_edge_z + 0.1}}, shape.leaf_mm, shape.periodontium_mm,
-                             said("upper central incisor (parametric, one canal)"), "make incisor, parametric upper central incisor of Cavum");
+                             said("upper central incisor (parametric, one canal)"), {ToothDesign::incisor});
 }
 
 }  // namespace cavum

@@ -170,8 +170,7 @@ Tooth make_molar(const MolarShape& shape) {
   check_choice("--chamber-roof-mm", shape.chamber_roof_mm, -3.2, -1.8);
   check_choice("--chamber-height-mm", shape.chamber_height_mm, 1.0, 2.2);
   return build_formula_tooth(Molar(shape), {{-5.7, -5.3, k_apex_z - 0.1}, {5.7, 5.3, 3.7}}, shape.leaf_mm, shape.periodontium_mm,
-                             fmt::format("lower first molar (parametric, {} canals)", shape.canals),
-                             "make molar, parametric lower first molar of Cavum");
+                             fmt::format("lower first molar (parametric, {} canals)", shape.canals), {ToothDesign::molar});
 }
 
 }  // namespace cavum

@@ -79,7 +79,7 @@ Tooth make_premolar(const PremolarShape& shape) {
   check_choice("--lateral-enamel-mm", shape.lateral_enamel_mm, 0.9, 1.6);
   check_choice("--chamber-roof-mm", shape.chamber_roof_mm, -3.0, -1.2);
   return build_formula_tooth(Premolar(shape), {{-3.7, -4.7, k_apex_z - 0.1}, {3.7, 4.7, 4.4}}, shape.leaf_mm, shape.periodontium_mm,
-                             said("upper second premolar (parametric, one canal)"), "make premolar, parametric upper second premolar of Cavum");
+                             said("upper second premolar (parametric, one canal)"), {ToothDesign::premolar});
 }
 
 }  // namespace cavum

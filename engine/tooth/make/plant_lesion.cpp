@@ -1,7 +1,5 @@
 #include "engine/tooth/make/plant_lesion.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
 #include "engine/base/error.h"
@@ -43,8 +41,7 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
   tooth.tissues.push_back({id, said("lesion"), true});
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name += ", hidden lesion";
-  const auto triple = [](Vec3 v) { return fmt::format("{},{},{}", plain_number(v.x), plain_number(v.y), plain_number(v.z)); };
-  tooth.source += fmt::format("; lesion in the dentin around {}, radii {} mm", triple(c), triple(r));
+  tooth.source.push_back(LesionPlanted{.centre_mm = c, .radii_mm = r, .surface = {}});
   return tooth;
 }
 

@@ -1,7 +1,5 @@
 #include "engine/tooth/make/set_beside.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -219,7 +217,8 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   s.placed.tree = &s.filled.octree;
   s.placed.turn = det_sincos(beside.turn_deg * k_pi / 180);
   const Landmarks other = find_landmarks(s.filled);
-  const RowVerdict row = stand_in_a_row({tooth.name, marks.tooth_class}, {beside.tooth->name, other.tooth_class}, side);
+  const RowVerdict row =
+      stand_in_a_row({tooth.name, tooth.kind, marks.tooth_class}, {beside.tooth->name, beside.tooth->kind, other.tooth_class}, side);
   if (!row.why_not.empty() && !spec.confirmed)
     throw Error(place, row.why_not, msg("give its neighbour; where they shall stand so all the same, --confirm neighbours takes them"));
   s.doubt = row.why_not.empty() ? row.unchecked : msg("confirmed (neighbours): {}", row.why_not);
@@ -317,12 +316,6 @@ void mark_borders(TissueGrid& grid, const std::vector<Tissue>& tissues) {
     }
 }
 
-std::string words_of(const Side& s, double turn_deg) {
-  return fmt::format("; {} neighbour '{}'{}, {:.3f} mm from it at ({:.2f}, {:.2f}, {:.2f}) mm", s.side > 0 ? "mesial" : "distal", s.name,
-                     turn_deg != 0 ? fmt::format(" turned by {} degrees", plain_number(turn_deg)) : "", s.facts.gap_mm, s.facts.at_mm.x,
-                     s.facts.at_mm.y, s.facts.at_mm.z);
-}
-
 }  // namespace
 
 SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::string& where) {
@@ -343,7 +336,7 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
   for (Side& s : sides) s.placed.tree = &s.filled.octree;  // the list has grown
 
   SetBeside out;
-  out.tooth = Tooth{{}, tooth.tissues, tooth.name, tooth.source, tooth.placed_landmarks, tooth.notes};
+  out.tooth = Tooth{tooth, {}, tooth.tissues};
   const BesideIds ids = ids_for(out.tooth, !sides.empty(), spec.gum);
   TissueGrid grid = grid_for(tooth, sides, spec.gum, where);
   std::vector<Vec3> contacts;
@@ -351,12 +344,13 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
     lay_neighbour(grid, s, ids);
     contacts.push_back(s.facts.at_mm);
     (s.side > 0 ? out.mesial : out.distal) = s.facts;
-    out.tooth.source += words_of(s, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg);
+    out.tooth.source.push_back(
+        NeighbourSet{s.side > 0, s.name, s.side > 0 ? spec.mesial.turn_deg : spec.distal.turn_deg, s.facts.gap_mm, s.facts.at_mm});
     if (!s.doubt.empty()) out.tooth.notes.push_back({ToothNote::Kind::warning, s.doubt});
   }
   if (spec.gum) {
     add_gum(grid, out.tooth.tissues, ids, marks, contacts, where);
-    out.tooth.source += "; gum";
+    out.tooth.source.push_back(GumSet{});
   }
   mark_borders(grid, out.tooth.tissues);
   if (!sides.empty()) out.tooth.name += sides.size() > 1 ? ", between its neighbours" : ", beside its neighbour";

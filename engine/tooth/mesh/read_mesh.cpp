@@ -371,7 +371,7 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
   const auto pinched = std::count_if(surface.vertices_begin(), surface.vertices_end(),
                                      [&](const auto v) { return !surface.is_isolated(v) && !surface.is_manifold(v); });
   const auto isolated = surface.n_vertices() - out.mesh.vertices_mm.size();
-  if (isolated > 0) out.notes.push_back(msg("{}: {} unused vertices deleted", path, isolated));
+  out.unused_vertices = isolated;
   if (pinched > 0)
     throw Error(FileError::inconsistent, Name{path}, msg("{} non-manifold vertices", pinched),
                 msg("repair the mesh in a mesh editor and export again"));
@@ -381,7 +381,7 @@ ReadMesh closed(const Surface& surface, const std::string& path) {
   if (out.volume_mm3 < 0) {
     for (auto& t : out.mesh.triangles) std::swap(t[1], t[2]);
     out.volume_mm3 = -out.volume_mm3;
-    out.notes.push_back(msg("{}: the faces looked inwards and were turned", path));
+    out.turned = true;
   }
   Vec3 moment;
   for (const auto& t : out.mesh.triangles) {

@@ -11,10 +11,11 @@
 namespace cavum {
 
 struct ReadMesh {
-  TriangleMesh mesh;           ///< unused vertices removed, faces outwards (cavities: towards the cavity)
-  double volume_mm3 = 0.0;     ///< of the closed surface, cavities subtracted
-  Vec3 centroid_mm;            ///< of that volume
-  std::vector<Message> notes;  ///< what was put right on the way
+  TriangleMesh mesh;                  ///< unused vertices removed, faces outwards (cavities: towards the cavity)
+  double volume_mm3 = 0.0;            ///< of the closed surface, cavities subtracted
+  Vec3 centroid_mm;                   ///< of that volume
+  std::uint64_t unused_vertices = 0;  ///< that were deleted
+  bool turned = false;                ///< its faces looked inwards
 };
 
 /// Throws Error unless there is a file at `path`.

@@ -2,7 +2,6 @@
 #pragma once
 
 #include <array>
-#include <string>
 #include <vector>
 
 #include "engine/base/pose.h"
@@ -16,7 +15,6 @@ struct Volume {
   std::array<Vec3, 3> axis{Vec3{1, 0, 0}, Vec3{0, 1, 0}, Vec3{0, 0, 1}};  ///< unit directions of i, j, k
   Vec3 origin_mm;                                                         ///< centre of voxel (0,0,0)
   std::vector<float> gray;                                                ///< x fastest
-  std::string spacing_note;                                               ///< for Tooth::source: where the spacing comes from
   bool spacing_assumed = false;                                           ///< neither the file nor the user gave one
 
   [[nodiscard]] std::size_t index(IVec3 v) const noexcept {

@@ -23,8 +23,7 @@ RealTimeReport punctuality() {
   RealTimeReport r;
   for (const std::int64_t late_ns : {200, 3000, 2'000'000'000}) r.lateness.add(late_ns);
   r.ticks = 3;
-  r.why = ServoEnd::device_failed;
-  r.error = "gone";
+  r.ended = {ServoEnd::device_failed, ServoFault::sending};
   return r;
 }
 
@@ -32,9 +31,9 @@ TEST(SessionEvents, EveryKindIsReadAsItWasWritten) {
   std::vector<Event> events = k_one_of_each;
   events.insert(events.end(),
                 {StepFailed{7}, BurNotAllowed{3}, AimReached{{3, {-0.1, 1e-9, 12}}}, Finished{Finish::time}, PauseRefused{2},
-                 RecordingGap{-5, INT64_MAX, 0.1, "boot", "ab", {MotionSource{SourceKind::device, "falcon", "F1"}, "Falcon", false, {{"a", "b"}}}},
-                 RecordingMoved{"e.cavum", 6000, "full"}, ServoGap{4, 2, 9}, Overruns{3, 2.5}, StylusSilent{true},
-                 ServoStopped{ServoEnd::ticks, "why"}, ServoLateness{punctuality(), 8}, WorkAfterEnd{2500, 1200},
+                 RecordingGap{-5, INT64_MAX, 0.1, "boot", "ab", {MotionSource{SourceKind::device, "falcon", "F1"}, false, {{"a", "b"}}}},
+                 RecordingMoved{"e.cavum", 6000, {DiskFault::full, 28}}, ServoGap{4, 2, 9}, Overruns{3, 2.5}, StylusSilent{true},
+                 ServoStopped{{ServoEnd::device_failed, ServoFault::threads, 11}}, ServoLateness{punctuality(), 8}, WorkAfterEnd{2500, 1200},
                  LockAttempt{LockTry::keyboard_added, true, 1, "usb"}, Announced{{UINT64_MAX, "Lunch \"at\" one"}}, MeasuredForce{5, {0.25, -3}}});
   for (const Event& e : events) {
     const EventText text = encode(e);
@@ -77,8 +76,8 @@ TEST(SessionEvents, WhatIsWrongInADamagedOneIsNamed) {
   EXPECT_TRUE(tells(wrong("perforation", R"({"site_mm":[0.0,1.0],"tissue":1})"), "site_mm"));
   EXPECT_TRUE(tells(wrong("perforation", R"({"site_mm":[0.0,1.0,2.0],"tissue":256})"), "tissue"));
   EventText gap = encode(RecordingGap{});
-  gap.detail_json.replace(gap.detail_json.find("\"device\":\"\""), 11, "\"device\":0");
-  EXPECT_TRUE(tells(wrong(gap.kind, gap.detail_json), "by.device"));
+  gap.detail_json.replace(gap.detail_json.find("\"ticket_remembered\":true"), 24, "\"ticket_remembered\":0");
+  EXPECT_TRUE(tells(wrong(gap.kind, gap.detail_json), "by.ticket_remembered"));
   EventText lateness = encode(ServoLateness{});
   lateness.detail_json.replace(lateness.detail_json.find("[0,"), 3, "[1e300,");
   EXPECT_TRUE(tells(wrong(lateness.kind, lateness.detail_json), "servo.lateness.counts[0]"));

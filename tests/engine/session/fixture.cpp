@@ -47,7 +47,6 @@ Tooth block_tooth() {
 SessionSetup block_setup() {
   SessionSetup setup;
   setup.candidate = "candidate-7";
-  setup.device = "none (test)";
   setup.calibration = "exact";
   setup.scenario_toml = "title = \"drill the block\"\n";
   setup.force_model_toml = softened(read_text_file(testing_basics::data_path("materials/paper.toml")));

@@ -78,7 +78,7 @@ TEST(Database, AFileThatTheSystemRefusesIsRefusedAsADatabase) {
     FAIL() << "there is no such folder";
   } catch (const DatabaseError& e) {
     EXPECT_EQ(place_of(e.where()), folder.file("no/such/folder/a.db"));
-    EXPECT_EQ(e.code(), SQLITE_CANTOPEN);
+    EXPECT_EQ(e.refusal().fault, DiskFault::not_opened);
   }
 }
 

@@ -33,6 +33,25 @@ Bytes cube_with_a_landmark() {
   return save_tooth(tooth);
 }
 
+template <std::size_t... i>
+ToothSource one_of_each(std::index_sequence<i...>) {
+  return {ToothEntry(std::in_place_index<i>)...};
+}
+
+TEST(ToothFile, WhichToothItIsAndWhatItWasMadeFromAreKept) {
+  Tooth tooth = make_cube(0.5, "dentin", 0.1);
+  tooth.kind = ToothKind(from_fdi(36, "x"));
+  tooth.source = one_of_each(std::make_index_sequence<std::variant_size_v<ToothEntry>>());
+  tooth.source.push_back(MadeByFormula{ToothDesign::premolar, UINT64_MAX, 0.05, 1.0});
+  tooth.source.push_back(ImportedVolume{"ct.mhd", GrayReading{.dentin_from = 900.5, .peaks = GrayPeaks{1, 2, 3, 4}}, {}, 0.1, {}, 0});
+  const Tooth again = load_tooth(save_tooth(tooth), "t.cvt");
+  EXPECT_EQ(again.kind, tooth.kind);
+  ASSERT_EQ(again.source.size(), tooth.source.size());
+  for (std::size_t i = 0; i < tooth.source.size(); ++i) EXPECT_EQ(encode(again.source[i]), encode(tooth.source[i])) << i;
+  tooth.kind.jaw = Jaw::upper;
+  EXPECT_THROW(static_cast<void>(load_tooth(save_tooth(tooth), "t.cvt")), Error) << "36 is a lower tooth";
+}
+
 TEST(ToothFile, EveryTruncationIsAnError) {
   const Bytes bytes = cube_with_a_landmark();
   for (std::size_t n = 0; n < bytes.size(); ++n) ASSERT_THROW((void)load_tooth(std::span(bytes).first(n), "short"), Error) << n << " bytes";

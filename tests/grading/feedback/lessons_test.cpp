@@ -9,7 +9,6 @@
 #include <map>
 #include <set>
 
-#include "engine/tooth/anatomy/tooth_number.h"
 #include "grading/result/loss.h"
 #include "tests/engine/support/basics.h"
 #include "tests/grading/carved.h"
@@ -254,11 +253,8 @@ TEST(WallsOfPeople, FrontTeethHaveLabialAndIncisal) {
   const Term buccal = scenarios::wall_text(k_buccal, Facing{}), labial = scenarios::wall_text(k_buccal, Facing{0, true}),
              incisal = scenarios::wall_text(k_buccal, Facing{1, true});
   EXPECT_TRUE(buccal != labial && labial != incisal && buccal != incisal);
-  for (const char* front : {"upper central incisor (seed 7, one canal)", "tooth 13 (universal 6), upper right canine; tooth from a"})
-    EXPECT_TRUE(anterior_in(front)) << front;
-  for (const char* back :
-       {"lower first molar (seed 7, 3 canals)", "tooth 14 (universal 5), upper right first premolar; tooth from my-canine", "tooth from x (incisor)"})
-    EXPECT_FALSE(anterior_in(back)) << back;
+  for (const ToothKind& front : {kind_of(ToothDesign::incisor), ToothKind(from_fdi(13, "x"))}) EXPECT_TRUE(front.anterior());
+  for (const ToothKind& back : {kind_of(ToothDesign::molar), ToothKind(from_fdi(14, "x")), ToothKind()}) EXPECT_FALSE(back.anterior());
 }
 
 TEST_F(Lessons, OfTwoMistakesTheDearerComesFirst) {

@@ -106,7 +106,6 @@ scenarios::Skill hand_of(const Beginner& who, const std::vector<Lesson>& heard) 
 NoviceTask novice_task(const std::string& scenario, const std::string& tooth_file) {
   scenarios::ExamOptions options;
   options.candidate = "simulated";
-  options.device = "simulated Omni";
   options.tooth_file = tooth_file;
   NoviceTask t;
   t.setup = scenarios::prepare_exam(testing_basics::data_path("scenarios/" + scenario + ".toml"), options);

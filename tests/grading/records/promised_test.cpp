@@ -122,7 +122,6 @@ TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
     at.utc_ns -= back_ns;
     scenarios::ExamOptions options;
     options.candidate = setup.candidate;
-    options.device = setup.device;
     options.source = setup.source;
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     options.notes = {{k_ticket_note, ticket}, {k_begin_note, word}};
@@ -168,7 +167,6 @@ TEST_F(Promised, AStationTakesTheWordThatLiesBesideTheTicketAndBeginsNothingWith
   const std::string ticket = school_.ticket("4711", [](Ticket&t) { t.begun_at_ledger = true; }), path = school_.file("C.ticket");
   write_text_file(path, ticket + "\n");
   scenarios::ExamOptions options;
-  options.device = "emulated stylus";
   const auto setup = [&](const HeldTicket& held) {
     scenarios::ExamOptions o = options;
     use_ticket(held, o);

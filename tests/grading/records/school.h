@@ -86,7 +86,6 @@ class School {
     std::string path = folder_.file("exam-" + std::to_string(++number) + ".cavum");
     scenarios::ExamOptions options;
     options.candidate = ticket.empty() ? "nobody" : records::parse_ticket(ticket, "", "ticket").candidate;
-    options.device = "emulated stylus";
     options.source = {SourceKind::device, "emulated stylus", "E1"};
     options.position_quantum_mm = OmniModel{}.quantum_mm;
     if (!ticket.empty()) options.notes.emplace_back(records::k_ticket_note, ticket);

@@ -43,7 +43,6 @@ inline void sit_shortly(const std::string& scenario, const std::string& path, co
                         const std::function<void(std::int64_t tick, TickInput& input)>& change = {}) {
   scenarios::ExamOptions options;
   options.candidate = records::parse_ticket(ticket, "", "ticket").candidate;
-  options.device = "emulated stylus";
   options.source = {SourceKind::device, "emulated stylus", "E1"};
   options.notes.emplace_back(records::k_ticket_note, ticket);
   const auto setup = scenarios::prepare_exam(scenario, options);

@@ -26,7 +26,6 @@ class KeptLandmarks : public ::testing::Test {
     write_text_file(folder_.file("task.toml"), testing::scenario_text(target));
     ExamOptions options;
     options.candidate = "t";
-    options.device = "none";
     options.tooth_file = folder_.file("tooth.cvt");
     return prepare_exam(folder_.file("task.toml"), options);
   }

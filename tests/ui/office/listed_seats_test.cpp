@@ -25,7 +25,10 @@ class ListedSeats : public testing::Test {
         {{"exam", "block_cavity"}, {"from", utc_text(now + from_h * k_hour_ns)}, {"until", utc_text(now + until_h * k_hour_ns)}, {"reason", "x"}});
     return officer_.post("/api/roster/issue", asked);
   }
-  std::string preview_problem(const std::string& list) { return officer_.post("/api/roster/preview", Opened::list(list)).json()["problem"]; }
+  std::string preview_problem(const std::string& list) {
+    const json preview = officer_.post("/api/roster/preview", Opened::list(list)).json();
+    return fmt::format("{}", fmt::join(preview.at("problems").get<std::vector<std::string>>(), "\n"));
+  }
   /// Whether `parts`, between strokes, all stand in `text`.
   static bool tells_all(const std::string& text, const std::string& parts) {
     std::istringstream in(parts);

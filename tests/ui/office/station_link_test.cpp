@@ -217,7 +217,6 @@ struct Ticks {
 Ticks sat(const std::string& path, double seconds) {
   scenarios::ExamOptions options;
   options.candidate = "T5";
-  options.device = "simulated Omni, operator expert";
   options.position_quantum_mm = OmniModel{}.quantum_mm;
   const auto setup = scenarios::prepare_exam(k_scenario, options);
   const auto device = scenarios::make_candidate_device(*setup, "expert", 1);

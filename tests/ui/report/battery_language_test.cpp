@@ -113,7 +113,7 @@ class BatteryLanguage : public ::testing::TestWithParam<const char*> {
       static_cast<void>(
           grading::sit(task, works[i].cut, grading::box_of_work(field, works[i].below_mm), 0, [&](const auto& input, const auto& result) {
             grading::ReportFacts facts;
-            facts.candidate = "A17", facts.device = "simulated Omni, operator novice";
+            facts.candidate = "A17", facts.source = {SourceKind::simulated_operator, "novice"};
             ReportSource source = report_source(result, input, facts, scenario_.rubric);
             for (const ReportReader reader : {ReportReader::student, ReportReader::instructor}) {
               source.reader = reader;
@@ -122,7 +122,7 @@ class BatteryLanguage : public ::testing::TestWithParam<const char*> {
               texts.list = {d.title, d.subtitle};
               for (const auto& block : d.blocks) std::visit(texts, block);
               for (std::string text : texts.list) {
-                for (const std::string& name : {tooth.name, facts.device})  // data of their files, said as they stand
+                for (const std::string& name : {tooth.name, facts.source.name})  // data of their files, said as they stand
                   if (const auto at = text.find(name); at != std::string::npos) text.erase(at, name.size());
                 see(works[i].name, reader, text);
               }

@@ -271,7 +271,7 @@ TEST_F(ReportFile, JumpsLeadToTheMomentsOfEachPointLost) {
 TEST_F(ReportFile, NothingThatPeopleWroteBecomesMarkupOrScript) {
   const std::string evil = "</script><script>alert(1)</script><!-- <b>'\"& \x01\x7f ]]> \\u003c/script>";
   const std::string html = html_with([&](grading::GradedSession& s) {
-    s.facts.candidate = s.facts.device = s.facts.calibration = s.facts.created = evil;
+    s.facts.candidate = s.facts.source.name = s.facts.calibration = s.facts.created = evil;
     s.facts.notes.emplace_back(evil, evil);
     s.scenario.title = evil;
     auto named = std::make_shared<Tooth>(*s.before);

@@ -144,7 +144,6 @@ class Coach : public ::testing::Test {
   static void SetUpTestSuite() {
     scenarios::ExamOptions options;
     options.candidate = "t";
-    options.device = "none";
     setup_ = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml", options);
     setup_->scenario.force_limit_n = 2.0;
   }
@@ -200,7 +199,6 @@ TEST_F(Coach, TellsOfAHandpieceThatTurnsInTheAir) {
 std::unique_ptr<scenarios::ExamSetup> record_novice(const std::string& scenario, const std::string& file) {
   scenarios::ExamOptions options;
   options.candidate = "t";
-  options.device = "simulated Omni";
   auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + scenario, options);
   auto candidate = scenarios::make_simulated_candidate(*setup, "novice", 3, OmniModel{});
   const auto exam = scenarios::Exam::start(*setup, file, candidate.start_mm());

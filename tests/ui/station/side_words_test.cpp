@@ -104,7 +104,6 @@ TEST(SideWords, AreNeverOverTheCavityAndPointTheRightWayInDrawnViews) {
 TEST(SideWords, AMolarsCrownIsItsEnamelWithoutItsRoots) {
   scenarios::ExamOptions options;
   options.candidate = "t";
-  options.device = "none";
   const auto setup = scenarios::prepare_exam(std::string(CAVUM_SOURCE_DIR) + "/data/scenarios/class_1.toml", options);
   const CrownSides sides = crown_sides(setup->tooth, setup->zones);
   EXPECT_NEAR(sides.high.x - sides.low.x, 11.0, 2.0) << "mesiodistally";

@@ -33,7 +33,7 @@ class Toy final : public Stylus {
   [[nodiscard]] StylusHealth health() const override { return {.readings = 1}; }
 
   static StylusFacts toy_facts() {
-    return {.id = "toy", .name = "toy on a spring", .peak_n = 2.0, .continuous_n = 1.0, .rate_hz = 1000.0, .reach_mm = 10.0};
+    return {.id = "toy", .name = cavum::Name{"toy on a spring"}, .peak_n = 2.0, .continuous_n = 1.0, .rate_hz = 1000.0, .reach_mm = 10.0};
   }
 
  private:
@@ -60,7 +60,7 @@ TEST(StylusKinds, AStylusOfOneRecordIsListedOpenedPlacedAndGivenForce) {
   const testing_basics::Folder folder;
   ::setenv("CAVUM_HOME", folder.file("").c_str(), 1);
   const StylusKinds kinds(with_toy());
-  EXPECT_NE(kinds.ids({StylusHand::person}).find("toy"), std::string::npos) << "which is what help and errors say";
+  EXPECT_EQ(kinds.ids({StylusHand::person}).back(), "toy") << "which is what help and errors say";
   const auto listed = list_styluses(false, kinds);
   EXPECT_EQ(listed.back().id, "toy");
   EXPECT_TRUE(listed.back().there);
@@ -104,7 +104,7 @@ TEST(StylusKinds, ARecordThatLacksSomethingIsSaidAtOnce) {
   };
   EXPECT_FALSE(said([](StylusKind&) {}));
   const std::vector<std::function<void(StylusKind&)>> spoils{
-      [](StylusKind& k) { k.open = nullptr; },    [](StylusKind& k) { k.look = nullptr; },         [](StylusKind& k) { k.facts.name = ""; },
+      [](StylusKind& k) { k.open = nullptr; },    [](StylusKind& k) { k.look = nullptr; },         [](StylusKind& k) { k.facts.name = {}; },
       [](StylusKind& k) { k.facts.peak_n = 0; },  [](StylusKind& k) { k.facts.continuous_n = 3; }, [](StylusKind& k) { k.facts.rate_hz = 0; },
       [](StylusKind& k) { k.facts.reach_mm = 0; }};
   for (const auto& spoil : spoils) EXPECT_EQ(said(spoil), DeviceError::incomplete_record) << &spoil - spoils.data();

@@ -14,7 +14,7 @@ double rounded(double value, double quantum) { return quantum > 0 ? std::round(v
 
 FreeArm::FreeArm(const ArmModel& model, Vec3 at_mm, std::uint64_t seed) : model_(model), random_(seed), home_(at_mm) {
   facts_ = {.id = "freearm",
-            .name = "an arm that nobody holds",
+            .name = cavum::Name{"an arm that nobody holds"},
             .serial = "A1",
             .position_quantum_mm = model.quantum_mm,
             .peak_n = 3.0,

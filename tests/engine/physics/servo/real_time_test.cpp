@@ -8,6 +8,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <fstream>
 
 #include "engine/base/order.h"
@@ -56,15 +57,15 @@ TEST(RealTime, KeepsThePaceOfTheClockAndTellsWhatItGot) {
   run.go(500);
   const double seconds = static_cast<double>(monotonic_ns() - start) * 1e-9;
   EXPECT_EQ(run.report.ticks, 500);
-  EXPECT_EQ(run.report.why, ServoEnd::ticks);
+  EXPECT_EQ(run.report.ended.why, ServoEnd::ticks);
   EXPECT_EQ(run.report.lateness.ticks, 500);
   EXPECT_GE(seconds, 0.499) << "never faster than real time";
   EXPECT_LT(seconds, 0.499 + static_cast<double>(run.report.lateness.worst_ns) * 1e-9 + k_patience_s);
-  EXPECT_EQ(run.report.fifo, run.report.fifo_refused.empty());
-  EXPECT_EQ(run.report.memory_locked, run.report.memory_refused.empty());
-  std::printf("fifo: %s, memory: %s, late mean %.1f worst %.1f us, %lld overruns\n", run.report.fifo ? "yes" : run.report.fifo_refused.c_str(),
-              run.report.memory_locked ? "locked" : run.report.memory_refused.c_str(), run.report.lateness.mean_us(), run.report.lateness.worst_us(),
-              static_cast<long long>(run.report.overruns));
+  EXPECT_TRUE(run.report.fifo.asked && run.report.memory.asked);
+  std::printf("fifo: %s, memory: %s, late mean %.1f worst %.1f us, %lld overruns\n",
+              run.report.fifo.granted() ? "yes" : std::strerror(run.report.fifo.error),
+              run.report.memory.granted() ? "locked" : std::strerror(run.report.memory.error), run.report.lateness.mean_us(),
+              run.report.lateness.worst_us(), static_cast<long long>(run.report.overruns));
   ASSERT_EQ(run.ticks.size(), 500u);
   for (std::size_t i = 0; i < run.ticks.size(); ++i) ASSERT_EQ(run.ticks[i].tick, static_cast<std::int64_t>(i));
   EXPECT_EQ(run.device.sent.back().force_n, Vec3{}) << "zero force at the end";
@@ -110,7 +111,7 @@ TEST(RealTime, NaNFromTheDeviceEndsWithZeroForceAndTheServoLives) {
     }
   });
   run.go(600);
-  EXPECT_EQ(run.report.why, ServoEnd::ticks);
+  EXPECT_EQ(run.report.ended.why, ServoEnd::ticks);
   for (const auto& s : run.device.sent) {
     ASSERT_TRUE(is_finite(s.force_n));
     if (s.read > 212 && s.read < 300) {
@@ -131,16 +132,15 @@ TEST(RealTime, WhatTheDeviceThrowsStopsTheServoWithZeroForce) {
       throw 42;
     });
     run.go(1000);
-    EXPECT_EQ(run.report.why, ServoEnd::device_failed);
-    if (kind == 0)
-      EXPECT_EQ(run.report.error, "the cable came out");
-    else
-      EXPECT_NE(run.report.error, "");
+    EXPECT_EQ(run.report.ended.why, ServoEnd::device_failed);
+    EXPECT_FALSE(run.report.failure.empty());
+    if (kind == 0) {
+      EXPECT_EQ(run.report.failure, Message(cavum::Name{"the cable came out"}));
+    }
     EXPECT_GT(length(run.device.sent[run.device.sent.size() - 2].force_n), 0.5);
     EXPECT_EQ(run.device.sent.back().force_n, Vec3{});
     EXPECT_TRUE(run.stream.closed());
-    EXPECT_EQ(run.stream.why(), ServoEnd::device_failed);
-    EXPECT_EQ(run.stream.detail(), run.report.error);
+    EXPECT_EQ(run.stream.stop(), (ServoStop{ServoEnd::device_failed, ServoFault::reading}));
     EXPECT_EQ(static_cast<std::int64_t>(run.ticks.size()), run.report.ticks);
   }
 }
@@ -202,7 +202,7 @@ TEST(RealTime, WithoutRoomInTheStreamNoStepIsTakenAndTheForceIsZero) {
   servo.ask_to_stop();
   run.report = servo.join();
   run.empty();
-  EXPECT_EQ(run.report.why, ServoEnd::asked);
+  EXPECT_EQ(run.report.ended.why, ServoEnd::asked);
   EXPECT_GE(run.report.skipped_full, 30);
   ASSERT_EQ(static_cast<std::int64_t>(ticks.size()), run.report.ticks);
   std::int64_t told = 0;

@@ -81,7 +81,7 @@ TEST(ImportCt, FindsTissuesWithADarkPulpAndAPartialVolumeRim) {
   EXPECT_NEAR(volume_mm3(done.tooth, k_pulp), truth[k_pulp], 0.06 * truth[k_pulp]);
   EXPECT_EQ(done.pulp_bodies, 1u);
   EXPECT_LT(done.rim_percent, 1.0);
-  EXPECT_FALSE(done.spacing_assumed);
+  EXPECT_EQ(done.spacing.by, VoxelSpacing::By::file);
   // Straight down through the crown there is enamel first, not a rim of dentin.
   std::uint8_t before = k_air;
   std::vector<std::uint8_t> order;
@@ -128,13 +128,13 @@ TEST(ImportCt, TheSurfaceShowsNoSteps) {
 
 TEST(ImportCt, MissingSpacingIsAssumedAndSaid) {
   const auto done = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), volume_options());
-  EXPECT_TRUE(done.spacing_assumed);
-  EXPECT_NE(done.tooth.source.find("spacing assumed"), std::string::npos);
+  EXPECT_EQ(done.spacing.by, VoxelSpacing::By::assumed);
+  EXPECT_EQ(std::get<ImportedVolume>(done.tooth.source.at(0)).spacing.by, VoxelSpacing::By::assumed);
   auto given = volume_options();
   given.spacing_mm = Vec3{0.2, 0.2, 0.2};
   const auto told = import_volume(write_mhd(fresh_folder(), ct(), "1 1 1"), given);
-  EXPECT_FALSE(told.spacing_assumed);
-  EXPECT_NE(told.tooth.source.find("spacing given"), std::string::npos);
+  EXPECT_EQ(told.spacing.by, VoxelSpacing::By::given);
+  EXPECT_EQ(std::get<ImportedVolume>(told.tooth.source.at(0)).spacing.mm, (Vec3{0.2, 0.2, 0.2}));
 }
 
 TEST(ImportCt, ExplicitThresholdsAreObeyed) {

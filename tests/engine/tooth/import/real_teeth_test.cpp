@@ -65,7 +65,7 @@ TEST(RealTeeth, CtGivesEnamelDentinAndOnePulpWithoutHelp) {
   EXPECT_LE(done.native_pulp, 20'000u);
   EXPECT_EQ(done.pulp_bodies, 1u);
   EXPECT_LT(done.rim_percent, 1.0);
-  EXPECT_TRUE(done.spacing_assumed);
+  EXPECT_EQ(done.spacing.by, VoxelSpacing::By::assumed);
   const TissueGrid grid = done.tooth.octree.to_grid();
   EXPECT_EQ(testing_tooth::count_bodies(grid, k_pulp, 0, grid.size.z - 1), 1);
   // A second look at the rim: from above, the first tissue met over the crown is enamel.

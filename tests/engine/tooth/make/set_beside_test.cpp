@@ -7,7 +7,6 @@
 #include <iostream>
 
 #include "engine/base/error.h"
-#include "engine/tooth/anatomy/tooth_number.h"
 #include "engine/tooth/beside.h"
 #include "engine/tooth/make/in_a_row.h"
 #include "engine/tooth/make/make_block.h"
@@ -170,12 +169,13 @@ TEST(SetBeside, WhatCannotStandTogetherIsRefused) {
   EXPECT_THROW(static_cast<void>(set_beside(molar_in_row().tooth, spec, "here")), Error);
 }
 
-/// A tooth that is known by its name and the class of its shape alone.
-RowVerdict row_of(const std::string& tooth, ToothClass kind, const std::string& beside, ToothClass other, int side) {
+/// A tooth that is known by what was said and the class of its shape alone.
+RowVerdict row_of(const ToothKind& tooth, ToothClass kind, const ToothKind& beside, ToothClass other, int side) {
   const ClassGuess a{kind, 0.9, {}}, b{other, 0.9, {}};
-  return stand_in_a_row({tooth, a}, {beside, b}, side);
+  return stand_in_a_row({"a", tooth, a}, {"b", beside, b}, side);
 }
-std::string numbered(int fdi) { return name_with(from_fdi(fdi, "x")) + "; tooth from a scan"; }
+ToothKind numbered(int fdi) { return ToothKind(from_fdi(fdi, "x")); }
+const ToothKind k_scan;
 
 TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
   constexpr auto k_any = ToothClass::unknown;
@@ -194,16 +194,16 @@ TEST(InARow, NumbersMustFollowEachOtherOnOneSideOfOneJaw) {
 
 TEST(InARow, WithoutNumbersClassAndJawDecide) {
   constexpr auto k_molar = ToothClass::molar, k_premolar = ToothClass::premolar, k_incisor = ToothClass::incisor;
-  EXPECT_TRUE(row_of("scan", k_molar, "scan", k_premolar, 1).why_not.empty());
-  EXPECT_NE(row_of("scan", k_molar, "scan", k_premolar, 1).unchecked, Message()) << "their numbers were not said";
-  EXPECT_FALSE(row_of("scan", k_molar, "scan", k_premolar, -1).why_not.empty());
-  EXPECT_FALSE(row_of("scan", k_molar, "scan", k_incisor, 1).why_not.empty());
-  EXPECT_FALSE(row_of(numbered(37), k_molar, "scan", k_premolar, -1).why_not.empty()) << "a premolar distal of a second molar";
-  EXPECT_FALSE(row_of(numbered(37), k_molar, "scan", k_premolar, 1).why_not.empty()) << "nor mesial: a first molar stands there";
-  EXPECT_TRUE(row_of("scan", k_premolar, "scan", k_molar, -1).why_not.empty());
-  EXPECT_FALSE(row_of("lower first molar (seed 3)", k_molar, "upper second premolar (seed 4)", k_premolar, 1).why_not.empty());
-  EXPECT_TRUE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).why_not.empty());
-  EXPECT_NE(row_of("scan", ToothClass::unknown, "scan", k_molar, 1).unchecked, Message());
+  EXPECT_TRUE(row_of(k_scan, k_molar, k_scan, k_premolar, 1).why_not.empty());
+  EXPECT_NE(row_of(k_scan, k_molar, k_scan, k_premolar, 1).unchecked, Message()) << "their numbers were not said";
+  EXPECT_FALSE(row_of(k_scan, k_molar, k_scan, k_premolar, -1).why_not.empty());
+  EXPECT_FALSE(row_of(k_scan, k_molar, k_scan, k_incisor, 1).why_not.empty());
+  EXPECT_FALSE(row_of(numbered(37), k_molar, k_scan, k_premolar, -1).why_not.empty()) << "a premolar distal of a second molar";
+  EXPECT_FALSE(row_of(numbered(37), k_molar, k_scan, k_premolar, 1).why_not.empty()) << "nor mesial: a first molar stands there";
+  EXPECT_TRUE(row_of(k_scan, k_premolar, k_scan, k_molar, -1).why_not.empty());
+  EXPECT_FALSE(row_of({Jaw::lower, ToothClass::unknown}, k_molar, {Jaw::upper, ToothClass::unknown}, k_premolar, 1).why_not.empty());
+  EXPECT_TRUE(row_of(k_scan, ToothClass::unknown, k_scan, k_molar, 1).why_not.empty());
+  EXPECT_NE(row_of(k_scan, ToothClass::unknown, k_scan, k_molar, 1).unchecked, Message());
 }
 
 TEST(SetBeside, TeethThatAreNoNeighboursAreRefusedUnlessConfirmedAndThatIsKept) {
@@ -213,8 +213,8 @@ TEST(SetBeside, TeethThatAreNoNeighboursAreRefusedUnlessConfirmedAndThatIsKept) 
   BesideSpec spec;
   spec.distal.tooth = &premolar;
   Tooth tooth = premolar;
-  tooth.name = numbered(15);
-  premolar.name = numbered(14);
+  tooth.kind = numbered(15);
+  premolar.kind = numbered(14);
   EXPECT_THROW(static_cast<void>(set_beside(tooth, spec, "here")), Error);
   spec.confirmed = true;
   const auto warnings = set_beside(tooth, spec, "here").tooth.notes_of(ToothNote::Kind::warning);

@@ -78,8 +78,7 @@ class Roster {
       this.found.append(this.columns(preview));
     }
     const open = preview.columns.filter((c) => c.use === "").length;
-    if (preview.problem !== "")
-      for (const line of preview.problem.split("\n")) this.found.append(make("p", { class: "wrong" }, line));
+    for (const problem of preview.problems) this.found.append(make("p", { class: "wrong" }, problem));
     if (open > 0) this.found.append(make("p", { class: "wrong", id: "open-columns" }, tr("Columns that wait for your answer: {}. Use each, or pass it over.", open)));
     if (preview.people.length > 0) this.found.append(this.people(preview), await this.issue(preview.longest_s));
     this.found.querySelector("h2")!.focus();

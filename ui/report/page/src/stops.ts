@@ -5,12 +5,10 @@ import { make } from "./dom.ts";
 import { fixed, tr } from "./words.ts";
 
 /** Colours and shapes of the kinds of events, the same on the scrubber and in the charts. */
-export function event_colour(kind: string): string {
-  if (/perforation|violation|limit|critical|fault/.test(kind)) return "#b3123b";
-  if (/pause|resume|gap/.test(kind)) return "#6b6b6b";
-  if (/aim/.test(kind)) return "#00695c";
-  return "#3d4a7a";
-}
+export const event_colour = (kind: string): string => k_colours[kind] ?? "#3d4a7a";
+const k_colours: { readonly [kind: string]: string } = {
+  perforation: "#b3123b", violation: "#b3123b", limit: "#b3123b", pause: "#6b6b6b", gap: "#6b6b6b", aim: "#00695c",
+};
 
 /** A moment that the scrubber can be put to. */
 export interface Stop {

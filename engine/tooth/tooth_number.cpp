@@ -1,4 +1,4 @@
-#include "engine/tooth/anatomy/tooth_number.h"
+#include "engine/tooth/tooth_number.h"
 
 #include <fmt/core.h>
 
@@ -7,12 +7,6 @@
 #include "engine/base/error.h"
 
 namespace cavum {
-namespace {
-
-/// How the name of a tooth begins in its file when its number was said.
-std::string numbered(const ToothNumber& n) { return fmt::format("tooth {} (universal {})", n.fdi, n.universal()); }
-
-}  // namespace
 
 int ToothNumber::universal() const noexcept {
   switch (quadrant()) {
@@ -44,8 +38,7 @@ std::string ToothNumber::text() const { return fmt::format("{} (universal {}), {
 
 ToothNumber from_fdi(int number, const std::string& option) {
   const ToothNumber n{number};
-  if (number < 11 || n.quadrant() > 4 || n.place() < 1 || n.place() > 8)
-    throw Error(option, msg("{} is no permanent tooth of the FDI", number), msg("give 11 to 18, 21 to 28, 31 to 38 or 41 to 48"));
+  if (!n.exists()) throw Error(option, msg("{} is no permanent tooth of the FDI", number), msg("give 11 to 18, 21 to 28, 31 to 38 or 41 to 48"));
   return n;
 }
 
@@ -56,25 +49,5 @@ ToothNumber from_universal(int number, const std::string& option) {
 }
 
 std::string name_with(const ToothNumber& number) { return "tooth " + number.text(); }
-
-std::optional<ToothNumber> number_in(const std::string& name) {
-  for (int quadrant = 1; quadrant <= 4; ++quadrant)
-    for (int place = 1; place <= 8; ++place)
-      if (const ToothNumber n{10 * quadrant + place}; name.starts_with(numbered(n))) return n;
-  return std::nullopt;
-}
-
-std::optional<bool> upper_in(const std::string& name) {
-  if (const auto n = number_in(name)) return n->upper();
-  if (name.starts_with("upper ")) return true;
-  if (name.starts_with("lower ")) return false;
-  return std::nullopt;
-}
-
-bool anterior_in(const std::string& name) {
-  if (const auto n = number_in(name)) return n->place() <= 3;
-  const std::string kind = name.substr(0, name.find('('));
-  return kind.find("incisor") != std::string::npos || kind.find("canine") != std::string::npos;
-}
 
 }  // namespace cavum

@@ -1,12 +1,16 @@
-// Which tooth of the jaw it is: its number, or as much as its name says.
+// Which tooth of the jaw it is: its number, or as much as was said.
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 
-#include "engine/tooth/anatomy/landmarks.h"
+#include "engine/base/message.h"
 
 namespace cavum {
+
+enum class Jaw : std::uint8_t { unknown, upper, lower };
+enum class ToothClass : std::uint8_t { unknown, incisor, canine, premolar, molar };
 
 /// A permanent tooth by its FDI number (ISO 3950): 11 to 48.
 struct ToothNumber {
@@ -28,6 +32,8 @@ struct ToothNumber {
   [[nodiscard]] bool y_is_buccal() const noexcept { return quadrant() % 2 == 1; }
   /// The same tooth on the other side of the jaw: 46 of 36.
   [[nodiscard]] ToothNumber other_side() const noexcept { return {(upper() ? 3 - quadrant() : 7 - quadrant()) * 10 + place()}; }
+  [[nodiscard]] bool exists() const noexcept { return fdi > 10 && quadrant() <= 4 && place() >= 1 && place() <= 8; }
+  friend bool operator==(const ToothNumber&, const ToothNumber&) = default;
 };
 /// Throws Error(`option`, ...) for what is no permanent tooth.
 [[nodiscard]] ToothNumber from_fdi(int number, const std::string& option);
@@ -35,11 +41,18 @@ struct ToothNumber {
 
 /// "tooth 36 (universal 19), lower left first molar": how the name of a tooth begins whose number was said.
 [[nodiscard]] std::string name_with(const ToothNumber& number);
-/// The number that a tooth's name begins with; none where nobody said one.
-[[nodiscard]] std::optional<ToothNumber> number_in(const std::string& tooth_name);
-/// Whether the name says "upper" or "lower"; none where it says neither.
-[[nodiscard]] std::optional<bool> upper_in(const std::string& tooth_name);
-/// Whether the name says that it is an incisor or a canine.
-[[nodiscard]] bool anterior_in(const std::string& tooth_name);
+
+/// Which tooth it is, as far as that was said: of its number, where there is one, follow jaw and class.
+struct ToothKind {
+  Jaw jaw = Jaw::unknown;
+  ToothClass tooth_class = ToothClass::unknown;
+  std::optional<ToothNumber> number = {};
+  ToothKind() = default;
+  ToothKind(Jaw of, ToothClass kind) : jaw(of), tooth_class(kind) {}
+  explicit ToothKind(const ToothNumber& n) : jaw(n.upper() ? Jaw::upper : Jaw::lower), tooth_class(n.tooth_class()), number(n) {}
+  /// Known to be an incisor or a canine.
+  [[nodiscard]] bool anterior() const noexcept { return tooth_class == ToothClass::incisor || tooth_class == ToothClass::canine; }
+  friend bool operator==(const ToothKind&, const ToothKind&) = default;
+};
 
 }  // namespace cavum
