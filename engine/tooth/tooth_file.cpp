@@ -158,10 +158,10 @@ std::string Tooth::tissue_name(std::uint8_t id) const {
   return fmt::format("tissue {}", id);
 }
 
-std::vector<Message> Tooth::notes_of(ToothNote::Kind kind) const {
+std::vector<Message> Tooth::notes_of(ToothNote::Kind wanted) const {
   std::vector<Message> texts;
   for (const ToothNote& n : notes)
-    if (n.kind == kind) texts.push_back(n.text);
+    if (n.kind == wanted) texts.push_back(n.text);
   return texts;
 }
 
