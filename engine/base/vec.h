@@ -2,9 +2,12 @@
 // with every compiler; GLM is kept for the screen, where bits do not matter.
 #pragma once
 
+#include <algorithm>
 #include <cmath>
 #include <compare>
+#include <cstddef>
 #include <cstdint>
+#include <limits>
 
 namespace cavum {
 
@@ -32,6 +35,9 @@ struct Vec3 {
   const double n = length(a);
   return n > 1e-12 ? a / n : fallback;
 }
+/// Component by component.
+[[nodiscard]] constexpr Vec3 min(Vec3 a, Vec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+[[nodiscard]] constexpr Vec3 max(Vec3 a, Vec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 [[nodiscard]] inline bool is_finite(Vec3 a) noexcept { return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z); }
 
 /// Integer leaf coordinates.
@@ -43,5 +49,29 @@ struct IVec3 {
   friend constexpr bool operator==(const IVec3&, const IVec3&) = default;
   friend constexpr auto operator<=>(const IVec3&, const IVec3&) = default;
 };
+
+[[nodiscard]] constexpr IVec3 min(IVec3 a, IVec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
+[[nodiscard]] constexpr IVec3 max(IVec3 a, IVec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
+[[nodiscard]] constexpr Vec3 to_vec3(IVec3 a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
+/// How many cells a lattice of this size has, and which of them, x fastest, is at a place.
+[[nodiscard]] constexpr std::size_t cells_of(IVec3 size) noexcept {
+  return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
+}
+[[nodiscard]] constexpr std::size_t cell_index(IVec3 at, IVec3 size) noexcept {
+  return (static_cast<std::size_t>(at.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(at.y)) * static_cast<std::size_t>(size.x) +
+         static_cast<std::size_t>(at.x);
+}
+
+/// The box around all that was added; `low` is above `high` before that.
+template <class V>
+struct BoundsOf {
+  static constexpr auto k_far = std::numeric_limits<decltype(V::x)>::max() / 4;
+  V low{k_far, k_far, k_far}, high{-k_far, -k_far, -k_far};
+  constexpr void add(V from, V to) noexcept { low = min(low, from), high = max(high, to); }
+  constexpr void add(V at) noexcept { add(at, at); }
+  [[nodiscard]] constexpr bool empty() const noexcept { return low.x > high.x; }
+};
+using Bounds = BoundsOf<Vec3>;
+using LeafBounds = BoundsOf<IVec3>;
 
 }  // namespace cavum

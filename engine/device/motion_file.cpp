@@ -133,13 +133,9 @@ void add(Motion& motion, const MotionSample& sample, const CsvReader& in) {
 
 /// Throws Error for a motion so small that its positions must be metres.
 void require_millimetres(const Motion& motion, const std::string& where) {
-  Vec3 low = motion.samples[0].pose.tip_mm, high = low;
-  for (const auto& s : motion.samples) {
-    const Vec3 p = s.pose.tip_mm;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-  const double way = length(high - low);
+  Bounds box;
+  for (const auto& s : motion.samples) box.add(s.pose.tip_mm);
+  const double way = length(box.high - box.low);
   if (way > 0 && way < 0.05)
     throw Error(MotionError::in_metres, Name{where}, msg("moves less than 0.05 mm in all"),
                 msg("x_mm, y_mm and z_mm look like metres: multiply by 1000"));

@@ -24,17 +24,12 @@ struct BrickBox {
 };
 BrickBox bricks_around(const Octree& tree, const TissueSet& tissues) {
   constexpr int k_edge = Octree::k_brick_edge;
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (!tissues[t]) return;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-  });
-  if (high.x < 0) return {{0, 0, 0}, {0, 0, 0}};
+  const LeafBounds box = tree.bounds([&](std::uint8_t t) { return tissues[t]; });
+  if (box.empty()) return {{0, 0, 0}, {0, 0, 0}};
   const auto down = [](int v) { return std::max(0, v - k_near_leaves) / k_edge * k_edge; };
   const auto up = [](int v, int n) { return (std::min(n, v + k_near_leaves) + k_edge - 1) / k_edge * k_edge; };
-  const IVec3 n = tree.size(), first{down(low.x), down(low.y), down(low.z)};
-  return {first, IVec3{up(high.x, n.x), up(high.y, n.y), up(high.z, n.z)} - first};
+  const IVec3 n = tree.size(), first{down(box.low.x), down(box.low.y), down(box.low.z)};
+  return {first, IVec3{up(box.high.x, n.x), up(box.high.y, n.y), up(box.high.z, n.z)} - first};
 }
 
 /// The leaves of a box, dense.

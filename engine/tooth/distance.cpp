@@ -71,7 +71,7 @@ void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t
   if (widest > Octree::k_max_edge_leaves)
     throw Error(FileError::too_large, where, msg("{} leaves along one edge, 1024 is the most", widest),
                 msg("use a larger --leaf-mm, or check that the unit is mm"));
-  const std::uint64_t leaves = static_cast<std::uint64_t>(size.x) * static_cast<std::uint64_t>(size.y) * static_cast<std::uint64_t>(size.z);
+  const std::uint64_t leaves = cells_of(size);
   if (leaves > most)
     throw Error(FileError::too_large, where, msg("{} leaves, {} is the most", leaves, most),
                 msg("use a larger --leaf-mm, or check that the unit is mm"));
@@ -80,14 +80,10 @@ void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where) {
   std::uint64_t near = 0;
   for (const auto& t : mesh.triangles) {
-    Vec3 low = mesh.vertices_mm[t[0]], high = low;
-    for (const auto corner : t) {
-      const Vec3 v = mesh.vertices_mm[corner];
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
+    Bounds box;
+    for (const auto corner : t) box.add(mesh.vertices_mm[corner]);
     const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
-    near += leaves(high.x - low.x) * leaves(high.y - low.y) * leaves(high.z - low.z);
+    near += leaves(box.high.x - box.low.x) * leaves(box.high.y - box.low.y) * leaves(box.high.z - box.low.z);
     if (near > k_most_near_triangles)
       throw Error(FileError::too_large, Name{where}, msg("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
                   msg("use a larger --leaf-mm, or a mesh of fewer large triangles"));

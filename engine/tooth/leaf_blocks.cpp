@@ -26,8 +26,8 @@ LeafBlocks::LeafBlocks(const Octree& tooth)
       origin_mm_(tooth.origin_mm()),
       size_(tooth.size()),
       blocks_{blocks_of(size_.x), blocks_of(size_.y), blocks_of(size_.z)},
-      all_(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(blocks_.z)) {
-  LeafBox box{};
+      all_(cells_of(blocks_)) {
+  LeafBounds box{};
   for (int z = 0; z < blocks_.z; ++z)
     for (int y = 0; y < blocks_.y; ++y)
       for (int x = 0; x < blocks_.x; ++x) {
@@ -37,10 +37,10 @@ LeafBlocks::LeafBlocks(const Octree& tooth)
       }
 }
 
-void LeafBlocks::take(const Octree& now, std::vector<LeafBox>& changed) {
+void LeafBlocks::take(const Octree& now, std::vector<LeafBounds>& changed) {
   if (!(now.size() == size_) || now.leaf_mm() != leaf_mm_ || !(now.origin_mm() == origin_mm_))
     throw Error(msg("tooth copy"), msg("the octree is of another tooth"), msg("make a new copy for each tooth"));
-  LeafBox box{};
+  LeafBounds box{};
   for (int z = 0; z < blocks_.z; ++z)
     for (int y = 0; y < blocks_.y; ++y)
       for (int x = 0; x < blocks_.x; ++x) {
@@ -52,8 +52,8 @@ void LeafBlocks::take(const Octree& now, std::vector<LeafBox>& changed) {
       }
 }
 
-bool LeafBlocks::take_block(const Octree& now, IVec3 at, Block& block, LeafBox& box) {
-  box = {{k_edge, k_edge, k_edge}, {-1, -1, -1}};
+bool LeafBlocks::take_block(const Octree& now, IVec3 at, Block& block, LeafBounds& box) {
+  box = {};
   for (int z = 0; z < k_bricks; ++z)
     for (int y = 0; y < k_bricks; ++y)
       for (int x = 0; x < k_bricks; ++x) {
@@ -78,13 +78,11 @@ bool LeafBlocks::take_block(const Octree& now, IVec3 at, Block& block, LeafBox& 
               if (tissue[k] == fresh.tissue[leaf] && code[k] == fresh.distance[leaf]) continue;
               tissue[k] = fresh.tissue[leaf];
               code[k] = fresh.distance[leaf];
-              const IVec3 place{x * k_brick + k, y * k_brick + i, z * k_brick + j};
-              box.low = {std::min(box.low.x, place.x), std::min(box.low.y, place.y), std::min(box.low.z, place.z)};
-              box.high = {std::max(box.high.x, place.x), std::max(box.high.y, place.y), std::max(box.high.z, place.z)};
+              box.add(IVec3{x * k_brick + k, y * k_brick + i, z * k_brick + j});
             }
           }
       }
-  if (box.high.x < 0) return false;
+  if (box.empty()) return false;
   const auto& l = *block.leaves;
   const bool uniform = std::all_of(l.tissue.begin(), l.tissue.end(), [&](int t) { return t == l.tissue[0]; }) &&
                        std::all_of(l.code.begin(), l.code.end(), [&](int d) { return d == l.code[0]; });

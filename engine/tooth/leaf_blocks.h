@@ -11,11 +11,6 @@
 
 namespace cavum {
 
-/// Leaves from `low` to `high`, both included.
-struct LeafBox {
-  IVec3 low, high;
-};
-
 /// Belongs to one thread. The octree must stand still while it is taken from (a lock of its owner, or a snapshot), and is not kept.
 class LeafBlocks {
  public:
@@ -24,7 +19,7 @@ class LeafBlocks {
   explicit LeafBlocks(const Octree& tooth);
   /// Takes over what differs in `now`, the same tooth at another moment of the same exam, earlier or later. Appends to `changed` a box for
   /// each block in which any leaf's tissue or distance differs.
-  void take(const Octree& now, std::vector<LeafBox>& changed);
+  void take(const Octree& now, std::vector<LeafBounds>& changed);
 
   [[nodiscard]] double leaf_mm() const noexcept { return leaf_mm_; }
   [[nodiscard]] Vec3 origin_mm() const noexcept { return origin_mm_; }
@@ -45,13 +40,9 @@ class LeafBlocks {
     std::int8_t code = k_distance_far;
     std::unique_ptr<Leaves> leaves;
   };
-  [[nodiscard]] std::size_t index(IVec3 block) const noexcept {
-    return (static_cast<std::size_t>(block.z) * static_cast<std::size_t>(blocks_.y) + static_cast<std::size_t>(block.y)) *
-               static_cast<std::size_t>(blocks_.x) +
-           static_cast<std::size_t>(block.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 block) const noexcept { return cell_index(block, blocks_); }
   /// Returns whether anything differed; then `box` holds it.
-  static bool take_block(const Octree& now, IVec3 at, Block& block, LeafBox& box);
+  static bool take_block(const Octree& now, IVec3 at, Block& block, LeafBounds& box);
 
   double leaf_mm_;
   Vec3 origin_mm_;

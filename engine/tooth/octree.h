@@ -156,6 +156,15 @@ class Octree {
   /// Calls `visit(low_leaf, edge, tissue)` for every uniform cube (edge 1 for single leaves), air left out.
   template <class Visit>
   void for_each_cube(const Visit& visit) const;
+  /// Around the leaves whose tissue counts: the first of them, and beyond the last.
+  template <class Counts>
+  [[nodiscard]] LeafBounds bounds(const Counts& counts) const {
+    LeafBounds box;
+    for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
+      if (counts(tissue)) box.add(at, at + IVec3{edge, edge, edge});
+    });
+    return box;
+  }
   [[nodiscard]] TissueGrid to_grid() const;
   /// The same lattice, all of it air.
   [[nodiscard]] Octree emptied() const;

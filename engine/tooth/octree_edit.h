@@ -124,7 +124,7 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
   if (low.x + edge <= planning.low.x || low.y + edge <= planning.low.y || low.z + edge <= planning.low.z) return;
   // The shape's distance changes by at most 1 mm per mm: the centre speaks for the whole cube.
   const double half_mm = 0.5 * edge * leaf_mm_;
-  const Vec3 middle = origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
+  const Vec3 middle = origin_mm_ + to_vec3(low) * leaf_mm_ + Vec3{half_mm, half_mm, half_mm};
   const double radius_mm = half_mm * k_half_diagonal;
   --planning.work;
   if (shape(middle) > radius_mm + planning.band_mm) return;
@@ -140,7 +140,7 @@ void Octree::plan_in(std::uint32_t ref, int level, IVec3 low, std::uint32_t plac
   constexpr int k_brick_work = 6;
   planning.work -= k_brick_work;
   // 2x2x2 leaves at a time: a block whose centre is far outside the shape is passed over
-  const auto in_shape = brick_of(shape, origin_mm_ + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_, leaf_mm_);
+  const auto in_shape = brick_of(shape, origin_mm_ + to_vec3(low) * leaf_mm_, leaf_mm_);
   BlockDistances<Shape> blocks;
   in_shape.of_blocks(blocks.mm);
   const auto far_mm = static_cast<std::remove_cvref_t<decltype(blocks.mm[0])>>(0.5 * leaf_mm_ * k_half_diagonal + planning.band_mm);

@@ -19,23 +19,17 @@ struct Body {
 };
 
 Body body_of(const Octree& octree, const std::array<bool, 256>& wanted) {
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-  octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (!wanted[t]) return;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-  });
+  LeafBounds box = octree.bounds([&](std::uint8_t t) { return wanted[t]; });
   Body body;
-  if (high.x < 0) return body;
-  low = low - IVec3{2, 2, 2};
-  body.grid.allocate(high - low + IVec3{2, 2, 2}, octree.leaf_mm(),
-                     octree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * octree.leaf_mm());
+  if (box.empty()) return body;
+  box.low = box.low - IVec3{2, 2, 2};
+  body.grid.allocate(box.high - box.low + IVec3{2, 2, 2}, octree.leaf_mm(), octree.origin_mm() + to_vec3(box.low) * octree.leaf_mm());
   body.inside.resize(body.grid.count());
   for (std::int32_t z = 0; z < body.grid.size.z; ++z)
     for (std::int32_t y = 0; y < body.grid.size.y; ++y)
       for (std::int32_t x = 0; x < body.grid.size.x; ++x) {
         const auto i = body.grid.index({x, y, z});
-        const IVec3 leaf = low + IVec3{x, y, z};
+        const IVec3 leaf = box.low + IVec3{x, y, z};
         body.grid.tissue[i] = octree.tissue(leaf);
         body.grid.distance[i] = static_cast<std::int8_t>(octree.distance_code(leaf));
         body.inside[i] = wanted[body.grid.tissue[i]];

@@ -173,11 +173,11 @@ void keep(const std::vector<Item>& made, std::vector<Item>& kept) {
 SurfacePatches::SurfacePatches(const LeafBlocks& leaves, std::uint8_t tissue)
     : size_{patches_along(leaves.size().x), patches_along(leaves.size().y), patches_along(leaves.size().z)},
       maker_(std::make_unique<Maker>()),
-      patches_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z)),
+      patches_(cells_of(size_)),
       reached_(patches_.size(), 0) {
   maker_->hard = tissue == k_hard_tissue;
   maker_->wanted = tissue;
-  const LeafBox whole{{0, 0, 0}, leaves.size()};
+  const LeafBounds whole{{0, 0, 0}, leaves.size()};
   std::vector<std::uint32_t> touched;
   update(leaves, std::span(&whole, 1), touched);
 }
@@ -185,11 +185,11 @@ SurfacePatches::~SurfacePatches() = default;
 SurfacePatches::SurfacePatches(SurfacePatches&&) noexcept = default;
 SurfacePatches& SurfacePatches::operator=(SurfacePatches&&) noexcept = default;
 
-void SurfacePatches::update(const LeafBlocks& leaves, std::span<const LeafBox> changed, std::vector<std::uint32_t>& touched) {
+void SurfacePatches::update(const LeafBlocks& leaves, std::span<const LeafBounds> changed, std::vector<std::uint32_t>& touched) {
   const int reach = maker_->hard ? 1 : k_margin;  // of a patch beyond its points
   const auto from = [&](int leaf) { return std::max(0, (leaf - reach) / k_edge); };
   const auto to = [&](int leaf, int count) { return std::min(count - 1, (leaf + 1 + reach) / k_edge); };
-  for (const LeafBox& box : changed)
+  for (const LeafBounds& box : changed)
     for (int z = from(box.low.z); z <= to(box.high.z, size_.z); ++z)
       for (int y = from(box.low.y); y <= to(box.high.y, size_.y); ++y)
         for (int x = from(box.low.x); x <= to(box.high.x, size_.x); ++x) reached_[static_cast<std::size_t>((z * size_.y + y) * size_.x + x)] = 1;

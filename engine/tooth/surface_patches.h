@@ -44,7 +44,7 @@ class SurfacePatches {
   SurfacePatches& operator=(SurfacePatches&&) noexcept;
 
   /// Makes anew what the changed boxes reach. Appends the patches that differ now to `touched`, each once, in rising order.
-  void update(const LeafBlocks& leaves, std::span<const LeafBox> changed, std::vector<std::uint32_t>& touched);
+  void update(const LeafBlocks& leaves, std::span<const LeafBounds> changed, std::vector<std::uint32_t>& touched);
 
   /// Patches are numbered from 0; most are empty. References hold until the next update.
   [[nodiscard]] std::size_t count() const noexcept { return patches_.size(); }

@@ -63,13 +63,8 @@ struct TissueGrid {
     tissue.assign(count(), k_air);
     distance.assign(count(), k_distance_far);
   }
-  [[nodiscard]] std::size_t count() const noexcept {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  }
-  [[nodiscard]] std::size_t index(IVec3 i) const noexcept {
-    return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(i.x);
-  }
+  [[nodiscard]] std::size_t count() const noexcept { return cells_of(size); }
+  [[nodiscard]] std::size_t index(IVec3 i) const noexcept { return cell_index(i, size); }
   [[nodiscard]] bool inside(IVec3 i) const noexcept { return i.x >= 0 && i.y >= 0 && i.z >= 0 && i.x < size.x && i.y < size.y && i.z < size.z; }
   [[nodiscard]] Vec3 centre_mm(IVec3 i) const noexcept { return origin_mm + Vec3{i.x + 0.5, i.y + 0.5, i.z + 0.5} * leaf_mm; }
   /// Makes every code's sign agree with its label: solid at most -1, void at least +1.

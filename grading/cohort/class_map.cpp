@@ -20,21 +20,20 @@ namespace cavum::cohort {
 
 std::size_t ClassMap::index(IVec3 leaf) const noexcept {
   const IVec3 l = leaf - low_;
-  return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
-         static_cast<std::size_t>(l.x);
+  return cell_index(l, size_);
 }
 
 void ClassMap::reach(IVec3 low, IVec3 high) {
   const IVec3 end = low_ + size_;
   if (!count_.empty()) {
     if (low.x >= low_.x && low.y >= low_.y && low.z >= low_.z && high.x <= end.x && high.y <= end.y && high.z <= end.z) return;
-    low = {std::min(low.x, low_.x), std::min(low.y, low_.y), std::min(low.z, low_.z)};
-    high = {std::max(high.x, end.x), std::max(high.y, end.y), std::max(high.z, end.z)};
+    low = min(low, low_);
+    high = max(high, end);
   }
   ClassMap wider(*zones_);
   wider.low_ = low;
   wider.size_ = high - low;
-  wider.count_.assign(static_cast<std::size_t>(wider.size_.x) * static_cast<std::size_t>(wider.size_.y) * static_cast<std::size_t>(wider.size_.z), 0);
+  wider.count_.assign(cells_of(wider.size_), 0);
   for (int z = low_.z; z < end.z; ++z)
     for (int y = low_.y; y < end.y; ++y)
       for (int x = low_.x; x < end.x; ++x) wider.count_[wider.index({x, y, z})] = count_[index({x, y, z})];
@@ -46,12 +45,9 @@ void ClassMap::reach(IVec3 low, IVec3 high) {
 void ClassMap::add(const std::vector<IVec3>& removed) {
   if (sessions_ == 0) reach(zones_->low(), zones_->low() + zones_->size());
   if (!removed.empty()) {
-    IVec3 low = removed.front(), high = low;
-    for (const IVec3 l : removed) {
-      low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
-      high = {std::max(high.x, l.x), std::max(high.y, l.y), std::max(high.z, l.z)};
-    }
-    reach(low, high + IVec3{1, 1, 1});
+    LeafBounds box;
+    for (const IVec3 l : removed) box.add(l);
+    reach(box.low, box.high + IVec3{1, 1, 1});
   }
   for (const IVec3 l : removed) ++count_[index(l)];
   ++sessions_;

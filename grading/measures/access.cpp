@@ -17,10 +17,7 @@ namespace {
 template <class Mark>
 class Marks {
  public:
-  explicit Marks(const scenarios::ZoneMap& zones)
-      : low_(zones.low()),
-        size_(zones.size()),
-        mark_(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), Mark{}) {}
+  explicit Marks(const scenarios::ZoneMap& zones) : low_(zones.low()), size_(zones.size()), mark_(cells_of(size_), Mark{}) {}
   [[nodiscard]] Mark at(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
     return l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z ? Mark{} : mark_[index(l)];
@@ -35,10 +32,7 @@ class Marks {
   }
 
  private:
-  [[nodiscard]] std::size_t index(IVec3 l) const noexcept {
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(l.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 l) const noexcept { return cell_index(l, size_); }
   IVec3 low_, size_;
   std::vector<Mark> mark_;
 };

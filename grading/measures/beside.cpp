@@ -63,14 +63,10 @@ void measure_nick(const GradeInput& input, std::span<const RemovedAt> nick, Besi
   const double leaf = neighbours.leaf_mm();
   m.nick_depth_bound_mm = leaf;
   if (nick.empty()) return;
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
-  for (const auto& r : nick) {
-    const Vec3 p = neighbours.centre_mm(r.leaf.leaf());
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
+  Bounds box;
+  for (const auto& r : nick) box.add(neighbours.centre_mm(r.leaf.leaf()));
   const Vec3 sight{k_sight_mm, k_sight_mm, k_sight_mm};
-  const PlaceBlocks surface = surface_of(neighbours, low - sight, high + sight);
+  const PlaceBlocks surface = surface_of(neighbours, box.low - sight, box.high + sight);
   ToSurface to(neighbours, surface);
   Octree::Cursor was, is;
   std::vector<NickFace> faces;

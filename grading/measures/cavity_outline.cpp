@@ -92,15 +92,11 @@ class Tops {
 /// The columns over all of the cut and all of the target, and one more on each side; each holds nothing yet.
 TopArea area_around(const GradeInput& input, const RemovedMap& removed, std::int64_t last_tick) {
   const scenarios::Facing facing = input.zones.facing();
-  IVec3 low{1 << 20, 1 << 20, 0}, high{-1, -1, 0};
-  const auto hold = [&](IVec3 in_tooth) {
-    const IVec3 leaf = facing.local(in_tooth);
-    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), 0};
-    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), 0};
-  };
+  LeafBounds box;
+  const auto hold = [&](IVec3 in_tooth) { box.add(facing.local(in_tooth)); };
   for_each_removed(input.removed, removed, last_tick, [&](const RemovedAt& r) { hold(r.leaf.leaf()); });
   input.zones.for_each_target_leaf(hold);
-  return {low.x - 1, low.y - 1, high.x - low.x + 3, high.y - low.y + 3, {}, {}};
+  return {box.low.x - 1, box.low.y - 1, box.high.x - box.low.x + 3, box.high.y - box.low.y + 3, {}, {}};
 }
 
 }  // namespace

@@ -16,14 +16,13 @@ struct LeafBox {
 /// Around all of the leaves, `margin` leaves wider on each side; empty where there are none.
 [[nodiscard]] inline LeafBox box_around(std::span<const RemovedAt> leaves, int margin) {
   if (leaves.empty()) return {};
-  IVec3 low = leaves.front().leaf.leaf(), high = low;
+  LeafBounds box;
   for (const auto& r : leaves) {
     const IVec3 l = r.leaf.leaf();
-    low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
-    high = {std::max(high.x, l.x), std::max(high.y, l.y), std::max(high.z, l.z)};
+    box.add(l);
   }
   const IVec3 wide{margin, margin, margin};
-  return {low - wide, high - low + wide + wide + IVec3{1, 1, 1}};
+  return {box.low - wide, box.high - box.low + wide + wide + IVec3{1, 1, 1}};
 }
 
 template <class T>
@@ -43,14 +42,10 @@ class Lattice {
   [[nodiscard]] const std::vector<T>& all() const noexcept { return at_; }
 
  private:
-  [[nodiscard]] static std::size_t leaves_of(const LeafBox& box) {
-    return static_cast<std::size_t>(box.size.x) * static_cast<std::size_t>(box.size.y) * static_cast<std::size_t>(box.size.z);
-  }
+  [[nodiscard]] static std::size_t leaves_of(const LeafBox& box) { return cells_of(box.size); }
   [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - box_.low;
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(box_.size.y) + static_cast<std::size_t>(l.y)) *
-               static_cast<std::size_t>(box_.size.x) +
-           static_cast<std::size_t>(l.x);
+    return cell_index(l, box_.size);
   }
 
   LeafBox box_;

@@ -16,8 +16,7 @@ class PlaceBlocks {
   void add(IVec3 leaf, Vec3 place_mm) {
     Block& b = blocks_[{leaf.x / k_edge, leaf.y / k_edge, leaf.z / k_edge}];
     b.places.push_back(place_mm);
-    b.low = {std::min(b.low.x, place_mm.x), std::min(b.low.y, place_mm.y), std::min(b.low.z, place_mm.z)};
-    b.high = {std::max(b.high.x, place_mm.x), std::max(b.high.y, place_mm.y), std::max(b.high.z, place_mm.z)};
+    b.box.add(place_mm);
   }
   [[nodiscard]] bool empty() const noexcept { return blocks_.empty(); }
   /// Puts the nearest place that is nearer than `nearest_mm` into both; false when none is. Of equals the first in an order that is the same
@@ -38,14 +37,13 @@ class PlaceBlocks {
 
  private:
   static constexpr int k_edge = 16;
-  static constexpr double k_far_mm = 1e9;
   struct Block {
     std::vector<Vec3> places;
-    Vec3 low{k_far_mm, k_far_mm, k_far_mm}, high{-k_far_mm, -k_far_mm, -k_far_mm};
+    Bounds box;
     /// No place in it is nearer.
     [[nodiscard]] double at_least_mm(Vec3 p) const {
       const auto outside = [](double v, double from, double to) { return std::max({from - v, v - to, 0.0}); };
-      return length({outside(p.x, low.x, high.x), outside(p.y, low.y, high.y), outside(p.z, low.z, high.z)});
+      return length({outside(p.x, box.low.x, box.high.x), outside(p.y, box.low.y, box.high.y), outside(p.z, box.low.z, box.high.z)});
     }
   };
   std::map<std::array<int, 3>, Block> blocks_;

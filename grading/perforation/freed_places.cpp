@@ -27,8 +27,8 @@ bool FreedPlaces::ahead(Vec3 from, Vec3 to, double near_mm, std::int64_t frame) 
   const double long_mm = length(way);
   const Vec3 along = long_mm > 1e-6 ? way / long_mm : Vec3{0, 0, -1};
   const Vec3 near{near_mm, near_mm, near_mm};
-  const IVec3 a = cell(Vec3{std::min(from.x, to.x), std::min(from.y, to.y), std::min(from.z, to.z)} - near);
-  const IVec3 b = cell(Vec3{std::max(from.x, to.x), std::max(from.y, to.y), std::max(from.z, to.z)} + near);
+  const IVec3 a = cell(min(from, to) - near);
+  const IVec3 b = cell(max(from, to) + near);
   for (int z = a.z; z <= b.z; ++z)
     for (int y = a.y; y <= b.y; ++y)
       for (int x = a.x; x <= b.x; ++x) {

@@ -29,24 +29,20 @@ TargetField::TargetField(const Tooth& tooth, const scenarios::ZoneMap& zones)
 }
 
 void TargetField::read_leaves() {
-  constexpr double k_far = 1e9;
-  low_mm_ = {k_far, k_far, k_far};
-  high_mm_ = {-k_far, -k_far, -k_far};
   zones_.for_each_target_leaf([&](IVec3 leaf) {
     const Vec3 q = local(zones_.centre_mm(leaf));
     leaves_.push_back({q, tooth_.octree.tissue(leaf)});
-    low_mm_ = {std::min(low_mm_.x, q.x), std::min(low_mm_.y, q.y), std::min(low_mm_.z, q.z)};
-    high_mm_ = {std::max(high_mm_.x, q.x), std::max(high_mm_.y, q.y), std::max(high_mm_.z, q.z)};
+    box_mm_.add(q);
   });
 }
 
 void TargetField::lay_open() {
   const auto down = [&](double mm) { return std::floor(mm / leaf_mm_ + 0.5) * leaf_mm_; };
-  origin_ = {down(low_mm_.x - k_beside_mm), down(low_mm_.y - k_beside_mm), down(low_mm_.z - k_below_mm)};
+  origin_ = {down(box_mm_.low.x - k_beside_mm), down(box_mm_.low.y - k_beside_mm), down(box_mm_.low.z - k_below_mm)};
   const auto cells = [&](double from, double to) { return static_cast<int>((to - from) / leaf_mm_) + 2; };
-  nx_ = cells(origin_.x, high_mm_.x + k_beside_mm);
-  ny_ = cells(origin_.y, high_mm_.y + k_beside_mm);
-  nz_ = cells(origin_.z, high_mm_.z);
+  nx_ = cells(origin_.x, box_mm_.high.x + k_beside_mm);
+  ny_ = cells(origin_.y, box_mm_.high.y + k_beside_mm);
+  nz_ = cells(origin_.z, box_mm_.high.z);
   const std::size_t layer = column(0, ny_);
   open_.resize(layer * static_cast<std::size_t>(nz_));
   std::size_t i = 0;
@@ -76,7 +72,7 @@ void TargetField::lay_floor() {
       sum += static_cast<double>(top[c]);
       ++columns;
     }
-  opening_mm_ = columns > 0 ? sum / static_cast<double>(columns) : high_mm_.z;
+  opening_mm_ = columns > 0 ? sum / static_cast<double>(columns) : box_mm_.high.z;
   mean_depth_mm_ = columns > 0 ? leaf_mm_ * static_cast<double>(leaves_.size()) / static_cast<double>(columns) : 0.0;
   // outwards ring by ring: a column without a floor takes the mean of those beside it that have one
   std::vector<std::uint8_t> known = in_;

@@ -35,8 +35,8 @@ class TargetField {
   [[nodiscard]] double floor_mm(Vec3 q) const noexcept;
   [[nodiscard]] const std::vector<TargetLeaf>& leaves() const noexcept { return leaves_; }
   /// Corners of the box around the target's leaves, local, mm.
-  [[nodiscard]] Vec3 low_mm() const noexcept { return low_mm_; }
-  [[nodiscard]] Vec3 high_mm() const noexcept { return high_mm_; }
+  [[nodiscard]] Vec3 low_mm() const noexcept { return box_mm_.low; }
+  [[nodiscard]] Vec3 high_mm() const noexcept { return box_mm_.high; }
   /// Mean height of the target's highest leaves, column by column: the level of the opening, local, mm.
   [[nodiscard]] double opening_mm() const noexcept { return opening_mm_; }
   /// Mean height of the target over its own floor, column by column, mm.
@@ -61,7 +61,7 @@ class TargetField {
   scenarios::ShapeFrame frame_;
   double leaf_mm_;
   std::vector<TargetLeaf> leaves_;
-  Vec3 low_mm_, high_mm_;
+  Bounds box_mm_;
   double opening_mm_ = 0.0, mean_depth_mm_ = 0.0;
   Vec3 origin_;  // of the lattice's first cell
   int nx_ = 0, ny_ = 0, nz_ = 0;

@@ -441,17 +441,14 @@ std::vector<Ladder> ladders(const Task& task, const TargetField& field) {
 CutBox box_of_work(const TargetField& field, double below_mm) {
   constexpr double k_beside_mm = 3.2, k_above_mm = 6.0;
   const Octree& tree = field.tooth().octree;
-  CutBox box{{1e9, 1e9, 1e9}, {-1e9, -1e9, -1e9}};
+  Bounds box;
   for (int corner = 0; corner < 8; ++corner) {
-    const Vec3 p = field.in_tooth({(corner & 1) != 0 ? field.high_mm().x + k_beside_mm : field.low_mm().x - k_beside_mm,
-                                   (corner & 2) != 0 ? field.high_mm().y + k_beside_mm : field.low_mm().y - k_beside_mm,
-                                   (corner & 4) != 0 ? field.high_mm().z + k_above_mm : field.low_mm().z - below_mm});
-    box.low_mm = {std::min(box.low_mm.x, p.x), std::min(box.low_mm.y, p.y), std::min(box.low_mm.z, p.z)};
-    box.high_mm = {std::max(box.high_mm.x, p.x), std::max(box.high_mm.y, p.y), std::max(box.high_mm.z, p.z)};
+    box.add(field.in_tooth({(corner & 1) != 0 ? field.high_mm().x + k_beside_mm : field.low_mm().x - k_beside_mm,
+                            (corner & 2) != 0 ? field.high_mm().y + k_beside_mm : field.low_mm().y - k_beside_mm,
+                            (corner & 4) != 0 ? field.high_mm().z + k_above_mm : field.low_mm().z - below_mm}));
   }
-  const Vec3 low = tree.origin_mm(), n{double(tree.size().x), double(tree.size().y), double(tree.size().z)}, high = low + n * tree.leaf_mm();
-  return {{std::max(box.low_mm.x, low.x), std::max(box.low_mm.y, low.y), std::max(box.low_mm.z, low.z)},
-          {std::min(box.high_mm.x, high.x), std::min(box.high_mm.y, high.y), std::min(box.high_mm.z, high.z)}};
+  const Vec3 low = tree.origin_mm(), n = to_vec3(tree.size()), high = low + n * tree.leaf_mm();
+  return {max(box.low, low), min(box.high, high)};
 }
 
 }  // namespace cavum::grading

@@ -18,16 +18,13 @@ class Remains {
  public:
   /// `way` and all places are in the tool's frame.
   Remains(const std::vector<Waypoint>& way, const Mat3& held, const Tooth& tooth, const Bur& bur) : bur_(bur) {
-    low_ = high_ = way.front().tip_mm;
-    for (const auto& w : way) {
-      low_ = {std::min(low_.x, w.tip_mm.x), std::min(low_.y, w.tip_mm.y), std::min(low_.z, w.tip_mm.z)};
-      high_ = {std::max(high_.x, w.tip_mm.x), std::max(high_.y, w.tip_mm.y), std::max(high_.z, w.tip_mm.z)};
-    }
+    Bounds box;
+    for (const auto& w : way) box.add(w.tip_mm);
     const Vec3 border{2, 2, 0.5};
-    low_ = low_ - border;
-    const Vec3 size = high_ + border - low_;
+    low_ = box.low - border;
+    const Vec3 size = box.high + border - low_;
     n_ = {static_cast<int>(size.x / k_cell_mm) + 1, static_cast<int>(size.y / k_cell_mm) + 1, static_cast<int>(size.z / k_cell_mm) + 1};
-    solid_.resize(static_cast<std::size_t>(n_.x) * static_cast<std::size_t>(n_.y) * static_cast<std::size_t>(n_.z));
+    solid_.resize(cells_of(n_));
     for (int z = 0; z < n_.z; ++z)
       for (int y = 0; y < n_.y; ++y)
         for (int x = 0; x < n_.x; ++x)
@@ -64,7 +61,7 @@ class Remains {
            static_cast<std::size_t>(x);
   }
   const Bur& bur_;
-  Vec3 low_, high_;
+  Vec3 low_;
   IVec3 n_;
   std::vector<std::uint8_t> solid_;
 };

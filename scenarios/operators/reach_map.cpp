@@ -23,28 +23,20 @@ bool cuts_target(const ZoneMap& zones, const Tooth& tooth, const Bur& bur, const
   return false;
 }
 
-/// A box in the tool's frame, mm.
-struct Box {
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
-  void hold(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
-Box box_of_target(const ZoneMap& zones, const Mat3& tool) {
-  Box box;
-  zones.for_each_target_leaf([&](IVec3 leaf) { box.hold(tool.transposed(zones.centre_mm(leaf))); });
+/// In the tool's frame, mm.
+Bounds box_of_target(const ZoneMap& zones, const Mat3& tool) {
+  Bounds box;
+  zones.for_each_target_leaf([&](IVec3 leaf) { box.add(tool.transposed(zones.centre_mm(leaf))); });
   const Vec3 half = Vec3{1, 1, 1} * (0.5 * zones.leaf_mm());
   return {box.low - half, box.high + half};
 }
 
 /// Highest place of the tooth's lattice in the tool's frame.
 double top_of(const Octree& tree, const Mat3& tool) {
-  Box box;
+  Bounds box;
   const Vec3 size = Vec3{double(tree.size().x), double(tree.size().y), double(tree.size().z)} * tree.leaf_mm();
   for (int k = 0; k < 8; ++k)
-    box.hold(tool.transposed(tree.origin_mm() + Vec3{(k & 1) != 0 ? size.x : 0, (k & 2) != 0 ? size.y : 0, (k & 4) != 0 ? size.z : 0}));
+    box.add(tool.transposed(tree.origin_mm() + Vec3{(k & 1) != 0 ? size.x : 0, (k & 2) != 0 ? size.y : 0, (k & 4) != 0 ? size.z : 0}));
   return box.high.z;
 }
 

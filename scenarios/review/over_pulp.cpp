@@ -23,14 +23,9 @@ std::string over_pulp_criterion() {
 double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones) {
   const Octree& tree = tooth.octree;
   const auto around = static_cast<int>(k_far_from_pulp / tree.leaf_mm()) + 1;
-  IVec3 low = tree.size(), high{0, 0, 0};
-  zones.for_each_target_leaf([&](IVec3 leaf) {
-    low = {std::min(low.x, leaf.x), std::min(low.y, leaf.y), std::min(low.z, leaf.z)};
-    high = {std::max(high.x, leaf.x), std::max(high.y, leaf.y), std::max(high.z, leaf.z)};
-  });
-  const IVec3 from{std::max(0, low.x - around), std::max(0, low.y - around), std::max(0, low.z - around)};
-  const IVec3 to{std::min(tree.size().x, high.x + around), std::min(tree.size().y, high.y + around), std::min(tree.size().z, high.z + around)};
-  const IVec3 size{to.x - from.x, to.y - from.y, to.z - from.z};
+  LeafBounds box;
+  zones.for_each_target_leaf([&](IVec3 leaf) { box.add(leaf); });
+  const IVec3 wide{around, around, around}, from = max(IVec3{}, box.low - wide), size = min(tree.size(), box.high + wide) - from;
   if (size.x <= 0 || size.y <= 0 || size.z <= 0) return k_far_from_pulp;
   const auto row = static_cast<std::size_t>(size.x), layer = row * static_cast<std::size_t>(size.y);
   const auto index = [&](IVec3 c) {

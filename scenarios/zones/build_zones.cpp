@@ -15,21 +15,15 @@
 namespace cavum::scenarios {
 namespace {
 
-struct TargetBox {
-  IVec3 low, high;  // inclusive, exclusive
-};
-
 /// Leaves around the part of the target that lies in the tooth.
-TargetBox find_target(const Shape& target, const Tooth& tooth, const Message& where, ZoneWork& work) {
+LeafBounds find_target(const Shape& target, const Tooth& tooth, const Message& where, ZoneWork& work) {
   const Octree& tree = tooth.octree;
-  const IVec3 n = tree.size();
-  TargetBox box{{n.x, n.y, n.z}, {-1, -1, -1}};
+  LeafBounds box;
   const auto see = [&](IVec3 leaf) {
     const bool seen =
         leaf.x >= box.low.x && leaf.y >= box.low.y && leaf.z >= box.low.z && leaf.x < box.high.x && leaf.y < box.high.y && leaf.z < box.high.z;
     if (seen || target.distance_mm(tree.centre_mm(leaf)) >= 0) return;
-    box.low = {std::min(box.low.x, leaf.x), std::min(box.low.y, leaf.y), std::min(box.low.z, leaf.z)};
-    box.high = {std::max(box.high.x, leaf.x + 1), std::max(box.high.y, leaf.y + 1), std::max(box.high.z, leaf.z + 1)};
+    box.add(leaf, leaf + IVec3{1, 1, 1});
   };
   // every second leaf of large cubes, every small one: a target thinner than two leaves is none
   const auto step_in = [](int edge) { return edge >= 4 ? 2 : 1; };
@@ -45,7 +39,7 @@ TargetBox find_target(const Shape& target, const Tooth& tooth, const Message& wh
       for (int y = 0; y < edge; y += step)
         for (int x = 0; x < edge; x += step) see(at + IVec3{x, y, z});
   });
-  if (box.high.x < 0)
+  if (box.empty())
     throw Error(where, msg("no part of the target lies in the tooth '{}'", tooth.name),
                 msg("move or enlarge [[zones.target]], or choose another tooth"));
   return box;
@@ -58,8 +52,6 @@ std::uint64_t leaves_with_tissue(const Octree& tree) {
   });
   return leaves;
 }
-
-std::size_t cells_of(IVec3 size) { return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z); }
 
 /// The widest margin around the target that has a zone, and a little more.
 double margin_mm(const ZoneSpec& spec) {
@@ -145,15 +137,14 @@ ZoneMap ZoneBuilder::build() {
 
 /// The target's box with its margins, as far as the tooth goes.
 void ZoneBuilder::place_box() {
-  const TargetBox box = find_target(*target_, maker_.own(), where_, maker_.work());
+  const LeafBounds box = find_target(*target_, maker_.own(), where_, maker_.work());
   map_.leaf_mm_ = tree_.leaf_mm();
   map_.origin_mm_ = tree_.origin_mm();
   map_.approach_ = approach_of(spec_, maker_);
   map_.facing_ = facing_of(spec_, tooth_.kind);
   const int margin = static_cast<int>(margin_mm(spec_) / map_.leaf_mm_) + 2;
-  const IVec3 n = tree_.size();
-  const IVec3 high{std::min(n.x, box.high.x + margin), std::min(n.y, box.high.y + margin), std::min(n.z, box.high.z + margin)};
-  map_.low_ = {std::max(0, box.low.x - margin), std::max(0, box.low.y - margin), std::max(0, box.low.z - margin)};
+  const IVec3 wide{margin, margin, margin}, high = min(tree_.size(), box.high + wide);
+  map_.low_ = max(IVec3{}, box.low - wide);
   map_.size_ = high - map_.low_;
 }
 
@@ -190,7 +181,7 @@ void ZoneBuilder::lay_distances(const ShapeField& shape) {
   for_each_cell(map_.size_, [&](std::size_t i, IVec3 cell) {
     const NearestPlace& near = nearest[i];
     const bool in = shape.inside[i] != 0;
-    const Vec3 way = Vec3{double(cell.x), double(cell.y), double(cell.z)} - near.at();
+    const Vec3 way = to_vec3(cell) - near.at();
     const double d = near.found ? length(way) * map_.leaf_mm_ : margin_mm(spec_);
     map_.distance_mm_[i] = static_cast<float>(in ? -d : d);
     map_.wall_[i] = static_cast<std::uint8_t>(!near.found || length(way) < 1.5 ? near.wall : wall_of(map_.facing_.local(in ? -way : way)));
@@ -201,8 +192,7 @@ void ZoneBuilder::lay_tissues() {
   tissue_.assign(cells_of(map_.size_), k_air);
   const IVec3 low = map_.low_, high = map_.low_ + map_.size_;
   own_.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    const IVec3 a{std::max(at.x, low.x), std::max(at.y, low.y), std::max(at.z, low.z)};
-    const IVec3 b{std::min(at.x + edge, high.x), std::min(at.y + edge, high.y), std::min(at.z + edge, high.z)};
+    const IVec3 a = max(at, low), b = min(at + IVec3{edge, edge, edge}, high);
     for (int z = a.z; z < b.z; ++z)
       for (int y = a.y; y < b.y; ++y)
         for (int x = a.x; x < b.x; ++x) tissue_[map_.index({x, y, z})] = t;
@@ -237,15 +227,14 @@ void ZoneBuilder::require_target() const {
 void ZoneBuilder::measure_target(const ShapeField& shape) {
   const IVec3 size = map_.size_;
   const std::size_t row = shape.row(), layer = shape.layer();
-  IVec3 first{1 << 20, 1 << 20, 1 << 20}, last{-1, -1, -1};
+  LeafBounds box;
   double opening_sum = 0;
   std::uint64_t openings = 0;
   Octree::Cursor cursor;
   for_each_cell(size, [&](std::size_t i, IVec3 cell) {
     if (static_cast<Zone>(map_.zone_[i]) != Zone::target) return;
     const IVec3 at = map_.low_ + cell;
-    first = {std::min(first.x, at.x), std::min(first.y, at.y), std::min(first.z, at.z)};
-    last = {std::max(last.x, at.x), std::max(last.y, at.y), std::max(last.z, at.z)};
+    box.add(at);
     const auto ends_along = [&](int place, int count, std::size_t stride) {
       return (place > 0 && shape.inside[i - stride] == 0) || (place + 1 < count && shape.inside[i + stride] == 0);
     };
@@ -256,8 +245,8 @@ void ZoneBuilder::measure_target(const ShapeField& shape) {
     opening_sum += *surface;
     ++openings;
   });
-  map_.target_low_mm_ = map_.centre_mm(first) - Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
-  map_.target_high_mm_ = map_.centre_mm(last) + Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
+  map_.target_low_mm_ = map_.centre_mm(box.low) - Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
+  map_.target_high_mm_ = map_.centre_mm(box.high) + Vec3{0.5, 0.5, 0.5} * map_.leaf_mm_;
   map_.opening_z_mm_ = openings > 0 ? opening_sum / static_cast<double>(openings) : map_.top_level_mm();
 }
 

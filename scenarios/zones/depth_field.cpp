@@ -17,7 +17,7 @@ DepthField::DepthField(const Tooth& tooth, IVec3 low, IVec3 high, ZoneWork& work
   low = {held(low.x, n.x - 1), held(low.y, n.y - 1), held(low.z, n.z - 1)};
   size_ = {std::max(1, held(high.x, n.x) - low.x), std::max(1, held(high.y, n.y) - low.y), std::max(1, held(high.z, n.z) - low.z)};
   first_mm_ = tree.centre_mm(low);
-  const std::size_t cells = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z);
+  const std::size_t cells = cells_of(size_);
   work.body_leaves(cells);
   std::array<bool, 256> enclosed{};
   for (const auto& t : tooth.tissues) enclosed[t.id] = t.name == "pulp";
@@ -35,7 +35,7 @@ DepthField::DepthField(const Tooth& tooth, IVec3 low, IVec3 high, ZoneWork& work
   depth_mm_.resize(cells);
   for_each_cell(size_, [&](std::size_t i, IVec3 cell) {
     const NearestPlace& near = nearest[i];
-    const double away = near.found ? length(Vec3{double(cell.x), double(cell.y), double(cell.z)} - near.at()) : double(size_.x + size_.y + size_.z);
+    const double away = near.found ? length(to_vec3(cell) - near.at()) : double(size_.x + size_.y + size_.z);
     depth_mm_[i] = static_cast<float>((outside.inside[i] != 0 ? away : -away) * leaf_mm_);
   });
 }

@@ -19,10 +19,7 @@ class DepthField {
   [[nodiscard]] bool soft_outside(Vec3 p) const noexcept;
 
  private:
-  [[nodiscard]] std::size_t index(IVec3 c) const noexcept {
-    return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(c.y)) * static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(c.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 c) const noexcept { return cell_index(c, size_); }
   double leaf_mm_;
   Vec3 first_mm_;  // centre of the first leaf
   IVec3 size_;

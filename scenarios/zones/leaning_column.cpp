@@ -36,15 +36,6 @@ double mean_along(const Polyline& line, Vec3 way) {
   return sum / static_cast<double>(line.size());
 }
 
-/// Centres of the tissue's leaves in a frame's lengths: their box.
-struct LocalBox {
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
-  void hold(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 }  // namespace
 
 ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
@@ -80,13 +71,13 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   for (const auto& t : tooth.tissues)
     if (t.name == tissue) id = t.id;
   const auto counts = [&](Vec3 p) { return part == TissuePart::all || p.z >= frame.at.z; };
-  LocalBox box;
+  Bounds box;
   if (id != k_air)
     tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
       if (t != id) return;
       for (int i = 0; i < edge * edge * edge; ++i) {
         const Vec3 p = tree.centre_mm(at + IVec3{i % edge, i / edge % edge, i / (edge * edge)});
-        if (counts(p)) box.hold(frame.local(p));
+        if (counts(p)) box.add(frame.local(p));
       }
     });
   if (box.low.x > box.high.x)

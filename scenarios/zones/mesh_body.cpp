@@ -35,17 +35,16 @@ std::vector<std::int16_t> winding(const TissueGrid& lattice, const TriangleMesh&
   const auto leaf_at = [&](double mm, double from) { return (mm - from) / lattice.leaf_mm; };
   for (const auto& t : mesh.triangles) {
     std::array<Corner, 3> c{};
-    Vec3 low{1e9, 1e9, 0}, high{-1e9, -1e9, 0};
+    Bounds box;
     for (std::size_t i = 0; i < 3; ++i) {
       const Vec3 v = mesh.vertices_mm[t[i]];
       c[i] = {units(v.x), units(v.y), v.z};
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), 0};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), 0};
+      box.add(v);
     }
-    const int x0 = std::max(0, static_cast<int>(std::floor(leaf_at(low.x, first.x)))),
-              y0 = std::max(0, static_cast<int>(std::floor(leaf_at(low.y, first.y))));
-    const int x1 = std::min(lattice.size.x - 1, static_cast<int>(std::ceil(leaf_at(high.x, first.x))));
-    const int y1 = std::min(lattice.size.y - 1, static_cast<int>(std::ceil(leaf_at(high.y, first.y))));
+    const int x0 = std::max(0, static_cast<int>(std::floor(leaf_at(box.low.x, first.x)))),
+              y0 = std::max(0, static_cast<int>(std::floor(leaf_at(box.low.y, first.y))));
+    const int x1 = std::min(lattice.size.x - 1, static_cast<int>(std::ceil(leaf_at(box.high.x, first.x))));
+    const int y1 = std::min(lattice.size.y - 1, static_cast<int>(std::ceil(leaf_at(box.high.y, first.y))));
     for (int y = y0; y <= y1; ++y)
       for (int x = x0; x <= x1; ++x) {
         const Vec3 centre = lattice.centre_mm({x, y, 0});
@@ -70,45 +69,39 @@ std::vector<std::int16_t> winding(const TissueGrid& lattice, const TriangleMesh&
   return turns;
 }
 
-struct LeafBox {
-  IVec3 low, high;  // inclusive, exclusive
-  [[nodiscard]] std::uint64_t leaves() const noexcept {
-    const IVec3 n = high - low;
-    return static_cast<std::uint64_t>(n.x) * static_cast<std::uint64_t>(n.y) * static_cast<std::uint64_t>(n.z);
-  }
-};
-
 /// The tooth's leaves around some corners, as far as distances are exact.
-LeafBox box_of(const Octree& tree, std::span<const Vec3> corners) {
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
-  for (const Vec3 v : corners) {
-    low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-    high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-  }
+LeafBounds box_of(const Octree& tree, std::span<const Vec3> corners) {
+  Bounds box;
+  for (const Vec3 v : corners) box.add(v);
   constexpr int k_pad = static_cast<int>(MeshBody::k_exact_leaves) + 2;
-  const Vec3 from = (low - tree.origin_mm()) / tree.leaf_mm(), to = (high - tree.origin_mm()) / tree.leaf_mm();
+  const Vec3 from = (box.low - tree.origin_mm()) / tree.leaf_mm(), to = (box.high - tree.origin_mm()) / tree.leaf_mm();
   const auto clip = [](double leaves, int pad, int n) { return std::clamp(static_cast<int>(std::floor(leaves)) + pad, 0, n); };
   const IVec3 n = tree.size();
   return {{clip(from.x, -k_pad, n.x), clip(from.y, -k_pad, n.y), clip(from.z, -k_pad, n.z)},
           {clip(to.x, k_pad, n.x), clip(to.y, k_pad, n.y), clip(to.z, k_pad, n.z)}};
 }
 
+std::uint64_t leaves_around(const Octree& tree, std::span<const Vec3> corners) {
+  const LeafBounds box = box_of(tree, corners);
+  return cells_of(box.high - box.low);
+}
+
 }  // namespace
 
 void count_mesh_body(const Tooth& tooth, const TriangleMesh& mesh, ZoneWork& work) {
-  work.body_leaves(box_of(tooth.octree, mesh.vertices_mm).leaves());
+  work.body_leaves(leaves_around(tooth.octree, mesh.vertices_mm));
   for (const auto& t : mesh.triangles) {
     const std::array<Vec3, 3> corners{mesh.vertices_mm[t[0]], mesh.vertices_mm[t[1]], mesh.vertices_mm[t[2]]};
-    work.steps(box_of(tooth.octree, corners).leaves(), 1);
+    work.steps(leaves_around(tooth.octree, corners), 1);
   }
 }
 
 MeshBody::MeshBody(const Tooth& tooth, const TriangleMesh& mesh) {
   const Octree& tree = tooth.octree;
   const double leaf = tree.leaf_mm();
-  const LeafBox box = box_of(tree, mesh.vertices_mm);
+  const LeafBounds box = box_of(tree, mesh.vertices_mm);
   lattice_.leaf_mm = leaf;
-  lattice_.origin_mm = tree.origin_mm() + Vec3{double(box.low.x), double(box.low.y), double(box.low.z)} * leaf;
+  lattice_.origin_mm = tree.origin_mm() + to_vec3(box.low) * leaf;
   lattice_.size = box.high - box.low;
   if (lattice_.size.x <= 0 || lattice_.size.y <= 0 || lattice_.size.z <= 0) {  // beside the tooth's box
     lattice_.size = {0, 0, 0};

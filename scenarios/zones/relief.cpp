@@ -30,20 +30,15 @@ struct Slices {
 
 Slices slices_of(const Tooth& tooth, std::uint8_t tissue) {
   Slices s;
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-  tooth.octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (t != tissue) return;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-  });
-  s.low = low;
-  s.size = high.x < 0 ? IVec3{0, 0, 0} : high - low;
-  s.leaf.assign(static_cast<std::size_t>(s.size.x) * static_cast<std::size_t>(s.size.y) * static_cast<std::size_t>(s.size.z), 0);
+  const LeafBounds box = tooth.octree.bounds([&](std::uint8_t t) { return t == tissue; });
+  s.low = box.low;
+  s.size = box.empty() ? IVec3{0, 0, 0} : box.high - box.low;
+  s.leaf.assign(cells_of(s.size), 0);
   tooth.octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (t != tissue) return;
     for (int z = 0; z < edge; ++z)
       for (int y = 0; y < edge; ++y)
-        for (int x = 0; x < edge; ++x) s.leaf[s.index(at.x - low.x + x, at.y - low.y + y, at.z - low.z + z)] = 1;
+        for (int x = 0; x < edge; ++x) s.leaf[s.index(at.x - box.low.x + x, at.y - box.low.y + y, at.z - box.low.z + z)] = 1;
   });
   return s;
 }

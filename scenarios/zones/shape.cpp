@@ -100,31 +100,30 @@ class TissueBody final : public Shape {
       : offset_mm_(offset_mm) {
     const Octree& tree = tooth.octree;
     leaf_mm_ = tree.leaf_mm();
-    IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
+    LeafBounds box;
     const auto counts = [&](IVec3 at, int edge, std::uint8_t t) { return tissues[t] && tree.origin_mm().z + (at.z + edge) * leaf_mm_ > lowest_mm; };
     tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
       if (!counts(at, edge, t)) return;
-      low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-      high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
+      box.add(at, at + IVec3{edge, edge, edge});
     });
     const int pad = static_cast<int>(std::max(0.0, offset_mm) / leaf_mm_) + 3;
     // leaves beyond the tooth's are not asked for; one layer of them is known, for what reaches the end of the tooth ends there
     const auto padded = [](int v, int n) { return std::clamp(v, -3, n + 3); };
     const IVec3 n = tree.size();
-    low = {padded(low.x - pad, n.x), padded(low.y - pad, n.y), padded(low.z - pad, n.z)};
-    high = {padded(high.x + pad, n.x), padded(high.y + pad, n.y), padded(high.z + pad, n.z)};
-    low = {std::max(low.x, asked.low.x), std::max(low.y, asked.low.y), std::max(low.z, asked.low.z)};
-    high = {std::min(high.x, asked.high.x), std::min(high.y, asked.high.y), std::min(high.z, asked.high.z)};
-    size_ = high - low;
-    work.body_leaves(static_cast<std::uint64_t>(size_.x) * static_cast<std::uint64_t>(size_.y) * static_cast<std::uint64_t>(size_.z));
-    origin_ = tree.origin_mm() + Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm_;
-    std::vector<std::uint8_t> in(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z), 0);
+    box.low = {padded(box.low.x - pad, n.x), padded(box.low.y - pad, n.y), padded(box.low.z - pad, n.z)};
+    box.high = {padded(box.high.x + pad, n.x), padded(box.high.y + pad, n.y), padded(box.high.z + pad, n.z)};
+    box.low = max(box.low, asked.low);
+    box.high = min(box.high, asked.high);
+    size_ = box.high - box.low;
+    work.body_leaves(cells_of(size_));
+    origin_ = tree.origin_mm() + to_vec3(box.low) * leaf_mm_;
+    std::vector<std::uint8_t> in(cells_of(size_), 0);
     tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
       if (!counts(at, edge, t)) return;
       for (int z = 0; z < edge; ++z)
         for (int y = 0; y < edge; ++y)
           for (int x = 0; x < edge; ++x)
-            if (const IVec3 l = at + IVec3{x, y, z}; within(l, low, high) && tree.centre_mm(l).z > lowest_mm) in[index(l - low)] = 1;
+            if (const IVec3 l = at + IVec3{x, y, z}; within(l, box.low, box.high) && tree.centre_mm(l).z > lowest_mm) in[index(l - box.low)] = 1;
     });
     std::vector<std::uint8_t> out;
     out.reserve(in.size());
@@ -155,10 +154,7 @@ class TissueBody final : public Shape {
   [[nodiscard]] static bool within(IVec3 l, IVec3 low, IVec3 high) noexcept {
     return l.x >= low.x && l.y >= low.y && l.z >= low.z && l.x < high.x && l.y < high.y && l.z < high.z;
   }
-  [[nodiscard]] std::size_t index(IVec3 i) const noexcept {
-    return (static_cast<std::size_t>(i.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(i.y)) * static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(i.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 i) const noexcept { return cell_index(i, size_); }
   double offset_mm_, leaf_mm_ = 0.05;
   IVec3 size_;
   Vec3 origin_;

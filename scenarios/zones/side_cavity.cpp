@@ -43,18 +43,14 @@ class NeckSide {
 };
 
 /// How far an outline reaches from its own origin.
-struct Reach {
-  Vec3 low{1e9, 1e9, 0}, high{-1e9, -1e9, 0};
-};
-Reach reach_of(const OutlineSpec& o) {
-  Reach r;
+Bounds reach_of(const OutlineSpec& o) {
+  Bounds r;
   const double around = (o.kind == OutlineSpec::Kind::circle ? o.radius_mm : 0.5 * o.width_mm) + o.offset_mm;
   std::vector<Vec3> points = o.points_mm;
   if (points.empty()) points.emplace_back();
   for (const Vec3& p : points) {
     const Vec3 q = p + o.centre_mm;
-    r.low = {std::min(r.low.x, q.x - around), std::min(r.low.y, q.y - around), 0};
-    r.high = {std::max(r.high.x, q.x + around), std::max(r.high.y, q.y + around), 0};
+    r.add({q.x - around, q.y - around, 0}, {q.x + around, q.y + around, 0});
   }
   return r;
 }
@@ -98,7 +94,7 @@ struct Surface {
   Vec3 normal;
   std::optional<double> middle_y;
 };
-Surface surface_in(const Ground& ground, const Outline& outline, const Reach& reach, const DepthField& depth, double out_y) {
+Surface surface_in(const Ground& ground, const Outline& outline, const Bounds& reach, const DepthField& depth, double out_y) {
   Surface found;
   const auto outwards = [&](double x, double z) -> std::optional<Vec3> {  // coming from outside
     for (double y = out_y; ground.side * (y - ground.middle.y) > 0; y -= ground.side * k_march_mm)
@@ -132,7 +128,7 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
     throw Error(where, msg("no neck is found on the {} side of '{}'", spec.side > 0 ? msg("buccal") : msg("lingual"), tooth.name),
                 msg("look at `cavum tooth landmarks`, or place the cavity yourself"));
   ground.middle.z = ground.neck.height_mm(ground.middle.x);
-  const Reach reach = reach_of(spec.outline);
+  const Bounds reach = reach_of(spec.outline);
   double lowest = ground.middle.z, highest = ground.middle.z;
   for (double x = reach.low.x; !spec.level && x <= reach.high.x; x += 0.1) {
     lowest = std::min(lowest, ground.neck.height_mm(ground.middle.x + x));

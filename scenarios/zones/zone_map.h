@@ -109,18 +109,13 @@ class ZoneMap {
   friend class ZoneBuilder;  // of build_zones
   [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(l.x);
+    return cell_index(l, size_);
   }
   [[nodiscard]] bool guarded_beyond(IVec3 l) const noexcept {
     if (guarded_.empty() || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= tooth_size_.x || l.y >= tooth_size_.y || l.z >= tooth_size_.z) return false;
     return guarded_[tooth_index(l)];
   }
-  [[nodiscard]] std::size_t tooth_index(IVec3 l) const noexcept {
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(tooth_size_.y) + static_cast<std::size_t>(l.y)) *
-               static_cast<std::size_t>(tooth_size_.x) +
-           static_cast<std::size_t>(l.x);
-  }
+  [[nodiscard]] std::size_t tooth_index(IVec3 l) const noexcept { return cell_index(l, tooth_size_); }
 
   double leaf_mm_ = 0.05;
   Vec3 origin_mm_;  // of leaf (0,0,0) of the tooth

@@ -60,7 +60,7 @@ void run(Tooth tooth, int cuts) {
   Random random(7);
   std::vector<RemovedLeaf> removed;
   removed.reserve(1 << 17);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> touched, of_tissues;
   std::vector<double> take_us, hard_us, both_us, three_us, patches;
   for (int i = 0; i < cuts; ++i) {

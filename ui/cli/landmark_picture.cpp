@@ -174,21 +174,19 @@ std::string axes_svg(const Panel& panel) {
 
 std::string landmark_picture(const Tooth& tooth, const Landmarks& landmarks) {
   const Octree& tree = tooth.octree;
-  Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  Bounds box;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (!tree.is_solid(t)) return;
-    const Vec3 a = tree.origin_mm() + Vec3{double(at.x), double(at.y), double(at.z)} * tree.leaf_mm(),
-               b = a + Vec3{1, 1, 1} * (edge * tree.leaf_mm());
-    low = {std::min(low.x, a.x), std::min(low.y, a.y), std::min(low.z, a.z)};
-    high = {std::max(high.x, b.x), std::max(high.y, b.y), std::max(high.z, b.z)};
+    const Vec3 a = tree.origin_mm() + to_vec3(at) * tree.leaf_mm(), b = a + Vec3{1, 1, 1} * (edge * tree.leaf_mm());
+    box.add(a, b);
   });
-  if (low.x > high.x) low = high = {};
-  low = low - Vec3{0.6, 0.6, 0.6};
-  high = high + Vec3{0.6, 0.6, 0.6};
+  if (box.empty()) box.low = box.high = {};
+  box.low = box.low - Vec3{0.6, 0.6, 0.6};
+  box.high = box.high + Vec3{0.6, 0.6, 0.6};
   std::string content;
   double left = k_margin_px, tallest = 0;
   for (std::size_t v = 0; v < k_views.size(); ++v) {
-    const Panel panel(k_views[v], low, high, left);
+    const Panel panel(k_views[v], box.low, box.high, left);
     content += (v == 0 ? from_above(tooth, panel) : from_side(tooth, panel)) + marks_svg(panel, landmarks, v == 0) + axes_svg(panel);
     left += panel.width_px() + 2 * k_margin_px;
     tallest = std::max(tallest, panel.height_px());

@@ -10,20 +10,12 @@ namespace cavum::ui {
 namespace {
 
 /// Box of everything but air and periodontium, mm.
-struct Bounds {
-  Vec3 low, high;
-};
 Bounds bounds_of(const Tooth& tooth) {
   const auto& o = tooth.octree;
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-1, -1, -1};
-  o.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    if (t == k_periodontium) return;
-    low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-    high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-  });
-  if (high.x < 0) return {};
-  const auto mm = [&](IVec3 l) { return o.origin_mm() + Vec3{double(l.x), double(l.y), double(l.z)} * o.leaf_mm(); };
-  return {mm(low), mm(high)};
+  const LeafBounds box = o.bounds([&](std::uint8_t t) { return t != k_periodontium; });
+  if (box.empty()) return {{}, {}};
+  const auto mm = [&](IVec3 l) { return o.origin_mm() + to_vec3(l) * o.leaf_mm(); };
+  return {mm(box.low), mm(box.high)};
 }
 
 }  // namespace

@@ -99,12 +99,10 @@ std::string fingerprint_of(const std::string& file) {
   const std::string text = read_text_file(file);
   const Stream stream(BIO_new_mem_buf(text.data(), static_cast<int>(text.size())));
   const Certificate read(PEM_read_bio_X509(stream.get(), nullptr, nullptr, nullptr));
-  unsigned char* der = nullptr;
-  const int size = read ? i2d_X509(read.get(), &der) : -1;
-  if (size <= 0) throw Error(file, msg("holds no certificate in PEM"), msg("name the file that `cavum serve` made, or the school's own"));
-  std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
-  OPENSSL_free(der);
-  return out;
+  Sha256 hash{};
+  if (!read || X509_digest(read.get(), EVP_sha256(), hash.data(), nullptr) != 1)
+    throw Error(file, msg("holds no certificate in PEM"), msg("name the file that `cavum serve` made, or the school's own"));
+  return to_hex(hash);
 }
 
 }  // namespace cavum::office

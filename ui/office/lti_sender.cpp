@@ -189,7 +189,7 @@ PlatformAnswer LtiSender::ask(const LtiPlatform& platform, const LtiCourse& cour
   for (int tries = 0; tries < 2; ++tries) {
     auto all = fields;
     all["Authorization"] = "Bearer " + token_of(platform, course);
-    answer = ask_platform(platform, method, address, all, body);
+    answer = ask_platform(platform, method, address, all, body, &ends_);
     if (answer.status != 401) break;
     tokens_.clear();  // it has ended before its time
   }
@@ -212,7 +212,7 @@ std::string LtiSender::token_of(const LtiPlatform& platform, const LtiCourse& co
       "grant_type=client_credentials&client_assertion_type=" + url_encoded("urn:ietf:params:oauth:client-assertion-type:jwt-bearer") +
       "&client_assertion=" + url_encoded(sign_token(claims, platforms_.keys().front())) + "&scope=" + url_encoded(scopes_of(course));
   const PlatformAnswer answer = ask_platform(platform, "POST", platform.token_endpoint,
-                                             {{"Content-Type", "application/x-www-form-urlencoded"}, {"Accept", "application/json"}}, body);
+                                             {{"Content-Type", "application/x-www-form-urlencoded"}, {"Accept", "application/json"}}, body, &ends_);
   const std::string text = text_in(answer.body, "access_token");
   if (!is_good(answer.status) || text.empty() ||
       text.find_first_not_of("ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789-._~+/=") != std::string::npos)

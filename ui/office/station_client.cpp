@@ -2,14 +2,7 @@
 
 #include <fmt/core.h>
 
-#include <boost/asio/ip/tcp.hpp>
-#include <boost/asio/ssl.hpp>
-#include <boost/beast/core/flat_buffer.hpp>
-#include <boost/beast/core/tcp_stream.hpp>
-#include <boost/beast/http.hpp>
-#include <boost/beast/ssl/ssl_stream.hpp>
 #include <chrono>
-#include <optional>
 #include <regex>
 
 #include "engine/base/error.h"
@@ -25,137 +18,53 @@
 namespace cavum::office {
 namespace {
 
-namespace asio = boost::asio;
-namespace beast = boost::beast;
-namespace http = beast::http;
 using nlohmann::json;
-using Tcp = asio::ip::tcp;
 
 constexpr std::uint64_t k_slowest_bytes_s = 64U << 10;
-constexpr auto k_slice = std::chrono::milliseconds(100);
 constexpr std::uint64_t k_largest_answer = 64U << 20;
-constexpr unsigned k_http = 11;
 constexpr std::size_t k_first_piece = 256U << 10;
 constexpr auto k_quick = std::chrono::seconds(2);
 constexpr int k_most_disputes = 5;
 constexpr unsigned k_conflict = 409;
 
-std::string fingerprint_in(asio::ssl::verify_context& context) {
-  X509* shown = X509_STORE_CTX_get_current_cert(context.native_handle());
-  unsigned char* der = nullptr;
-  const int size = shown == nullptr ? -1 : i2d_X509(shown, &der);
-  if (size <= 0) return "";
-  std::string out = to_hex(sha256(std::span(der, static_cast<std::size_t>(size))));
-  OPENSSL_free(der);
-  return out;
-}
-
 }  // namespace
-
-/// A connection that stands.
-struct StationClient::Line {
-  Line(const std::string& host, const std::string& port, const std::string& certificate, std::chrono::seconds patience, const std::atomic<bool>& stop)
-      : stopped(stop), stream(context, tls) {
-    if (certificate.empty()) {
-      tls.set_default_verify_paths();
-      stream.set_verify_mode(asio::ssl::verify_peer);
-      stream.set_verify_callback(asio::ssl::host_name_verification(host));
-    } else {
-      stream.set_verify_mode(asio::ssl::verify_peer);
-      stream.set_verify_callback([right = fingerprint_of(certificate)](bool, asio::ssl::verify_context& shown) {
-        return X509_STORE_CTX_get_error_depth(shown.native_handle()) > 0 || fingerprint_in(shown) == right;
-      });
-    }
-    SSL_set_tlsext_host_name(stream.native_handle(), host.c_str());
-    Tcp::resolver resolver(context);
-    beast::error_code wrong;
-    const auto ends = resolver.resolve(host, port, wrong);
-    if (!wrong) wrong = wait(patience, [&](auto done) { beast::get_lowest_layer(stream).async_connect(ends, done); });
-    if (!wrong) wrong = wait(patience, [&](auto done) { stream.async_handshake(asio::ssl::stream_base::client, done); });
-    if (wrong)
-      throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host, port)}, msg("the office cannot be reached: {}", wrong.message()),
-                              msg("look at network and address; a certificate of its own is named with --certificate"));
-  }
-
-  /// The outcome of what `begin` starts; timed out after `patience`.
-  template <class Begin>
-  beast::error_code wait(std::chrono::seconds patience, const Begin& begin) {
-    std::optional<beast::error_code> outcome;
-    beast::get_lowest_layer(stream).expires_after(patience);
-    begin([&outcome](beast::error_code error, auto&&...) { outcome = error; });
-    context.restart();
-    while (!outcome && !stopped.load() && !context.stopped()) context.run_for(k_slice);
-    if (!outcome) {
-      beast::get_lowest_layer(stream).cancel();
-      context.restart();
-      context.run();
-    }
-    return outcome.value_or(beast::error::timeout);
-  }
-
-  const std::atomic<bool>& stopped;
-  asio::io_context context;
-  asio::ssl::context tls{asio::ssl::context::tls_client};
-  beast::ssl_stream<beast::tcp_stream> stream;
-  beast::flat_buffer heard;
-};
 
 StationClient::StationClient(const std::string& address, const std::string& certificate, std::string school, const SigningKey& key)
     : certificate_(certificate), school_(std::move(school)), key_(key), piece_bytes_(k_first_piece) {
-  static const std::regex k_address(R"(https://(\[[0-9a-fA-F:]+\]|[A-Za-z0-9.-]+)(?::(\d{1,5}))?/?)");
+  static const std::regex k_address(R"((https://(?:\[[0-9a-fA-F:]+\]|[A-Za-z0-9.-]+)(?::\d{1,5})?)/?)");
   std::smatch found;
   if (!std::regex_match(address, found, k_address))
     throw Error("--server " + one_line(address), msg("is no address"), msg("give one such as https://office:8443"));
-  host_ = found[1];
-  if (host_.starts_with('[')) host_ = host_.substr(1, host_.size() - 2);
-  port_ = found[2].matched ? found[2].str() : "443";
+  origin_ = found[1];
 }
-StationClient::~StationClient() = default;
 
 Answer StationClient::send(const std::string& method, const std::string& path, const std::string& body, const std::string& line) {
-  const bool fresh = !line_;
-  if (stopped_.load())
-    throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host_, port_)}, msg("is not asked any more: this station ends"), msg("begin again"));
-  if (!line_) line_ = std::make_unique<Line>(host_, port_, certificate_, patience_, stopped_);
-  const auto patience = patience_ + std::chrono::seconds(body.size() / k_slowest_bytes_s);
-  http::request<http::string_body> request(http::string_to_verb(method), path, k_http, body);
-  request.set(http::field::host, fmt::format("{}:{}", host_, port_));
-  if (!line.empty()) request.set(k_station_field, line);
-  if (!body.empty()) request.set(http::field::content_type, "application/json");
-  request.prepare_payload();
-  http::response_parser<http::string_body> parser;
-  parser.body_limit(k_largest_answer);
-  beast::error_code wrong = line_->wait(patience, [&](auto done) { http::async_write(line_->stream, request, done); });
-  // an office that refuses before it has read all says why, and closes
-  const beast::error_code unsent = wrong;
-  wrong = line_->wait(patience, [&](auto done) { http::async_read(line_->stream, line_->heard, parser, done); });
-  if (wrong) {
-    line_.reset();
-    if (!fresh && wrong != beast::error::timeout && body.size() < k_smallest_piece)
-      return send(method, path, body, line);  // the office had closed a line that was idle; what is large goes on in a smaller piece
-    throw OfficeUnreachable(Name{fmt::format("https://{}:{}", host_, port_)},
-                            msg("the office does not answer: {}", (unsent ? unsent : wrong).message()), msg("try again"));
-  }
-  Answer answer{static_cast<int>(parser.get().result_int()), parse_json_or_null(parser.get().body())};
-  if (const auto time = parser.get().find("X-Cavum-Time"); time != parser.get().end() && answer.body.is_object())
-    answer.body["utc_ns"] = std::stoll(std::string(time->value()));
-  if (!parser.get().keep_alive() || unsent) line_.reset();
+  if (stopped_.load()) throw OfficeUnreachable(Name{origin_}, msg("is not asked any more: this station ends"), msg("begin again"));
+  if (!https_) https_.emplace(HttpsTrust{"", certificate_.empty() ? "" : fingerprint_of(certificate_)}, &stopped_);
+  std::map<std::string, std::string> fields;
+  if (!line.empty()) fields[k_station_field] = line;
+  if (!body.empty()) fields["Content-Type"] = "application/json";
+  const HttpsAnswer heard = https_->ask(
+      {method, origin_ + path, body, fields, patience_ + std::chrono::seconds(body.size() / k_slowest_bytes_s), k_largest_answer, "X-Cavum-Time"});
+  if (!heard.wrong.empty())
+    throw OfficeUnreachable(Name{origin_}, msg("the office cannot be reached: {}", heard.wrong),
+                            msg("look at network and address; a certificate of its own is named with --certificate"));
+  Answer answer{static_cast<int>(heard.status), parse_json_or_null(heard.body)};
+  if (!heard.field.empty() && answer.body.is_object()) answer.body["utc_ns"] = std::stoll(heard.field);
   return answer;
 }
 
 json StationClient::require(Answer answer) const {
   if (answer.status >= 200 && answer.status < 300) return std::move(answer.body);
   const std::string why = text_in(answer.body, "error");
-  throw Error(fmt::format("https://{}:{}", host_, port_), why.empty() ? msg("refuses ({})", answer.status) : Message(Name{why}),
-              msg("ask the office"));
+  throw Error(origin_, why.empty() ? msg("refuses ({})", answer.status) : Message(Name{why}), msg("ask the office"));
 }
 
 void StationClient::meet() {
   if (!ledger_.empty()) return;
   const json hello = require(send("GET", route::hello::row.path_of(), "", ""));
   if (text_in(hello, "public_key") != school_)
-    throw Error(Name{fmt::format("https://{}:{}", host_, port_)}, msg("is the office of another school than this station's"),
-                msg("look at the address, and at school.pub"));
+    throw Error(Name{origin_}, msg("is the office of another school than this station's"), msg("look at the address, and at school.pub"));
   ahead_ns_ = require_whole<std::int64_t>(hello, "utc_ns", "the office's greeting") - read_clocks().utc_ns;
   ledger_ = text_in(hello, "ledger");
 }

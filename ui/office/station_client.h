@@ -5,14 +5,15 @@
 #include <atomic>
 #include <chrono>
 #include <cstdint>
-#include <memory>
 #include <nlohmann/json.hpp>
+#include <optional>
 #include <string>
 #include <utility>
 
 #include "engine/base/bytes.h"
 #include "engine/base/error.h"
 #include "engine/session/station_key.h"
+#include "ui/office/lti/https.h"
 #include "ui/office/routes.h"
 
 namespace cavum::office {
@@ -39,7 +40,6 @@ class StationClient {
   /// that this computer trusts, of that name. `school`: public key of the station's school, hexadecimal. Connects when it asks first. Throws Error
   /// for an address that is none.
   StationClient(const std::string& address, const std::string& certificate, std::string school, const SigningKey& key);
-  ~StationClient();
   StationClient(const StationClient&) = delete;
   StationClient& operator=(const StationClient&) = delete;
 
@@ -57,9 +57,9 @@ class StationClient {
   /// What became of it: {"state": unknown, waiting, filed or refused, …}.
   [[nodiscard]] nlohmann::json handed(const std::string& sha256);
 
-  /// For the connection, and for each answer; bodies have longer.
+  /// From the connection to the end of each answer; bodies have longer.
   void set_patience(std::chrono::seconds patience) noexcept { patience_ = patience; }
-  /// Ends what runs, within a tenth of a second but for a name that is being looked up; whatever is asked from then on throws. Any thread.
+  /// Ends what runs, within a second; whatever is asked from then on throws. Any thread.
   void stop() noexcept { stopped_.store(true); }
 
   /// One signed request, whatever comes back; for tests also one whose signed line is `line`.
@@ -70,19 +70,18 @@ class StationClient {
   [[nodiscard]] std::string sign(const std::string& method, const std::string& path, const std::string& body);
 
  private:
-  struct Line;
   void meet();
   [[nodiscard]] Answer send(const std::string& method, const std::string& path, const std::string& body, const std::string& line);
   [[nodiscard]] nlohmann::json require(Answer answer) const;
   nlohmann::json hand_in_pieces(const Bytes& image);
 
-  std::string host_, port_, certificate_, school_, ledger_;
+  std::string origin_, certificate_, school_, ledger_;
   SigningKey key_;
   std::int64_t ahead_ns_ = 0;  // the office's clock before ours
   std::chrono::seconds patience_{20};
   std::size_t piece_bytes_;  // smaller after a line broke, larger after a quick answer
   std::atomic<bool> stopped_{false};
-  std::unique_ptr<Line> line_;
+  std::optional<Https> https_;
 };
 
 }  // namespace cavum::office

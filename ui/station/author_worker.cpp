@@ -22,7 +22,7 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
   const IVec3 from = low - IVec3{step, step, step}, span = high - low;
   const IVec3 size{span.x / step + 4, span.y / step + 4, span.z / step + 4};
   std::vector<std::uint8_t> in;
-  in.reserve(static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z));
+  in.reserve(cells_of(size));
   const auto rim = [](int i, int n) { return i == 0 || i == n - 1; };
   for (int z = 0; z < size.z; ++z)
     for (int y = 0; y < size.y; ++y)

@@ -485,8 +485,7 @@ unsigned Scene::picture(const SceneView& view, int width, int height) {
     shown_texture_ = smoothed_.texture();
   }
   glFinish();  // what it took is measured
-  last_ms_ = 1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count();
-  governor_.took(last_ms_);
+  governor_.took(1e3 * std::chrono::duration<double>(std::chrono::steady_clock::now() - began).count());
   shown_ = view;
   shown_version_ = tooth_.version();
   shown_size_ = {width, height};

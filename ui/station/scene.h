@@ -53,7 +53,6 @@ class Scene {
   [[nodiscard]] std::uint64_t drawn() const noexcept { return drawn_; }
   /// What the last drawn picture took.
   [[nodiscard]] const DrawCount& counted() const noexcept { return count_; }
-  [[nodiscard]] double last_ms() const noexcept { return last_ms_; }
   /// Of `k_effects`: as the computer keeps up with, or as set.
   [[nodiscard]] std::size_t effects_level() const noexcept { return fixed_level_.value_or(governor_.level()); }
   void fix_effects(std::optional<std::size_t> level) { fixed_level_ = level; }
@@ -121,7 +120,6 @@ class Scene {
   std::size_t shown_level_ = 0;
   unsigned shown_texture_ = 0;
   DrawCount count_;
-  double last_ms_ = 0;
   std::uint64_t drawn_ = 0;
 };
 

@@ -83,23 +83,16 @@ bool meets(const Outline& outline, ImVec2 middle, ImVec2 half) {
 CrownSides crown_sides(const Tooth& tooth, const scenarios::ZoneMap& zones) {
   const Octree& octree = tooth.octree;
   const auto box_of = [&octree](auto counts) {
-    IVec3 low{1 << 30, 1 << 30, 1 << 30}, high{-1, -1, -1};
-    octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
-      if (!counts(tissue)) return;
-      low = {std::min(low.x, at.x), std::min(low.y, at.y), std::min(low.z, at.z)};
-      high = {std::max(high.x, at.x + edge), std::max(high.y, at.y + edge), std::max(high.z, at.z + edge)};
-    });
-    return std::pair(low, high);
+    const LeafBounds box = octree.bounds([&](std::uint8_t tissue) { return counts(tissue); });
+    return std::pair(box.low, box.high);
   };
   auto [low, high] = box_of([](std::uint8_t tissue) { return tissue == k_enamel; });
   if (high.x < 0) std::tie(low, high) = box_of([](std::uint8_t) { return true; });
-  const auto mm = [&octree](IVec3 leaf) {
-    return octree.origin_mm() + Vec3{static_cast<double>(leaf.x), static_cast<double>(leaf.y), static_cast<double>(leaf.z)} * octree.leaf_mm();
-  };
+  const auto mm = [&octree](IVec3 leaf) { return octree.origin_mm() + to_vec3(leaf) * octree.leaf_mm(); };
   CrownSides sides{mm(low), mm(high), zones.target_low_mm(), zones.target_high_mm(), zones.facing().anterior};
   const Vec3 a = sides.cavity_low, b = sides.cavity_high;
-  sides.low = {std::min(sides.low.x, a.x), std::min(sides.low.y, a.y), std::min(sides.low.z, a.z)};
-  sides.high = {std::max(sides.high.x, b.x), std::max(sides.high.y, b.y), std::max(sides.high.z, b.z)};
+  sides.low = min(sides.low, a);
+  sides.high = max(sides.high, b);
   return sides;
 }
 

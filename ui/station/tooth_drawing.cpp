@@ -46,7 +46,7 @@ ToothDrawing::ToothDrawing(const Octree& tooth)
 ToothDrawing::Drawn ToothDrawing::made(std::uint8_t own) {
   Drawn drawn{SurfacePatches(leaves_, own), own, {}, {}, {}};
   drawn.patches.resize(drawn.surface.count());
-  drawn.blocks.resize(static_cast<std::size_t>(blocks_.x) * static_cast<std::size_t>(blocks_.y) * static_cast<std::size_t>(blocks_.z));
+  drawn.blocks.resize(cells_of(blocks_));
   for (std::uint32_t i = 0; i < drawn.patches.size(); ++i) remake(drawn, i);
   for (std::size_t b = 0; b < drawn.blocks.size(); ++b) send(drawn, b);
   return drawn;

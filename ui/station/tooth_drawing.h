@@ -94,7 +94,7 @@ class ToothDrawing {
   std::vector<std::uint32_t> indices_;
   Drawn hard_, pulp_;
   std::array<glm::vec3, 2> box_mm_{};
-  std::vector<LeafBox> changed_;
+  std::vector<LeafBounds> changed_;
   std::vector<std::uint32_t> touched_;
   std::uint64_t version_ = 1;
 };

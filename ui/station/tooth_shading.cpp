@@ -78,14 +78,14 @@ ToothShading::ToothShading(const LeafBlocks& leaves)
       const int edge = k_cell << l;
       Shares& s = (*pyramid)[l];
       s.size = {cells_of(leaves.size().x, edge), cells_of(leaves.size().y, edge), cells_of(leaves.size().z, edge)};
-      s.share.assign(static_cast<std::size_t>(s.size.x) * static_cast<std::size_t>(s.size.y) * static_cast<std::size_t>(s.size.z), 0);
+      s.share.assign(cells_of(s.size), 0);
     }
-  const LeafBox whole{{0, 0, 0}, leaves.size() - IVec3{1, 1, 1}};
+  const LeafBounds whole{{0, 0, 0}, leaves.size() - IVec3{1, 1, 1}};
   update(leaves, std::span(&whole, 1));
 }
 
-void ToothShading::update(const LeafBlocks& leaves, std::span<const LeafBox> changed) {
-  for (const LeafBox& box : changed) {
+void ToothShading::update(const LeafBlocks& leaves, std::span<const LeafBounds> changed) {
+  for (const LeafBounds& box : changed) {
     const auto cell = [](IVec3 leaf) { return IVec3{leaf.x / k_cell, leaf.y / k_cell, leaf.z / k_cell}; };
     const IVec3 low = cell(box.low), high = cell(box.high);
     count(leaves, low, high);

@@ -15,7 +15,7 @@ class ToothShading {
  public:
   explicit ToothShading(const LeafBlocks& leaves);
   /// After leaves changed.
-  void update(const LeafBlocks& leaves, std::span<const LeafBox> changed);
+  void update(const LeafBlocks& leaves, std::span<const LeafBounds> changed);
 
   /// The patch `number` (along x, y, z) for the graphics card. `own`: a tissue's own surface is all of that tissue; `k_air` = looked up.
   [[nodiscard]] std::vector<ToothVertex> shaded(const LeafBlocks& leaves, const SurfacePatch& patch, IVec3 number, std::uint8_t own) const;

@@ -28,17 +28,14 @@ struct LeafLattice {
         size(octree.size() + IVec3{2 * k_leaf_margin, 2 * k_leaf_margin, 2 * k_leaf_margin}),
         leaf_mm(octree.leaf_mm()),
         first_mm(octree.centre_mm(low)) {}
-  [[nodiscard]] std::size_t count() const {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  }
+  [[nodiscard]] std::size_t count() const { return cells_of(size); }
   [[nodiscard]] bool holds(IVec3 leaf) const {
     const IVec3 l = leaf - low;
     return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size.x && l.y < size.y && l.z < size.z;
   }
   [[nodiscard]] std::size_t index(IVec3 leaf) const {
     const IVec3 l = leaf - low;
-    return (static_cast<std::size_t>(l.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(l.y)) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(l.x);
+    return cell_index(l, size);
   }
   [[nodiscard]] IVec3 leaf(std::size_t i) const {
     const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
@@ -46,7 +43,7 @@ struct LeafLattice {
   }
   [[nodiscard]] Vec3 centre_mm(std::size_t i) const {
     const IVec3 l = leaf(i) - low;
-    return first_mm + Vec3{double(l.x), double(l.y), double(l.z)} * leaf_mm;
+    return first_mm + to_vec3(l) * leaf_mm;
   }
   /// Calls `visit(index, centre)` for leaves about as near to a triangle as `reach_mm`, for some more than once: a large one in parts, whose boxes
   /// hold less beside it.
@@ -266,14 +263,6 @@ struct CarveByScan {
     const double d = -static_cast<double>(mm[i]);
     if (mark[i] == k_as_it_was) return static_cast<double>(k_far_off);
     return mark[i] == k_goes ? std::min(d, -k_least_mm) : mark[i] == k_stays ? std::max(d, k_least_mm) : d;
-  }
-};
-
-struct LeafBounds {
-  IVec3 low{1 << 20, 1 << 20, 1 << 20}, high{-(1 << 20), -(1 << 20), -(1 << 20)};
-  void add(IVec3 l) {
-    low = {std::min(low.x, l.x), std::min(low.y, l.y), std::min(low.z, l.z)};
-    high = {std::max(high.x, l.x), std::max(high.y, l.y), std::max(high.z, l.z)};
   }
 };
 

@@ -11,18 +11,16 @@ namespace {
 class Neighbours {
  public:
   Neighbours(const std::vector<SurfacePoint>& points, double radius_mm) : radius_mm_(radius_mm) {
-    Vec3 low = points.front().at_mm, high = low;
-    for (const auto& p : points) {
-      low = {std::min(low.x, p.at_mm.x), std::min(low.y, p.at_mm.y), std::min(low.z, p.at_mm.z)};
-      high = {std::max(high.x, p.at_mm.x), std::max(high.y, p.at_mm.y), std::max(high.z, p.at_mm.z)};
-    }
+    Bounds box;
+    for (const auto& p : points) box.add(p.at_mm);
     cell_mm_ = radius_mm;
     constexpr double k_most_cells = 8e6;
     const auto along = [&](double mm) { return std::floor(mm / cell_mm_) + 1; };
-    while (along(high.x - low.x) * along(high.y - low.y) * along(high.z - low.z) > k_most_cells) cell_mm_ *= 1.25;
-    low_mm_ = low;
-    size_ = {static_cast<int>(along(high.x - low.x)), static_cast<int>(along(high.y - low.y)), static_cast<int>(along(high.z - low.z))};
-    first_.assign(static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z) + 1, 0);
+    while (along(box.high.x - box.low.x) * along(box.high.y - box.low.y) * along(box.high.z - box.low.z) > k_most_cells) cell_mm_ *= 1.25;
+    low_mm_ = box.low;
+    size_ = {static_cast<int>(along(box.high.x - box.low.x)), static_cast<int>(along(box.high.y - box.low.y)),
+             static_cast<int>(along(box.high.z - box.low.z))};
+    first_.assign(cells_of(size_) + 1, 0);
     for (const auto& p : points) ++first_[index(cell_of(p.at_mm)) + 1];
     std::partial_sum(first_.begin(), first_.end(), first_.begin());
     sorted_.resize(points.size());
@@ -50,10 +48,7 @@ class Neighbours {
     const auto within = [](double v, int n) { return v > 0 ? std::min(static_cast<int>(v), n - 1) : 0; };
     return {within(q.x, size_.x), within(q.y, size_.y), within(q.z, size_.z)};
   }
-  [[nodiscard]] std::size_t index(IVec3 c) const noexcept {
-    return (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(c.y)) * static_cast<std::size_t>(size_.x) +
-           static_cast<std::size_t>(c.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 c) const noexcept { return cell_index(c, size_); }
 
   double radius_mm_, cell_mm_ = 1.0;
   Vec3 low_mm_;

@@ -8,19 +8,16 @@ namespace cavum {
 
 SurfaceIndex::SurfaceIndex(const std::vector<SurfacePoint>& points, double cell_mm, double margin_mm) : cell_mm_(cell_mm) {
   constexpr double k_most_cells = 4e6;
-  Vec3 low = points.front().at_mm, high = low;
-  for (const auto& p : points) {
-    low = {std::min(low.x, p.at_mm.x), std::min(low.y, p.at_mm.y), std::min(low.z, p.at_mm.z)};
-    high = {std::max(high.x, p.at_mm.x), std::max(high.y, p.at_mm.y), std::max(high.z, p.at_mm.z)};
-  }
+  Bounds box;
+  for (const auto& p : points) box.add(p.at_mm);
   const Vec3 margin{margin_mm, margin_mm, margin_mm};
-  low_mm_ = low - margin;
-  const Vec3 extent = high + margin - low_mm_;
+  low_mm_ = box.low - margin;
+  const Vec3 extent = box.high + margin - low_mm_;
   while (extent.x * extent.y * extent.z > k_most_cells * cell_mm_ * cell_mm_ * cell_mm_) cell_mm_ *= 1.1;
   const auto cells = [&](double mm) { return static_cast<std::int32_t>(mm / cell_mm_) + 1; };
   size_ = {cells(extent.x), cells(extent.y), cells(extent.z)};
 
-  const std::size_t count = static_cast<std::size_t>(size_.x) * static_cast<std::size_t>(size_.y) * static_cast<std::size_t>(size_.z);
+  const std::size_t count = cells_of(size_);
   std::vector<std::int32_t> place_of(count, -1);
   std::vector<double> nearest;  // squared distance of each place from the middle of its cell
   for (const auto& p : points) {

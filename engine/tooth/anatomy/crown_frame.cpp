@@ -7,14 +7,6 @@
 namespace cavum {
 namespace {
 
-struct Box {
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
-  void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
-  }
-};
-
 /// Sum over leaves, in half leaves, as whole numbers: the order of adding does not matter.
 struct Moment {
   std::int64_t n = 0, x = 0, y = 0, z = 0;
@@ -61,7 +53,7 @@ CrownFrame crown_frame(const Tooth& tooth, const TissueIds& ids) {
   const Vec3 z = frame.own_axis ? normalized(along) : Vec3{0, 0, 1};
   const Vec3 x = normalized(Vec3{1, 0, 0} - z * z.x);
   frame.axes = {x, cross(z, x), z};
-  Box cap, solid;
+  Bounds cap, solid;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (!tree.is_solid(t)) return;
     for (int i = 0; i < 8; ++i) {

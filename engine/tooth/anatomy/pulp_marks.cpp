@@ -38,23 +38,22 @@ struct Slices {
 
 Slices slices_of(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp) {
   const Octree& tree = tooth.octree;
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
+  Bounds box;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (t != pulp) return;
     for (int i = 0; i < 8; ++i) {
       const Vec3 corner{at.x + (i & 1 ? edge : 0.0), at.y + (i & 2 ? edge : 0.0), at.z + (i & 4 ? edge : 0.0)};
       const Vec3 p = frame.from_tooth(tree.origin_mm() + corner * tree.leaf_mm());
-      low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-      high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+      box.add(p);
     }
   });
   Slices s;
-  if (low.x > high.x) return s;
+  if (box.empty()) return s;
   const auto cells = [](double a, double b) { return std::clamp(static_cast<int>((b - a) / k_cell) + 2, 1, 600); };
-  s.nx = cells(low.x, high.x);
-  s.ny = cells(low.y, high.y);
-  s.nz = cells(low.z, high.z);
-  s.low = low;
+  s.nx = cells(box.low.x, box.high.x);
+  s.ny = cells(box.low.y, box.high.y);
+  s.nz = cells(box.low.z, box.high.z);
+  s.low = box.low;
   s.in.assign(s.index(0, 0, s.nz), 0);
   Octree::Cursor cursor;
   for (int z = 0; z < s.nz; ++z)

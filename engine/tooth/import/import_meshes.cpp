@@ -21,17 +21,7 @@ namespace {
 
 constexpr float k_widest_gap_leaves = 2.0f;
 
-struct Box {
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30};
-  void add(const TriangleMesh& mesh) {
-    for (const Vec3 v : mesh.vertices_mm) {
-      low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
-      high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
-    }
-  }
-};
-
-TissueGrid lattice_around(const Box& box, double leaf_mm, const std::string& where) {
+TissueGrid lattice_around(const Bounds& box, double leaf_mm, const std::string& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm)))
     throw Error(ImportError::bad_option, Name{"--leaf-mm"}, msg("the leaf must be larger than 0 mm"), msg("give 0.05, for example"));
   const auto low = [&](double v) { return static_cast<std::int32_t>(std::clamp(std::floor(v / leaf_mm), -1e8, 1e8)) - 4; };
@@ -40,7 +30,7 @@ TissueGrid lattice_around(const Box& box, double leaf_mm, const std::string& whe
   const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
   check_lattice(size, leaf_mm, where);
   TissueGrid grid;
-  grid.allocate(size, leaf_mm, Vec3{double(first.x), double(first.y), double(first.z)} * leaf_mm);
+  grid.allocate(size, leaf_mm, to_vec3(first) * leaf_mm);
   return grid;
 }
 
@@ -166,14 +156,13 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   const FrameOptions settled = settled_frame(options.frame, options.sense);
   const ToothAxes frame = tooth_axes(dentin.centroid_mm, enamel.centroid_mm, settled);
   for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) turn_into(*m, frame.axes, settled.mirror);
-  Box crown, all;
-  crown.add(enamel.mesh);
+  Bounds crown, all;
+  for (const Vec3 v : enamel.mesh.vertices_mm) crown.add(v);
   MeshImport out;
   check_crown_size(crown.high - crown.low, options.sense, paths.enamel, false, out.sense);
   const Vec3 origin = (crown.low + crown.high) * 0.5;
   for (auto* m : {&enamel.mesh, &dentin.mesh, &pulp.mesh}) {
-    for (auto& v : m->vertices_mm) v = v - origin;
-    all.add(*m);
+    for (auto& v : m->vertices_mm) all.add(v = v - origin);
   }
   TissueGrid grid = lattice_around(all, options.leaf_mm, paths.dentin);
 

@@ -32,9 +32,7 @@ class Field {
 
   [[nodiscard]] float at(IVec3 v) const noexcept {
     if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= size_.x || v.y >= size_.y || v.z >= size_.z) return outside_;
-    return values_[(static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size_.y) + static_cast<std::size_t>(v.y)) *
-                       static_cast<std::size_t>(size_.x) +
-                   static_cast<std::size_t>(v.x)];
+    return values_[cell_index(v, size_)];
   }
   [[nodiscard]] double linear(Vec3 p) const noexcept {
     const IVec3 l = low(p);
@@ -85,12 +83,11 @@ std::vector<std::uint8_t> mixed_cells(IVec3 size, const std::vector<float>& soli
   return mixed;
 }
 
-struct Extent {
-  Vec3 low{1e30, 1e30, 1e30}, high{-1e30, -1e30, -1e30}, sum;
+struct Extent : Bounds {
+  Vec3 sum;
   std::uint64_t n = 0;
   void add(Vec3 p) {
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    Bounds::add(p);
     sum += p;
     ++n;
   }
@@ -117,7 +114,7 @@ TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axe
   const IVec3 size = IVec3{high(box.high.x), high(box.high.y), high(box.high.z)} - first;
   check_lattice(size, leaf_mm, where);
   TissueGrid grid;
-  grid.allocate(size, leaf_mm, Vec3{double(first.x), double(first.y), double(first.z)} * leaf_mm);
+  grid.allocate(size, leaf_mm, to_vec3(first) * leaf_mm);
 
   // One voxel beyond the volume's edge is outside, so that a tooth cut by the edge is closed there.
   const Field solid(s.size, s.solid, -1.0f);

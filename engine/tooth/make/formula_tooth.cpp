@@ -24,7 +24,7 @@ TissueGrid formula_grid(const FormulaBox& box, double leaf_mm, double periodonti
   const IVec3 low{down(box.low_mm.x), down(box.low_mm.y), down(box.low_mm.z)}, high{up(box.high_mm.x), up(box.high_mm.y), up(box.high_mm.z)};
   TissueGrid grid;
   check_lattice(high - low, leaf_mm, name);
-  grid.allocate(high - low, leaf_mm, Vec3{double(low.x), double(low.y), double(low.z)} * leaf_mm);
+  grid.allocate(high - low, leaf_mm, to_vec3(low) * leaf_mm);
   return grid;
 }
 

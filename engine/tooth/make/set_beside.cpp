@@ -108,7 +108,8 @@ ContactFacts contact_facts(const Placed& n, const std::vector<Vec3>& places) {
   ContactFacts facts;
   Octree::Cursor cursor;
   facts.gap_mm = 1e9;
-  Vec3 sum, low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9};
+  Vec3 sum;
+  Bounds box;
   double count = 0;
   std::vector<double> d;
   for (const Vec3 p : places) facts.gap_mm = std::min(facts.gap_mm, d.emplace_back(n.tree->sample(n.into(p), cursor).distance_mm));
@@ -117,12 +118,11 @@ ContactFacts contact_facts(const Placed& n, const std::vector<Vec3>& places) {
     const Vec3 p = places[i];
     sum += p;
     count += 1;
-    low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
-    high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    box.add(p);
   }
   facts.at_mm = sum / count;
-  facts.width_mm = high.y - low.y;
-  facts.height_mm = high.z - low.z;
+  facts.width_mm = box.high.y - box.low.y;
+  facts.height_mm = box.high.z - box.low.z;
   return facts;
 }
 
@@ -131,7 +131,7 @@ TissueGrid with_room(const TissueGrid& grid, IVec3 before, IVec3 after, const st
   const IVec3 size = grid.size + before + after;
   check_lattice(size, grid.leaf_mm, where, k_most_row_leaves);
   TissueGrid wide;
-  wide.allocate(size, grid.leaf_mm, grid.origin_mm - Vec3{double(before.x), double(before.y), double(before.z)} * grid.leaf_mm);
+  wide.allocate(size, grid.leaf_mm, grid.origin_mm - to_vec3(before) * grid.leaf_mm);
   for (std::int32_t z = 0; z < grid.size.z; ++z)
     for (std::int32_t y = 0; y < grid.size.y; ++y) {
       const std::size_t from = grid.index({0, y, z}), to = wide.index(IVec3{0, y, z} + before);

@@ -17,13 +17,8 @@ struct Volume {
   std::vector<float> gray;                                                ///< x fastest
   bool spacing_assumed = false;                                           ///< neither the file nor the user gave one
 
-  [[nodiscard]] std::size_t index(IVec3 v) const noexcept {
-    return (static_cast<std::size_t>(v.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(v.y)) * static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(v.x);
-  }
-  [[nodiscard]] std::size_t voxels() const noexcept {
-    return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
-  }
+  [[nodiscard]] std::size_t index(IVec3 v) const noexcept { return cell_index(v, size); }
+  [[nodiscard]] std::size_t voxels() const noexcept { return cells_of(size); }
   [[nodiscard]] Vec3 place_mm(Vec3 voxel) const noexcept {
     return origin_mm + axis[0] * (spacing_mm[0] * voxel.x) + axis[1] * (spacing_mm[1] * voxel.y) + axis[2] * (spacing_mm[2] * voxel.z);
   }

@@ -154,7 +154,7 @@ TEST(SurfacePatches, ACutBallIsMissedByItsVolume) {
   EXPECT_NEAR(signed_volume_mm3(merged(patches)), 27.0 - chamfers_mm3, 2e-4);
   const double radius = 0.43;
   EXPECT_GT(cut(tooth.octree, {{0.01, 0.02, -1.53}, radius}), 0u);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> touched;
   const double before = signed_volume_mm3(merged(patches));
   leaves.take(tooth.octree, changed);
@@ -196,7 +196,7 @@ TEST(SurfacePatches, StayClosedAndEqualToAFreshBuildThroughARandomDrilling) {
     ASSERT_EQ(go_on_carving(carving, tree, bur, k_at_once, removed), CarvingStep::done);
     all_removed += removed.size();
 
-    std::vector<LeafBox> changed;
+    std::vector<LeafBounds> changed;
     leaves.take(tree, changed);
     without_removed += removed.empty() && !changed.empty();
     const LeafBlocks fresh_leaves(tree);
@@ -231,7 +231,7 @@ TEST(SurfacePatches, OnlyTouchWhatTheCutChanged) {
   tree.reserve_edits(20000);
   LeafBlocks leaves(tree);
   SurfacePatches patches(leaves);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> touched;
   cut(tree, {{30, 0, 0}, 0.5});  // in the air
   leaves.take(tree, changed);
@@ -242,7 +242,7 @@ TEST(SurfacePatches, OnlyTouchWhatTheCutChanged) {
   leaves.take(tree, changed);
   ASSERT_FALSE(changed.empty());
   const double reach = 0.6 + 4 * tree.leaf_mm();
-  for (const LeafBox& box : changed) {
+  for (const LeafBounds& box : changed) {
     const Vec3 low = tree.centre_mm(box.low), high = tree.centre_mm(box.high);
     EXPECT_TRUE(low.x > at.x - reach && low.y > at.y - reach && low.z > at.z - reach);
     EXPECT_TRUE(high.x < at.x + reach && high.y < at.y + reach && high.z < at.z + reach);
@@ -269,7 +269,7 @@ TEST(SurfacePatches, SeeDistancesThatChangeWithoutALeafRemoved) {
   SurfacePatches patches(leaves);
   // its lowest point is a quarter of a leaf deep, and no leaf's centre lies in it
   ASSERT_EQ(cut(tree, {{0.05, 0.05, 0.475}, 0.5}), 0u);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> touched;
   leaves.take(tree, changed);
   patches.update(leaves, changed, touched);
@@ -284,7 +284,7 @@ TEST(SurfacePatches, GoBackToAnEarlierMoment) {
   SurfacePatches patches(leaves);
   const auto before = copy_of(patches);
   cut(tooth.octree, {{1.0, 0.1, 0.2}, 0.4});
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> there, back;
   leaves.take(tooth.octree, changed);
   patches.update(leaves, changed, there);
@@ -325,7 +325,7 @@ TEST(LeafBlocks, HoldEveryLeafAfterRandomCuts) {
   Octree& tree = tooth.octree;
   tree.reserve_edits(20000);
   LeafBlocks leaves(tree);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   for (int i = 0; i < 20; ++i) {
     cut(tree, {{random.uniform(-1.3, 1.3), random.uniform(-1.2, 1.2), random.uniform(-2.7, 0.3)}, random.uniform(0.05, 0.6)});
     if (random.below(2)) leaves.take(tree, changed);
@@ -347,7 +347,7 @@ TEST(LeafBlocks, HoldEveryLeafAfterRandomCuts) {
 
 TEST(LeafBlocks, RefuseAnotherTooth) {
   LeafBlocks leaves(make_cube(1, "dentin", 0.1).octree);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   EXPECT_THROW(leaves.take(make_cube(2, "dentin", 0.1).octree, changed), Error);
 }
 

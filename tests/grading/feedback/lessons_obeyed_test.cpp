@@ -54,8 +54,8 @@ class Undone {
     low_mm_ = task.setup->zones.target_low_mm(), high_mm_ = task.setup->zones.target_high_mm();
     for (const auto& r : sat.removed) {
       const Vec3 at = task.setup->zones.centre_mm(r.leaf.leaf());
-      low_mm_ = {std::min(low_mm_.x, at.x), std::min(low_mm_.y, at.y), std::min(low_mm_.z, at.z)};
-      high_mm_ = {std::max(high_mm_.x, at.x), std::max(high_mm_.y, at.y), std::max(high_mm_.z, at.z)};
+      low_mm_ = min(low_mm_, at);
+      high_mm_ = max(high_mm_, at);
     }
     low_mm_ = low_mm_ - around, high_mm_ = high_mm_ + around;
   }

@@ -60,7 +60,7 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
   const auto three = [](const nlohmann::json& j) { return IVec3{j[0].get<int>(), j[1].get<int>(), j[2].get<int>()}; };
   const IVec3 low = three(grid["box"]["low"]), size = three(grid["box"]["size"]), all = three(grid["size"]);
   const auto before = unpack(grid["before"]), after = unpack(grid["after"]), heat = unpack(grid["heat"]);
-  ASSERT_EQ(heat.size(), static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z));
+  ASSERT_EQ(heat.size(), cells_of(size));
   const auto origin = grid["origin_mm"];
   long planned = 0, warm = 0, cold = 0;
   std::size_t i = 0;
@@ -89,9 +89,7 @@ TEST_F(ClassReport, ItsCellsAreThePlannedCavityAndTheShareOfTheClassThatDeviated
           }
         }
         const long whole = edge * edge * edge;
-        const auto index = (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(all.y) + static_cast<std::size_t>(cell.y)) *
-                               static_cast<std::size_t>(all.x) +
-                           static_cast<std::size_t>(cell.x);
+        const auto index = cell_index(cell, all);
         planned += target;
         ASSERT_EQ(before[index], std::lround(255.0 * static_cast<double>(target + other) / static_cast<double>(whole)));
         ASSERT_EQ(after[i], std::lround(255.0 * static_cast<double>(other) / static_cast<double>(whole)));

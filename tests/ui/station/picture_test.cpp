@@ -114,7 +114,7 @@ TEST(ToothShading, LittleLightReachesTheFloorOfADeepHole) {
   for (const double deep_mm : {0.5, 1.0, 2.0}) {
     const auto hole = [deep_mm](Vec3 mm) { return std::max(std::hypot(mm.x, mm.y) - 0.7, -deep_mm - mm.z); };
     ASSERT_TRUE(tooth.octree.carve({-1, -1, -2.5}, {1, 1, 0.5}, hole, removed));
-    std::vector<LeafBox> changed;
+    std::vector<LeafBounds> changed;
     leaves.take(tooth.octree, changed);
     shading.update(leaves, changed);
     const float open = shading.open({0, 0, static_cast<float>(-deep_mm)}, {0, 0, 1});

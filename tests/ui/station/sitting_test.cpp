@@ -53,7 +53,7 @@ TEST_F(SittingTest, LeadsFromTheCodeToASealedResult) {
   std::optional<LeafBlocks> leaves;
   sitting.live().look_at_tooth([&](const Octree& tooth) { leaves.emplace(tooth); });
   SurfacePatches surface(*leaves);
-  std::vector<LeafBox> changed;
+  std::vector<LeafBounds> changed;
   std::vector<std::uint32_t> touched;
   std::int64_t last = -1;
   std::size_t patches = 0;

@@ -2,6 +2,7 @@
 // no redirect is followed, and no answer is read beyond a limit.
 #pragma once
 
+#include <atomic>
 #include <chrono>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -25,8 +26,10 @@ struct PlatformAnswer {
 };
 
 /// One request, in a connection of its own. Throws Error for an address that this platform may not name, PlatformUnreachable when nothing comes back.
+/// Once `stopped` is true, it ends within a second.
 [[nodiscard]] PlatformAnswer ask_platform(const LtiPlatform& platform, const std::string& method, const std::string& address,
-                                          const std::map<std::string, std::string>& fields = {}, const std::string& body = "");
+                                          const std::map<std::string, std::string>& fields = {}, const std::string& body = "",
+                                          const std::atomic<bool>* stopped = nullptr);
 
 /// Keys of platforms, kept for an hour; those of a platform whose key is not among them are fetched anew, once in a minute at most.
 class PlatformKeys {

@@ -65,7 +65,7 @@ scenarios::View view_of(std::size_t wall, scenarios::Facing facing) {
 Vec3 halfway(const Worst& w, scenarios::Facing facing, double side) {
   constexpr IVec3 k_out[] = {{1, 0, 0}, {-1, 0, 0}, {0, 1, 0}, {0, -1, 0}, {0, 0, -1}};
   const IVec3 out = facing.in_tooth(k_out[w.wall]);
-  return w.site_mm + Vec3{static_cast<double>(out.x), static_cast<double>(out.y), static_cast<double>(out.z)} * (0.5 * side * w.mm);
+  return w.site_mm + to_vec3(out) * (0.5 * side * w.mm);
 }
 scenarios::View other(scenarios::View v) {
   return v == scenarios::View::mesio_distal ? scenarios::View::bucco_lingual : scenarios::View::mesio_distal;

@@ -16,27 +16,21 @@ constexpr double k_wanted_cell_mm = 0.1, k_around_target_mm = 1.0;
 constexpr int k_margin_cells = 2;
 constexpr std::size_t k_most_counts = 24'000'000;  // cells times tissues: 48 MB while counting
 
-IVec3 min_of(IVec3 a, IVec3 b) { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
-IVec3 max_of(IVec3 a, IVec3 b) { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
-std::size_t volume(IVec3 n) { return static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y) * static_cast<std::size_t>(n.z); }
-
 /// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its tissue begins.
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
 
 /// What a tooth is made of, and the box of leaves around it.
 struct ToothContent {
-  IVec3 low, high;                // inclusive, exclusive
+  LeafBounds box;                 // the last of them excluded
   std::vector<std::uint8_t> ids;  // of its tissues
   std::array<int, 256> column{};  // of a tissue among them, -1 = none of it
 };
 
 ToothContent content_of(const Tooth& tooth) {
-  constexpr int k_far = std::numeric_limits<int>::max();
-  ToothContent content{{k_far, k_far, k_far}, {-1, -1, -1}, {}, {}};
+  ToothContent content;
   content.column.fill(-1);
   tooth.octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-    content.low = min_of(content.low, at);
-    content.high = max_of(content.high, at + IVec3{edge, edge, edge});
+    content.box.add(at, at + IVec3{edge, edge, edge});
     if (content.column[t] >= 0) return;
     content.column[t] = static_cast<int>(content.ids.size());
     content.ids.push_back(t);
@@ -47,7 +41,7 @@ ToothContent content_of(const Tooth& tooth) {
 
 /// A grid without content: cells as small as is wanted, or as there may be of them.
 ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_t most_cells) {
-  const IVec3 low = content.low, high = content.high;
+  const auto& [low, high] = content.box;
   ToothGrid g;
   IVec3 from;
   for (g.edge_leaves = std::max(1, static_cast<int>(k_wanted_cell_mm / tree.leaf_mm() + 0.5));; ++g.edge_leaves) {
@@ -56,7 +50,7 @@ ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_
     const IVec3 to{floor_div(high.x - 1, e) + 1 + k_margin_cells, floor_div(high.y - 1, e) + 1 + k_margin_cells,
                    floor_div(high.z - 1, e) + 1 + k_margin_cells};
     g.size = to - from;
-    if (volume(g.size) <= most_cells) break;
+    if (cells_of(g.size) <= most_cells) break;
   }
   const int e = g.edge_leaves;
   g.cell_mm = e * tree.leaf_mm();
@@ -69,7 +63,7 @@ ToothGrid empty_grid(const Octree& tree, const ToothContent& content, std::size_
 std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g, const ToothContent& content) {
   const int e = g.edge_leaves;
   const std::size_t kinds = content.ids.size();
-  std::vector<std::uint16_t> count(volume(g.size) * kinds, 0);
+  std::vector<std::uint16_t> count(cells_of(g.size) * kinds, 0);
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     const auto kind = static_cast<std::size_t>(content.column[t]);
     const IVec3 a = at - g.low_leaf, b = a + IVec3{edge, edge, edge};
@@ -89,8 +83,8 @@ std::vector<std::uint16_t> count_tissues(const Octree& tree, const ToothGrid& g,
 /// Solid leaves of each cell, and the tissue that fills most of it.
 void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t>& ids, const std::vector<std::uint16_t>& count) {
   const std::size_t kinds = ids.size();
-  g.solid.resize(volume(g.size));
-  g.tissue.resize(volume(g.size));
+  g.solid.resize(cells_of(g.size));
+  g.tissue.resize(cells_of(g.size));
   for (std::size_t i = 0; i < g.solid.size(); ++i) {
     unsigned solid = 0, most_solid = 0, others = 0, most_other = 0;
     std::uint8_t of_solid = k_air, of_other = k_air;
@@ -129,18 +123,18 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
   IVec3 low = cell_at(input.zones.target_low_mm() - around), high = cell_at(input.zones.target_high_mm() + around) + IVec3{1, 1, 1};
   for (const auto& r : input.all_removed()) {
     const IVec3 c = g.cell_of(r.leaf.leaf());
-    low = min_of(low, c);
-    high = max_of(high, c + IVec3{1, 1, 1});
+    low = min(low, c);
+    high = max(high, c + IVec3{1, 1, 1});
   }
   ChangedCells box;
-  box.low = max_of(low, {0, 0, 0});
-  box.size = min_of(high, g.size) - box.low;
+  box.low = max(low, {0, 0, 0});
+  box.size = min(high, g.size) - box.low;
 
   constexpr std::uint16_t k_never = 65535;
-  box.solid.resize(volume(box.size));
-  box.distance.resize(volume(box.size));
-  box.first.assign(volume(box.size), k_never);
-  box.last.assign(volume(box.size), k_never);
+  box.solid.resize(cells_of(box.size));
+  box.distance.resize(cells_of(box.size));
+  box.first.assign(cells_of(box.size), k_never);
+  box.last.assign(cells_of(box.size), k_never);
   std::size_t i = 0;
   for (int z = 0; z < box.size.z; ++z)
     for (int y = 0; y < box.size.y; ++y)
@@ -157,9 +151,7 @@ ChangedCells make_changed_cells(const ToothGrid& g, const grading::GradeInput& i
     const IVec3 leaf = r.leaf.leaf();
     if (!tree.is_solid(r.leaf.tissue) || tree.tissue(leaf) == k_air || !seen.first_time(leaf)) continue;  // listed twice: the first time counts
     const IVec3 c = g.cell_of(leaf) - box.low;
-    const std::size_t at = (static_cast<std::size_t>(c.z) * static_cast<std::size_t>(box.size.y) + static_cast<std::size_t>(c.y)) *
-                               static_cast<std::size_t>(box.size.x) +
-                           static_cast<std::size_t>(c.x);
+    const std::size_t at = cell_index(c, box.size);
     const double share = static_cast<double>(r.tick) / ticks * 65535.0;
     const auto when = static_cast<std::uint16_t>(std::lround(std::clamp(share, 0.0, 65534.0)));
     if (box.solid[at] > 0) --box.solid[at];

@@ -19,17 +19,13 @@ struct ToothGrid {
   std::vector<std::uint16_t> solid;  ///< solid leaves of each cell, x fastest
   std::vector<std::uint8_t> tissue;  ///< id of the solid tissue that fills most of the cell, else of what is there
   [[nodiscard]] int cell_leaves() const noexcept { return edge_leaves * edge_leaves * edge_leaves; }
-  [[nodiscard]] std::size_t index(IVec3 cell) const noexcept {
-    return (static_cast<std::size_t>(cell.z) * static_cast<std::size_t>(size.y) + static_cast<std::size_t>(cell.y)) *
-               static_cast<std::size_t>(size.x) +
-           static_cast<std::size_t>(cell.x);
-  }
+  [[nodiscard]] std::size_t index(IVec3 cell) const noexcept { return cell_index(cell, size); }
   /// The cell of a leaf that holds tissue.
   [[nodiscard]] IVec3 cell_of(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_leaf;
     return {l.x / edge_leaves, l.y / edge_leaves, l.z / edge_leaves};
   }
-  [[nodiscard]] Vec3 centre_mm(IVec3 cell) const noexcept { return origin_mm + Vec3{double(cell.x), double(cell.y), double(cell.z)} * cell_mm; }
+  [[nodiscard]] Vec3 centre_mm(IVec3 cell) const noexcept { return origin_mm + to_vec3(cell) * cell_mm; }
 };
 
 /// Cells of about 0.1 mm, larger where there would be more than `most_cells`. Throws Error for a tooth without tissue.

@@ -106,14 +106,11 @@ TEST(LandmarksTurned, TurnedAndTiltedTeethGiveTheSamePoints) {
       const Surfaces turned = tooth.changed([&](Vec3 v) { return turn * v; });
       const MeshImport done = import_meshes(turned.write(fresh_folder()), upright(k_fine_mm));
       // each import puts its origin at the middle of its own enamel's box
-      Vec3 low{1e9, 1e9, 1e9}, high{-1e9, -1e9, -1e9}, low0 = low, high0 = high;
-      const auto grow = [](Vec3 v, Vec3& l, Vec3& h) {
-        l = {std::min(l.x, v.x), std::min(l.y, v.y), std::min(l.z, v.z)};
-        h = {std::max(h.x, v.x), std::max(h.y, v.y), std::max(h.z, v.z)};
-      };
-      for (const Vec3 v : turned.enamel.vertices_mm) grow(v, low, high);
-      for (const Vec3 v : tooth.enamel.vertices_mm) grow(v, low0, high0);
-      const Compared c = compare(fine_tooth(which).landmarks, find_landmarks(done.tooth), turn, (low + high) * 0.5 - turn * ((low0 + high0) * 0.5));
+      Bounds box, box0;
+      for (const Vec3 v : turned.enamel.vertices_mm) box.add(v);
+      for (const Vec3 v : tooth.enamel.vertices_mm) box0.add(v);
+      const Compared c =
+          compare(fine_tooth(which).landmarks, find_landmarks(done.tooth), turn, (box.low + box.high) * 0.5 - turn * ((box0.low + box0.high) * 0.5));
       std::cout << "tooth " << which << " turned " << turns[t].deg << " degrees about (" << turns[t].axis.x << ' ' << turns[t].axis.y << ' '
                 << turns[t].axis.z << "): " << c.all << " points, worst " << c.worst_mm << " mm (" << c.worst << "), horns " << c.worst_horn_mm
                 << " mm, along crests " << c.worst_slid_mm << " mm, lost " << c.lost << '\n';

@@ -72,7 +72,7 @@ TYPED_TEST(FormulaTeeth, HaveTheMeasuresOfTheTextbook) {
   Range x, y, z, all_z;
   tooth<TypeParam>().octree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (t == k_periodontium) return;
-    const Vec3 low = tooth<TypeParam>().octree.origin_mm() + Vec3{double(at.x), double(at.y), double(at.z)} * k_leaf;
+    const Vec3 low = tooth<TypeParam>().octree.origin_mm() + to_vec3(at) * k_leaf;
     for (const double e : {0.0, edge * k_leaf}) {
       all_z.add(low.z + e);
       if (t != k_enamel) continue;
