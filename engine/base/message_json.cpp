@@ -14,8 +14,8 @@ namespace cavum {
 namespace {
 
 using Json = nlohmann::ordered_json;
-constexpr std::size_t k_most_bytes = 4096, k_most_values = 64, k_most_messages = 10'000;
-constexpr int k_deepest = 8, k_most_digits = 12;
+constexpr std::size_t k_max_bytes = 4096, k_max_values = 64, k_max_messages = 10'000;
+constexpr int k_deepest = 8, k_max_digits = 12;
 
 [[noreturn]] void refuse(const char* why) { throw std::invalid_argument(why); }
 
@@ -24,13 +24,13 @@ const char* lasting(const std::string& text) {
   static std::mutex lock;
   static std::set<std::string> texts;
   const std::lock_guard guard(lock);
-  if (texts.size() >= k_most_messages && !texts.contains(text)) refuse("other sentences than ours");
+  if (texts.size() >= k_max_messages && !texts.contains(text)) refuse("other sentences than ours");
   return texts.insert(text).first->c_str();
 }
 
 std::string text_of(const nlohmann::json& j) {
   const auto* text = j.get_ptr<const std::string*>();
-  if (text == nullptr || text->size() > k_most_bytes) refuse("a text is missing or too long");
+  if (text == nullptr || text->size() > k_max_bytes) refuse("a text is missing or too long");
   return *text;
 }
 
@@ -59,7 +59,7 @@ void check_gaps(const std::string& english, std::size_t values) {
 Message message_of(const nlohmann::json& j, int depth);
 
 std::vector<Message> messages_of(const nlohmann::json& j, int depth) {
-  if (!j.is_array() || j.size() > k_most_messages) refuse("a list of messages is missing or too long");
+  if (!j.is_array() || j.size() > k_max_messages) refuse("a list of messages is missing or too long");
   std::vector<Message> out;
   for (const auto& m : j) out.push_back(message_of(m, depth));
   return out;
@@ -78,7 +78,7 @@ Value value_of(const nlohmann::json& j, int depth) {
       if (unit > static_cast<int>(Unit::byte)) refuse("a unit that is not known");
       n.unit = static_cast<Unit>(unit);
     }
-    if (j.contains("digits")) n.digits = small_number(j.at("digits"), k_most_digits);
+    if (j.contains("digits")) n.digits = small_number(j.at("digits"), k_max_digits);
     if (j.contains("bound")) n.bound = number_of(j.at("bound"));
     n.sign = j.contains("sign");
     return n;
@@ -90,9 +90,9 @@ Value value_of(const nlohmann::json& j, int depth) {
     return Vec3{number_of(p[0]), number_of(p[1]), number_of(p[2])};
   }
   if (j.contains("file")) {
-    constexpr int k_most_lines = 1'000'000'000;
-    return FilePlace{text_of(j.at("file")), small_number(j.value("line", nlohmann::json(0)), k_most_lines),
-                     small_number(j.value("column", nlohmann::json(0)), k_most_lines)};
+    constexpr int k_max_lines = 1'000'000'000;
+    return FilePlace{text_of(j.at("file")), small_number(j.value("line", nlohmann::json(0)), k_max_lines),
+                     small_number(j.value("column", nlohmann::json(0)), k_max_lines)};
   }
   if (j.contains("term")) return Term{text_of(j.at("term"))};
   if (j.contains("authored")) return Authored{text_of(j.at("authored"))};
@@ -104,7 +104,7 @@ Message message_of(const nlohmann::json& j, int depth) {
   if (depth > k_deepest) refuse("too many messages inside each other");
   if (!j.is_object() || !j.contains("say")) refuse("no message");
   const auto values_of = j.value("of", nlohmann::json::array());
-  if (!values_of.is_array() || values_of.size() > k_most_values) refuse("the values of a message are no list or too many");
+  if (!values_of.is_array() || values_of.size() > k_max_values) refuse("the values of a message are no list or too many");
   const std::string english = text_of(j.at("say"));
   check_gaps(english, values_of.size());
   std::vector<Value> values;

@@ -52,7 +52,7 @@ Vec3 mean_of(const std::vector<Vec3>& points) {
 
 /// Twice the largest area between three of the marks over their largest distance: the width of the figure they make.
 void require_a_plane(const std::vector<Vec3>& marks) {
-  constexpr double k_least_mm = 5.0;
+  constexpr double k_min_mm = 5.0;
   double width = 0.0;
   for (std::size_t i = 0; i < marks.size(); ++i)
     for (std::size_t j = i + 1; j < marks.size(); ++j)
@@ -60,7 +60,7 @@ void require_a_plane(const std::vector<Vec3>& marks) {
         const double longest = std::max({length(marks[j] - marks[i]), length(marks[k] - marks[i]), length(marks[k] - marks[j])});
         if (longest > 0) width = std::max(width, length(cross(marks[j] - marks[i], marks[k] - marks[i])) / longest);
       }
-  if (!(width >= k_least_mm))
+  if (!(width >= k_min_mm))
     throw Error(DeviceError::marks_in_line, msg("placement"), msg("the marks lie on a line, or too close together"),
                 msg("touch marks further apart, in the order asked for"));
 }

@@ -42,8 +42,8 @@ bool PointerStylus::take_intent() noexcept {
 }
 
 DeviceReading PointerStylus::read(double elapsed_s) {
-  constexpr int k_most_steps = 1000;
-  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_most_steps);
+  constexpr int k_max_steps = 1000;
+  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_max_steps);
   silent_s_ = take_intent() ? 0.0 : silent_s_ + elapsed_s;
   Vec3 tip;
   for (int i = 0; i < steps; ++i) {

@@ -17,8 +17,8 @@ StylusFacts simulated_facts(const OmniModel& omni) {
 }
 
 DeviceReading SimulatedStylus::read(double elapsed_s) {
-  constexpr int k_most_steps = 1000;
-  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_most_steps);
+  constexpr int k_max_steps = 1000;
+  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / tick_s_ + 0.5)), 1, k_max_steps);
   HandIntent intent;
   Vec3 tip;
   for (int i = 0; i < steps; ++i) {

@@ -17,7 +17,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::size_t k_most_rows = 2'000'000;  // of one table; a day of motion has 86,400 chunks
+constexpr std::size_t k_max_rows = 2'000'000;  // of one table; a day of motion has 86,400 chunks
 
 std::int64_t header_number(const Bytes& image, std::size_t at) {
   return static_cast<std::int64_t>(image[at]) << 24 | image[at + 1] << 16 | image[at + 2] << 8 | image[at + 3];
@@ -31,7 +31,7 @@ void read_table(Database& database, const char* table, const std::string& column
   try {
     Statement s = database.prepare(fmt::format("SELECT {} FROM {} ORDER BY 1", columns, table).c_str());
     for (; s.step(); ++rows) {
-      if (rows == k_most_rows) throw Error(table, msg("has more rows than any session"), msg("use an intact copy"));
+      if (rows == k_max_rows) throw Error(table, msg("has more rows than any session"), msg("use an intact copy"));
       row(s);
     }
   } catch (const Error& e) {
@@ -268,8 +268,8 @@ std::vector<RemovedAt> SessionReader::removed() const {
   for (const auto& c : chunks_) {
     const auto part = removed_in(c, path_);
     std::size_t at = 0;
-    if (all.size() + part.leaves.size() > k_most_removed_leaves)
-      throw Error(path_, msg("says that more than {} leaves were removed", k_most_removed_leaves), msg("use an intact copy: no tooth has as many"));
+    if (all.size() + part.leaves.size() > k_max_removed_leaves)
+      throw Error(path_, msg("says that more than {} leaves were removed", k_max_removed_leaves), msg("use an intact copy: no tooth has as many"));
     for (std::size_t i = 0; i < part.counts.size(); ++i)
       for (std::uint32_t k = 0; k < part.counts[i]; ++k) all.push_back({c.first_tick + static_cast<std::int64_t>(i), part.leaves[at++]});
   }

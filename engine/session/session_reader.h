@@ -15,7 +15,7 @@ namespace cavum {
 class Database;
 
 /// The most leaves that a recording says were removed: 1000 mm3 at a leaf of 0.05 mm have 8 million, each removed once.
-inline constexpr std::size_t k_most_removed_leaves = 16'000'000;
+inline constexpr std::size_t k_max_removed_leaves = 16'000'000;
 
 /// A leaf and the tick in which it was removed.
 struct RemovedAt {

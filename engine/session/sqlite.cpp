@@ -14,7 +14,7 @@ namespace {
 
 // Bounds what a damaged file can make SQLite do: about ten seconds of work in one connection on an image.
 constexpr int k_steps_per_call = 1'000'000;
-constexpr int k_most_calls = 2000;
+constexpr int k_max_calls = 2000;
 
 [[noreturn]] void fail(sqlite3* db, const std::string& where, int code) {
   if ((code & 0xff) == SQLITE_NOMEM) throw std::bad_alloc();  // nothing is wrong with the file
@@ -58,7 +58,7 @@ constexpr int k_most_calls = 2000;
   throw DatabaseError(where, detail, to_do, refusal);
 }
 
-int limit_work(void* calls) { return ++*static_cast<int*>(calls) > k_most_calls ? 1 : 0; }
+int limit_work(void* calls) { return ++*static_cast<int*>(calls) > k_max_calls ? 1 : 0; }
 
 }  // namespace
 

@@ -62,9 +62,9 @@ void replay(const SessionReader& session, Simulation& simulation, const TickVisi
       report.findings.push_back(msg("{} (replay stops here)", e.message()));
       return;
     }
-    if ((leaves += motion.removed.leaves.size()) > k_most_removed_leaves) {
+    if ((leaves += motion.removed.leaves.size()) > k_max_removed_leaves) {
       report.findings.push_back(
-          msg("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)", k_most_removed_leaves));
+          msg("more than {} leaves are said to be removed, and no tooth has as many (replay stops here)", k_max_removed_leaves));
       return;
     }
     std::span<const RemovedLeaf> listed = motion.removed.leaves;

@@ -16,9 +16,9 @@ struct CubeEdge {
 };
 /// Triangles of a case, three edges each, counter-clockwise seen from outside.
 struct CubeCase {
-  static constexpr std::size_t k_most_triangles = 5;
+  static constexpr std::size_t k_max_triangles = 5;
   int triangles = 0;
-  std::array<std::uint8_t, 3 * k_most_triangles> edge{};
+  std::array<std::uint8_t, 3 * k_max_triangles> edge{};
 };
 
 inline constexpr std::array<CubeEdge, 12> k_cube_edges{

@@ -84,8 +84,8 @@ void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, co
     for (const auto corner : t) box.add(mesh.vertices_mm[corner]);
     const auto leaves = [&](double mm) { return static_cast<std::uint64_t>(std::min(mm / lattice.leaf_mm, 1024.0)) + 5; };  // and the band
     near += leaves(box.high.x - box.low.x) * leaves(box.high.y - box.low.y) * leaves(box.high.z - box.low.z);
-    if (near > k_most_near_triangles)
-      throw Error(FileError::too_large, Name{where}, msg("its triangles have more than {} leaves near them, the most", k_most_near_triangles),
+    if (near > k_max_near_triangles)
+      throw Error(FileError::too_large, Name{where}, msg("its triangles have more than {} leaves near them, the most", k_max_near_triangles),
                   msg("use a larger --leaf-mm, or a mesh of fewer large triangles"));
   }
 }

@@ -16,13 +16,13 @@
 namespace cavum {
 
 /// Leaves of a lattice that a tooth is made or imported on, air and all: a molar of 24 mm at 0.05 mm has 20 million.
-inline constexpr std::uint64_t k_most_lattice_leaves = 48'000'000;
+inline constexpr std::uint64_t k_max_lattice_leaves = 48'000'000;
 /// The same of a tooth with what was set beside it: no fields are laid over these leaves, so each takes two bytes and not twenty.
-inline constexpr std::uint64_t k_most_row_leaves = 96'000'000;
+inline constexpr std::uint64_t k_max_row_leaves = 96'000'000;
 /// Leaves near the single triangles of a mesh, all together: each is asked for its distance. A tooth's layer scanned at 0.1 mm has 30 million.
-inline constexpr std::uint64_t k_most_near_triangles = 400'000'000;
+inline constexpr std::uint64_t k_max_near_triangles = 400'000'000;
 /// Throws Error(`where`, ...) unless the lattice has 1..1024 leaves along every axis, a leaf > 0, and no more leaves than `most`.
-void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t most = k_most_lattice_leaves);
+void check_lattice(IVec3 size, double leaf_mm, const Where& where, std::uint64_t most = k_max_lattice_leaves);
 
 /// Throws Error(`where`, ...) when a mesh has more leaves near its triangles than above: many that are large and close together.
 void check_triangle_work(const TissueGrid& lattice, const TriangleMesh& mesh, const std::string& where);

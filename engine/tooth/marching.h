@@ -103,7 +103,7 @@ void add_cell(IVec3 cell, const std::array<bool, 8>& in, Edges& edges, std::vect
 template <class Fraction>
 [[nodiscard]] TriangleMesh march_tetrahedra(IVec3 size, Vec3 first_mm, double step_mm, std::span<const std::uint8_t> inside,
                                             const Fraction& fraction) {
-  constexpr std::size_t k_most_triangles = 8'000'000;  // a molar at a leaf of 0.025 mm has 4 million; some 100 bytes each
+  constexpr std::size_t k_max_triangles = 8'000'000;  // a molar at a leaf of 0.025 mm has 4 million; some 100 bytes each
   TriangleMesh mesh;
   const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
   const std::array<std::size_t, 8> corner_step{0, 1, nx, nx + 1, nx * ny, nx * ny + 1, nx * ny + nx, nx * ny + nx + 1};
@@ -121,8 +121,8 @@ template <class Fraction>
           filled += in[c];
         }
         if (filled == 0 || filled == 8) continue;
-        if (mesh.triangles.size() > k_most_triangles)
-          throw Error(msg("surface"), msg("has more than {} triangles", k_most_triangles), msg("use a tooth with larger leaves"));
+        if (mesh.triangles.size() > k_max_triangles)
+          throw Error(msg("surface"), msg("has more than {} triangles", k_max_triangles), msg("use a tooth with larger leaves"));
         marching::add_cell({x, y, z}, in, edges, mesh.triangles);
       }
     }

@@ -335,7 +335,7 @@ void Octree::write_ref(std::uint32_t ref, ByteWriter& shape, ByteWriter& tissue,
 }
 
 // As many as a packed tooth file may have: six molars at a leaf of 0.05 mm.
-constexpr std::size_t k_most_bricks_read = 1u << 18;
+constexpr std::size_t k_max_bricks_read = 1u << 18;
 
 Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   Octree tree;
@@ -345,8 +345,8 @@ Octree Octree::read(ByteReader& in, const std::vector<Tissue>& tissues) {
   tree.size_ = {in.get<std::int32_t>(), in.get<std::int32_t>(), in.get<std::int32_t>()};
   constexpr double k_largest_box_mm = 60.0;  // no tooth is half as long
   const auto usable = [&](int n) { return n >= 1 && n <= k_max_edge_leaves && n * tree.leaf_mm_ <= k_largest_box_mm; };
-  constexpr double k_least_leaf_mm = 0.005, k_largest_leaf_mm = 2.0;
-  if (!(tree.leaf_mm_ >= k_least_leaf_mm && tree.leaf_mm_ <= k_largest_leaf_mm) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) ||
+  constexpr double k_min_leaf_mm = 0.005, k_largest_leaf_mm = 2.0;
+  if (!(tree.leaf_mm_ >= k_min_leaf_mm && tree.leaf_mm_ <= k_largest_leaf_mm) || !is_finite(tree.origin_mm_) || !usable(tree.size_.x) ||
       !usable(tree.size_.y) || !usable(tree.size_.z))
     in.fail(msg("impossible leaf or size: leaves have 0.005 to 2 mm, and a tooth's box at most 60 mm and {} leaves a side", k_max_edge_leaves));
   for (const auto& t : tissues) tree.solid_[t.id] = t.solid;
@@ -368,7 +368,7 @@ std::uint32_t Octree::read_ref(ByteReader& shape, ByteReader& tissue, ByteReader
     return k_node | nodes_.add(node);
   }
   if (level != 0) shape.fail(msg("a brick in the wrong place"));
-  if (labels_.items.size() + bricks_.items.size() >= k_most_bricks_read) shape.fail(msg("has more bricks than the limit of {}", k_most_bricks_read));
+  if (labels_.items.size() + bricks_.items.size() >= k_max_bricks_read) shape.fail(msg("has more bricks than the limit of {}", k_max_bricks_read));
   FullBrick brick;
   const auto labels = tissue.get_bytes(k_brick_leaves);
   std::copy(labels.begin(), labels.end(), brick.tissue.begin());

@@ -28,7 +28,7 @@ namespace {
 
 constexpr std::size_t k_leaves = Octree::k_brick_leaves;
 constexpr std::size_t k_head_bytes = 4 * sizeof(double) + 3 * sizeof(std::int32_t);
-constexpr std::uint32_t k_most_bricks = 1u << 18;  // 15 us each, 4 s in all: six molars at a leaf of 0.05 mm; a few bytes can code them all
+constexpr std::uint32_t k_max_bricks = 1u << 18;  // 15 us each, 4 s in all: six molars at a leaf of 0.05 mm; a few bytes can code them all
 
 /// The three streams of Octree::write, with distance codes instead of their differences.
 struct Streams {
@@ -282,7 +282,7 @@ class Walk {
 
   [[nodiscard]] static FitLeaf coded(std::int8_t code, int off) noexcept {
     if (std::abs(int{code}) >= k_distance_far) return {code, FitLeaf::k_unused};
-    return {code, static_cast<std::uint8_t>(std::min<int>(std::abs(off), FitLeaf::k_most_error))};
+    return {code, static_cast<std::uint8_t>(std::min<int>(std::abs(off), FitLeaf::k_max_error))};
   }
 
   void code_distances(std::size_t number, std::size_t layer) {
@@ -410,7 +410,7 @@ void pack_octree(ByteReader& canonical, const std::vector<Tissue>& tissues, Byte
   for (std::size_t i = 0; i < streams.distance.size(); ++i)
     if (i % k_leaves != 0) streams.distance[i] = static_cast<std::uint8_t>(streams.distance[i] + streams.distance[i - 1]);
   const std::size_t bricks = streams.tissue.size() / k_leaves, full = streams.distance.size() / k_leaves;
-  if (bricks > k_most_bricks) throw Error(msg("tooth"), msg("too much detail for a tooth file: {} bricks", bricks), msg("use a larger leaf"));
+  if (bricks > k_max_bricks) throw Error(msg("tooth"), msg("too much detail for a tooth file: {} bricks", bricks), msg("use a larger leaf"));
   RangeEncoder coder;
   const Walk walk(coder, streams, tissues, levels, static_cast<std::uint32_t>(bricks), static_cast<std::uint32_t>(full));
   const Bytes bits = coder.finish();
@@ -426,7 +426,7 @@ Bytes unpack_octree(ByteReader& in, const std::vector<Tissue>& tissues, const Pa
   ByteWriter out;
   const int levels = copy_head(in, out);
   const auto bricks = in.get<std::uint32_t>(), full = in.get<std::uint32_t>();
-  if (bricks > k_most_bricks || full > bricks) in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_most_bricks));
+  if (bricks > k_max_bricks || full > bricks) in.fail(msg("has {} bricks, more than the limit of {}", bricks, k_max_bricks));
   ByteReader bits(in.get_bytes(in.get<std::uint64_t>()), msg("tooth"));
   RangeDecoder coder(bits);
   Streams streams;

@@ -10,9 +10,9 @@ namespace cavum {
 
 /// A leaf as the fit sees it.
 struct FitLeaf {
-  static constexpr std::uint8_t k_most_error = 40, k_guess = 254, k_unused = 255;
+  static constexpr std::uint8_t k_max_error = 40, k_guess = 254, k_unused = 255;
   std::int8_t code = 0;           ///< distance code (see encode_distance)
-  std::uint8_t error = k_unused;  ///< by how much the fit was wrong here, 0..k_most_error; or: only a guess so far; or: of no use
+  std::uint8_t error = k_unused;  ///< by how much the fit was wrong here, 0..k_max_error; or: only a guess so far; or: of no use
 };
 
 /// 4x4x4 leaves and the two around them, x fastest.

@@ -48,7 +48,7 @@ struct Tooth : ToothFacts {
 };
 
 /// The most landmarks that a person may put on one tooth, and the longest of their names, bytes.
-inline constexpr std::size_t k_most_placed = 64, k_longest_landmark_name = 32;
+inline constexpr std::size_t k_max_placed = 64, k_longest_landmark_name = 32;
 
 /// The compact tooth file (`.cvt`), layout in tooth_file.cpp. The same tooth always gives the same bytes. Throws Error when there are more landmarks
 /// than above, or one with a name that is empty, too long, twice there, or no plain text, or with a place that is not finite.

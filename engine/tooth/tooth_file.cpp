@@ -26,7 +26,7 @@ namespace cavum {
 namespace {
 
 constexpr std::string_view k_magic = "CVTOOTH1";
-constexpr std::size_t k_most_notes = 256;
+constexpr std::size_t k_max_notes = 256;
 
 void write_tissues(const Tooth& tooth, ByteWriter& out) {
   out.put(static_cast<std::uint8_t>(tooth.tissues.size()));
@@ -40,7 +40,7 @@ void write_tissues(const Tooth& tooth, ByteWriter& out) {
 /// What is wrong with landmarks that a person put; empty when nothing is.
 Message fault_of(const std::vector<NamedPoint>& landmarks) {
   constexpr double k_farthest_mm = 200.0;
-  if (landmarks.size() > k_most_placed) return msg("{} landmarks, at most {} may be put", landmarks.size(), k_most_placed);
+  if (landmarks.size() > k_max_placed) return msg("{} landmarks, at most {} may be put", landmarks.size(), k_max_placed);
   for (std::size_t i = 0; i < landmarks.size(); ++i) {
     const auto& [name, at] = landmarks[i];
     if (name.empty() || name.size() > k_longest_landmark_name || !is_plain_text(name))
@@ -63,7 +63,7 @@ void write_landmarks(const Tooth& tooth, ByteWriter& out) {
 
 std::vector<NamedPoint> read_landmarks(ByteReader& in) {
   const auto count = in.get<std::uint32_t>();
-  if (count > k_most_placed) in.fail(msg("a tooth has at most {} landmarks that a person put", k_most_placed));
+  if (count > k_max_placed) in.fail(msg("a tooth has at most {} landmarks that a person put", k_max_placed));
   std::vector<NamedPoint> landmarks(count);
   for (auto& [name, at] : landmarks) {
     name = in.get_string();
@@ -85,7 +85,7 @@ void write_notes(const Tooth& tooth, ByteWriter& out) {
 
 std::vector<ToothNote> read_notes(ByteReader& in, const std::string& where) {
   const auto count = in.get<std::uint32_t>();
-  if (count > k_most_notes) in.fail(msg("a tooth has at most {} notes", k_most_notes));
+  if (count > k_max_notes) in.fail(msg("a tooth has at most {} notes", k_max_notes));
   std::vector<ToothNote> notes(count);
   for (auto& [kind, text] : notes) {
     const auto number = in.get<std::uint8_t>();
@@ -128,7 +128,7 @@ void write_source(const ToothSource& source, ByteWriter& out) {
 
 ToothSource read_source(ByteReader& in, const std::string& where) {
   const auto count = in.get<std::uint32_t>();
-  if (count > k_most_notes) in.fail(msg("a tooth has at most {} entries of its source", k_most_notes));
+  if (count > k_max_notes) in.fail(msg("a tooth has at most {} entries of its source", k_max_notes));
   ToothSource source;
   for (std::uint32_t i = 0; i < count; ++i) source.push_back(decode_tooth_entry(parse_json(in.get_string(), where, k_json_part), where));
   return source;
@@ -174,10 +174,9 @@ std::uint8_t Tooth::tissue_id(const std::string& wanted) const {
 Bytes save_tooth(const Tooth& tooth) {
   if (const auto fault = fault_of(tooth.placed_landmarks); !fault.empty())
     throw Error(msg("tooth '{}'", tooth.name), fault, msg("put fewer landmarks, or others"));
-  if (tooth.notes.size() > k_most_notes)
-    throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} notes", k_most_notes), msg("import it anew"));
-  if (tooth.source.size() > k_most_notes)
-    throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} entries of its source", k_most_notes), msg("make it anew"));
+  if (tooth.notes.size() > k_max_notes) throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} notes", k_max_notes), msg("import it anew"));
+  if (tooth.source.size() > k_max_notes)
+    throw Error(msg("tooth '{}'", tooth.name), msg("has more than {} entries of its source", k_max_notes), msg("make it anew"));
   ByteWriter out;
   for (const char c : k_magic) out.put(c);
   out.put_string(tooth.name);

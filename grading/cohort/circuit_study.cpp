@@ -55,7 +55,7 @@ std::size_t most_partners(const std::vector<StudyMark>& marks, std::size_t first
 /// The fewest exams from which on `phi` (of 1, 2, ... exams) is enough.
 template <class Phi>
 std::optional<int> fewest(const Phi& phi) {
-  for (int n = 1; n <= k_most_tasks; ++n)
+  for (int n = 1; n <= k_max_tasks; ++n)
     if (phi(static_cast<std::size_t>(n - 1)) >= k_enough_phi) return n;
   return {};
 }
@@ -71,7 +71,7 @@ CircuitStudy study_circuit(StudyDesign design, const std::vector<StudyMark>& mar
   s.components = study.estimate(values_of(marks));
   require_differences(s.design, s.components);
   std::vector<MarkShares> circuits{s.marking.as_given()};
-  for (int n = 1; n <= k_most_tasks; ++n) circuits.push_back(s.marking.with_tasks(n));
+  for (int n = 1; n <= k_max_tasks; ++n) circuits.push_back(s.marking.with_tasks(n));
   StudyRanges ranges = study_ranges(study, s.components, circuits, k_range_draws, k_range_seed);
   s.range = ranges.circuits[0];
   s.error = std::move(ranges.error);

@@ -11,7 +11,7 @@
 
 namespace cavum::cohort {
 
-/// How many exams a circuit needs, at the least and at the most; none: more than k_most_tasks.
+/// How many exams a circuit needs, at the least and at the most; none: more than k_max_tasks.
 struct TasksNeeded {
   std::optional<int> estimate, low, high;
 };
@@ -26,7 +26,7 @@ struct CircuitStudy {
   Dependability as_sat;       ///< of the marks that candidates have, on average over the candidates
   DependabilityRange range;
   std::optional<CutDecision> at_cut;    ///< none where there is no one cut
-  std::vector<Dependability> by_tasks;  ///< everybody at 1, 2, ... k_most_tasks exams, judges as they were
+  std::vector<Dependability> by_tasks;  ///< everybody at 1, 2, ... k_max_tasks exams, judges as they were
   TasksNeeded for_enough;               ///< the fewest exams with a phi of k_enough_phi; its range from the bounds of phi
 };
 /// `cut`: what passes, in the marks' unit, where that is one. Facet 1 is the exam. Throws what VarianceStudy and require_differences throw.
@@ -35,6 +35,6 @@ struct CircuitStudy {
 /// where each exam has one judge.
 [[nodiscard]] CircuitStudy study_of_judges(const std::vector<StudyMark>& marks, std::optional<double> cut);
 inline constexpr double k_enough_phi = 0.80;
-inline constexpr int k_most_tasks = 40;
+inline constexpr int k_max_tasks = 40;
 
 }  // namespace cavum::cohort

@@ -76,7 +76,7 @@ Message marks_text(const CircuitStudy& s) {
 }
 
 Message tasks_text(const TasksNeeded& n) {
-  const auto number = [](const std::optional<int>& tasks) { return tasks ? msg("{}", *tasks) : msg("more than {}", k_most_tasks); };
+  const auto number = [](const std::optional<int>& tasks) { return tasks ? msg("{}", *tasks) : msg("more than {}", k_max_tasks); };
   return n.low == n.high ? msg("for phi {}: {} exams", as_number(0.8, 2), number(n.estimate))
                          : msg("for phi {}: {} exams ({} to {})", as_number(0.8, 2), number(n.estimate), number(n.low), number(n.high));
 }

@@ -20,7 +20,7 @@ std::optional<AttemptScatter> attempt_scatter(const std::vector<std::vector<doub
     for (std::size_t i = 1; i < of_one.size(); ++i) steps.push_back(of_one[i] - of_one[i - 1]);
   }
   s.steps = steps.size();
-  if (s.steps < k_least_steps || s.candidates < k_least_repeaters) return std::nullopt;
+  if (s.steps < k_min_steps || s.candidates < k_min_repeaters) return std::nullopt;
   s.sd_percent = std::sqrt(variance(steps) / 2);
   const double middle = mean(steps);
   for (const double step : steps) s.largest_percent = std::max(s.largest_percent, std::fabs(step - middle));

@@ -16,7 +16,7 @@ struct AttemptScatter {
   std::size_t candidates = 0;    ///< with two attempts or more
 };
 /// Fewer steps, or steps of fewer candidates, say too little.
-inline constexpr std::size_t k_least_steps = 8, k_least_repeaters = 5;
+inline constexpr std::size_t k_min_steps = 8, k_min_repeaters = 5;
 /// `marks`: of each candidate, the oldest first, per cent of the scale. The deviation is that of all steps around their mean, over the root of two.
 /// People who learn at different rates make it larger, never smaller: then less is told, not more. None where there are too few.
 [[nodiscard]] std::optional<AttemptScatter> attempt_scatter(const std::vector<std::vector<double>>& marks);

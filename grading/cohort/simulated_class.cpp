@@ -65,8 +65,8 @@ ClassSat simulate_class(const SimulatedClass& wanted, records::Ledger& ledger, r
   }
 
   ClassSat out;
-  grading::ExamGrounds grounds;  // of the class
-  std::mutex mutex;              // of `out` and the ledger
+  grading::ExamContexts grounds;  // of the class
+  std::mutex mutex;               // of `out` and the ledger
   independent_runs(
       students.size(),
       [&](std::size_t i) {

@@ -20,7 +20,7 @@ namespace {
 
 /// The session is not sealed: nobody keeps it.
 grading::Result result_of(const scenarios::ExamSetup& form, int level, std::uint64_t seed, const std::string& session,
-                          grading::ExamGrounds& grounds) {
+                          grading::ExamContexts& grounds) {
   auto hands = scenarios::make_simulated_candidate(form, fmt::format("student-{}", level), seed, OmniModel{});
   const auto exam = scenarios::Exam::start(form, session, hands.start_mm());
   scenarios::run_exam(*exam, hands);
@@ -78,7 +78,7 @@ FormsSat sit_forms(const FormsWanted& wanted, const std::function<void(int)>& do
   const ScratchFolder scratch;
   std::mutex one;  // of what follows, and of `sat`
   int ended = 0;
-  grading::ExamGrounds grounds;  // of all
+  grading::ExamContexts grounds;  // of all
   independent_runs(
       n * k,
       [&](std::size_t i) {

@@ -16,7 +16,7 @@
 namespace cavum::cohort {
 namespace {
 
-constexpr std::size_t k_most_facets = 5;
+constexpr std::size_t k_max_facets = 5;
 
 /// Sum over groups of the square of their sum by their size.
 double sum_of_squares(const std::vector<std::uint32_t>& group, const std::vector<double>& size, std::span<const double> values) {
@@ -78,7 +78,7 @@ List dependent_effects(const Eigen::MatrixXd& a, const std::vector<std::string>&
 }  // namespace
 
 StudyDesign crossed_design(std::vector<std::string> facets) {
-  if (facets.size() < 2 || facets.size() > k_most_facets)
+  if (facets.size() < 2 || facets.size() > k_max_facets)
     throw Error(msg("a study"), msg("needs one to four facets beside the candidates"), msg("name tasks, raters, stations"));
   StudyDesign design{std::move(facets), {}, {}};
   const auto sets = static_cast<std::uint32_t>(1U << design.facets.size());

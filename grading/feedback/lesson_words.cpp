@@ -14,7 +14,7 @@ namespace {
 
 using scenarios::Zone;
 
-constexpr double k_shown_points = 0.005, k_least_lean_deg = 6.0, k_degrees_of = 57.29577951308232, k_least_covered_percent = 5.0;
+constexpr double k_shown_points = 0.005, k_min_lean_deg = 6.0, k_degrees_of = 57.29577951308232, k_min_covered_percent = 5.0;
 
 Number percent_of(double part, double all) { return as_percent(all > 0 ? 100 * part / all : 0); }
 /// Two sentences, the second where there is one.
@@ -129,7 +129,7 @@ class Teller {
     l.what = piece.part < k_nearly_all * all
                  ? msg("{} of roof was left over the pulp chamber, the largest part ({}) {}.", as_mm3(all), percent_of(piece.part, all), there(p))
                  : msg("{} of roof was left over the pulp chamber, {}.", as_mm3(all), there(p));
-    if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_least_covered_percent)
+    if (const double covered = r_.access.canals_covered_percent.value_or(0); covered >= k_min_covered_percent)
       l.what = both(l.what, one_canal() ? msg("Hard tissue stands over {} of the canal's mouth.", as_percent(covered))
                                         : msg("Hard tissue stands over {} of the canals' mouths.", as_percent(covered)));
     l.instead = msg("Reach under the roof {} and cut it on the way out, until nothing catches between the wall and the opening.", there(p));
@@ -319,7 +319,7 @@ class Teller {
     const scenarios::Facing facing = in_.zones.facing();
     const Vec3 is = facing.local(normalized(sum)), way = facing.local(in_.zones.approach());
     const double x = is.x - way.x, y = is.y - way.y, deg = k_degrees_of * std::sqrt(x * x + y * y);
-    if (deg < k_least_lean_deg) return {};
+    if (deg < k_min_lean_deg) return {};
     const scenarios::Wall to = std::fabs(x) > std::fabs(y) ? (x > 0 ? scenarios::Wall::mesial : scenarios::Wall::distal)
                                                            : (y > 0 ? scenarios::Wall::buccal : scenarios::Wall::lingual);
     return msg("The handpiece leaned {} towards {} there: hold it along the way in.", as_deg(deg), Term{scenarios::wall_name(to, facing)});

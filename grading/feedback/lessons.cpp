@@ -14,7 +14,7 @@ namespace {
 
 using scenarios::Zone;
 
-constexpr double k_least_points = 0.005, k_middle_mm = 0.4;
+constexpr double k_min_points = 0.005, k_middle_mm = 0.4;
 
 /// Points of one criterion, by what they were lost for.
 using Shares = std::map<Topic, double>;
@@ -173,7 +173,7 @@ std::vector<Lesson> lessons(const GradeInput& input, const Result& result) {
   }
   std::vector<Lesson> all;
   for (auto& [topic, lesson] : by_topic) {
-    if (lesson.points <= k_least_points && !lesson.fails_exam) continue;
+    if (lesson.points <= k_min_points && !lesson.fails_exam) continue;
     lesson.topic = topic;
     tell_lesson(lesson, input, result);
     all.push_back(std::move(lesson));

@@ -54,7 +54,7 @@ void LossFinder::leave_out(const WhyItem& i) {
 
 void LossFinder::list_largest(std::vector<WhyItem> items) {
   std::erase_if(items, [this](const WhyItem& i) {
-    const bool nothing = i.unit == "mm3" && *i.amount < k_least_moment_mm3;
+    const bool nothing = i.unit == "mm3" && *i.amount < k_min_moment_mm3;
     if (nothing) leave_out(i);
     return nothing;
   });
@@ -117,7 +117,7 @@ void LossFinder::missed(double points) {
                           : msg("target left towards {}; nothing of it was cut there", wall),
          mm3, "mm3", last.tick >= 0 ? last : r_.end, r_.volumes.missed_bound_by_wall_mm3[w]);
     if (r_.volumes.missed.mm3 > 0) why_.items.back().points_lost = points * mm3 / r_.volumes.missed.mm3;
-    if (mm3 >= k_least_moment_mm3) continue;
+    if (mm3 >= k_min_moment_mm3) continue;
     leave_out(why_.items.back());
     why_.items.pop_back();
   }

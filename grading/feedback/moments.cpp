@@ -165,12 +165,12 @@ std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end,
 }
 
 std::vector<WhyItem> keep_largest(std::vector<WhyItem>& items) {
-  if (items.size() <= k_most_moments) return {};
+  if (items.size() <= k_max_moments) return {};
   std::vector<std::size_t> order(items.size());
   std::iota(order.begin(), order.end(), std::size_t{0});
   std::stable_sort(order.begin(), order.end(), [&](std::size_t a, std::size_t b) { return *items[a].amount > *items[b].amount; });
   std::vector<bool> stays(items.size(), false);
-  for (std::size_t i = 0; i < k_most_moments; ++i) stays[order[i]] = true;
+  for (std::size_t i = 0; i < k_max_moments; ++i) stays[order[i]] = true;
   std::vector<WhyItem> kept, dropped;
   for (std::size_t i = 0; i < items.size(); ++i) (stays[i] ? kept : dropped).push_back(std::move(items[i]));
   items = std::move(kept);

@@ -32,7 +32,7 @@ enum class Stretch { duration, peak_force };
 /// Each piece of roof that was left, mm3, and when something was last cut near it.
 [[nodiscard]] std::vector<WhyItem> overhang_moments(const GradeInput& input, std::int64_t end, const AccessMeasures& access);
 
-/// Keeps the k_most_moments items of the largest amount in their order, of equal ones the earlier; returns those that went. Every item has an amount.
+/// Keeps the k_max_moments items of the largest amount in their order, of equal ones the earlier; returns those that went. Every item has an amount.
 std::vector<WhyItem> keep_largest(std::vector<WhyItem>& items);
 
 }  // namespace cavum::grading

@@ -33,8 +33,8 @@ struct Why {
 
 /// Removed leaves less than this apart in time belong to one moment.
 inline constexpr std::int64_t k_moment_gap_ticks = 500;
-inline constexpr std::size_t k_most_moments = 20;
-inline constexpr double k_least_moment_mm3 = 0.0005;  ///< a smaller volume is not worth a line: it would read 0.000
+inline constexpr std::size_t k_max_moments = 20;
+inline constexpr double k_min_moment_mm3 = 0.0005;  ///< a smaller volume is not worth a line: it would read 0.000
 
 /// Throws Error naming all criteria when the rubric has none of that id.
 [[nodiscard]] Why why(const GradeInput& input, const Result& result, const scenarios::RubricSpec& rubric, const std::string& criterion_id);

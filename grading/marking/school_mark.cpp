@@ -15,7 +15,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_named = 12;  // differences: more of them say nothing new
+constexpr std::size_t k_max_named = 12;  // differences: more of them say nothing new
 
 /// Tick at which the candidate, or who took the exam up, handed it in; -1 = nobody did. What the clock ends with all steps done is `completed` as
 /// well, in the last tick and not after it.
@@ -32,9 +32,9 @@ Message event_text(const TimedEvent& e) {
 }
 
 /// Runs the scenario over the motion while that is simulated.
-class EventsAgain {
+class ReplayedEvents {
  public:
-  EventsAgain(const SessionReader& session, ExamGrounds& grounds)
+  ReplayedEvents(const SessionReader& session, ExamContexts& grounds)
       : task_(scenarios::exam_task(session.setup(), session.path() + ": scenario")),
         ground_(grounds.of(task_, session.path())),
         runner_(task_.scenario, ground_->zones, ground_->tooth, task_.bur_names),
@@ -54,7 +54,7 @@ class EventsAgain {
       findings.push_back(msg("events: the exam is said to have been ended at tick {}, and it was recorded on to tick {}", ended_, ticks));
     if (ended_ == ticks) runner_.end(*state_);
     take();
-    for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_most_named; ++i) {
+    for (std::size_t i = 0; i < std::max(recorded_.size(), again_.size()) && findings.size() < k_max_named; ++i) {
       if (i < recorded_.size() && i < again_.size() && recorded_[i] == again_[i]) continue;
       findings.push_back(msg("event {} of the exam: recorded {}, the motion gives {}", i,
                              i < recorded_.size() ? event_text(recorded_[i]) : msg("none"), i < again_.size() ? event_text(again_[i]) : msg("none")));
@@ -79,7 +79,7 @@ class EventsAgain {
   }
 
   scenarios::ExamTask task_;
-  std::shared_ptr<const ExamGround> ground_;
+  std::shared_ptr<const ExamContext> ground_;
   scenarios::Runner runner_;
   std::unique_ptr<scenarios::RunnerState> state_ = std::make_unique<scenarios::RunnerState>();
   std::vector<TimedEvent> recorded_, again_;  ///< the runner's
@@ -149,9 +149,9 @@ std::vector<Message> SchoolMark::findings() const {
   return all;
 }
 
-SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
+SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds) {
   SchoolMark out;
-  std::optional<EventsAgain> events;
+  std::optional<ReplayedEvents> events;
   try {
     events.emplace(session, grounds);
   } catch (const std::bad_alloc&) {
@@ -186,9 +186,9 @@ SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds) {
   if (differ.empty()) return out;
   out.sealed_otherwise = sealed;
   List all{differ, true};
-  if (differ.size() > k_most_named) {
-    all.items.resize(k_most_named);
-    all.items.push_back(msg("{} more", differ.size() - k_most_named));
+  if (differ.size() > k_max_named) {
+    all.items.resize(k_max_named);
+    all.items.push_back(msg("{} more", differ.size() - k_max_named));
   }
   out.other_result = msg(
       "the sealed result, by grading version {}, is not what this program's version {} gives: it was tampered with, or its station's program was, "

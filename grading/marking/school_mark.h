@@ -8,7 +8,7 @@
 #include <vector>
 
 #include "engine/session/verify.h"
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 
 namespace cavum::grading {
 
@@ -25,7 +25,7 @@ struct SchoolMark {
 
 /// Simulates, runs and marks a closed session again. A sealed result that differs is a finding. What cannot be replayed (another physics version) is
 /// not marked. Throws nothing of the recording's own: its damage is in the findings.
-[[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamGrounds& grounds);
+[[nodiscard]] SchoolMark mark_again(const SessionReader& session, ExamContexts& grounds);
 
 /// In what two results differ, most important first: verdict, points, each criterion, then further figures by name. Empty when they are the same.
 [[nodiscard]] std::vector<Message> result_differences(const nlohmann::json& sealed, const nlohmann::json& marked);

@@ -13,7 +13,7 @@ namespace {
 
 /// `after_of` gives the tooth at the end.
 template <class After>
-std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGrounds& grounds, const After& after_of) {
+std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamContexts& grounds, const After& after_of) {
   const std::string& path = reader.path();
   auto s = std::make_unique<GradedSession>();
   static_cast<scenarios::ExamTask&>(*s) = scenarios::exam_task(reader.setup(), path + ": scenario");
@@ -41,15 +41,15 @@ std::unique_ptr<GradedSession> load_with(const SessionReader& reader, ExamGround
 }  // namespace
 
 std::unique_ptr<GradedSession> load_for_grading(const std::string& path) {
-  ExamGrounds grounds;
+  ExamContexts grounds;
   return load_for_grading(path, grounds);
 }
 
-std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds) {
+std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamContexts& grounds) {
   return load_for_grading(SessionReader(path), grounds);
 }
 
-std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, ExamGrounds& grounds) {
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, ExamContexts& grounds) {
   const std::string& path = reader.path();
   reader.require_readable();
   if (!reader.closed())
@@ -59,11 +59,11 @@ std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Exa
   if (const auto findings = check_chain(reader); !findings.empty())
     throw Error(path, msg("damaged or altered: {}", findings.front()), msg("run `cavum replay --verify` on it and use an intact copy"));
   return load_with(reader, grounds,
-                   [&](const ExamGround& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
+                   [&](const ExamContext& ground) { return load_tooth_like(reader.final_tooth(), path + ": final tooth", ground.fits.get()); });
 }
 
-std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamGrounds& grounds) {
-  return load_with(reader, grounds, [&](const ExamGround&) { return std::move(after); });
+std::unique_ptr<GradedSession> load_for_grading(const SessionReader& reader, Tooth after, ExamContexts& grounds) {
+  return load_with(reader, grounds, [&](const ExamContext&) { return std::move(after); });
 }
 
 void use_scenario(GradedSession& session, scenarios::Scenario scenario, bool another_task) {

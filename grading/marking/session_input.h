@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 #include "grading/marking/grade.h"
 
 namespace cavum::grading {
@@ -23,9 +23,9 @@ struct ReportFacts {
 };
 
 struct GradedSession : scenarios::ExamTask {
-  scenarios::RubricSpec rubric;              ///< of the session: its own, else the scenario's
-  std::shared_ptr<const ExamGround> ground;  ///< may be shared by all who sat the exam
-  std::shared_ptr<const Tooth> before;       ///< of `ground`
+  scenarios::RubricSpec rubric;               ///< of the session: its own, else the scenario's
+  std::shared_ptr<const ExamContext> ground;  ///< may be shared by all who sat the exam
+  std::shared_ptr<const Tooth> before;        ///< of `ground`
   Tooth after;
   std::shared_ptr<const scenarios::ZoneMap> zones;
   std::vector<TickInput> inputs;
@@ -52,11 +52,11 @@ struct GradedSession : scenarios::ExamTask {
 /// Throws Error when the file is damaged, or was never closed (resume it first).
 [[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path);
 /// The same with tooth and zones out of `grounds`.
-[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamGrounds& grounds);
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const std::string& path, ExamContexts& grounds);
 /// The same of a session that was read already.
-[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, ExamGrounds& grounds);
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, ExamContexts& grounds);
 /// The same for an exam that is just ending, with the tooth as it is now.
-[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamGrounds& grounds);
+[[nodiscard]] std::unique_ptr<GradedSession> load_for_grading(const SessionReader& session, Tooth after, ExamContexts& grounds);
 
 /// Marks the session by a corrected scenario: its zones are laid into the session's tooth, its rubric counts, and what was granted to the
 /// candidate stays. The steps stay those that were run. Throws Error when scenario and tooth do not fit, when an STL that the session ran

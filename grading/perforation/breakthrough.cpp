@@ -17,12 +17,12 @@ constexpr double k_longest_onset_s = 3;   // a fall that began longer ago began 
 constexpr double k_came_s = 0.3;          // before a fall opens: whence the tip came
 constexpr double k_dwell_back_s = 10;     // how far back cutting in the same place counts
 constexpr double k_dwell_share = 0.3;     // of the force that held: it cuts there
-constexpr double k_asked_from = 0.2;      // sureness from which other explanations are asked for
+constexpr double k_asked_from = 0.2;      // probability from which other explanations are asked for
 constexpr double k_before_onset_s = 0.2;  // places freed since then belong to the fall itself
 constexpr double k_noise_scatter = 1.5;   // scatter of three frames by noise alone is below that, times its mean
 constexpr double k_surely_n = 1.0;        // a force below that says to within 0.3 mm where the surface is
 constexpr double k_lifted_share = 0.3;    // of the held force: when the tip's motion leaves no more of G, the hand has lifted
-constexpr std::size_t k_most_confirming = 8;
+constexpr std::size_t k_max_confirming = 8;
 
 std::size_t at(std::int64_t i) { return static_cast<std::size_t>(i); }
 
@@ -32,7 +32,7 @@ struct Fall {
   Vec3 came_from_mm;        ///< tip a while before it opened
   bool explained = false;   ///< by something else than a cavity
   bool asked = false;
-  std::array<double, k_most_confirming> recent{};  ///< sureness of the last frames, newest first
+  std::array<double, k_max_confirming> recent{};  ///< probability of the last frames, newest first
   Breakthrough found;
 };
 
@@ -53,7 +53,7 @@ class Finder {
   void watch(std::int64_t i);
   void close();
   /// Of a cavity, from what is left of the expected force.
-  [[nodiscard]] double sureness(std::int64_t i) const;
+  [[nodiscard]] double probability(std::int64_t i) const;
   /// Whether the fall is explained by how the tip came to its place: withdrawn, slipping, milling, or hardly there yet.
   [[nodiscard]] bool explained_before(std::int64_t i) const;
   /// Whether it is explained by where the tip went: off something, or into an earlier cut.
@@ -110,18 +110,18 @@ void Finder::watch(std::int64_t i) {
   found.advance_mm = std::max(found.advance_mm, -dot(way, expected_.out()));
   found.force_after_n = std::min(found.force_after_n, expected_.force_n());
   std::copy_backward(fall_.recent.begin(), fall_.recent.end() - 1, fall_.recent.end());
-  fall_.recent[0] = found.advance_mm >= s_.least_advance_mm ? sureness(i) : 0.0;
-  const auto confirming = std::min<std::int64_t>(k_most_confirming, frames_in(s_.confirm_s) + 1);
+  fall_.recent[0] = found.advance_mm >= s_.least_advance_mm ? probability(i) : 0.0;
+  const auto confirming = std::min<std::int64_t>(k_max_confirming, frames_in(s_.confirm_s) + 1);
   const double sure = *std::min_element(fall_.recent.begin(), fall_.recent.begin() + confirming);
-  if (sure > found.sureness) {
+  if (sure > found.probability) {
     if (!fall_.asked && sure > k_asked_from) {
       fall_.asked = true;
       if (explained_after(i)) fall_.explained = true;
     }
-    if (found.sureness < k_as_likely_as_not) found.seen_tick = (i + 1) * k_frame_ticks;
-    found.sureness = sure;
+    if (found.probability < k_as_likely_as_not) found.seen_tick = (i + 1) * k_frame_ticks;
+    found.probability = sure;
   }
-  const bool told = found.sureness >= k_as_likely_as_not;
+  const bool told = found.probability >= k_as_likely_as_not;
   const bool lifted = expected_.expected_n() < k_lifted_share * expected_.held_n();
   if ((told ? expected_.force_n() / expected_.pressed_n() > s_.returns_at : share_[at(i)] > s_.closes_at) || lifted) {
     close();
@@ -133,11 +133,11 @@ void Finder::watch(std::int64_t i) {
 }
 
 void Finder::close() {
-  if (fall_.onset >= 0 && !fall_.explained && fall_.found.sureness >= s_.sure_from) found_.push_back(fall_.found);
+  if (fall_.onset >= 0 && !fall_.explained && fall_.found.probability >= s_.sure_from) found_.push_back(fall_.found);
   fall_ = {};
 }
 
-double Finder::sureness(std::int64_t i) const {
+double Finder::probability(std::int64_t i) const {
   const double expected = expected_.expected_n(), pressed = expected_.pressed_n(), rest = expected_.force_n() / pressed;
   if (expected_.held_n() < s_.least_n || expected < s_.presses_on * expected_.held_n()) return 0.0;
   double noise_n2 = 0, scatter_n2 = 0;  // per tick

@@ -30,7 +30,7 @@
 namespace cavum::grading {
 
 struct BreakthroughSettings {
-  double sure_from = 0.5;  ///< events below this sureness are left out, 0..1
+  double sure_from = 0.5;  ///< events below this probability are left out, 0..1
   ExpectedForceSettings expected;
 
   // the likelihood ratio
@@ -64,7 +64,7 @@ struct BreakthroughSettings {
 struct Breakthrough {
   std::int64_t tick = 0;        ///< when it began
   std::int64_t seen_tick = 0;   ///< when the detector could say so: it was more likely than not, or as sure as it got
-  double sureness = 0.0;        ///< 0..1; 0.5 = as likely as not; 0.69 when nothing at all is left of the force, for very soft tissue leaves little
+  double probability = 0.0;     ///< 0..1; 0.5 = as likely as not; 0.69 when nothing at all is left of the force, for very soft tissue leaves little
   double force_before_n = 0.0;  ///< while the tissue still held
   double force_after_n = 0.0;   ///< the least mean over 30 ms in the fall
   double advance_mm = 0.0;      ///< of the tip along the push in the fall

@@ -10,7 +10,7 @@ namespace cavum::grading {
 namespace {
 
 constexpr std::int64_t k_before_opening_ticks = 500, k_after_opening_ticks = 1500;  // of an opening
-constexpr double k_least_filled_n = 0.05;                                           // of the filled tooth's force: less has no share worth naming
+constexpr double k_min_filled_n = 0.05;                                             // of the filled tooth's force: less has no share worth naming
 
 std::vector<double> simulated_n(const ServoModel& model, ServoState state, std::span<const TickInput> inputs) {
   std::vector<TickRecord> again(inputs.size());
@@ -58,14 +58,14 @@ ForceDrop find_drop(const MissingForce& missing, std::span<const std::int64_t> o
   std::vector<double> gone_n(frames), gone_share(frames);
   for (std::size_t f = 0; f < frames; ++f) {
     gone_n[f] = missing.filled_n[f] - missing.felt_n[f];
-    gone_share[f] = missing.filled_n[f] >= k_least_filled_n ? std::clamp(gone_n[f] / missing.filled_n[f], 0.0, 1.0) : 0.0;
+    gone_share[f] = missing.filled_n[f] >= k_min_filled_n ? std::clamp(gone_n[f] / missing.filled_n[f], 0.0, 1.0) : 0.0;
   }
   for (std::size_t f = 0; f < frames; ++f) {
     const std::int64_t tick = static_cast<std::int64_t>(f + 1) * k_frame_ticks - 1;
     const auto near = std::lower_bound(opened.begin(), opened.end(), tick - k_after_opening_ticks);
     if (near == opened.end() || *near > tick + k_before_opening_ticks) continue;
     // back as long as the hand presses on what would be solid: who comes back to an open cavity has lost nothing
-    for (std::size_t g = f + 1; g-- > 0 && f - g <= window && missing.filled_n[g] >= k_least_filled_n;) {
+    for (std::size_t g = f + 1; g-- > 0 && f - g <= window && missing.filled_n[g] >= k_min_filled_n;) {
       const double n = gone_n[f] - gone_n[g], share = gone_share[f] - gone_share[g];
       const double score = std::min(n / k_felt_drop_n, share / k_felt_drop_share);
       if (score >= 1.0 && best.felt_tick < 0) best.felt_tick = tick;

@@ -6,7 +6,7 @@
 namespace cavum::grading {
 namespace {
 
-constexpr double k_least_n = 0.05;         // of a force that shows direction, stiffness or contact
+constexpr double k_min_n = 0.05;           // of a force that shows direction, stiffness or contact
 constexpr double k_saturates_n = 2.5;      // beyond it a device may not give what the tissue does (3.3 N at most, docs/physics.md section 10)
 constexpr double k_direction_share = 0.1;  // of each frame's force in the direction of the push
 constexpr double k_holds = 0.6;            // of the level: a force that has it still shows the direction
@@ -52,7 +52,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   const double advance = fresh_ ? 0.0 : -dot(tip - tip_mm_, out_);
 
   // how stiff: the force against the tip's steps, as long as there is contact and no unexplained loss
-  if (!fresh_ && force_n_ > k_least_n && before_n > k_least_n && force_n_ < k_saturates_n && before_n < k_saturates_n &&
+  if (!fresh_ && force_n_ > k_min_n && before_n > k_min_n && force_n_ < k_saturates_n && before_n < k_saturates_n &&
       force_n_ > k_learns_from * expected_n_) {
     const double keep = 1.0 - k_frame_s / k_.learns_s;
     along_ = std::max(0.0, along_ * keep + advance * (force_n_ - before_n + before_n * k_frame_s / k_.tau_s));
@@ -64,7 +64,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
                           std::max(0.0, expected_n_) * k_frame_s / k_.tau_s;
   expected_n_ += change_n;
   pressed_n_ = force_n_ >= k_all_there * expected_n_ ? expected_n_ : std::min(pressed_n_ + change_n, k_.pressed_most * level_n_);
-  if (size > k_holds * level_n_ && size > k_least_n) out_ = normalized(out_ * (1 - k_direction_share) + force * (k_direction_share / size), out_);
+  if (size > k_holds * level_n_ && size > k_min_n) out_ = normalized(out_ * (1 - k_direction_share) + force * (k_direction_share / size), out_);
 
   waiting_.push_back(force_n_);
   if (std::ssize(waiting_) > frames_in(k_.level_gap_s)) {
@@ -82,7 +82,7 @@ void ExpectedForce::take(std::span<const DrillFrame> frames, std::int64_t i) {
   expected_n_ = std::min(expected_n_, level_n_);
   // contact moves the surface only by a force that pushes back: a blow against the wall of the hole on the way out is none
   const double pushing_n = std::min({force_n_, dot(force, out_), dot(f.force_n, out_)});
-  if (pushing_n > k_least_n) expected_n_ = std::max(expected_n_, std::min(pushing_n, level_n_));
+  if (pushing_n > k_min_n) expected_n_ = std::max(expected_n_, std::min(pushing_n, level_n_));
   if (force_n_ >= k_all_there * expected_n_) held_n_ += k_held_share * (std::min(std::max(0.0, pushing_n), level_n_) - held_n_);
   tip_mm_ = tip;
   fresh_ = false;

@@ -7,7 +7,7 @@ namespace cavum::grading {
 namespace {
 
 constexpr double k_edge_mm = 0.15;
-constexpr int k_most_steps = 20;     // 3 mm in a hundredth of a second
+constexpr int k_max_steps = 20;      // 3 mm in a hundredth of a second
 constexpr double k_ahead_mm = 0.05;  // less than that is where the tip is already
 
 }  // namespace
@@ -18,7 +18,7 @@ IVec3 FreedPlaces::cell(Vec3 p) {
 }
 
 void FreedPlaces::note(Vec3 from_mm, Vec3 to_mm, std::int64_t frame) {
-  const int steps = std::clamp(static_cast<int>(length(to_mm - from_mm) / k_edge_mm), 1, k_most_steps);
+  const int steps = std::clamp(static_cast<int>(length(to_mm - from_mm) / k_edge_mm), 1, k_max_steps);
   for (int k = 0; k <= steps; ++k) first_.emplace(cell(from_mm + (to_mm - from_mm) * (static_cast<double>(k) / steps)), frame);
 }
 

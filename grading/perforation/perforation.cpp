@@ -71,7 +71,7 @@ PerforationMeasures measure_perforation(const GradeInput& input, const RemovedMa
     PerforationEvent e;
     e.tick = b.tick;
     e.seen_tick = b.seen_tick;
-    e.sureness = b.sureness;
+    e.probability = b.probability;
     e.site_mm = place_of(input.records[static_cast<std::size_t>(b.tick)]);
     e.force_before_n = b.force_before_n;
     e.force_after_n = b.force_after_n;

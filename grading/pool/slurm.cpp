@@ -29,8 +29,8 @@ namespace {
 
 using nlohmann::json;
 
-constexpr double k_patience_s = 300;        // for a controller that does not answer
-constexpr std::size_t k_most_tasks = 1000;  // of an array: Slurm's MaxArraySize is 1001 unless set otherwise
+constexpr double k_patience_s = 300;       // for a controller that does not answer
+constexpr std::size_t k_max_tasks = 1000;  // of an array: Slurm's MaxArraySize is 1001 unless set otherwise
 
 struct Said {
   int code = -1;
@@ -126,7 +126,7 @@ std::string blocks_file(const std::string& folder, int attempt) { return fmt::fo
 /// As many as hold at least `a_task` sessions each, whose sizes differ by one at most: while a larger one ends the other nodes would be idle.
 json blocks_of(const std::vector<std::size_t>& wanted, std::size_t a_task) {
   json blocks = json::array();
-  const std::size_t count = std::clamp<std::size_t>(wanted.size() / a_task, 1, k_most_tasks);
+  const std::size_t count = std::clamp<std::size_t>(wanted.size() / a_task, 1, k_max_tasks);
   for (std::size_t b = 0; b < count; ++b)
     blocks.push_back(std::vector<std::size_t>(wanted.begin() + static_cast<std::ptrdiff_t>(wanted.size() * b / count),
                                               wanted.begin() + static_cast<std::ptrdiff_t>(wanted.size() * (b + 1) / count)));

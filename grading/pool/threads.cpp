@@ -30,8 +30,8 @@ double seconds_since(std::chrono::steady_clock::time_point begin) {
 /// Makes the lines of `wanted`, some at the same time; `take` gets each. Returns those that could not be made.
 std::vector<std::size_t> make(const Work& work, const std::vector<std::size_t>& wanted, std::size_t threads, const Run& run,
                               const std::function<void(std::size_t, std::string, const Spent&)>& take) {
-  grading::ExamGrounds grounds;  // of the whole class
-  std::mutex mutex;              // of what follows, and of `take`
+  grading::ExamContexts grounds;  // of the whole class
+  std::mutex mutex;               // of what follows, and of `take`
   std::vector<std::size_t> missing = wanted;
   for (int attempt = 0; attempt < k_attempts && !missing.empty(); ++attempt) {
     std::vector<std::size_t> again;

@@ -43,7 +43,7 @@ Bytes image_below(const std::string& folder, const std::string& name, std::vecto
 }
 
 /// The session marked as the work asks.
-json marked(const Work& work, const SessionReader& session, grading::ExamGrounds& grounds) {
+json marked(const Work& work, const SessionReader& session, grading::ExamContexts& grounds) {
   const auto graded = grading::load_for_grading(session, grounds);
   if (!work.scenario_toml.empty()) {
     auto scenario = scenarios::parse_scenario(work.scenario_toml, "scenario.toml");
@@ -100,7 +100,7 @@ Work parse_work(const std::string& text, const std::string& where) {
 
 std::string id_of(const Work& work) { return to_hex(sha256(to_text(work))); }
 
-std::string line_of(const Work& work, std::size_t index, grading::ExamGrounds& grounds) {
+std::string line_of(const Work& work, std::size_t index, grading::ExamContexts& grounds) {
   const std::string& name = work.sessions[index];
   json line{{"session", name}};
   const auto failed = [&line](const Message& error) {

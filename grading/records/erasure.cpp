@@ -20,7 +20,7 @@ void add(std::vector<ErasedPart>& list, const LedgerContent& c, const LedgerEntr
 }
 
 /// What of the session of entry `seq` is still there.
-void add_session(std::vector<ErasedPart>& list, const LedgerContent& c, const ErasureWish& wish, std::uint64_t seq) {
+void add_session(std::vector<ErasedPart>& list, const LedgerContent& c, const ErasureCommand& wish, std::uint64_t seq) {
   if (wish.motion) add(list, c, c.entries[seq], Part::motion);
   if (!wish.results) return;
   for (const auto& e : c.entries)
@@ -29,7 +29,7 @@ void add_session(std::vector<ErasedPart>& list, const LedgerContent& c, const Er
 }
 
 /// What of it is still there.
-std::vector<ErasedPart> select_erasures(const LedgerContent& c, const ErasureWish& wish) {
+std::vector<ErasedPart> select_erasures(const LedgerContent& c, const ErasureCommand& wish) {
   std::set<std::uint64_t> sessions(wish.sessions.begin(), wish.sessions.end());
   for (const auto seq : sessions)
     if (seq >= c.entries.size() || c.entries[seq].as<SessionEntry>() == nullptr)
@@ -81,7 +81,7 @@ std::vector<std::string> taken_out_by(const LedgerContent& c, const LedgerEntry&
   return out;
 }
 
-std::vector<ErasedPart> erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason) {
+std::vector<ErasedPart> erase(Ledger& ledger, const ErasureCommand& wish, const std::string& reason) {
   require_reason(reason);
   std::vector<ErasedPart> erased;
   ledger.append_all(
@@ -95,10 +95,10 @@ std::vector<ErasedPart> erase(Ledger& ledger, const ErasureWish& wish, const std
   return erased;
 }
 
-void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish) {
+void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureCommand& wish) {
   for (const auto& pseudonym : pseudonyms)
     ledger.append([&](const LedgerContent& now) {
-      ErasureWish of = wish;
+      ErasureCommand of = wish;
       of.sessions.clear();
       for (const auto& e : now.entries)
         if (const auto* session = e.as<SessionEntry>(); session != nullptr && session->candidate == pseudonym) of.sessions.push_back(e.seq);

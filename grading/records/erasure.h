@@ -22,7 +22,7 @@ namespace cavum::records {
 /// The openings, by their hashes, that an entry takes out of the ledger's file.
 [[nodiscard]] std::vector<std::string> taken_out_by(const LedgerContent& content, const LedgerEntry& entry);
 
-struct ErasureWish {
+struct ErasureCommand {
   std::vector<std::uint64_t> sessions = {};          ///< their entries
   std::optional<std::int64_t> received_before = {};  ///< and those that came in before this time, UTC in ns
   bool motion = false;                               ///< the recording: motion, forces, ticket and accommodations
@@ -30,10 +30,10 @@ struct ErasureWish {
 };
 /// Enters the erasure, then takes it out of the file and removes recordings. Returns what was erased; nothing is entered when that is nothing.
 /// Throws Error when an entry is no session's, or `reason` is none.
-std::vector<ErasedPart> erase(Ledger& ledger, const ErasureWish& wish, const std::string& reason);
+std::vector<ErasedPart> erase(Ledger& ledger, const ErasureCommand& wish, const std::string& reason);
 /// Enters that these pseudonyms' identities are removed, one entry for each, and erases of their sessions what `wish` says; its own list of sessions
 /// is not asked. What incidents say of them is erased.
-void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureWish& wish);
+void forget(Ledger& ledger, const std::vector<std::string>& pseudonyms, const ErasureCommand& wish);
 /// Removes identities that an entry says are forgotten, after a crash, or in a file of before. Returns how many.
 std::size_t remove_forgotten(const LedgerContent& content, Identities& identities);
 /// The ledger's identities, without those that were forgotten. Throws Error when one of them was changed by hand.

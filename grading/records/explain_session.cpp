@@ -122,11 +122,11 @@ void say_limits(SessionExplanation& e, bool closed, const std::string& station_k
 }  // namespace
 
 SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed) {
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   return explain_session(path, school_key, ticket_needed, grounds);
 }
 
-SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed, grading::ExamGrounds& grounds) {
+SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed, grading::ExamContexts& grounds) {
   SessionExplanation e;
   e.file = path;
   const SessionReader session(path);

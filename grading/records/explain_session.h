@@ -9,7 +9,7 @@
 #include "grading/records/finding.h"
 
 namespace cavum::grading {
-class ExamGrounds;
+class ExamContexts;
 }
 
 namespace cavum::records {
@@ -28,7 +28,7 @@ struct SessionExplanation {
 [[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed = true);
 /// The same with tooth and zones out of `grounds`.
 [[nodiscard]] SessionExplanation explain_session(const std::string& path, const std::string& school_key, bool ticket_needed,
-                                                 grading::ExamGrounds& grounds);
+                                                 grading::ExamContexts& grounds);
 [[nodiscard]] Lines to_text(const SessionExplanation& explanation);
 
 }  // namespace cavum::records

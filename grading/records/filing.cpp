@@ -104,7 +104,7 @@ SessionReader require_closed_session(const Bytes& image, const std::string& path
 
 }  // namespace
 
-Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamGrounds& grounds) {
+Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions& options, grading::ExamContexts& grounds) {
   Filing out;
   ledger.refresh();
   const Bytes image = image_of(path, out.findings);
@@ -122,7 +122,7 @@ Filing file_session(Ledger& ledger, const std::string& path, const FilingOptions
   return out;
 }
 
-MarkedRecording::MarkedRecording(const std::string& path, grading::ExamGrounds& grounds)
+MarkedRecording::MarkedRecording(const std::string& path, grading::ExamContexts& grounds)
     : image_(image_of(path, findings_)), session_(require_closed_session(image_, path)), mark_(grading::mark_again(session_, grounds)) {}
 
 Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options) {

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 #include "grading/marking/school_mark.h"
 #include "grading/records/claims.h"
 #include "grading/records/ledger.h"
@@ -21,9 +21,9 @@ struct Filing {
 /// folder and enters it with the school's own mark. The file is read once: the bytes that are checked, with a log that lay beside them, are those
 /// that are kept and hashed. The entry is written after they are on disk. `grounds` are shared by a class. Throws Error when the file cannot be read
 /// as a session, DatabaseError when the disk refuses.
-[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options, grading::ExamGrounds& grounds);
+[[nodiscard]] Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options, grading::ExamContexts& grounds);
 [[nodiscard]] inline Filing file_session(Ledger& ledger, const std::string& session, const FilingOptions& options = {}) {
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   return file_session(ledger, session, options, grounds);
 }
 
@@ -32,7 +32,7 @@ struct Filing {
 class MarkedRecording {
  public:
   /// Throws Error when the file cannot be read as a session, or was never closed.
-  MarkedRecording(const std::string& session, grading::ExamGrounds& grounds);
+  MarkedRecording(const std::string& session, grading::ExamContexts& grounds);
 
  private:
   friend Filing file_session(Ledger& ledger, const MarkedRecording& marked, const FilingOptions& options);

@@ -105,7 +105,7 @@ std::vector<std::string> stations_of(const Registry& registry, Identities& ident
   return keys;
 }
 
-std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListWish& wish, const KeepTicket& keep) {
+std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListCommand& wish, const KeepTicket& keep) {
   // before the first ticket: a name that is none refuses the list
   const auto stations = stations_of(ledger.registry(), identities, wish.people, wish.times, wish.where);
   std::vector<Issued> out;

@@ -49,7 +49,7 @@ struct TimeSpan {
                                                std::int64_t now_utc_ns);
 
 /// Tickets for a list.
-struct ListWish {
+struct ListCommand {
   Ticket ticket;                   ///< as it was promised
   std::vector<Person> people;      ///< all of the list
   std::vector<TimeSpan> times;     ///< of each
@@ -69,6 +69,6 @@ struct Issued {
 using KeepTicket = std::function<void(const Issued& issued, const std::string& text)>;
 /// Issues them one after the other, then enters the seats that the list names. Who has a ticket already, or has sat, is refused, and the others get
 /// theirs. Throws as stations_of().
-[[nodiscard]] std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListWish& wish, const KeepTicket& keep);
+[[nodiscard]] std::vector<Issued> issue_list(Ledger& ledger, Identities& identities, const ListCommand& wish, const KeepTicket& keep);
 
 }  // namespace cavum::records

@@ -23,7 +23,7 @@ std::string entries_of(const FiledSession& s) {
 }
 
 /// An entry that was named by its number is released, or it is said why not.
-void require_releasable(const Registry& registry, const ReleaseWish& wish, const FiledSession& s) {
+void require_releasable(const Registry& registry, const ReleaseCommand& wish, const FiledSession& s) {
   const Message where = msg("entry {}", s.seq);
   for (const auto other : s.contested_by)
     if (holds(wish.sessions, other))
@@ -46,7 +46,7 @@ void require_releasable(const Registry& registry, const ReleaseWish& wish, const
 
 }  // namespace
 
-Release select_results(const Registry& registry, const ReleaseWish& wish) {
+Release select_results(const Registry& registry, const ReleaseCommand& wish) {
   for (const auto seq : wish.sessions)
     if (registry.session(seq) == nullptr)
       throw Error(LedgerError::unknown, msg("entry {}", seq), msg("is no session's entry"), msg("see `cavum ledger show`"));
@@ -78,7 +78,7 @@ Release select_results(const Registry& registry, const ReleaseWish& wish) {
   return out;
 }
 
-Release release_results(Ledger& ledger, const ReleaseWish& wish) {
+Release release_results(Ledger& ledger, const ReleaseCommand& wish) {
   Release out;
   ledger.append_all([&](const LedgerContent&) -> std::vector<Entry> {
     out = select_results(ledger.registry(), wish);

@@ -12,7 +12,7 @@
 namespace cavum::records {
 namespace {
 
-constexpr std::size_t k_longest_note = 1'000'000, k_most_signatures = 100, k_longest_name = 254, k_time_bytes = 8, k_signature_bytes = 64;
+constexpr std::size_t k_longest_note = 1'000'000, k_max_signatures = 100, k_longest_name = 254, k_time_bytes = 8, k_signature_bytes = 64;
 constexpr std::string_view k_dash = "\xe2\x80\x94 ";  // U+2014
 
 /// Space, plus, and Unicode's other spaces in UTF-8.
@@ -132,7 +132,7 @@ SignedNote parse_note(const std::string& note, const Where& where) {
     if (!is_plain_text(line)) no_note(where, msg("it holds a control character or bytes that are no UTF-8"));
     if (from >= gap + 2) {
       out.signatures.push_back(parse_signature_line(line + "\n", where));
-      if (out.signatures.size() > k_most_signatures) no_note(where, msg("it has more than {} signatures", k_most_signatures));
+      if (out.signatures.size() > k_max_signatures) no_note(where, msg("it has more than {} signatures", k_max_signatures));
     }
     from = end + 1;
   }

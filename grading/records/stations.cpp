@@ -19,7 +19,7 @@ namespace {
 using nlohmann::json;
 
 constexpr char k_code_alphabet[] = "0123456789ABCDEFGHJKMNPQRSTVWXYZ";  // Crockford's base 32
-constexpr std::size_t k_code_digits = 20, k_most_devices = 8, k_longest_station_name = 80;
+constexpr std::size_t k_code_digits = 20, k_max_devices = 8, k_longest_station_name = 80;
 constexpr std::int64_t k_late_ns = 86'400'000'000'000;  // a station that ran out may hand in for a day
 
 Bytes request_message(const StationRequest& request) {
@@ -62,8 +62,8 @@ void require_signed(const SignedRequest& asked, const Where& where) {
     throw Error(LedgerError::bad_signature, where,
                 has_code ? msg("the code's signature does not hold") : msg("the signature of the key that is replaced does not hold"),
                 msg("make it again on the station"));
-  if (r.devices.size() > k_most_devices)
-    throw Error(where, msg("names no list of at most {} styluses", k_most_devices), msg("make it again on the station"));
+  if (r.devices.size() > k_max_devices)
+    throw Error(where, msg("names no list of at most {} styluses", k_max_devices), msg("make it again on the station"));
 }
 
 Station* station_in(StationRegister& r, const std::string& key) {

@@ -139,7 +139,7 @@ struct BesideMeasures {
 struct PerforationEvent {
   std::int64_t tick = 0;       ///< onset of the drop
   std::int64_t seen_tick = 0;  ///< when the detector could say so
-  double sureness = 0.0;       ///< 0..1, of the detector; 0.5 = as likely as not
+  double probability = 0.0;    ///< 0..1, of the detector; 0.5 = as likely as not
   Vec3 site_mm;                ///< tip
   double force_before_n = 0.0, force_after_n = 0.0;
   double advance_mm = 0.0;  ///< of the tip, against the force, while it dropped

@@ -184,7 +184,7 @@ Json perforation_json(const PerforationMeasures& p) {
                       {"site_mm", point(e.site_mm)},
                       {"force_before_n", rounded(e.force_before_n)},
                       {"force_after_n", rounded(e.force_after_n)},
-                      {"sureness", rounded(e.sureness)},
+                      {"probability", rounded(e.probability)},
                       {"advance_mm", rounded(e.advance_mm)},
                       {"kind", e.fault ? "fault" : "aim"},
                       {"confirmed", e.confirmed}});
@@ -203,7 +203,7 @@ Json pauses_json(const Result& r) {
 }
 
 /// Only where there is something to say: a session graded before these were known grades to the same text.
-void put_what_there_was(Json& j, const Result& r) {
+void restore(Json& j, const Result& r) {
   const auto& a = r.accommodations;
   if (a != scenarios::Accommodations{}) {
     j["accommodations"] = {{"extra_time_percent", a.extra_time_percent},
@@ -246,7 +246,7 @@ Json to_json(const Result& r) {
   j["grading_version"] = k_grading_version;
   put_bounds(j, r, "/bounds/");
   j["bounds"]["force_n"] = rounded(r.motion.force_bound_n);  // of the mean and of the largest
-  put_what_there_was(j, r);
+  restore(j, r);
   j["notes"] = json_of(r.notes);
   return j;
 }

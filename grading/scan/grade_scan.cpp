@@ -92,13 +92,13 @@ struct Evened {
 /// Noise is averaged as wide as it needs, and no wider; elsewhere the surface is the tooth's own, and is known.
 Evened evened(const TriangleMesh& scan, const std::vector<SurfacePoint>& points, double noise_mm, const OuterSurface& tooth,
               const std::string& path) {
-  constexpr double k_per_noise = 22.0, k_least_mm = 0.15, k_most_mm = 0.35, k_deep_mm = 0.1, k_around_mm = 0.7, k_cell_mm = 0.25, k_point_mm = 0.12;
+  constexpr double k_per_noise = 22.0, k_min_mm = 0.15, k_max_mm = 0.35, k_deep_mm = 0.1, k_around_mm = 0.7, k_cell_mm = 0.25, k_point_mm = 0.12;
   Octree::Cursor cursor;
   std::vector<SurfacePoint> deep;
   for (const auto& p : points)
     if (tooth.distance(p.at_mm, cursor).mm < -k_deep_mm) deep.push_back(p);
   if (deep.empty()) return {scan, {}};
-  const double radius = std::clamp(k_per_noise * noise_mm, k_least_mm, k_most_mm);
+  const double radius = std::clamp(k_per_noise * noise_mm, k_min_mm, k_max_mm);
   const SurfaceIndex index(deep, k_cell_mm, 2.0);
   const auto near = [&](Vec3 p, double mm) { return length(p - index.near(p).at_mm) < mm; };
   std::vector<SurfacePoint> around;
@@ -117,13 +117,13 @@ Evened evened(const TriangleMesh& scan, const std::vector<SurfacePoint>& points,
 
 /// How far the surface may lie from the true one, by what scatters where nothing was cut.
 void put_bounds(const Evened& even, const OuterSurface& tooth, ScanFacts& facts) {
-  constexpr double k_sigmas = 4.0, k_least_mm = 0.03, k_most_mm = 0.1, k_least_mean_mm = 0.003;
+  constexpr double k_sigmas = 4.0, k_min_mm = 0.03, k_max_mm = 0.1, k_min_mean_mm = 0.003;
   // averaging makes no noise: more than the scan's own is something that was cut there
-  constexpr double k_finest_mm = k_least_mm / k_sigmas;
+  constexpr double k_finest_mm = k_min_mm / k_sigmas;
   facts.smoothed_noise_mm =
       even.points.empty() ? facts.fit.noise_mm : std::min(fit_of(even.points, {}, tooth).noise_mm, std::max(k_finest_mm, facts.fit.noise_mm));
-  facts.surface_bound_mm = std::clamp(k_sigmas * facts.smoothed_noise_mm, k_least_mm, k_most_mm);
-  facts.surface_mean_bound_mm = std::max(k_least_mean_mm, facts.smoothed_noise_mm);
+  facts.surface_bound_mm = std::clamp(k_sigmas * facts.smoothed_noise_mm, k_min_mm, k_max_mm);
+  facts.surface_mean_bound_mm = std::max(k_min_mean_mm, facts.smoothed_noise_mm);
 }
 
 NotShown not_shown_by_scan(const OuterSurface& outer) {

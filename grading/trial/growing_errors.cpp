@@ -46,7 +46,7 @@ std::vector<scenarios::Problem> judge_growth(const scenarios::Scenario& scenario
                                                msg("more of an error passes and less of it fails ({}): {} fails, {} passes with {} points",
                                                    ladder.what, failed_at, amount(i), as_number(r.points, 1)),
                                                msg("see what '{}' measures there, and let another criterion fail it", r.criteria[c].id),
-                                               scenarios::Mistake::wrong_work));
+                                               scenarios::Mistake::faulty_preparations));
       told = true;
     }
     if (r.points > before->points + r.points_bound + 1e-9) {
@@ -56,7 +56,7 @@ std::vector<scenarios::Problem> judge_growth(const scenarios::Scenario& scenario
                                                    as_number(before->points, 1), amount(i), as_number(r.points, 1)),
                                                msg("'{}' gives {} there and {} before: measure a largest value or a volume in its place",
                                                    r.criteria[c].id, as_number(r.criteria[c].points, 1), as_number(before->criteria[c].points, 1)),
-                                               scenarios::Mistake::wrong_work));
+                                               scenarios::Mistake::faulty_preparations));
       problems.back().warning = true;
     }
     if (r.verdict == Verdict::fail && !failed) {

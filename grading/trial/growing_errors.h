@@ -3,7 +3,7 @@
 
 #include <vector>
 
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 #include "scenarios/file/parse.h"
 
 namespace cavum::grading {

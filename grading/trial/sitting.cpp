@@ -33,7 +33,7 @@ Carved carve(const Tooth& tooth, const Cut& cut, const CutBox& box) {
   c.leaves.reserve(most);
   const auto shape = [&](Vec3 p) { return careful(cut(p), leaf); };
   if (!c.after.carve(box.low_mm, box.high_mm, shape, c.leaves))
-    throw Error(msg("battery"), msg("a piece of work needs more room than was reserved"), msg("report it with the scenario"));
+    throw Error(msg("trial"), msg("a piece of work needs more room than was reserved"), msg("report it with the scenario"));
   return c;
 }
 

@@ -1,4 +1,4 @@
-// The target as wrong pieces of work are made from: as it is, and open along the way in; in a frame whose z is that way in. Displaced work must be
+// The target as faulty preparations are made from: as it is, and open along the way in; in a frame whose z is that way in. Displaced work must be
 // possible from outside, so whatever lies above what is cut goes, too.
 #pragma once
 

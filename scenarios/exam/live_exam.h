@@ -77,9 +77,9 @@ class LiveExam {
 
  private:
   /// In a pause the pedal is released, whatever the foot does.
-  class Restrained final : public ServoDevice {
+  class Paused final : public ServoDevice {
    public:
-    explicit Restrained(ServoDevice& device) : device_(device) {}
+    explicit Paused(ServoDevice& device) : device_(device) {}
     [[nodiscard]] DeviceReading read(double elapsed_s) override {
       DeviceReading reading = device_.read(elapsed_s);
       if (held.load(std::memory_order_acquire)) reading.pedal = 0.0;
@@ -99,7 +99,7 @@ class LiveExam {
 
   std::unique_ptr<Exam> exam_;
   ServoState servo_state_;
-  Restrained device_;
+  Paused device_;
   double target_shares_;
   TickStream stream_;
   std::unique_ptr<RealTimeServo> servo_;

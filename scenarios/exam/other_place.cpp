@@ -6,8 +6,8 @@
 
 namespace cavum::scenarios {
 
-std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string& second_place,
-                                      const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin) {
+std::unique_ptr<Exam> start_on_first_writable_disk(const std::string& path, const std::string& second_place,
+                                                   const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin) {
   std::unique_ptr<Exam> exam;
   try {
     exam = begin(path);

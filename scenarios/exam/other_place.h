@@ -12,8 +12,8 @@ namespace cavum::scenarios {
 
 /// What `begin` returns at `path`; where that disk refuses already, at `second_place` unless that is empty: RecordingMoved of 0 ticks says why, and
 /// the recorder's path says where. Either way the exam knows its second place. Throws what `begin` throws when neither takes it.
-[[nodiscard]] std::unique_ptr<Exam> begin_somewhere(const std::string& path, const std::string& second_place,
-                                                    const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin);
+[[nodiscard]] std::unique_ptr<Exam> start_on_first_writable_disk(const std::string& path, const std::string& second_place,
+                                                                 const std::function<std::unique_ptr<Exam>(const std::string& path)>& begin);
 
 /// A place in the folder for temporary files ($TMPDIR) that nobody has used, named after the session at `path`: for when nobody answers.
 [[nodiscard]] std::string rescue_place(const std::string& path);

@@ -83,7 +83,7 @@ Runner::Runner(const Scenario& scenario, const ZoneMap& zones, const Tooth& toot
 }
 
 void Runner::emit(RunnerState& state, const RunnerEvent& event) const noexcept {
-  const std::size_t room = RunnerState::k_most_events - (std::holds_alternative<Finished>(event) ? 0 : 1);  // the last place is the end's
+  const std::size_t room = RunnerState::k_max_events - (std::holds_alternative<Finished>(event) ? 0 : 1);  // the last place is the end's
   if (state.event_count >= room) {
     ++state.events_dropped;
     return;

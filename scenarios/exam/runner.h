@@ -21,7 +21,7 @@ namespace cavum::scenarios {
 
 /// Everything that changes during an exam, outside the servo.
 struct RunnerState {
-  static constexpr std::size_t k_most_events = 256;
+  static constexpr std::size_t k_max_events = 256;
   std::int64_t ticks = 0;         ///< done so far
   std::int64_t step_start = 0;    ///< on the exam's clock
   std::int64_t paused_ticks = 0;  ///< of `ticks`; the exam's clock shows the others
@@ -44,7 +44,7 @@ struct RunnerState {
     std::int64_t tick = 0;
     RunnerEvent event;
   };
-  std::array<Noted, k_most_events> events{};
+  std::array<Noted, k_max_events> events{};
   std::uint32_t event_count = 0;
   std::uint32_t events_dropped = 0;
   /// As they are recorded, from number `first` on.

@@ -12,7 +12,7 @@ constexpr const char* k_percent = "accommodation.extra_time_percent";
 constexpr const char* k_seconds = "accommodation.extra_time_s";
 constexpr const char* k_left = "accommodation.left_handed";
 constexpr const char* k_contrast = "accommodation.high_contrast";
-constexpr double k_most_percent = 400, k_most_s = 36000;
+constexpr double k_max_percent = 400, k_max_s = 36000;
 
 std::string in_full(double v) {  // the shortest text that reads back as the same number
   std::array<char, 32> text{};
@@ -39,8 +39,8 @@ void require_sound(const Grant& g, const Where& where) {
   const auto within = [&](const std::optional<double>& v, double most, const Message& name) {
     if (v && !(*v >= 0 && *v <= most)) throw Error(where, msg("{} cannot be {}", name, as_number(*v)), msg("use 0 to {}", as_number(most)));
   };
-  within(g.extra_time_percent, k_most_percent, msg("extra time in percent"));
-  within(g.extra_time_s, k_most_s, msg("extra time in seconds"));
+  within(g.extra_time_percent, k_max_percent, msg("extra time in percent"));
+  within(g.extra_time_s, k_max_s, msg("extra time in seconds"));
   if (g.extra_time_percent && *g.extra_time_percent > 0 && *g.extra_time_percent < 1)
     throw Error(
         where, msg("extra time of {} is less than one percent", as_percent(*g.extra_time_percent, k_as_needed)),
@@ -59,8 +59,8 @@ std::vector<std::pair<std::string, std::string>> notes_of(const Grant& g) {
 Accommodations granted(const Accommodations& by_file, const std::vector<std::pair<std::string, std::string>>& notes, const Where& where) {
   Accommodations a = by_file;
   for (const auto& [key, value] : notes) {
-    if (key == k_percent) a.extra_time_percent = number_in(value, k_most_percent, where);
-    if (key == k_seconds) a.extra_time_s = number_in(value, k_most_s, where);
+    if (key == k_percent) a.extra_time_percent = number_in(value, k_max_percent, where);
+    if (key == k_seconds) a.extra_time_s = number_in(value, k_max_s, where);
     if (key == k_left) a.left_handed = truth_in(value, where);
     if (key == k_contrast) a.high_contrast = truth_in(value, where);
   }

@@ -173,7 +173,7 @@ std::vector<std::string> CheckedTable::texts(std::string_view key, bool required
     problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a list of texts, [\"a\", \"b\"]"), Mistake::wrong_type);
     return list;
   }
-  if (too_many(key, array->size(), k_most_items)) return list;
+  if (too_many(key, array->size(), k_max_items)) return list;
   for (const auto& item : *array) {
     if (item.is_string())
       list.push_back(item.value<std::string>().value_or(""));
@@ -193,7 +193,7 @@ std::vector<double> CheckedTable::numbers(std::string_view key, double low, doub
     problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write a list of numbers, [0.2, 0.5]"), Mistake::wrong_type);
     return list;
   }
-  if (too_many(key, array->size(), k_most_items)) return list;
+  if (too_many(key, array->size(), k_max_items)) return list;
   for (const auto& item : *array) {
     const auto value = item.is_number() ? item.value<double>() : std::nullopt;
     if (!value) {
@@ -246,7 +246,7 @@ std::vector<Vec3> CheckedTable::points(std::string_view key, std::size_t at_leas
     problem(key, msg("'{}' needs at least {} points", key, at_least), msg("write [[x, y], [x, y], ...]"), Mistake::missing);
     return list;
   }
-  if (too_many(key, array->size(), k_most_points)) return list;
+  if (too_many(key, array->size(), k_max_points)) return list;
   for (const auto& item : *array) {
     Vec3 v;
     if (read_vector(item, 2, v))
@@ -274,7 +274,7 @@ std::vector<const toml::table*> CheckedTable::tables(std::string_view key, bool 
     problem(key, msg("'{}' is {}", key, kind_of(*node)), msg("write tables, [[{}]]", key), Mistake::wrong_type);
     return list;
   }
-  if (too_many(key, array->size(), k_most_items)) return list;
+  if (too_many(key, array->size(), k_max_items)) return list;
   for (const auto& item : *array) {
     if (const auto* t = item.as_table())
       list.push_back(t);

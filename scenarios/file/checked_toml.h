@@ -16,11 +16,11 @@
 namespace cavum::scenarios {
 
 /// Items of one list, of texts or of tables: a tray, steps, criteria, bodies. Some are compared with all others, and each body with each leaf.
-inline constexpr std::size_t k_most_items = 100;
+inline constexpr std::size_t k_max_items = 100;
 /// Points of all outlines.
-inline constexpr std::size_t k_most_points = 100;
+inline constexpr std::size_t k_max_points = 100;
 /// Burs of a tray: for each it is asked how much of the target it reaches, up to 0.15 s.
-inline constexpr std::size_t k_most_tray = 16;
+inline constexpr std::size_t k_max_tray = 16;
 
 class ProblemList {
  public:

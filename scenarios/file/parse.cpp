@@ -76,7 +76,7 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
 
 /// The bands of a rubric, best first.
 std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
-  constexpr std::size_t k_most_bands = 6;
+  constexpr std::size_t k_max_bands = 6;
   std::vector<BandSpec> bands;
   for (const auto* table : t.tables("bands")) {
     CheckedTable b(*table, "[[rubric.bands]]", problems);
@@ -94,8 +94,8 @@ std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
     bands.push_back(std::move(band));
   }
   if (bands.empty()) return bands;
-  if (bands.size() < 2 || bands.size() > k_most_bands)
-    t.problem("bands", msg("there are {} bands", bands.size()), msg("write 2 to {}, best first", k_most_bands), Mistake::out_of_range);
+  if (bands.size() < 2 || bands.size() > k_max_bands)
+    t.problem("bands", msg("there are {} bands", bands.size()), msg("write 2 to {}, best first", k_max_bands), Mistake::out_of_range);
   if (std::none_of(bands.begin(), bands.end(), [](const BandSpec& b) { return b.most.has_value(); }))
     t.problem("bands", msg("the bands fail nobody"), msg("say how many criteria may lie in a band: most = 0 for the worst"), Mistake::contradictory);
   return bands;
@@ -217,9 +217,9 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
       t.problem_in("burs", i, msg("'{}' is no name of a bur", s.burs[i]), msg("use names of data/burs, such as round-1.0"), Mistake::bad_name);
     else if (std::find(s.burs.begin(), s.burs.begin() + static_cast<std::ptrdiff_t>(i), s.burs[i]) != s.burs.begin() + static_cast<std::ptrdiff_t>(i))
       t.problem_in("burs", i, msg("'{}' is listed twice", s.burs[i]), msg("list each bur once"), Mistake::duplicate);
-  if (s.burs.size() > k_most_tray) {
-    t.problem("burs", msg("'burs' has {} items", s.burs.size()), msg("list at most {}", k_most_tray), Mistake::too_large);
-    s.burs.resize(k_most_tray);
+  if (s.burs.size() > k_max_tray) {
+    t.problem("burs", msg("'burs' has {} items", s.burs.size()), msg("list at most {}", k_max_tray), Mistake::too_large);
+    s.burs.resize(k_max_tray);
   }
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);

@@ -9,7 +9,7 @@ namespace cavum::scenarios {
 namespace {
 
 constexpr double k_largest_mm = 100.0;
-constexpr std::size_t k_most_bodies = 12;  // of all zones
+constexpr std::size_t k_max_bodies = 12;  // of all zones
 
 using Places = std::map<std::string, Place>;
 
@@ -305,10 +305,10 @@ void check_sum(CheckedTable& zones, const ZoneSpec& z) {
       ++bodies;
       points += shape.outline.points_mm.size();
     }
-  if (bodies > k_most_bodies)
-    zones.problem("target", msg("the zones have {} bodies", bodies), msg("use at most {}", k_most_bodies), Mistake::too_large);
-  if (points > k_most_points)
-    zones.problem("target", msg("the outlines have {} points in all", points), msg("use at most {}", k_most_points), Mistake::too_large);
+  if (bodies > k_max_bodies)
+    zones.problem("target", msg("the zones have {} bodies", bodies), msg("use at most {}", k_max_bodies), Mistake::too_large);
+  if (points > k_max_points)
+    zones.problem("target", msg("the outlines have {} points in all", points), msg("use at most {}", k_max_points), Mistake::too_large);
 }
 
 MarginSpec read_margin(CheckedTable& zones, const char* key, ProblemList& problems) {

@@ -14,7 +14,7 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr std::size_t k_most_bytes = 32u << 20;
+constexpr std::size_t k_max_bytes = 32u << 20;
 constexpr double k_furthest_mm = 200;
 
 /// Calls `visit(shape, place)` for every STL of the zones.
@@ -58,7 +58,7 @@ std::vector<Problem> read_surfaces(Scenario& scenario, SurfaceFiles& files) {
     if (fs::is_directory(path, none)) return wrong(msg("it is a folder, not a file"), msg("name the STL file in it"));
     if (!fs::is_regular_file(path, none))
       return wrong(msg("there is no such file"), msg("put it beside the scenario, or give the way to it from there"));
-    if (fs::file_size(path, none) > k_most_bytes)
+    if (fs::file_size(path, none) > k_max_bytes)
       return wrong(msg("the file is larger than 32 MB"), msg("thin the surface out: a leaf is 0.05 mm wide"));
     try {
       if (find(files, shape.file) == nullptr) files.emplace_back(shape.file, read_file(path.string()));

@@ -203,7 +203,7 @@ borderline_percent = 3               # this close to the pass mark a person deci
 # in one or in a worse one; and in a criterion bands = [...], where they end.
 
 # Points run linearly from `full` to `zero`. critical_above or critical_below: beyond it the exam is failed.
-# `cavum scenario check` marks wrong pieces of work by this rubric, and none may pass; two criteria that charge the same say so: shares_with.
+# `cavum scenario check` marks faulty preparations by this rubric, and none may pass; two criteria that charge the same say so: shares_with.
 [[rubric.criteria]]
 id = "removed"
 title = "Cavity complete"

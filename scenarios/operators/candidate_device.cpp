@@ -11,9 +11,9 @@ CandidateDevice::CandidateDevice(Candidate candidate, const OmniModel& omni)
 }
 
 DeviceReading CandidateDevice::read(double elapsed_s) {
-  constexpr int k_most_steps = 100;
+  constexpr int k_max_steps = 100;
   constexpr std::int64_t k_rest_ticks = 1500;  // a finished candidate holds still: conditions of the last step can come true
-  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / k_tick_s + 0.5)), 1, k_most_steps);
+  const int steps = std::clamp(static_cast<int>(std::floor(elapsed_s / k_tick_s + 0.5)), 1, k_max_steps);
   Intent intent;
   Vec3 tip;
   for (int i = 0; i < steps; ++i) {

@@ -9,13 +9,13 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr double k_free_speed_mm_s = 5.0;     // through the air near the tooth
-constexpr double k_arrived_mm = 0.04;         // cutting; ways through the air need not end that exactly
-constexpr double k_lead_rate_mm_s = 15.0;     // how fast the hand builds up its push
-constexpr double k_correction = 2.0;          // of an error across the way ...
-constexpr double k_most_correction_mm = 0.8;  // ... up to this
-constexpr double k_astray_mm = 0.06;          // further off the way it no longer goes on along it
-constexpr double k_friction_n = 0.26;         // of the device's joints: a practised hand knows it
+constexpr double k_free_speed_mm_s = 5.0;    // through the air near the tooth
+constexpr double k_arrived_mm = 0.04;        // cutting; ways through the air need not end that exactly
+constexpr double k_lead_rate_mm_s = 15.0;    // how fast the hand builds up its push
+constexpr double k_correction = 2.0;         // of an error across the way ...
+constexpr double k_max_correction_mm = 0.8;  // ... up to this
+constexpr double k_astray_mm = 0.06;         // further off the way it no longer goes on along it
+constexpr double k_friction_n = 0.26;        // of the device's joints: a practised hand knows it
 constexpr double k_felt_n = 0.02;
 constexpr double k_firmest = 1.3;     // of the way that a push goes before its force is there: a hand that is held up pushes no harder
 constexpr double k_turning_s = 0.06;  // in which a push changes its direction
@@ -161,7 +161,7 @@ Operator::Aim Operator::aim_at(const Waypoint& goal, Vec3 proxy_mm) const noexce
   // A groove cut before leads the bur astray: back to the way first, or the wall between them would be left standing.
   if (const double astray = length(off); goal.cut && astray > k_astray_mm)
     aim.direction = normalized(aim.direction * (k_astray_mm / astray * (k_astray_mm / astray)) + off / astray);
-  if (const double c = length(aim.correction_mm); c > k_most_correction_mm) aim.correction_mm = aim.correction_mm * (k_most_correction_mm / c);
+  if (const double c = length(aim.correction_mm); c > k_max_correction_mm) aim.correction_mm = aim.correction_mm * (k_max_correction_mm / c);
   return aim;
 }
 

@@ -26,7 +26,7 @@ namespace {
 constexpr double k_thin_wall_mm2 = 1.0;                      // of a wall thinner than the leeway: less is a rim where the crown curves away
 constexpr double k_useless_share = 0.1, k_poor_share = 0.6;  // of the target, within a bur's reach
 constexpr double k_coarse_leaf_mm = 0.1;
-constexpr double k_least_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
+constexpr double k_min_wall_mm2 = 0.05;  // less hard tissue beside the target is no wall
 using Ranges = std::map<std::string, ValueRange>;
 
 /// "a, b or c": first what measures nothing else.
@@ -353,7 +353,7 @@ std::array<double, k_walls> Adviser::wall_mm2() const {
 
 /// A figure of a wall that the cavity does not have.
 void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
-  if (measure.walls != 1 || mm2[measure.first_wall] >= k_least_wall_mm2) return;
+  if (measure.walls != 1 || mm2[measure.first_wall] >= k_min_wall_mm2) return;
   const Term wall = wall_text(measure.first_wall, zones_.facing());
   warn(fmt::format("rubric/criteria/{}/metric", i),
        measure.figure == WallFigure::max_over ? msg("in this tooth the cavity does not have {}: nobody can lose these points", wall)

@@ -19,7 +19,7 @@ namespace {
 /// An Error as a problem at `place`; where it names a line of the scenario itself, at that.
 Problem problem_of(const Error& e, const Scenario& s, const std::string& place) {
   Problem p = problem_at(s, place, e.problem(), e.advice());
-  for (int m = 0; m <= static_cast<int>(Mistake::wrong_work); ++m)
+  for (int m = 0; m <= static_cast<int>(Mistake::faulty_preparations); ++m)
     if (e.code() == static_cast<Mistake>(m)) p.mistake = static_cast<Mistake>(m);
   if (const FilePlace* at = e.file_place(); at != nullptr && at->file == s.path && at->line > 0) p.where = *at;
   return p;

@@ -28,7 +28,7 @@ struct CheckedScenario {
 };
 
 /// `tooth_file`: lay the zones into this tooth instead of the scenario's own. Throws Error when that one cannot be read.
-/// Not whether wrong work passes: grading/trial tries that.
+/// Not whether faulty preparations passes: grading/trial tries that.
 [[nodiscard]] CheckedScenario check_whole(const std::string& text, const std::string& path, const std::string& tooth_file = "");
 
 /// The same on the scenario's own tooth as it is in memory: with landmarks that its file does not have yet.

@@ -17,7 +17,7 @@ std::string over_pulp_criterion() {
       "\n[[rubric.criteria]]\nid = \"over_pulp\"\ntitle = \"Hard tissue left over the pulp\"\nmetric = \"dentin_over_pulp_mm\"\nfull = {}\nzero = "
       "{}\n"
       "points = 5\ncritical_below = {}                 # with less the pulp is injured\n",
-      fixed(k_planned_over_pulp_mm - 0.1, 1), fixed(k_least_over_pulp_mm, 1), fixed(k_least_over_pulp_mm, 1));
+      fixed(k_planned_over_pulp_mm - 0.1, 1), fixed(k_min_over_pulp_mm, 1), fixed(k_min_over_pulp_mm, 1));
 }
 
 double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones) {

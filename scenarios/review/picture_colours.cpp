@@ -34,7 +34,7 @@ constexpr HeatBand k_heat[] = {{80, "#9c3a02", "#0b4488"},
                                {60, "#dd6410", "#2b78bd"},
                                {40, "#f58f3d", "#63a5d6"},
                                {20, "#fdb777", "#9fc8e6"},
-                               {k_least_heat_percent, "#fdd9b5", "#cfe1f2"}};
+                               {k_min_heat_percent, "#fdd9b5", "#cfe1f2"}};
 
 struct KeyEntry {
   std::string colour;

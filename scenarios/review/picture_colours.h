@@ -23,9 +23,9 @@ struct Palette {
 [[nodiscard]] const char* tissue_colour(const Palette& colours, std::uint8_t tissue);
 /// Of what was removed in a zone.
 [[nodiscard]] const char* finding_colour(const Palette& colours, Zone zone);
-/// Of a share of a class, per cent: + removed outside the target, - left inside it; "" below k_least_heat_percent.
+/// Of a share of a class, per cent: + removed outside the target, - left inside it; "" below k_min_heat_percent.
 [[nodiscard]] const char* heat_colour(double percent);
-inline constexpr double k_least_heat_percent = 5;
+inline constexpr double k_min_heat_percent = 5;
 
 /// With two digits at most, as short as they allow.
 [[nodiscard]] std::string svg_number(double v);

@@ -11,7 +11,7 @@ namespace cavum::scenarios {
 namespace {
 
 constexpr std::array<double, 4> k_margins_mm{1.6, 1.2, 0.9, 0.7};
-constexpr double k_least_left_mm = 0.5, k_inside_mm = 0.05;
+constexpr double k_min_left_mm = 0.5, k_inside_mm = 0.05;
 
 /// From the line's nearest place, seen from above.
 double away_mm(Vec3 p, const std::vector<Vec3>& line) {
@@ -58,7 +58,7 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
       laid.left_mm[e] = 1e9;
       if (ends[e].asked)
         for (const Vec3& p : ends[e].ridge.crest_mm) laid.left_mm[e] = std::min(laid.left_mm[e], away_mm(p, line) - 0.5 * width_mm);
-      can[e] = can[e] || (laid.takes_in[e] && laid.left_mm[e] >= k_least_left_mm);
+      can[e] = can[e] || (laid.takes_in[e] && laid.left_mm[e] >= k_min_left_mm);
     }
     all.push_back(laid);
   }
@@ -66,8 +66,8 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
   for (const Laid& laid : all) {
     bool may = true;
     for (std::size_t e = 0; e < ends.size(); ++e) {
-      may = may && laid.left_mm[e] >= k_least_left_mm && (laid.takes_in[e] || !can[e]);
-      if (laid.left_mm[e] < k_least_left_mm && margins.why_none.empty())
+      may = may && laid.left_mm[e] >= k_min_left_mm && (laid.takes_in[e] || !can[e]);
+      if (laid.left_mm[e] < k_min_left_mm && margins.why_none.empty())
         margins.why_none = e == 0 ? msg("the crest of its mesial ridge, as it was found, comes within {} of the fissure's cavity",
                                         as_mm(std::max(0.0, laid.left_mm[e]), 1))
                                   : msg("the crest of its distal ridge, as it was found, comes within {} of the fissure's cavity",

@@ -48,7 +48,7 @@ double heat_of_column(const PictureSpec& spec, int column, int row, int top) {
     over = std::max(over, heat);
     left = std::min(left, heat);
   }
-  return over >= k_least_heat_percent ? over : left;
+  return over >= k_min_heat_percent ? over : left;
 }
 
 /// The worst zone of what was removed from a column, between its tops after and before.

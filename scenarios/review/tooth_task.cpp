@@ -30,15 +30,15 @@ namespace {
 // millimetre below the contact and clear of the neck (Sturdevant's Art and Science of Operative Dentistry, amalgam classes I and II).
 constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5;
 constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
-constexpr double k_below_contact_mm = 0.5, k_least_above_neck_mm = 0.8;
+constexpr double k_below_contact_mm = 0.5, k_min_above_neck_mm = 0.8;
 constexpr double k_in_dentin_mm = 0.2;
 constexpr double k_crown_walls_share = 0.1;  // a crown's shell is large: a quarter of it is more than its container holds
-constexpr double k_least_walls_mm3 = 0.6;    // twice what the template's criterion on walls gives full marks for
+constexpr double k_min_walls_mm3 = 0.6;      // twice what the template's criterion on walls gives full marks for
 
 /// Sound ones looked at: the first without a warning that passes its trial is taken.
-constexpr std::size_t k_most_tried = 4;
+constexpr std::size_t k_max_tried = 4;
 // The last step of a task asks for 87 % of the cavity, and the expert removes some 3 % less than that reach.
-constexpr double k_least_reach = 0.895;
+constexpr double k_min_reach = 0.895;
 
 struct ToothTask {
   const char* word;
@@ -160,11 +160,11 @@ Message no_contact(const Landmarks& l, int side) {
 std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
   std::vector<TaskChoice> list;
   const std::string_view word = side > 0 ? "mesial" : "distal";
-  const double above_neck = std::max(k_least_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
-                                                                furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const double above_neck = std::max(k_min_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
+                                                              furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
   const ContactBox beside =
       box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
-                 k_least_above_neck_mm, k_box_widest_mm);
+                 k_min_above_neck_mm, k_box_widest_mm);
   const double isthmus = isthmus_mm(l);
   const double above = beside.above_neck_mm;
   const RidgeMargins ridges = with_step ? ridge_margins(l, isthmus_mm(l), side) : RidgeMargins{};  // the other ridge stands
@@ -339,7 +339,7 @@ double time_limit_s(const std::optional<double>& expert_s) { return 60.0 * std::
 /// A share of the target's volume.
 double wall_limit_mm3(const ZoneMap& zones, double share) {
   const double target_mm3 = static_cast<double>(zones.target_shares()) / static_cast<double>(ZoneMap::k_share_units) * zones.leaf_volume_mm3();
-  return std::max(k_least_walls_mm3, share * target_mm3);
+  return std::max(k_min_walls_mm3, share * target_mm3);
 }
 
 }  // namespace
@@ -419,7 +419,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                   .criteria = criteria,
                   .walls_limit_of = asked->walls_share == 0.25 ? "a quarter of the cavity" : "a tenth of what is taken off"};
     CheckedScenario checked = check_whole(scenario_text(text), path);
-    if (checked.sound() && checked.expert.reach < k_least_reach) {
+    if (checked.sound() && checked.expert.reach < k_min_reach) {
       reaches = std::max(reaches, checked.expert.reach);
     } else if (const double over_pulp =
                    checked.laid && spares_the_pulp(*asked, tooth) ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_planned_over_pulp_mm;
@@ -437,7 +437,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
           unwise.push_back(std::move(found));
         else if (holds(written))
           return found;
-        if (++tried == k_most_tried) break;
+        if (++tried == k_max_tried) break;
       }
     }
     if (refused.empty() && !checked.problems.empty()) refused = checked.problems[0].what;

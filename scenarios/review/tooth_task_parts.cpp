@@ -18,7 +18,7 @@ constexpr double k_class_5_height_mm = 2.0, k_corner_mm = 0.55;
 
 // Dexterity: the house's own. As wide and long as the shapes of data/scenarios, a millimetre deep.
 constexpr double k_dexterity_up = 0.42;  // of the way from the neck to the cusp or edge: the buccal surface stands upright there
-constexpr double k_least_crown_mm = 5.0;
+constexpr double k_min_crown_mm = 5.0;
 
 /// Extent along x of a line, mm.
 double length_in_x(const Polyline& line) {
@@ -105,7 +105,7 @@ std::vector<TaskChoice> class_5(const Tooth&, const Landmarks& l) {
 Message why_no_crown(const Tooth&, const Landmarks& l) {
   if (l.neck_mm.empty()) return msg("its neck is not found");
   if (l.cusps.empty() && l.incisal_edge_mm.empty()) return msg("neither cusps nor an incisal edge are found");
-  return buccal_crown_mm(l) < k_least_crown_mm ? msg("its crown is too low for a stump") : Message();
+  return buccal_crown_mm(l) < k_min_crown_mm ? msg("its crown is too low for a stump") : Message();
 }
 
 // Total occlusal convergence 10 to 20 degrees, a stump at least 4 mm high on molars and 3 mm on others (Goodacre, Campagni and Aquilino, J Prosthet
@@ -139,7 +139,7 @@ std::vector<TaskChoice> crown_preparation(const Tooth&, const Landmarks& l) {
 Message why_no_dexterity(const Tooth&, const Landmarks& l) {
   if (l.neck_mm.empty()) return msg("its neck is not found");
   if (buccal_crown_mm(l) <= 0) return msg("neither a buccal cusp nor an incisal edge is found");
-  return buccal_crown_mm(l) < k_least_crown_mm ? msg("its buccal surface is too low") : Message();
+  return buccal_crown_mm(l) < k_min_crown_mm ? msg("its buccal surface is too low") : Message();
 }
 
 std::vector<TaskChoice> dexterity(const Landmarks& l, DexterityShape shape) {

@@ -15,7 +15,7 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr double k_least_cosine = 0.70710678118654752;  // of the lean: 45 degrees
+constexpr double k_min_cosine = 0.70710678118654752;  // of the lean: 45 degrees
 constexpr double k_pad_mm = 0.1;
 
 /// A shape that stands upright in a frame.
@@ -56,7 +56,7 @@ ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Mes
   ShapeFrame way;
   way.at = mouth;
   way.z = normalized(entry - mouth);
-  if (!(dot(way.z, axis) >= k_least_cosine) || !(way.z.z >= k_least_cosine))
+  if (!(dot(way.z, axis) >= k_min_cosine) || !(way.z.z >= k_min_cosine))
     throw Error(where, msg("the way from the canal through the lingual surface leans by more than 45 degrees"),
                 msg("look at `cavum tooth landmarks`, or draw a prism (data/scenarios/incisor_access.toml)"));
   way.x = normalized(Vec3{1, 0, 0} - way.z * way.z.x);

@@ -16,7 +16,7 @@ namespace {
 
 constexpr double k_field_pad_mm = 0.5;  // of the field around the outline
 constexpr double k_before_mm = 0.02;    // out of the cavity: soft tissue that lies before it
-constexpr double k_most_lean = 0.55;    // tangent of 29 degrees
+constexpr double k_max_lean = 0.55;     // tangent of 29 degrees
 constexpr double k_march_mm = 0.02, k_slope_mm = 0.1, k_grid_mm = 0.2;
 constexpr std::size_t k_fewest_of = 3;  // points of the neck on one side
 
@@ -145,7 +145,7 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
     throw Error(where, msg("the outline lies beside the tooth '{}'", tooth.name), msg("move it onto the crown, or make it larger"));
   const Vec3 normal = normalized(surface.normal, {0, double(spec.side), 0});
   ground.surface_y = *surface.middle_y;
-  ground.lean = std::clamp(normal.z / std::max(1e-6, spec.side * normal.y), -k_most_lean, k_most_lean);
+  ground.lean = std::clamp(normal.z / std::max(1e-6, spec.side * normal.y), -k_max_lean, k_max_lean);
   const Vec3 way = normalized(Vec3{0, double(spec.side), ground.lean});
   return {std::make_unique<SideCavity>(spec, std::move(ground), std::move(outline), std::move(depth)), way};
 }

@@ -46,7 +46,7 @@ class FilingWithoutMemory : public testing::Test {
     testing_allocation::begin_counting(n);
     try {
       records::Ledger ledger(folder, records::load_school_key(records::school_key_path()));
-      grading::ExamGrounds grounds;
+      grading::ExamContexts grounds;
       filing = records::file_session(ledger, exam, {}, grounds);
     } catch (const std::bad_alloc&) {
       said = "memory: there is not enough; close other programs, and try again";
@@ -78,7 +78,7 @@ class FilingWithoutMemory : public testing::Test {
   std::optional<School> school_;
   std::string exam_;
   std::vector<std::string> before_;
-  grading::ExamGrounds grounds_;
+  grading::ExamContexts grounds_;
 };
 
 TEST_F(FilingWithoutMemory, SaysSoAndLeavesTheLedgerAsItWas) {

@@ -188,7 +188,7 @@ def fuzz_files(s):
     texts = {n: open(s.p(n), "rb").read() for n in ("receipts/receipt-14.json", "cosigned", "to-sign", "results.json", "finn.ticket", "seat1.request", "home/cosigners", "class.csv", "quick.toml")}
     for i in range(ROUNDS):
         for name, args in (("receipts/receipt-14.json", ("ledger", "verify", s.L, "--receipt")), ("cosigned", ("ledger", "verify", s.L, "--cosigned")), ("results.json", ("ledger", "verify", s.L, "--results")),
-                           ("seat1.request", ("ledger", "station", s.L, "--enrol")), ("to-sign", ("ledger", "cosign", "--out", s.p(f"c{i}"))), ("quick.toml", ("scenario", "check", "--no-battery"))):
+                           ("seat1.request", ("ledger", "station", s.L, "--enrol")), ("to-sign", ("ledger", "cosign", "--out", s.p(f"c{i}"))), ("quick.toml", ("scenario", "check", "--no-trial"))):
             s.text("f", spoil(texts[name], dice), "wb")
             last = s.run(*args, s.p("f"), home=s.p("cosigner") if "cosign" in args else None)
         s.text("home/cosigners", spoil(texts["home/cosigners"], dice), "wb")

@@ -13,7 +13,7 @@ def scenario(s):
 @attack("input", ACCEPTED, "an untouched scenario has no mistakes")
 def control_scenario(s):
     """The cheap scenario."""
-    return s.run("scenario", "check", "--no-battery", s.p("quick.toml"))
+    return s.run("scenario", "check", "--no-trial", s.p("quick.toml"))
 
 
 @attack("input", SURVIVES, "scenario check names every mistake")
@@ -38,7 +38,7 @@ def scenarios_with_odd_numbers(s):
     for key in ("max_rpm", "time_limit_s", "sides_mm", "radius_mm", "depth_mm", "pass_percent", "borderline_percent", "full", "zero", "points", "critical_above"):
         for value in ("nan", "inf", "-1e308", "9223372036854775807"):
             text = re.sub(rf"\b{key} = [\d.]+", f"{key} = {value}", good, count=1)
-            last = s.run("scenario", "check", "--no-battery", s.text("m.toml", text))
+            last = s.run("scenario", "check", "--no-trial", s.text("m.toml", text))
             if value == "nan":
                 s.must(last.rc != 0, f"{key} = nan is no mistake")
     return last

@@ -58,11 +58,11 @@ def scenario_texts(s):
     text = open(s.p("quick.toml"), encoding="utf-8").read()
     text = re.sub(r"(title|instruction) = .*", lambda m: m[1] + " = " + evil, text)
     s.text("evil.toml", text)
-    s.run("scenario", "check", "--no-battery", s.p("evil.toml"))
+    s.run("scenario", "check", "--no-trial", s.p("evil.toml"))
     s.text("id.toml", text.replace('id = "block_cavity"', 'id = "=cmd"'))
     s.must(s.run("scenario", "check", s.p("id.toml")).rc != 0, "an id that is a formula is taken")
     s.text("escape.toml", text.replace("u202e", "u001b[2J"))
-    s.run("scenario", "check", "--no-battery", s.p("escape.toml"))
+    s.run("scenario", "check", "--no-trial", s.p("escape.toml"))
     r = s.run("exam", s.p("evil.toml"), "--candidate", "x", "--operator", "expert", "--out", s.p("m.cavum"), "--quiet", "--report", s.p("r.html"), home=s.p("seat1"))
     if os.path.exists(s.p("r.html")):
         no_markup(s, s.p("r.html"))

@@ -52,7 +52,7 @@ int main(int argc, char** argv) {
     std::set<std::string> files;
     for (const auto& f : std::filesystem::directory_iterator(wanted.sessions)) files.insert(f.path().string());
     double replay = 0, filing = 0;
-    grading::ExamGrounds grounds;
+    grading::ExamContexts grounds;
     for (const auto& file : files) {  // in turns: a machine that slows down slows both
       const double a = cpu_seconds();
       if (!verify_session(file).verified) throw Error(file, msg("is not verified"), msg("this is a defect"));

@@ -184,7 +184,7 @@ Hidden write_recording(const Request& request, const std::filesystem::path& fold
     limit = break_rows(draw, request.names[0], rows);
   }
 
-  const std::vector<std::string> strange{"motor_ma", "battery_v", "humidity_pct", "table_tilt_mrad", "bus_load"};
+  const std::vector<std::string> strange{"motor_ma", "trial_v", "humidity_pct", "table_tilt_mrad", "bus_load"};
   const std::string other = draw.one_of(strange);
   if (hidden.variable == "other") hidden.variable = other;
   std::vector<Column> columns{{"spindle_rpm", &m.spindle_rpm, "0"}, {"posture_deg", &m.posture_deg, "2"}};

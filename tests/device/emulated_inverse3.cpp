@@ -178,8 +178,8 @@ std::string EmulatedInverse3::state(bool first) const {
     if (g.wired)
       wired.push_back({{"device_id", id}, {"state", {{"orientation", orientation}, {"hall", 0}, {"button", g.a}}}});
     else
-      wireless.push_back({{"device_id", id},
-                          {"state", {{"orientation", orientation}, {"buttons", {{"a", g.a}, {"b", g.b}, {"c", false}}}, {"battery_level", 0.8}}}});
+      wireless.push_back(
+          {{"device_id", id}, {"state", {{"orientation", orientation}, {"buttons", {{"a", g.a}, {"b", g.b}, {"c", false}}}, {"trial_level", 0.8}}}});
   }
   return message.dump();
 }

@@ -26,7 +26,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr char k_office_password[] = "correct horse battery";
+constexpr char k_office_password[] = "correct horse trial";
 constexpr char k_office_scenario[] = CAVUM_SOURCE_DIR "/tests/replay/block_cavity.toml";
 constexpr std::size_t k_station_asks = 5;
 
@@ -148,8 +148,8 @@ class OpenOffice {
 OpenOffice& open_office(bool changed) {
   static std::unique_ptr<OpenOffice> office = std::make_unique<OpenOffice>();
   static int changes = 0;
-  constexpr int k_most_changes = 100;
-  if (changed && ++changes > k_most_changes) {
+  constexpr int k_max_changes = 100;
+  if (changed && ++changes > k_max_changes) {
     changes = 0;
     office.reset();
     office = std::make_unique<OpenOffice>();

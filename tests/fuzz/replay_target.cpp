@@ -11,7 +11,7 @@
 namespace cavum::fuzz {
 namespace {
 
-constexpr std::size_t k_tick_bytes = 33, k_most_ticks = 4;
+constexpr std::size_t k_tick_bytes = 33, k_max_ticks = 4;
 
 TickInput input_of(Data b) {
   ByteReader in(b, "tick");
@@ -48,7 +48,7 @@ const Start& start() {
 }
 
 std::uint64_t run(Data data, ServoState state) {
-  for (std::size_t i = 0; i < k_most_ticks && data.size() >= k_tick_bytes; ++i, data = data.subspan(k_tick_bytes)) {
+  for (std::size_t i = 0; i < k_max_ticks && data.size() >= k_tick_bytes; ++i, data = data.subspan(k_tick_bytes)) {
     const TickOutput output = step(start().fresh.model, state, input_of(data));
     static_cast<void>(make_tick_record(output));
     if (!is_finite(output.rendered_force_n) || !is_finite(output.proxy_mm) || !std::isfinite(output.model_force_n)) std::abort();
@@ -68,7 +68,7 @@ std::vector<Bytes> replay_seeds() {
   std::vector<Bytes> seeds;
   for (const std::size_t first : {std::size_t{0}, std::size_t{10}, std::size_t{20}, std::size_t{26}}) {
     Bytes seed{static_cast<std::uint8_t>(first == 20)};
-    for (std::size_t i = 0; i < k_most_ticks; ++i) {
+    for (std::size_t i = 0; i < k_max_ticks; ++i) {
       const Bytes tick = bytes_of(start().motion[first + i]);
       seed.insert(seed.end(), tick.begin(), tick.end());
     }

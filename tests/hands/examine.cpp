@@ -46,7 +46,7 @@ Examined examine(const Drilled& d, const grading::BreakthroughSettings& settings
     const bool at_drop = !opened.empty() && out.drop.from_tick >= 0 &&
                          (within(out.drop.from_tick - k_early_ticks, out.drop.to_tick) || within(felt - grading::k_felt_drop_ticks, felt));
     if (at_drop && !out.seen) out.seen = true, out.delay_ms = static_cast<double>(e.seen_tick - felt);
-    if (at_drop || opened.empty()) out.sureness = std::max(out.sureness, e.sureness);
+    if (at_drop || opened.empty()) out.probability = std::max(out.probability, e.probability);
   }
   return out;
 }

@@ -20,7 +20,7 @@ struct Examined {
   std::vector<grading::Breakthrough> events;
   bool seen = false;         ///< an event from 0.5 s before to 1 s after the steepest stretch, or the one in which the drop could be felt first
   double delay_ms = 0.0;     ///< of the event, after the drop could be felt
-  double sureness = 0.0;     ///< of the surest event that counts: at the drop, or anywhere where nothing was opened
+  double probability = 0.0;  ///< of the surest event that counts: at the drop, or anywhere where nothing was opened
   bool false_alarm = false;  ///< an event further than that from any opening
 };
 

@@ -51,17 +51,17 @@ std::string table(std::span<const Examined> all) {
 std::string log_head() {
   return "seed,hand,style,tooth,bur,meant_to_open,tilt_deg,friction_n,noise_n,quantum_mm,seconds,opened_tick,area_mm2,missing_n,share,from_tick,to_"
          "tick,"
-         "felt_tick,seen,delay_ms,sureness,false_alarm,events";
+         "felt_tick,seen,delay_ms,probability,false_alarm,events";
 }
 
 std::string log_line(const Examined& e) {
   std::string events;
-  for (const auto& b : e.events) events += fmt::format("{}{}:{}:{:.2f}", events.empty() ? "" : ";", b.tick, b.seen_tick, b.sureness);
+  for (const auto& b : e.events) events += fmt::format("{}{}:{}:{:.2f}", events.empty() ? "" : ";", b.tick, b.seen_tick, b.probability);
   std::string style = e.style;
   std::replace(style.begin(), style.end(), ',', ';');
   return fmt::format("{},{},{},{},{:d},{:.0f},{},{},{},{:.1f},{},{:.4f},{:.3f},{:.2f},{},{},{},{:d},{:.0f},{:.2f},{:d},{}", e.hand, style, e.tooth,
                      e.bur, e.meant_to_open, e.tilt_deg, e.friction_n, e.noise_n, e.quantum_mm, e.seconds, e.opened_tick, e.area_mm2,
-                     e.drop.missing_n, e.drop.share, e.drop.from_tick, e.drop.to_tick, e.drop.felt_tick, e.seen, e.delay_ms, e.sureness,
+                     e.drop.missing_n, e.drop.share, e.drop.from_tick, e.drop.to_tick, e.drop.felt_tick, e.seen, e.delay_ms, e.probability,
                      e.false_alarm, events);
 }
 

@@ -21,8 +21,8 @@ const std::string k_folder = k_source + "/tests/scenarios/broken";
 
 constexpr std::array k_mistakes{"other",       "not_toml",     "missing",  "wrong_type",  "out_of_range",  "too_large",
                                 "unknown_key", "unknown_name", "bad_name", "duplicate",   "contradictory", "condition",
-                                "outline",     "surface",      "trespass", "unreachable", "idle",          "wrong_work"};
-static_assert(k_mistakes.size() == static_cast<std::size_t>(Mistake::wrong_work) + 1);
+                                "outline",     "surface",      "trespass", "unreachable", "idle",          "faulty_preparations"};
+static_assert(k_mistakes.size() == static_cast<std::size_t>(Mistake::faulty_preparations) + 1);
 
 /// The names and figures of a message, in their order: what stays when its sentence is written anew.
 std::string values_of(const Message& m) {

@@ -35,8 +35,8 @@ records::Ledger open_ledger(records::LedgerUse use = records::LedgerUse::add) {
 }
 
 /// The tooth and its zones, made once: days differ in other things.
-grading::ExamGrounds& grounds() {
-  static grading::ExamGrounds shared;
+grading::ExamContexts& grounds() {
+  static grading::ExamContexts shared;
   return shared;
 }
 

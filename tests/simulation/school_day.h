@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 #include "grading/records/cosign.h"
 #include "grading/records/ledger.h"
 #include "grading/records/ticket.h"

@@ -12,7 +12,7 @@ namespace cavum::simulation {
 namespace {
 
 constexpr std::size_t k_stack = 1 << 20;
-constexpr std::uint64_t k_most_calls = 2'000'000;
+constexpr std::uint64_t k_max_calls = 2'000'000;
 World* g_world = nullptr;
 std::uint64_t g_devices = 0x1000;
 
@@ -118,7 +118,7 @@ void World::run(const std::function<void(Process&)>& at_end) {
       if (p->wakes_ns <= now_ns_) ready.push_back(p);
     }
     if (!any && told.size() == processes_.size()) return;
-    if (calls_ > k_most_calls) {
+    if (calls_ > k_max_calls) {
       stuck_ = true;
       return;
     }

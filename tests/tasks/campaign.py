@@ -1,5 +1,5 @@
 """Tasks on teeth that nobody tuned them for: each tooth is made from a drawn seed, or is a file, each task is written by `scenario new`, which lets the
-built-in expert take it and tries wrong work, and refuses what does not hold.
+built-in expert take it and tries faulty preparations, and refuses what does not hold.
 
 campaign.py --cavum build/release/cavum --work DIR [--seed N] [--molars 2] [--premolars 2] [--incisors 2] [--leaf-mm 0.05] [--tasks WORD,WORD] [--jobs 1]
 campaign.py ... --teeth molar:2,premolar:2,scanned.cvt --tasks slot_mesial
@@ -104,7 +104,7 @@ def table_row(row):
     if row["refused"]:
         return "| %s | %s | %.0f | | | refused: %s |" % (row["tooth"], row["task"], row["took_s"], row["refused"])
     return "| %s | %s | %.0f | %.1f | 0 of %d | %s |" % (
-        row["tooth"], row["task"], row["took_s"], row["expert_percent"], row["wrong_work"], row["chosen"])
+        row["tooth"], row["task"], row["took_s"], row["expert_percent"], row["faulty_preparations"], row["chosen"])
 
 
 def main():
@@ -134,7 +134,7 @@ def main():
             rows.append(done.result())
             print(table_row(rows[-1]), flush=True)
     rows.sort(key=lambda r: (r["tooth"], r["task"]))
-    print("\n| tooth | task | written and tried, s | expert, % | wrong work that passes | chosen |\n| - | - | - | - | - | - |")
+    print("\n| tooth | task | written and tried, s | expert, % | faulty preparations that passes | chosen |\n| - | - | - | - | - | - |")
     for row in rows:
         print(table_row(row))
     refused = [r for r in rows if r["refused"]]

@@ -157,7 +157,7 @@ TEST_F(CommandLine, ANewTaskIsTriedBeforeItIsWritten) {
   ASSERT_EQ(made.exit_code, 0) << made.err;
   const json said = json::parse(made.out);
   EXPECT_GE(said["tried"]["expert_percent"].get<double>(), 90.0);
-  EXPECT_GT(said["tried"]["wrong_work"].get<int>(), 20);
+  EXPECT_GT(said["tried"]["faulty_preparations"].get<int>(), 20);
   EXPECT_NE(read_text_file(path("slot.toml")).find("tooth = \"upper_premolar.cvt\""), std::string::npos);
   // too small for any bur: refused, and nothing is written
   expect_refused("scenario new --tooth premolar --task class_5 --out " + path("small.toml"), {"class_5"});
@@ -172,7 +172,7 @@ TEST_F(CommandLine, SolveSaysWhyATaskCannotBePassed) {
   text.replace(text.find("time_limit_s = 120"), 18, "time_limit_s = 8");
   write_text_file(path("hasty.toml"), text);
   const std::string tooth = " --tooth " + std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block.cvt";
-  const Ran check = run("scenario check --no-battery " + path("hasty.toml") + tooth);
+  const Ran check = run("scenario check --no-trial " + path("hasty.toml") + tooth);
   EXPECT_EQ(check.exit_code, 0) << "warnings alone are no mistakes\n" << check.out;
   EXPECT_NE(check.out.find("hasty.toml:7:16: "), std::string::npos) << check.out;
   const Ran solve = run("scenario solve --json " + path("hasty.toml") + tooth + " --out " + path("hasty.cavum"));

@@ -46,7 +46,7 @@ class HostileFiles : public testing_ui::Program {
     scenarios::run_exam(*exam, candidate);
     exam->recorder().add_event(1, Announced{{1, text}});
     exam->recorder().flush();
-    grading::ExamGrounds grounds(*setup);
+    grading::ExamContexts grounds(*setup);
     const auto graded = grading::load_for_grading(SessionReader(file), exam->tooth_now(), grounds);
     json result = grading::to_json(grading::grade(graded->input(), graded->rubric));
     result["verdict"] = text;

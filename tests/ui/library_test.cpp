@@ -46,7 +46,7 @@ class Library : public ::testing::TestWithParam<std::string> {
     const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
     scenarios::run_exam(*exam, candidate);
     exam->recorder().flush();
-    grading::ExamGrounds grounds(setup);
+    grading::ExamContexts grounds(setup);
     const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now(), grounds);
     grading::GradeInput input = graded->input();
     input.again = nullptr;  // how much force a perforation took away is not asked here

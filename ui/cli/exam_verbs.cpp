@@ -137,7 +137,7 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const L
 std::unique_ptr<scenarios::Exam> begin_exam(const ExamArguments& o, const scenarios::ExamSetup& setup, Vec3 first_tip_mm) {
   std::optional<records::HeldTicket> held;
   if (!o.ticket.empty()) held = records::read_ticket(o.ticket);
-  return scenarios::begin_somewhere(o.out, o.out_if_full, [&](const std::string& path) {
+  return scenarios::start_on_first_writable_disk(o.out, o.out_if_full, [&](const std::string& path) {
     return records::begin_with_ticket(held ? &*held : nullptr, path, [&] { return scenarios::Exam::start(setup, path, first_tip_mm); });
   });
 }

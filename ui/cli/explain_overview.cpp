@@ -19,7 +19,7 @@ namespace {
 using explain::Recording;
 using explain::Series;
 
-constexpr Eigen::Index k_most_points = 4000;  // of a chart: more cannot be told apart, and make the page slow
+constexpr Eigen::Index k_max_points = 4000;  // of a chart: more cannot be told apart, and make the page slow
 
 /// "x=um" → {x, um}.
 std::pair<std::string, std::string> name_and_value(const std::string& option, const std::string& given, const std::string& example) {
@@ -32,7 +32,7 @@ std::pair<std::string, std::string> name_and_value(const std::string& option, co
 
 std::vector<ChartPoint> thinned(const Series& x, const Series& y) {
   std::vector<ChartPoint> out;
-  const Eigen::Index stride = std::max<Eigen::Index>(1, x.size() / k_most_points);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, x.size() / k_max_points);
   for (Eigen::Index i = 0; i < x.size(); i += stride) out.push_back({x[i], y[i]});
   return out;
 }

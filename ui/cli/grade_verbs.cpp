@@ -53,7 +53,7 @@ void say_regrade(const MarkedSession& g) {
 }
 
 void run_grade_one(const std::string& path, const GradeArguments& o) {
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   const MarkedSession g = marked_session(path, o.marking, grounds);
   if (!o.marking.rubric.empty())
     for (const auto& p : scenarios::advise_rubric(g.session->scenario, g.rubric, *g.session->before, *g.session->zones)) say_error(p.message());
@@ -90,7 +90,7 @@ int run_grade_many(const std::vector<std::string>& files, const GradeArguments& 
   const auto cell = [](const std::string& verdict, double points, double max) {
     return msg("{} {}/{}", Term{verdict}, as_points(points), as_number(max));
   };
-  grading::ExamGrounds grounds;  // of the class
+  grading::ExamContexts grounds;  // of the class
   for (const auto& file : files) {
     try {
       const MarkedSession g = marked_session(file, o.marking, grounds);

@@ -45,7 +45,8 @@ Json landmarks_json(const Tooth& tooth, const Landmarks& l) {
   return {
       {"tooth", tooth.name},
       {"hash", tooth_hash(tooth)},
-      {"tooth_class", {{"name", name_of(l.tooth_class.kind)}, {"sureness", rounded(l.tooth_class.sureness, 0.01)}, {"reason", l.tooth_class.reason}}},
+      {"tooth_class",
+       {{"name", name_of(l.tooth_class.kind)}, {"probability", rounded(l.tooth_class.probability, 0.01)}, {"reason", l.tooth_class.reason}}},
       {"long_axis",
        {{"through_mm", point(l.long_axis.through_mm)}, {"occlusal", point(l.long_axis.occlusal)}, {"tilt_deg", rounded(l.long_axis.tilt_deg, 0.01)}}},
       {"points_mm", named},
@@ -67,7 +68,7 @@ Json landmarks_json(const Tooth& tooth, const Landmarks& l) {
 void print_landmarks(const Tooth& tooth, const Landmarks& l) {
   Lines out;
   out.add(Name{tooth.name});
-  out.add(msg("class: {}, sure to {}: {}", in_words(l.tooth_class.kind), as_number(l.tooth_class.sureness, 2), l.tooth_class.reason), 2);
+  out.add(msg("class: {}, sure to {}: {}", in_words(l.tooth_class.kind), as_number(l.tooth_class.probability, 2), l.tooth_class.reason), 2);
   const Vec3 up = l.long_axis.occlusal;
   out.add(msg("axis: ({} {} {}), {} from +z", as_number(up.x, 3), as_number(up.y, 3), as_number(up.z, 3), as_deg(l.long_axis.tilt_deg, 1)), 2);
   std::size_t cusp = 0;

@@ -82,7 +82,7 @@ int ledger_add(const LedgerOptions& o) {
   }
   json printed = json::array();
   bool all = true;
-  grading::ExamGrounds grounds;  // of the class
+  grading::ExamContexts grounds;  // of the class
   for (const auto& path : session_files(o.sessions)) {
     records::Filing filing;
     keep_memory_reserve();

@@ -64,7 +64,7 @@ void ledger_erase(const LedgerOptions& o) {
     return;
   }
   if (!o.erase_motion && !o.erase_results) throw Error(msg("ledger erase"), msg("needs to know what"), msg("give --motion, --results or both"));
-  records::ErasureWish wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
+  records::ErasureCommand wish{o.chosen_sessions, {}, o.erase_motion, o.erase_results};
   if (!o.before.empty()) wish.received_before = records::parse_utc(o.before, "--before");
   const auto erased = records::erase(ledger, wish, o.reason);
   if (o.as_json) {

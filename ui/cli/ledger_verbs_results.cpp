@@ -34,7 +34,7 @@ void ledger_release(const LedgerOptions& o) {
     throw Error(Name{"--all"}, msg("is given with names"), msg("give either --all, or --candidate and --session"));
   records::Ledger ledger(o.folder, key_of(o));
   records::Identities identities = sound_identities(ledger);
-  records::ReleaseWish wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
+  records::ReleaseCommand wish{o.all, o.with_findings, o.undecided, o.chosen, o.chosen_sessions};
   wish.candidates.clear();
   const records::Registry& filed = ledger.registry();
   for (const auto& who : o.chosen) {  // of a person all exams that are filed

@@ -48,8 +48,8 @@ int ledger_ticket(const LedgerOptions& o) {
   json printed = json::array();
   Lines rows;
   int refused = 0;
-  const records::ListWish wish{ticket,        people,  std::vector(people.size(), records::TimeSpan{from, until}),    o.candidates, 0,
-                               people.size(), o.grant, o.another ? records::Another::allow : records::Another::refuse};
+  const records::ListCommand wish{ticket,        people,  std::vector(people.size(), records::TimeSpan{from, until}),    o.candidates, 0,
+                                  people.size(), o.grant, o.another ? records::Another::allow : records::Another::refuse};
   const auto issued = records::issue_list(ledger, identities, wish, [&](const records::Issued& one, const std::string& text) {
     write_school_file(o, file_for(one.candidate), text + "\n");
   });

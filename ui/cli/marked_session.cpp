@@ -8,7 +8,7 @@
 
 namespace cavum::ui {
 
-MarkedSession marked_session(const std::string& path, const MarkingOptions& o, grading::ExamGrounds& grounds) {
+MarkedSession marked_session(const std::string& path, const MarkingOptions& o, grading::ExamContexts& grounds) {
   Marking m;
   m.another_task = o.another_task;
   if (!o.scenario.empty()) m.scenario = scenarios::load_scenario(o.scenario);
@@ -18,7 +18,7 @@ MarkedSession marked_session(const std::string& path, const MarkingOptions& o, g
   return marked_session(path, std::move(m), grounds);
 }
 
-MarkedSession marked_session(const std::string& path, Marking by, grading::ExamGrounds& grounds) {
+MarkedSession marked_session(const std::string& path, Marking by, grading::ExamContexts& grounds) {
   MarkedSession g;
   g.session = grading::load_for_grading(path, grounds);
   grading::GradedSession& s = *g.session;

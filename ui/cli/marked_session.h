@@ -37,8 +37,8 @@ struct MarkedSession {
   bool regrade = false;  ///< the result is not the sealed one, which stands in `comparison`
 };
 /// Tooth and zones come out of `grounds`.
-[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options, grading::ExamGrounds& grounds);
-[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by, grading::ExamGrounds& grounds);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, const MarkingOptions& options, grading::ExamContexts& grounds);
+[[nodiscard]] MarkedSession marked_session(const std::string& path, Marking by, grading::ExamContexts& grounds);
 
 /// A mistake in what is to be marked by is found before any session is opened; what is unwise is said on standard error.
 void require_sound_marking(const MarkingOptions& options);

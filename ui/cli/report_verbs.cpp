@@ -40,7 +40,7 @@ struct ReportArguments {
 
 /// What is proved of the session. One that the ledger took in without findings was replayed then, and its file is the same.
 report::ReportIntegrity integrity_of(const std::string& path, const ReportArguments& o, const records::FiledSession* filed,
-                                     grading::ExamGrounds& grounds) {
+                                     grading::ExamContexts& grounds) {
   const bool replayed_then = filed != nullptr && filed->findings.empty();
   report::ReportIntegrity i = o.no_replay || replayed_then ? report::read_integrity(path) : report::replayed_integrity(path, grounds);
   if (replayed_then && i.findings.empty()) {
@@ -85,7 +85,7 @@ void sit_by_expert(const std::string& session, const std::string& out) {
 
 /// What `--beside` names. Throws Error when it is no session of the same task on the same tooth, or, in a student's report, another student's.
 std::unique_ptr<Beside> beside_of(const ReportArguments& o, const MarkedSession& own, const std::string& session, const report::ReportLedger* ledger,
-                                  grading::ExamGrounds& grounds) {
+                                  grading::ExamContexts& grounds) {
   auto b = std::make_unique<Beside>();
   const bool expert = o.beside == k_expert;
   const std::string file = expert ? b->scratch.file("expert.cavum") : o.beside;
@@ -120,7 +120,7 @@ struct MadeReport {
 
 /// `filed` and `ledger` are null without a ledger. Tooth and zones come out of `grounds`.
 MadeReport made_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
-                       const records::FiledSession* filed, grading::ExamGrounds& grounds) {
+                       const records::FiledSession* filed, grading::ExamContexts& grounds) {
   const records::Regrade* regrade = filed != nullptr && !o.marking.anew() ? report::regrade_for(*filed, o.for_whom()) : nullptr;
   const MarkedSession m =
       regrade != nullptr ? marked_session(session, marking_of(*ledger, *filed, *regrade), grounds) : marked_session(session, o.marking, grounds);
@@ -150,7 +150,7 @@ MadeReport made_report(const std::string& session, const std::string& out, const
 }
 
 void write_report(const std::string& session, const std::string& out, const ReportArguments& o, const report::ReportLedger* ledger,
-                  const records::FiledSession* filed, grading::ExamGrounds& grounds) {
+                  const records::FiledSession* filed, grading::ExamContexts& grounds) {
   const MadeReport made = made_report(session, out, o, ledger, filed, grounds);
   write_text_file(out, made.text);
   if (out.ends_with(".svg")) return;
@@ -167,7 +167,7 @@ void run_report(const ReportArguments& o) {
   report::require_report_place(o.out, o.overwrite, true);
   require_own_places({{"--out " + o.out, o.out}}, {{"session", o.session}, {"--beside", o.beside}});
   require_sound_marking(o.marking);
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   if (o.ledger.empty()) return write_report(o.session, o.out, o, nullptr, nullptr, grounds);
   const report::ReportLedger ledger(o.ledger);
   const records::FiledSession& filed = ledger.session(to_hex(sha256(read_file(o.session))), o.session);
@@ -184,7 +184,7 @@ int run_all(const ReportArguments& o) {
     throw Error(Name{"--out " + o.out}, msg("cannot be made ({})", failed_to_make.message()), msg("name a folder that you may write to"));
   ReportArguments each = o;
   each.reader = "student";
-  grading::ExamGrounds grounds;  // of the class
+  grading::ExamContexts grounds;  // of the class
   int written = 0, failed = 0;
   for (const auto& s : ledger.registry.sessions) {
     if (s.shown->is_null()) continue;
@@ -212,7 +212,7 @@ std::string filed_report(const std::string& ledger_folder, const std::string& re
   o.ledger = ledger_folder;
   const report::ReportLedger ledger(ledger_folder);
   const records::FiledSession& filed = ledger.session(to_hex(sha256(read_file(recording))), recording);
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   return made_report(recording, ".html", o, &ledger, &filed, grounds).text;
 }
 

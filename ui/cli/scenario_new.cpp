@@ -12,7 +12,7 @@
 #include "engine/base/scratch_folder.h"
 #include "engine/tooth/anatomy/landmarks.h"
 #include "grading/result/result_json.h"
-#include "grading/trial/battery.h"
+#include "grading/trial/trial.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/template.h"
 #include "scenarios/review/tooth_task.h"
@@ -77,12 +77,12 @@ int list_tasks(const NewArguments& o) {
 /// What the last task that was tried showed.
 struct Trial {
   double expert_percent = 0;
-  std::size_t wrong_work = 0;
+  std::size_t faulty_preparations = 0;
 };
 
-/// What is against a written task as an exam: the expert must pass with nine tenths of the points, and no wrong piece of work may.
+/// What is against a written task as an exam: the expert must pass with nine tenths of the points, and no faulty preparation may.
 Message against(const std::string& text, const std::string& file, Trial& trial) {
-  constexpr double k_least_percent = 90.0;
+  constexpr double k_min_percent = 90.0;
   const ScratchFolder scratch;
   const std::string scenario = scratch.file("task.toml");
   write_text_file(scenario, text);
@@ -93,15 +93,15 @@ Message against(const std::string& text, const std::string& file, Trial& trial) 
   const Solved solved = solve_exam(*setup, 1, scratch.file("expert.cavum"));
   if (!solved.result) return solved.reasons.front();
   trial.expert_percent = 100.0 * solved.result->points / solved.result->max_points;
-  if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_least_percent) {
+  if (solved.result->verdict != grading::Verdict::pass || trial.expert_percent < k_min_percent) {
     const Number percent = as_percent(trial.expert_percent, 0);
-    const Message verdict = grading::word_of(solved.result->verdict);
+    const Term verdict = grading::word_of(solved.result->verdict);
     return solved.reasons.empty() ? msg("the built-in expert gets {} of the points ({})", percent, verdict)
                                   : msg("the built-in expert gets {} of the points ({}): {}", percent, verdict, List{solved.reasons, true});
   }
-  const grading::Battery battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
-  trial.wrong_work = battery.rows.size();
-  for (const auto& p : battery.problems)
+  const grading::Trial table = grading::run_trial(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
+  trial.faulty_preparations = table.rows.size();
+  for (const auto& p : table.problems)
     if (!p.warning) return p.what;
   return {};
 }
@@ -132,7 +132,7 @@ int make_for_tooth(const NewArguments& o) {
     Json warnings = Json::array();
     for (const auto& p : written.problems) warnings.push_back(english_text(p.message()));
     Json shown = nullptr;
-    if (!o.untried) shown = {{"expert_percent", std::round(10 * trial.expert_percent) / 10}, {"wrong_work", trial.wrong_work}};
+    if (!o.untried) shown = {{"expert_percent", std::round(10 * trial.expert_percent) / 10}, {"faulty_preparations", trial.faulty_preparations}};
     print_json(Json{{"written", o.out},
                     {"tried", shown},
                     {"tooth", tooth.name},
@@ -147,10 +147,10 @@ int make_for_tooth(const NewArguments& o) {
   for (const auto& p : written.problems) say(p.message());
   for (const auto& warning : tooth.notes_of(ToothNote::Kind::warning)) say(msg("notice: {}", warning));
   if (o.untried) {
-    say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg && cavum scenario solve {} --battery", o.out, o.out)));
+    say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg && cavum scenario solve {} --trial", o.out, o.out)));
   } else {
-    say(msg("tried: the built-in expert passes with {} of the points; none of {} wrong pieces of work passes", as_percent(trial.expert_percent, 0),
-            trial.wrong_work));
+    say(msg("tried: the built-in expert passes with {} of the points; none of {} faulty preparations passes", as_percent(trial.expert_percent, 0),
+            trial.faulty_preparations));
     say(msg("next: {}", fmt::format("cavum scenario show {} --out F.svg", o.out)));
   }
   return 0;
@@ -185,7 +185,7 @@ void add_scenario_new(CLI::App& scenario, int& exit_code) {
                       list_of(scenarios::tooth_task_words()), list_of(scenarios::block_task_words())));
   news->add_option("--out", o->out, tr("file to write"));
   news->add_flag("--list", o->list, tr("which tasks make sense on the tooth, and why others do not"));
-  news->add_flag("--untried", o->untried, tr("write a task for a tooth without trying it: the expert need not pass, wrong work may"));
+  news->add_flag("--untried", o->untried, tr("write a task for a tooth without trying it: the expert need not pass, faulty preparations may"));
   news->add_flag("--force", o->force, tr("overwrite"));
   news->add_flag("--json", o->json, tr("one JSON object on standard output"));
   news->callback([o, &exit_code] { exit_code = make_new(*o); });

@@ -12,7 +12,7 @@
 #include "engine/tooth/tooth.h"
 #include "grading/marking/session_input.h"
 #include "grading/result/result_json.h"
-#include "grading/trial/battery_output.h"
+#include "grading/trial/trial_output.h"
 #include "scenarios/exam/exam.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/operators/simulated_exam.h"
@@ -34,14 +34,14 @@ namespace {
 struct ScenarioArguments {
   std::string scenario, tooth, out, model = "consistent";
   std::uint64_t seed = 1;
-  bool json = false, careless = false, battery = false, no_battery = false;
+  bool json = false, careless = false, trial = false, no_trial = false;
 };
 
 int check(const ScenarioArguments& o) {
   scenarios::CheckedScenario checked = scenarios::check_whole(read_text_file(o.scenario), o.scenario, o.tooth);
-  if (checked.laid && !o.no_battery) {
-    const grading::Battery battery = grading::run_battery(checked.laid->scenario, checked.laid->tooth, checked.laid->zones, grading::Look::screened);
-    checked.problems.insert(checked.problems.end(), battery.problems.begin(), battery.problems.end());
+  if (checked.laid && !o.no_trial) {
+    const grading::Trial trial = grading::run_trial(checked.laid->scenario, checked.laid->tooth, checked.laid->zones, grading::Look::screened);
+    checked.problems.insert(checked.problems.end(), trial.problems.begin(), trial.problems.end());
     scenarios::sort_problems(checked.problems);
   }
   if (o.json) {
@@ -184,10 +184,10 @@ Lines to_text(const Caught& c) {
   return out;
 }
 
-void say_battery(const grading::Battery& battery) {
-  say(msg("wrong work, marked by this rubric ({} pieces in {}):", battery.rows.size(), as_s(battery.wall_s, 1)));
-  say(grading::battery_text(battery));
-  for (const auto& p : battery.problems) say(p.message());
+void say_trial(const grading::Trial& trial) {
+  say(msg("faulty preparations, marked by this rubric ({} pieces in {}):", trial.rows.size(), as_s(trial.wall_s, 1)));
+  say(grading::trial_text(trial));
+  for (const auto& p : trial.problems) say(p.message());
 }
 
 int solve(const ScenarioArguments& o) {
@@ -207,10 +207,10 @@ int solve(const ScenarioArguments& o) {
   const bool passed = solved.result && solved.result->verdict == grading::Verdict::pass;
   std::optional<Caught> careless;
   if (o.careless && solved.result) careless = catch_careless(o, *setup, scratch.file("careless.cavum"));
-  std::optional<grading::Battery> battery;
-  if (o.battery) battery = grading::run_battery(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
+  std::optional<grading::Trial> trial;
+  if (o.trial) trial = grading::run_trial(setup->scenario, setup->tooth, setup->zones, grading::Look::screened);
   const bool wrong_passes =
-      battery && std::any_of(battery->problems.begin(), battery->problems.end(), [](const scenarios::Problem& p) { return !p.warning; });
+      trial && std::any_of(trial->problems.begin(), trial->problems.end(), [](const scenarios::Problem& p) { return !p.warning; });
   const int answer = passed && (!o.careless || (careless && careless->as_named)) && !wrong_passes ? 0 : 1;
   const double limit_s = static_cast<double>(scenarios::exam_limit_ticks(setup->scenario)) * k_tick_s;
   if (o.json) {
@@ -223,7 +223,7 @@ int solve(const ScenarioArguments& o) {
     j["reasons"] = solved.reasons;
     j["what_to_do"] = solved.advice;
     if (o.careless) j["careless"] = careless ? to_json(*careless) : nlohmann::ordered_json(nullptr);
-    if (battery) j["battery"] = grading::battery_json(*battery);
+    if (trial) j["trial"] = grading::trial_json(*trial);
     j["session"] = o.out.empty() || !solved.result ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(o.out);
     print_json(j);
     return answer;
@@ -243,7 +243,7 @@ int solve(const ScenarioArguments& o) {
   for (const auto& reason : solved.reasons) say(msg("because: {}", reason));
   if (!passed) say(msg("what to do: {}", solved.advice));
   if (careless) say(to_text(*careless));
-  if (battery) say_battery(*battery);
+  if (trial) say_trial(*trial);
   if (solved.result && !o.out.empty()) say(msg("recorded: {}", o.out));
   return answer;
 }
@@ -259,7 +259,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   checks->add_option("scenario", o->scenario, tr("scenario file (TOML)"))->required();
   checks->add_option("--tooth", o->tooth, tr("check the zones against this tooth instead"));
   checks->add_flag("--json", o->json, tr("one JSON object on standard output"));
-  checks->add_flag("--no-battery", o->no_battery, tr("do not try wrong pieces of work on the rubric"));
+  checks->add_flag("--no-trial", o->no_trial, tr("do not try faulty preparations on the rubric"));
   checks->callback([o, &exit_code] { exit_code = check(*o); });
 
   auto* shows = verb->add_subcommand("show", tr("Draw the zones on three sections and from above (SVG)"));
@@ -276,7 +276,7 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_option("--seed", o->seed, tr("of the expert's tremor"))->check(seed_check())->capture_default_str();
   solves->add_option("--out", o->out, tr("keep the recording: session file to write (.cavum)"));
   solves->add_flag("--careless", o->careless, tr("also let the careless candidate take it: he must fail by the criterion that [careless] names"));
-  solves->add_flag("--battery", o->battery, tr("also mark wrong pieces of work by the rubric: none may pass"));
+  solves->add_flag("--trial", o->trial, tr("also mark faulty preparations by the rubric: none may pass"));
   solves->add_flag("--json", o->json, tr("one JSON object on standard output"));
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
 

@@ -35,7 +35,7 @@ grading::Result sat_by(const scenarios::ExamSetup& setup, scenarios::SimulatedCa
   const auto exam = scenarios::Exam::start(setup, session, candidate.start_mm());
   scenarios::run_exam(*exam, candidate);
   exam->recorder().flush();
-  grading::ExamGrounds grounds(setup);
+  grading::ExamContexts grounds(setup);
   const auto graded = grading::load_for_grading(SessionReader(session), exam->tooth_now(), grounds);
   grading::Result r = grading::grade(graded->input(), graded->rubric);
   exam->close(grading::to_json(r).dump());

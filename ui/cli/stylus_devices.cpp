@@ -143,8 +143,8 @@ void place_stylus(const std::string& id) {
     tooth.push_back(at);
   }
   const PlacementFit fit = fit_placement(device, tooth);
-  constexpr double k_most_mm = 3.0;
-  if (fit.worst_mm > k_most_mm)
+  constexpr double k_max_mm = 3.0;
+  if (fit.worst_mm > k_max_mm)
     throw Error(Name{"--place"}, msg("the marks do not fit together: one is off by {}", as_mm(fit.worst_mm, 1)),
                 msg("measure them with a ruler, and begin again"));
   options.station.placement = fit.placement;

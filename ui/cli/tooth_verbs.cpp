@@ -303,7 +303,7 @@ Json sense_json(const ToothSense& sense, const SenseOptions& options) {
   Json number = nullptr;
   if (options.number) number = {{"fdi", options.number->fdi}, {"universal", options.number->universal()}, {"text", options.number->text()}};
   return {{"tooth_number", number},
-          {"tooth_class", {{"name", name_of(sense.tooth_class.kind)}, {"sureness", rounded(sense.tooth_class.sureness, 0.01)}}},
+          {"tooth_class", {{"name", name_of(sense.tooth_class.kind)}, {"probability", rounded(sense.tooth_class.probability, 0.01)}}},
           {"guesses", sense.guesses},
           {"warnings", sense.warnings}};
 }

@@ -43,7 +43,7 @@ bool comes_back(const records::Registry& registry, const records::IssuedTicket& 
 }
 
 /// Who begins a sitting at its last moment is done before the next one begins, unless it is said that they may overlap.
-void require_apart(const IssueWish& wish, std::int64_t apart_ns, std::int64_t longest_s) {
+void require_apart(const IssueCommand& wish, std::int64_t apart_ns, std::int64_t longest_s) {
   constexpr std::int64_t k_second_ns = 1'000'000'000, k_minute_s = 60;
   const std::int64_t late_s = (wish.until_utc_ns - wish.from_utc_ns - apart_ns) / k_second_ns + longest_s;
   if (late_s > 0)
@@ -96,7 +96,7 @@ Issued Desk::issue(const Issue& asked, const Account& by) {
     throw Error(msg("the list"),
                 roster.problems.empty() ? msg("has columns that nobody answered for") : msg("{}", cavum::List{roster.problems, true}),
                 msg("answer, and look at the preview again"));
-  const IssueWish wish = issue_wish(asked.exam, asked.from, asked.until, exams_);
+  const IssueCommand wish = issue_command(asked.exam, asked.from, asked.until, exams_);
   if (asked.at_once && !asked.minutes_apart) throw Error(msg("'minutes_apart'"), msg("is missing"), msg("say how far apart the sittings are"));
   const std::size_t at_once = asked.at_once ? static_cast<std::size_t>(*asked.at_once) : std::max<std::size_t>(1, roster.people.size());
   const std::int64_t apart_ns = asked.at_once ? *asked.minutes_apart * k_minute_ns : 0;
@@ -135,7 +135,7 @@ MadeUp Desk::make_up(const MakeUp& asked, const Account& by) {
     Turn turn(*this);
     if (const auto* t = turn.book.registry().ticket(first)) exam = t->ticket.exam;
   }
-  const IssueWish wish = issue_wish(exam, asked.from, asked.until, exams_);
+  const IssueCommand wish = issue_command(exam, asked.from, asked.until, exams_);
   const auto setup = scenarios::prepare_exam(wish.scenario, {});
   auto grant = grant_in(asked);
   Turn turn(*this, {by.name, "", ""});

@@ -117,7 +117,7 @@ Results Desk::results(bool names) {
 }
 
 Released Desk::release(const ReleaseResults& asked, const Account& by) {
-  records::ReleaseWish wish;
+  records::ReleaseCommand wish;
   wish.all = asked.all;
   wish.sessions = asked.sessions;
   wish.with_findings = asked.with_findings;

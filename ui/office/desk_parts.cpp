@@ -71,8 +71,8 @@ std::int64_t time_limit_s(const std::string& file, const Grants& grants) {
   return (longest + k_ticks_per_second - 1) / k_ticks_per_second;
 }
 
-IssueWish issue_wish(const std::string& exam, const std::string& from, const std::string& until, const std::vector<std::string>& exams) {
-  IssueWish wish;
+IssueCommand issue_command(const std::string& exam, const std::string& from, const std::string& until, const std::vector<std::string>& exams) {
+  IssueCommand wish;
   for (const auto& file : exams)
     if (exam_facts(file).id == exam) wish.scenario = file;
   if (wish.scenario.empty()) throw Error(msg("the exam"), msg("is none that this office offers"), msg("choose one of the list"));

@@ -50,12 +50,13 @@ using Grants = std::vector<std::vector<std::pair<std::string, std::string>>>;
 [[nodiscard]] std::int64_t time_limit_s(const std::string& scenario_file, const Grants& grants);
 
 /// What tickets are issued for.
-struct IssueWish {
+struct IssueCommand {
   std::string scenario;  ///< file
   std::int64_t from_utc_ns = 0, until_utc_ns = 0;
 };
 /// The exam by its id, one of `exams`. Throws Error.
-[[nodiscard]] IssueWish issue_wish(const std::string& exam, const std::string& from, const std::string& until, const std::vector<std::string>& exams);
+[[nodiscard]] IssueCommand issue_command(const std::string& exam, const std::string& from, const std::string& until,
+                                         const std::vector<std::string>& exams);
 
 /// What a request grants, as notes of a session; none: as before. Throws Error for a value that is none.
 [[nodiscard]] std::optional<std::vector<std::pair<std::string, std::string>>> grant_in(const MakeUp& asked);

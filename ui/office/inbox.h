@@ -94,7 +94,7 @@ class Inbox {
   std::vector<std::string> refused_;
   Message trouble_;
   bool stopping_ = false;
-  grading::ExamGrounds grounds_;             // of a class; the worker's alone, as the next
+  grading::ExamContexts grounds_;            // of a class; the worker's alone, as the next
   std::unique_ptr<records::Ledger> ledger_;  // null: to be opened
   std::thread worker_;
 };

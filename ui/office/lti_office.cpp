@@ -17,7 +17,7 @@ namespace cavum::office {
 namespace {
 
 constexpr std::int64_t k_visit_s = 3600;
-constexpr std::size_t k_most_visits = 5000, k_cookie_bytes = 32;
+constexpr std::size_t k_max_visits = 5000, k_cookie_bytes = 32;
 constexpr char k_login_cookie[] = "__Host-cavum-login";
 
 std::int64_t clock_s() { return std::chrono::duration_cast<std::chrono::seconds>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
@@ -160,7 +160,7 @@ Reply LtiOffice::launch(const Call& call) {
     if (!account) {  // a name that no account can have
       account = Account{come.platform.name + "\t" + (come.name.empty() ? come.sub : come.name) + "\t" + come.sub, Role::reader, "", ""};
       const std::lock_guard guard(lock_);
-      if (teaching_.size() >= k_most_visits) teaching_.clear();
+      if (teaching_.size() >= k_max_visits) teaching_.clear();
       teaching_[account->name] = {*account, come.platform.issuer, come.platform.client_id};
     }
     Reply reply = go_to(303, route::page::row.path_of());
@@ -172,7 +172,7 @@ Reply LtiOffice::launch(const Call& call) {
     const std::lock_guard guard(lock_);
     const std::int64_t now = clock_s();
     std::erase_if(visits_, [&](const auto& one) { return now - one.second.since_s > k_visit_s; });
-    if (visits_.size() >= k_most_visits)
+    if (visits_.size() >= k_max_visits)
       visits_.erase(
           std::min_element(visits_.begin(), visits_.end(), [](const auto& a, const auto& b) { return a.second.since_s < b.second.since_s; }));
     visits_[to_hex(sha256(cookie))] = {come.id, come.name, come.exam, come.platform.issuer, come.platform.client_id, now};

@@ -23,7 +23,7 @@ using Steady = std::chrono::steady_clock;
 constexpr auto k_look = std::chrono::seconds(5), k_first_pause = std::chrono::seconds(60), k_longest_pause = std::chrono::seconds(3600),
                k_before_end = std::chrono::seconds(30);
 constexpr std::int64_t k_assertion_s = 60;
-constexpr int k_most_pages = 20;
+constexpr int k_max_pages = 20;
 constexpr std::size_t k_jti_bytes = 16;
 constexpr char k_line_scope[] = "https://purl.imsglobal.org/spec/lti-ags/scope/lineitem",
                k_score_scope[] = "https://purl.imsglobal.org/spec/lti-ags/scope/score", k_tag[] = "cavum";
@@ -227,7 +227,7 @@ std::string LtiSender::item_of(const LtiPlatform& platform, const LtiCourse& cou
   if (!allows(course, k_line_scope) || course.lineitems.empty())
     throw Error(course.title, msg("its platform has no column for this link, and lets this tool make none"), msg("let the link have a grade there"));
   std::string page = asked_for(course.lineitems, "resource_id=" + url_encoded(course.exam) + "&tag=" + k_tag);
-  for (int i = 0; i < k_most_pages && !page.empty(); ++i) {
+  for (int i = 0; i < k_max_pages && !page.empty(); ++i) {
     const PlatformAnswer answer = ask(platform, course, "GET", page, {{"Accept", k_items_type}});
     if (answer.status != 200 || !answer.body.is_array())
       throw PlatformUnreachable(origin_of(page), msg("does not show its columns: {} {}", answer.status, words_of(answer)),

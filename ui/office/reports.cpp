@@ -11,8 +11,8 @@
 namespace cavum::office {
 namespace {
 
-constexpr int k_most_waiting = 8;
-constexpr std::size_t k_most_kept = 8;
+constexpr int k_max_waiting = 8;
+constexpr std::size_t k_max_kept = 8;
 
 /// Of a page whose last script is its only one that runs. `sandbox` gives it an origin of its own: no cookie of the office's goes with what it asks.
 std::string policy_of(const std::string& html) {
@@ -44,13 +44,13 @@ struct Counted {
 
 Reply Reports::of(const Recording& recording) {
   const Counted counted(waiting_);
-  if (counted.place > k_most_waiting) throw Error(msg("the report"), msg("waits behind too many others"), msg("ask again in a minute"));
+  if (counted.place > k_max_waiting) throw Error(msg("the report"), msg("waits behind too many others"), msg("ask again in a minute"));
   const std::lock_guard guard(lock_);
   auto found = std::find_if(kept_.begin(), kept_.end(), [&](const Kept& k) { return k.path == recording.path && k.entries == recording.entries; });
   if (found == kept_.end()) {
     if (!make_) throw Error(msg("the report"), msg("cannot be made by this server"), msg("use `cavum report` with --ledger"));
     kept_.push_back({recording.path, recording.entries, make_(recording.path)});
-    if (kept_.size() > k_most_kept) kept_.pop_front();
+    if (kept_.size() > k_max_kept) kept_.pop_front();
     found = std::prev(kept_.end());
   }
   Reply reply{200, "text/html; charset=utf-8", found->html};

@@ -8,7 +8,7 @@
 namespace cavum::office {
 namespace {
 
-constexpr std::size_t k_sign_in_bytes = 32, k_most_keys = 10'000;
+constexpr std::size_t k_sign_in_bytes = 32, k_max_keys = 10'000;
 
 bool over(const SignedIn& s, std::int64_t now_s) { return now_s - s.seen_s > k_idle_end_s || now_s - s.begun_s > k_absolute_end_s; }
 
@@ -18,7 +18,7 @@ std::string SignIns::begin(const Account& account, std::int64_t now_s, const std
   std::string cookie = records::random_hex(k_sign_in_bytes);
   const std::lock_guard lock(lock_);
   std::erase_if(by_hash_, [&](const auto& one) { return over(one.second, now_s); });
-  if (by_hash_.size() >= k_most_sign_ins)
+  if (by_hash_.size() >= k_max_sign_ins)
     by_hash_.erase(
         std::min_element(by_hash_.begin(), by_hash_.end(), [](const auto& a, const auto& b) { return a.second.seen_s < b.second.seen_s; }));
   by_hash_[to_hex(sha256(cookie))] = {account, records::random_hex(k_sign_in_bytes), now_s, now_s, proxied_as};
@@ -51,7 +51,7 @@ void SignIns::end(const std::string& cookie) {
 bool Tries::allow(const std::string& key, std::size_t most, std::int64_t now_s) {
   const std::lock_guard lock(lock_);
   std::erase_if(by_key_, [&](const auto& one) { return now_s - one.second.since_s > k_tries_s; });
-  if (by_key_.size() >= k_most_keys && !by_key_.contains(key)) return false;
+  if (by_key_.size() >= k_max_keys && !by_key_.contains(key)) return false;
   Counted& c = by_key_.try_emplace(key, Counted{now_s, 0}).first->second;
   if (c.n >= most) return false;
   ++c.n;

@@ -13,7 +13,7 @@
 namespace cavum::office {
 
 inline constexpr std::int64_t k_idle_end_s = 3600, k_absolute_end_s = 43'200;
-inline constexpr std::size_t k_most_sign_ins = 1000;
+inline constexpr std::size_t k_max_sign_ins = 1000;
 
 struct SignedIn {
   Account account;
@@ -24,7 +24,7 @@ struct SignedIn {
 
 class SignIns {
  public:
-  /// The new cookie's value, 64 hexadecimal digits. `now_s`: any clock that only goes forward, s. The oldest gives way beyond k_most_sign_ins.
+  /// The new cookie's value, 64 hexadecimal digits. `now_s`: any clock that only goes forward, s. The oldest gives way beyond k_max_sign_ins.
   /// `proxied_as`: what the proxy says; empty for a password.
   std::string begin(const Account& account, std::int64_t now_s, const std::string& proxied_as = {});
   /// Who holds the cookie, and is seen now; none when it is not known, or its end has come.

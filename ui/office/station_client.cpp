@@ -24,7 +24,7 @@ constexpr std::uint64_t k_slowest_bytes_s = 64U << 10;
 constexpr std::uint64_t k_largest_answer = 64U << 20;
 constexpr std::size_t k_first_piece = 256U << 10;
 constexpr auto k_quick = std::chrono::seconds(2);
-constexpr int k_most_disputes = 5;
+constexpr int k_max_disputes = 5;
 constexpr unsigned k_conflict = 409;
 
 }  // namespace
@@ -94,8 +94,8 @@ json StationClient::enrol(const std::string& request) {
 }
 json StationClient::tickets() { return require(ask(route::station_tickets::row)).at("tickets"); }
 Message clock_problem(std::int64_t behind_ns) {
-  constexpr std::int64_t k_most_ns = 120'000'000'000, k_second_ns = 1'000'000'000;
-  if (std::abs(behind_ns) <= k_most_ns) return {};
+  constexpr std::int64_t k_max_ns = 120'000'000'000, k_second_ns = 1'000'000'000;
+  if (std::abs(behind_ns) <= k_max_ns) return {};
   return behind_ns > 0 ? msg("is {} s behind the office's", behind_ns / k_second_ns) : msg("is {} s ahead of the office's", -behind_ns / k_second_ns);
 }
 
@@ -124,7 +124,7 @@ json StationClient::hand_in_pieces(const Bytes& image) {
       piece_bytes_ = std::max<std::size_t>(k_smallest_piece, piece_bytes_ / 2);
       throw;
     }
-    if (answer.status == k_conflict && ++disputes < k_most_disputes) {  // an answer was lost on the way: the office has it
+    if (answer.status == k_conflict && ++disputes < k_max_disputes) {  // an answer was lost on the way: the office has it
       at = place(answer.body);
       continue;
     }

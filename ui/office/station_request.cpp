@@ -13,7 +13,7 @@ using nlohmann::json;
 
 constexpr char k_request_format[] = "cavum request 1";
 constexpr std::int64_t k_leeway_ns = k_clock_leeway_s * 1'000'000'000;
-constexpr std::size_t k_nonce_bytes = 16, k_most_heard = 500'000;
+constexpr std::size_t k_nonce_bytes = 16, k_max_heard = 500'000;
 
 Bytes message_of_request(const json& facts) {
   const std::string text = "CVSTATRQ" + facts.dump();
@@ -55,8 +55,8 @@ Message HeardRequests::hear(const StationRequest& r, std::int64_t now_utc_ns) {
   if (r.utc_ns < now_utc_ns - k_leeway_ns || r.utc_ns > now_utc_ns + k_leeway_ns || r.utc_ns < begun_utc_ns_)
     return msg("its time is not the office's: take the office's time, and sign it anew");
   const std::lock_guard lock(lock_);
-  if (heard_.size() >= k_most_heard) std::erase_if(heard_, [&](const auto& one) { return one.second < now_utc_ns; });
-  if (heard_.size() >= k_most_heard) return msg("there are too many at once: wait, and sign it anew");
+  if (heard_.size() >= k_max_heard) std::erase_if(heard_, [&](const auto& one) { return one.second < now_utc_ns; });
+  if (heard_.size() >= k_max_heard) return msg("there are too many at once: wait, and sign it anew");
   if (!heard_.emplace(r.public_key + r.nonce, r.utc_ns + k_leeway_ns).second) return msg("it was heard before");
   return {};
 }

@@ -42,7 +42,7 @@ enum class Granting { none, these, as_before };
 enum class HandedState { unknown, waiting, filed, refused };
 [[nodiscard]] constexpr auto names_of(HandedState) { return std::array<std::string_view, 4>{"unknown", "waiting", "filed", "refused"}; }
 
-inline constexpr std::size_t k_longest_line = 2000, k_most_rows = 10'000;
+inline constexpr std::size_t k_longest_line = 2000, k_max_rows = 10'000;
 using Line = Text<k_longest_line>;
 using Lines = AtMost<std::vector<Line>, 1000>;
 using AtOnce = Between<1, 10'000>;
@@ -56,7 +56,7 @@ struct Reason : Line {
 /// Of the second factor.
 using Code = Text<100>;
 CAVUM_JSON(WithCode, (Code, code))
-using Entries = AtMost<std::vector<std::uint64_t>, k_most_rows>;
+using Entries = AtMost<std::vector<std::uint64_t>, k_max_rows>;
 
 // People.
 CAVUM_JSON(SignIn, (Line, name, optional), (Line, password, optional))

@@ -123,8 +123,8 @@ void add_perforation(Document& d, const grading::Result& r) {
           {e.fault ? tr("fault") : tr("aim")},
           time_cell(e.tick, e.site_mm),
           {place_text(e.site_mm)},
-          {tr("{} to {} while the tip went on by {}; sureness {}; {}", as_n(e.force_before_n), as_n(e.force_after_n), as_mm(e.advance_mm),
-              as_number(e.sureness, 2), e.confirmed ? msg("confirmed by the tissue") : msg("not confirmed by the tissue"))}},
+          {tr("{} to {} while the tip went on by {}; probability {}; {}", as_n(e.force_before_n), as_n(e.force_after_n), as_mm(e.advance_mm),
+              as_number(e.probability, 2), e.confirmed ? msg("confirmed by the tissue") : msg("not confirmed by the tissue"))}},
          e.fault});
   for (const auto& [kind, truth] : {std::pair{tr("fault"), &p.fault}, std::pair{tr("aim"), &p.aim}}) {
     if (truth == &p.aim && !p.has_aims) continue;

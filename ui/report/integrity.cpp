@@ -48,7 +48,7 @@ ReportIntegrity read_integrity(const std::string& path) {
   return i;
 }
 
-ReportIntegrity replayed_integrity(const std::string& path, grading::ExamGrounds& grounds) {
+ReportIntegrity replayed_integrity(const std::string& path, grading::ExamContexts& grounds) {
   ReportIntegrity i = read_seal(path, SessionReader(path));
   const records::SessionExplanation e = records::explain_session(path, "", true, grounds);
   i.replay = e.holds ? ReportIntegrity::Replay::agrees : ReportIntegrity::Replay::differs;

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 #include "ui/report/report_source.h"
 
 namespace cavum::report {
@@ -13,6 +13,6 @@ namespace cavum::report {
 [[nodiscard]] ReportIntegrity read_integrity(const std::string& session_path);
 /// With the whole exam simulated again, which takes a fraction of its time; its tooth and zones come out of `grounds`. Both throw Error when the file
 /// is no session.
-[[nodiscard]] ReportIntegrity replayed_integrity(const std::string& session_path, grading::ExamGrounds& grounds);
+[[nodiscard]] ReportIntegrity replayed_integrity(const std::string& session_path, grading::ExamContexts& grounds);
 
 }  // namespace cavum::report

@@ -303,7 +303,7 @@ Paragraph progress_words(const ReportFiling& f) {
   if (!f.scatter)
     return paragraph("change_unknown",
                      tr("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
-                        cohort::k_least_steps, cohort::k_least_repeaters));
+                        cohort::k_min_steps, cohort::k_min_repeaters));
   if (!f.progress) return paragraph("first_attempt", tr("This is the first attempt that counts."));
   const cohort::Progress& p = *f.progress;
   const Message by_chance = msg("up to {} may be chance, as {} steps of {} candidates from one attempt to the next show", as_percent(p.bound_percent),

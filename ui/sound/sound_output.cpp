@@ -81,7 +81,7 @@ class Player {
     const double period = SoundOutput::k_sample_rate_hz / std::max(1.0, static_cast<double>(periods_a_second));
     // one period, which the device takes at once, and a block that is being made
     const double blocks = std::ceil(period / SoundOutput::k_block_samples) + 1.0;
-    for (int i = 0; i < std::clamp(static_cast<int>(blocks), 3, k_most_blocks); ++i) add_block();
+    for (int i = 0; i < std::clamp(static_cast<int>(blocks), 3, k_max_blocks); ++i) add_block();
     alGenSources(1, &source_);
     alSourcei(source_, AL_SOURCE_RELATIVE, AL_TRUE);
     if (alGetError() != AL_NO_ERROR) failed_ = "the sound device gives no buffers; go on without sound";
@@ -146,7 +146,7 @@ class Player {
     if (state == AL_PLAYING) return false;
     alSourcePlay(source_);
     if (state == AL_INITIAL) return false;
-    if (static_cast<int>(buffers_.size()) < k_most_blocks) add_block();
+    if (static_cast<int>(buffers_.size()) < k_max_blocks) add_block();
     return true;
   }
   /// Of the device behind the queue.
@@ -158,7 +158,7 @@ class Player {
   }
 
  private:
-  static constexpr int k_most_blocks = 32;
+  static constexpr int k_max_blocks = 32;
   void add_block() {
     ALuint buffer = 0;
     alGenBuffers(1, &buffer);

@@ -103,8 +103,8 @@ std::vector<NamedPoint> with_landmark(std::vector<NamedPoint> placed, const std:
     *same = point;
     return placed;
   }
-  if (placed.size() >= k_most_placed)
-    throw Error(Name{name}, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_most_placed),
+  if (placed.size() >= k_max_placed)
+    throw Error(Name{name}, msg("would be the {}th landmark put by hand, and a tooth keeps {}", placed.size() + 1, k_max_placed),
                 msg("take one back that was found just as well"));
   placed.push_back(point);
   return placed;

@@ -111,8 +111,8 @@ void pull(const AuthorContext& c, const AuthorSight& sight, ImVec2 mouse) {
     const auto [top, floor] = depth_line(c, zone);
     const ImVec2 a = sight.pixel(floor), b = sight.pixel(floor - Vec3{0, 0, 1}), moved = ImGui::GetIO().MouseDelta;
     const double x = b.x - a.x, y = b.y - a.y, px_per_mm2 = x * x + y * y;
-    constexpr double k_least_px = 6;  // a millimetre of depth; seen from above it is a point
-    if (px_per_mm2 > k_least_px * k_least_px && (moved.x != 0 || moved.y != 0))
+    constexpr double k_min_px = 6;  // a millimetre of depth; seen from above it is a point
+    if (px_per_mm2 > k_min_px * k_min_px && (moved.x != 0 || moved.y != 0))
       author_set_number(c, zone.numbers[0], *zone.depth_mm + (moved.x * x + moved.y * y) / px_per_mm2, true);
   }
 }

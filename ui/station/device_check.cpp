@@ -19,7 +19,7 @@ CheckItem stylus_item(const DeviceSight& s) {
   const Message title = msg("Stylus");
   if (!s.error.empty()) return {State::bad, title, s.error};
   if (!s.read_once) return {State::waiting, title, msg("waiting for its first word")};
-  if (s.rate_hz < DeviceCheck::k_least_share * s.usual_rate_hz)
+  if (s.rate_hz < DeviceCheck::k_min_share * s.usual_rate_hz)
     return {State::waiting, title, msg("speaks too seldom: {} times a second", as_number(s.rate_hz, 0))};
   return {State::good, title, msg("speaks {} times a second", as_number(s.rate_hz, 0))};
 }
@@ -39,7 +39,7 @@ CheckItem rest_item(const DeviceSight& s) {
   using State = CheckItem::State;
   const Message title = msg("Finger rest");
   if (!s.read_once || s.wander_mm > 100) return {State::waiting, title, msg("lay the fingers on the rest and hold the stylus still")};
-  if (s.wander_mm > DeviceCheck::k_most_wander_mm)
+  if (s.wander_mm > DeviceCheck::k_max_wander_mm)
     return {State::waiting, title, msg("the tip wanders by {}: lay the fingers on the rest", as_mm(s.wander_mm, 1))};
   return {State::good, title, msg("in place, the tip is still within {}", as_mm(s.wander_mm))};
 }

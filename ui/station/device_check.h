@@ -42,8 +42,8 @@ struct CheckItem {
 
 class DeviceCheck {
  public:
-  static constexpr double k_least_share = 0.4;     ///< of the usual rate
-  static constexpr double k_most_wander_mm = 0.6;  ///< of a hand on its finger rest
+  static constexpr double k_min_share = 0.4;      ///< of the usual rate
+  static constexpr double k_max_wander_mm = 0.6;  ///< of a hand on its finger rest
 
   /// `usual_rate_hz`: at which the device speaks when all is well. Reads from now on; the device must outlive it and be read by nobody else.
   explicit DeviceCheck(ServoDevice& device, double usual_rate_hz = 1000.0);

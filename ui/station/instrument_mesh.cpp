@@ -70,8 +70,8 @@ void close(std::vector<Ring>& rings, bool below) {
 
 /// So high is what stays while the rest fades from who looks along the instrument: the head with a little neck, of a long one its lower end.
 float working_end_mm(const Bur& bur) {
-  constexpr float k_neck_mm = 0.7F, k_most_mm = 2.2F;
-  return std::min(static_cast<float>(bur.cutting_length_mm) + k_neck_mm, k_most_mm);
+  constexpr float k_neck_mm = 0.7F, k_max_mm = 2.2F;
+  return std::min(static_cast<float>(bur.cutting_length_mm) + k_neck_mm, k_max_mm);
 }
 constexpr double k_fine_mm = 0.12, k_coarse_mm = 0.5;  // from ring to ring, of head and shank
 

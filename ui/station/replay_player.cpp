@@ -26,7 +26,7 @@ ReplayPlayer::ReplayPlayer(const std::string& path)
       events_(reader_.events()),
       moments_(replay_moments(events_, reader_.result_json(), static_cast<std::int64_t>(inputs_.size()), !setup_->scenario.hold_results)),
       ended_by_hand_(std::any_of(events_.begin(), events_.end(), [](const TimedEvent& e) { return e.as<Finished>() != nullptr; })),
-      between_(std::max<std::int64_t>(1000, ticks() / k_most_snapshots + 1)) {
+      between_(std::max<std::int64_t>(1000, ticks() / k_max_snapshots + 1)) {
   Moment first;
   first.servo = simulation_.state;
   first.input.tip_nm = reader_.setup().first_tip_nm;

@@ -53,7 +53,7 @@ class ReplayPlayer {
   [[nodiscard]] std::uint64_t hash() const noexcept { return state_hash(now_->servo); }
 
  private:
-  static constexpr std::int64_t k_most_snapshots = 24;
+  static constexpr std::int64_t k_max_snapshots = 24;
   /// Everything that changes.
   struct Moment {
     ServoState servo;

@@ -195,7 +195,7 @@ void Sitting::begin() {
     const std::string first = options_.resume.empty() ? new_path(options_.out) : options_.resume, second = new_path(options_.out_if_full);
     with_desk_ = std::make_unique<WithDesk>(device_->for_exam(), desk_);
     if (options_.resume.empty()) {
-      auto exam = scenarios::begin_somewhere(first, second, [&](const std::string& path) {
+      auto exam = scenarios::start_on_first_writable_disk(first, second, [&](const std::string& path) {
         return records::begin_with_ticket(ticket_ ? &*ticket_ : nullptr, path, [&] { return scenarios::Exam::start(*setup_, path, tip); });
       });
       live_ = std::make_unique<scenarios::LiveExam>(*setup_, std::move(exam), *with_desk_);

@@ -33,7 +33,7 @@ namespace {
 using Clock = std::chrono::steady_clock;
 
 // what the screens need at scale 1, pixels: a window that has less shows smaller text, whatever was asked for
-constexpr double k_least_width = 720.0, k_least_height = 450.0, k_least_scale = 0.6;
+constexpr double k_min_width = 720.0, k_min_height = 450.0, k_min_scale = 0.6;
 
 double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
@@ -187,7 +187,7 @@ class Station {
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
     if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
     const double scale = std::min(state_.text_scale * window_.screen_scale(),
-                                  std::max(k_least_scale, std::min(io.DisplaySize.x / k_least_width, io.DisplaySize.y / k_least_height)));
+                                  std::max(k_min_scale, std::min(io.DisplaySize.x / k_min_width, io.DisplaySize.y / k_min_height)));
     const bool scale_differs = scale != dressed_scale_;
     if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
     if (!scale_differs && state_.high_contrast == dressed_contrast_) return;

@@ -18,8 +18,8 @@ Loop loop_of(const FalconGeometry& g, std::size_t arm, double angle_rad, Vec3 p)
   const Vec3 out{leg.cos, leg.sin, 0}, around{-leg.sin, leg.cos, 0};
   const double u = dot(p, out) - g.r + g.c - g.a * thigh.cos, v = dot(p, around) - g.s + g.f, w = p.z - g.a * thigh.sin;
   const double shin2 = g.b * g.b - v * v;
-  constexpr double k_least_mm2 = 1.0;
-  if (!(shin2 > k_least_mm2)) return {};
+  constexpr double k_min_mm2 = 1.0;
+  if (!(shin2 > k_min_mm2)) return {};
   const double shin = std::sqrt(shin2), reach = g.links + shin;
   Loop loop;
   loop.closed = true;
@@ -70,10 +70,10 @@ bool falcon_angles(const FalconGeometry& g, Vec3 p, FalconAngles& angles_rad) no
 }
 
 bool falcon_position(const FalconGeometry& g, const FalconAngles& angles_rad, Vec3& position_mm) noexcept {
-  constexpr int k_most_steps = 40;
+  constexpr int k_max_steps = 40;
   constexpr double k_longest_step_mm = 20.0, k_close_mm = 1e-10;
   Vec3 p = position_mm;
-  for (int i = 0; i < k_most_steps; ++i) {
+  for (int i = 0; i < k_max_steps; ++i) {
     std::array<Vec3, 3> rows, columns;
     std::array<double, 3> left{};
     for (std::size_t arm = 0; arm < 3; ++arm) {

@@ -87,7 +87,7 @@ std::array<std::int16_t, 3> FalconStylus::motors(const FalconAngles& angles, Vec
 /// Until it is unplugged, or no longer wanted.
 void FalconStylus::serve(FalconUsb& usb) {
   constexpr std::int64_t k_period_ns = 1'000'000;
-  constexpr int k_patience_ms = 10, k_most_silent = 50;
+  constexpr int k_patience_ms = 10, k_max_silent = 50;
   FalconCommand command{.lights = k_falcon_red, .homing = true};
   Vec3 at = k_falcon_middle_mm;
   int silent = 0;
@@ -99,7 +99,7 @@ void FalconStylus::serve(FalconUsb& usb) {
     due = std::max(due + k_period_ns, monotonic_ns() - k_period_ns);
     FalconAnswer answer;
     const auto heard = usb.exchange(command, answer, k_patience_ms);
-    if (heard == FalconUsb::Heard::silence && ++silent < k_most_silent) continue;
+    if (heard == FalconUsb::Heard::silence && ++silent < k_max_silent) continue;
     if (heard != FalconUsb::Heard::answer) {
       unplugged_.fetch_add(1);
       set_problem(stylus_error(facts_.id, DeviceError::lost, msg("was unplugged, or is silent"), msg("plug in its USB cable and its power supply")));

@@ -7,9 +7,9 @@
 namespace cavum {
 namespace {
 
-constexpr std::size_t k_most_fields = 4096;
-constexpr std::uint32_t k_most_report_bits = 8 * 4096;
-constexpr std::size_t k_most_stacked = 16, k_deepest = 64;
+constexpr std::size_t k_max_fields = 4096;
+constexpr std::uint32_t k_max_report_bits = 8 * 4096;
+constexpr std::size_t k_max_stacked = 16, k_deepest = 64;
 
 [[noreturn]] void refuse(std::size_t at, const Message& what) {
   throw Error(DeviceError::bad_descriptor, msg("HID report descriptor, byte {}", at), what,
@@ -128,7 +128,7 @@ class Parser {
         now_.most_unsigned = item.value;
         break;
       case 0x74:
-        if (item.value > k_most_report_bits) refuse(item.start, msg("a field of {} bits cannot be", item.value));
+        if (item.value > k_max_report_bits) refuse(item.start, msg("a field of {} bits cannot be", item.value));
         now_.size_bits = item.value;
         break;
       case 0x84:
@@ -137,11 +137,11 @@ class Parser {
         layout_.numbered = true;
         break;
       case 0x94:
-        if (item.value > k_most_report_bits) refuse(item.start, msg("{} fields in one report cannot be", item.value));
+        if (item.value > k_max_report_bits) refuse(item.start, msg("{} fields in one report cannot be", item.value));
         now_.count = item.value;
         break;
       case 0xa4:
-        if (stack_.size() >= k_most_stacked) refuse(item.start, msg("items are pushed more than 16 deep"));
+        if (stack_.size() >= k_max_stacked) refuse(item.start, msg("items are pushed more than 16 deep"));
         stack_.push_back(now_);
         break;
       case 0xb4:
@@ -157,7 +157,7 @@ class Parser {
   void take_local(const Item& item) {
     switch (item.tag) {
       case 0x08:
-        if (locals_.usages.size() < k_most_fields) locals_.usages.push_back(with_page(item.value, item.size));
+        if (locals_.usages.size() < k_max_fields) locals_.usages.push_back(with_page(item.value, item.size));
         break;
       case 0x18:
         locals_.usage_from = with_page(item.value, item.size);
@@ -192,9 +192,9 @@ class Parser {
     constexpr std::uint32_t k_constant = 1, k_variable = 2, k_relative = 4;
     std::uint32_t& bits = bits_of_report();
     const std::uint64_t all = static_cast<std::uint64_t>(now_.size_bits) * now_.count;
-    if (bits + all > k_most_report_bits) refuse(start, msg("a report of more than 4096 bytes cannot be"));
+    if (bits + all > k_max_report_bits) refuse(start, msg("a report of more than 4096 bytes cannot be"));
     if ((flags & k_constant) == 0 && (flags & k_variable) != 0 && now_.size_bits >= 1 && now_.size_bits <= 32) {
-      if (layout_.fields.size() + now_.count > k_most_fields) refuse(start, msg("more than 4096 fields are described"));
+      if (layout_.fields.size() + now_.count > k_max_fields) refuse(start, msg("more than 4096 fields are described"));
       // A range 0..255 in one byte reads as 0..-1: a positive least means that the largest is positive, too.
       const std::int32_t most =
           now_.least >= 0 && now_.most < now_.least ? static_cast<std::int32_t>(std::min<std::uint32_t>(now_.most_unsigned, 0x7fffffffu)) : now_.most;

@@ -171,7 +171,7 @@ void Inverse3Stylus::serve(Inverse3Link& link) {
 
 /// One command for one state. Throws Error when the line is cut, for what is no state, and after a second of silence.
 void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool vector) {
-  constexpr int k_most_silent = 10;
+  constexpr int k_max_silent = 10;
   link.send(inverse3_command(id, force(), vector), k_silent_after_s);
   int owed = 1;
   for (int silent = 0; owed > 0;) {
@@ -182,7 +182,7 @@ void Inverse3Stylus::exchange(Inverse3Link& link, const std::string& id, bool ve
     }
     const Error silence = inverse3_error(DeviceError::silent, msg("the service is silent"),
                                          msg("see whether the Haply Inverse Service still runs, and the device's cables"));
-    if (is_to_stop() || ++silent >= k_most_silent) throw silence;
+    if (is_to_stop() || ++silent >= k_max_silent) throw silence;
     if (silent > 1) continue;
     lose();
     set_problem(silence);

@@ -184,8 +184,8 @@ OpenHapticsStylus::OpenHapticsStylus(const StationStylus& station)
   const auto number = [this](unsigned what, double otherwise) {
     double value = 0.0;
     library_->get_doubles(what, &value);
-    constexpr double k_most_n = 100.0;
-    return value > 0.0 && value < k_most_n ? value : otherwise;
+    constexpr double k_max_n = 100.0;
+    return value > 0.0 && value < k_max_n ? value : otherwise;
   };
   const std::string& name = station.text("device_name");
   facts_ = touch_facts();
@@ -206,9 +206,9 @@ OpenHapticsStylus::~OpenHapticsStylus() {
   cut_force();
   closing_.store(true, std::memory_order_release);
   // The scheduler may serve another device: this one's last call must be over. It comes within a millisecond, unless the driver hangs.
-  constexpr int k_most_ms = 200;
+  constexpr int k_max_ms = 200;
   constexpr std::int64_t k_ms_ns = 1'000'000;
-  for (int i = 0; i < k_most_ms && !closed_.load(std::memory_order_acquire); ++i) sleep_until(monotonic_ns() + k_ms_ns);
+  for (int i = 0; i < k_max_ms && !closed_.load(std::memory_order_acquire); ++i) sleep_until(monotonic_ns() + k_ms_ns);
   const std::lock_guard lock(library_->mutex);
   if (--library_->running == 0) library_->stop_scheduler();
   library_->unschedule(task_);

@@ -60,7 +60,7 @@ std::string to_toml(const StationPedal& pedal) {
 }
 
 PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::vector<std::int64_t>& ranges, bool speaks_on_change) {
-  constexpr double k_least_share = 0.1, k_draw_in = 0.02;
+  constexpr double k_min_share = 0.1, k_draw_in = 0.02;
   std::size_t best = 0;
   double best_share = 0.0;
   for (std::size_t i = 0; i < axes.size(); ++i) {
@@ -71,7 +71,7 @@ PedalCalibration calibrate_pedal(const std::vector<AxisHeard>& axes, const std::
       best_share = share;
     }
   }
-  if (best_share < k_least_share)
+  if (best_share < k_min_share)
     throw Error(DeviceError::axes_still, msg("calibration"), msg("no axis moved by a tenth of its range"),
                 msg("press the pedal fully when asked to, and check its cable"));
   const AxisHeard& heard = axes[best];

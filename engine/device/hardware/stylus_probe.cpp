@@ -21,13 +21,13 @@ class Hold {
 
   Vec3 tick(Vec3 force_n) {
     constexpr std::int64_t k_tick_ns = 1'000'000;
-    constexpr int k_most_silent = 500;
+    constexpr int k_max_silent = 500;
     due_ns_ += k_tick_ns;
     if (real_time_) sleep_until(due_ns_);
     const DeviceReading r = stylus_.read(k_tick_of_probe_s);
     stylus_.send_force(force_n);
     if ((r.flags & k_stylus_fresh) == 0) {
-      if (++silent_ > k_most_silent)
+      if (++silent_ > k_max_silent)
         throw stylus_error(stylus_.facts().id, DeviceError::silent, msg("fell silent while it was tried"),
                            msg("see `cavum devices`, and begin again"));
       return at_;

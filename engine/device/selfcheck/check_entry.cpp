@@ -62,11 +62,11 @@ nlohmann::json to_signed_json(const CheckEntry& e, const SigningKey& key) {
 }
 
 CheckEntry read_check_entry(const nlohmann::json& j, const Where& where) {
-  constexpr std::size_t k_most_changes = 16;
+  constexpr std::size_t k_max_changes = 16;
   Json said = j;
   if (said.is_object()) said.erase("signature");
   auto e = json_value_of<CheckEntry>(
-      said, {.where = where, .advice = msg("use an intact copy"), .most_bytes = k_longest_check_reason, .most_elements = k_most_changes});
+      said, {.where = where, .advice = msg("use an intact copy"), .most_bytes = k_longest_check_reason, .most_elements = k_max_changes});
   const std::string text = signed_text(j);
   if (!is_signed_by(e.station_key, std::span(reinterpret_cast<const std::uint8_t*>(text.data()), text.size()), text_in(j, "signature")))
     throw Error(where, msg("does not have the signature of its station"), msg("somebody changed it; use an intact copy"));

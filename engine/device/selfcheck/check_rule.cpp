@@ -79,9 +79,9 @@ std::string gain_or_mass(const ArmFigures& now, std::span<const ArmFigures> earl
     seen2 += w.change * w.change;
     scatter2 += w.scatter * w.scatter;
   }
-  constexpr double k_least_weight_scatter_n = 0.01;
+  constexpr double k_min_weight_scatter_n = 0.01;
   const double by_gain = std::sqrt(by_gain2), by_mass = std::abs(std::sqrt(seen2) - k_earth_m_s2 * std::abs(mass_now - mass_before));
-  const double clear = k_clear * std::max(std::sqrt(scatter2), k_least_weight_scatter_n);
+  const double clear = k_clear * std::max(std::sqrt(scatter2), k_min_weight_scatter_n);
   if (by_gain + clear < by_mass) return "gain";
   if (by_mass + clear < by_gain) return "mass";
   return "gain or mass";
@@ -95,7 +95,7 @@ struct Found {
 void add_gain(std::vector<Found>& found, const ArmFigures& now, std::span<const ArmFigures> earlier, double friction_change_n) {
   // at another friction the arm swings otherwise; measured on simulated arms: up to 0.085 in ln mass for 0.1 N
   constexpr double k_by_friction_per_n = 0.4;
-  const double floor = k_least_gain + k_by_friction_per_n * std::abs(friction_change_n);
+  const double floor = k_min_gain + k_by_friction_per_n * std::abs(friction_change_n);
   const auto judge = [&](const Comparison& c, double alarms, const char* axis) {
     if (std::abs(c.change) < std::max(floor, c.limit(alarms))) return;
     const std::string cause = gain_or_mass(now, earlier, c.change);
@@ -115,7 +115,7 @@ void add_friction(std::vector<Found>& found, const ArmFigures& now, std::span<co
   const auto judge = [&](Comparison c, double alarms, const char* axis) {
     c.now *= gain;
     c.change = c.now - c.before;
-    if (std::abs(c.change) < std::max(k_least_friction_n, c.limit(alarms))) return false;
+    if (std::abs(c.change) < std::max(k_min_friction_n, c.limit(alarms))) return false;
     found.push_back({{"friction", axis, c.before, c.now, c.change, c.uncertain()}, std::abs(c.change) / std::max(1e-9, c.scatter)});
     return true;
   };
@@ -203,15 +203,15 @@ CheckVerdict judge_check(const ArmFigures& now, std::span<const ArmFigures> earl
   const Comparison friction = compare(
       now, compared, [](const ArmFigures& f) { return f.friction_n(); }, mean_friction_error);
   const Comparison mass = compare(now, compared, mean_log_mass, mean_mass_error);
-  v.finds_friction_n = std::max(k_least_friction_n, friction.found_from(k_mean_alarms));
-  v.finds_gain = -std::expm1(-std::max(k_least_gain, mass.found_from(k_mean_alarms)));
+  v.finds_friction_n = std::max(k_min_friction_n, friction.found_from(k_mean_alarms));
+  v.finds_gain = -std::expm1(-std::max(k_min_gain, mass.found_from(k_mean_alarms)));
   add_gain(found, now, compared, friction.change);
   const bool gain_fell = !found.empty() && found[0].change.quantity != "mass" && found[0].change.axis.empty();
   add_friction(found, now, compared, gain_fell ? 1.0 + found[0].change.change : 1.0);
   add_share(
-      found, now, compared, [](const ArmFigures& f) { return f.quantum_mm; }, "step", k_step_alarms, k_least_step);
+      found, now, compared, [](const ArmFigures& f) { return f.quantum_mm; }, "step", k_step_alarms, k_min_step);
   add_share(
-      found, now, compared, [](const ArmFigures& f) { return f.rate_hz; }, "rate", k_rate_alarms, k_least_rate);
+      found, now, compared, [](const ArmFigures& f) { return f.rate_hz; }, "rate", k_rate_alarms, k_min_rate);
   return conclude(CheckOutcome::unchanged);
 }
 

@@ -16,7 +16,7 @@ inline constexpr std::size_t k_checks_to_learn = 8, k_checks_compared = 30;
 inline constexpr double k_mean_alarms = 0.004, k_axis_alarms = 0.0015, k_step_alarms = 0.003, k_rate_alarms = 0.004;
 inline constexpr double k_false_alarms = 2 * (k_mean_alarms + 3 * k_axis_alarms) + k_step_alarms + k_rate_alarms;
 /// Smaller changes are not called any: N, shares.
-inline constexpr double k_least_friction_n = 0.04, k_least_gain = 0.04, k_least_step = 0.15, k_least_rate = 0.10;
+inline constexpr double k_min_friction_n = 0.04, k_min_gain = 0.04, k_min_step = 0.15, k_min_rate = 0.10;
 
 enum class CheckOutcome { learning, unchanged, changed, doubtful };
 /// "learning" and so on.

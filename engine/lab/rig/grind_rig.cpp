@@ -12,7 +12,7 @@ namespace {
 
 constexpr double k_bench_leaf_mm = 0.05, k_over_bench_mm = 0.02;
 constexpr double k_lowered_mm = 1e-3, k_fastest_mm = 0.1;  // a tick: in air, and while the load comes on
-constexpr double k_most_s = 1200.0;                        // a weight that has not sunk in by then does not
+constexpr double k_max_s = 1200.0;                         // a weight that has not sunk in by then does not
 constexpr double k_groove_mm = 0.05;                       // on its side: so shallow that pressure and load point the same way
 constexpr double k_end_in_mm = 0.1;                        // on its end: so far beyond the height where the head is widest
 constexpr double k_seconds_per_min = 60.0;
@@ -70,7 +70,7 @@ GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissu
   double z = bench.start_mm.z, begin_s = -1, first_mm = 0, first_mm3 = -1, first_mm3_s = 0, last_mm3 = 0, last_mm3_s = 0, depth_mm = 0, t_s = 0;
   double rpm_sum = 0, torque_sum = 0;
   int counted = 0;
-  while (t_s < k_most_s && !(begin_s >= 0 && depth_mm >= first_mm + k_grind_window_mm)) {
+  while (t_s < k_max_s && !(begin_s >= 0 && depth_mm >= first_mm + k_grind_window_mm)) {
     const std::uint64_t edit = state.tooth.edit_hash();
     out = tick({bench.start_mm.x, bench.start_mm.y, z});
     t_s += k_tick_s;

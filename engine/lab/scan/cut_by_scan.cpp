@@ -259,10 +259,10 @@ struct CarveByScan {
     const IVec3 leaf = lattice.low + at;
     if (!lattice.holds(leaf)) return 0.0;
     const std::size_t i = lattice.index(leaf);
-    constexpr double k_least_mm = 1e-6;
+    constexpr double k_min_mm = 1e-6;
     const double d = -static_cast<double>(mm[i]);
     if (mark[i] == k_as_it_was) return static_cast<double>(k_far_off);
-    return mark[i] == k_goes ? std::min(d, -k_least_mm) : mark[i] == k_stays ? std::max(d, k_least_mm) : d;
+    return mark[i] == k_goes ? std::min(d, -k_min_mm) : mark[i] == k_stays ? std::max(d, k_min_mm) : d;
   }
 };
 

@@ -24,7 +24,7 @@ double area_of(const TriangleMesh& mesh) {
 
 /// The largest connected part.
 TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, Scan& scan) {
-  constexpr double k_most_beside = 0.1;
+  constexpr double k_max_beside = 0.1;
   std::vector<TriangleMesh> parts = connected_parts(mesh);
   if (parts.size() == 1) return std::move(parts.front());
   std::size_t largest = 0;
@@ -34,7 +34,7 @@ TriangleMesh main_part(const TriangleMesh& mesh, const std::string& path, Scan& 
     all += area;
     if (area > most) most = area, largest = i;
   }
-  if (all - most > k_most_beside * all)
+  if (all - most > k_max_beside * all)
     throw Error(path, msg("is in {} parts, and the largest has {} of the surface only", parts.size(), as_percent(100 * most / all, 0)),
                 msg("give a mesh of the one tooth, whose triangles share their corners"));
   scan.parts_left_out = parts.size() - 1;

@@ -121,7 +121,7 @@ struct Off {
 /// Point to plane with Tukey's weights, against the octree's own distance.
 class FineFit {
  public:
-  static constexpr double k_least_noise_mm = 0.005;
+  static constexpr double k_min_noise_mm = 0.005;
   FineFit(const std::vector<SurfacePoint>& points, const OuterSurface& tooth) : points_(points), tooth_(tooth), off_(points.size()) {}
 
   [[nodiscard]] std::optional<ScanPose> fit(Rigid pose) {
@@ -131,7 +131,7 @@ class FineFit {
       look(pose);
       const auto noise = noise_mm();
       if (!noise) return std::nullopt;
-      const double reach = k_tukey * std::max(*noise, k_least_noise_mm);
+      const double reach = k_tukey * std::max(*noise, k_min_noise_mm);
       PlaneSteps steps(pose * points_[points_.size() / 2].at_mm);
       for (const Off& o : off_) {
         if (!o.near || !o.facing || std::fabs(o.mm) >= reach) continue;
@@ -221,7 +221,7 @@ std::optional<Registration> register_scan(const std::vector<SurfacePoint>& scan,
   if (poses.empty()) return std::nullopt;
   double noise_mm = poses.front().noise_mm;
   for (const auto& p : poses) noise_mm = std::min(noise_mm, p.noise_mm);
-  for (auto& p : poses) p.share = fine.share(p.to_tooth, 3 * std::max(noise_mm, FineFit::k_least_noise_mm));
+  for (auto& p : poses) p.share = fine.share(p.to_tooth, 3 * std::max(noise_mm, FineFit::k_min_noise_mm));
   std::stable_sort(poses.begin(), poses.end(), [](const ScanPose& a, const ScanPose& b) { return a.share > b.share; });
   Registration r{poses.front(), std::nullopt};
   for (const auto& p : poses)

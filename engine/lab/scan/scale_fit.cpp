@@ -8,7 +8,7 @@ namespace cavum {
 namespace {
 
 constexpr std::size_t k_scale_points = 6000, k_fewest_near = 500;
-constexpr double k_most_change = 1.25;
+constexpr double k_max_change = 1.25;
 
 /// The least-squares step of motion and size about a middle: (p - c) × n · w + n · t + (p - c) · n e + r.
 class SizedSteps {
@@ -34,7 +34,7 @@ class SizedSteps {
     pose.to_tooth = Rigid{turn, {}}.after({pose.to_tooth.rotation, {}});
     pose.to_tooth.shift_mm = shift;
     pose.scale *= grown;
-    return pose.scale > 1 / k_most_change && pose.scale < k_most_change;
+    return pose.scale > 1 / k_max_change && pose.scale < k_max_change;
   }
 
  private:
@@ -84,7 +84,7 @@ bool step(const std::vector<SurfacePoint>& points, ScaledPose& pose, const Look&
 
 std::optional<ScaledPose> fit_with_scale(const std::vector<SurfacePoint>& scan, const Rigid& near, const OuterSurface& tooth) {
   constexpr int k_rough_steps = 40, k_fine_steps = 40;
-  constexpr double k_facing_least = 0.5, k_rough_mm = 1.5, k_rough_share = 0.8, k_fine_mm = 0.15, k_sigmas = 4.685 * 1.4826, k_least_reach_mm = 0.03;
+  constexpr double k_facing_least = 0.5, k_rough_mm = 1.5, k_rough_share = 0.8, k_fine_mm = 0.15, k_sigmas = 4.685 * 1.4826, k_min_reach_mm = 0.03;
   Random random(20261127);
   const auto points = drawn_by_area(scan, k_scale_points, random);
   ScaledPose pose{1.0, near};
@@ -94,7 +94,7 @@ std::optional<ScaledPose> fit_with_scale(const std::vector<SurfacePoint>& scan, 
     return Beside{at, place.normal, place.plane_mm(at)};
   };
   for (int i = 0; i < k_rough_steps; ++i)
-    if (!step(points, pose, rough, [=](const std::vector<double>& sizes) { return std::max(rank_of(sizes, k_rough_share), k_least_reach_mm); }))
+    if (!step(points, pose, rough, [=](const std::vector<double>& sizes) { return std::max(rank_of(sizes, k_rough_share), k_min_reach_mm); }))
       return std::nullopt;
   Octree::Cursor cursor;
   const auto fine = [&](Vec3 at, Vec3 normal) -> std::optional<Beside> {
@@ -103,7 +103,7 @@ std::optional<ScaledPose> fit_with_scale(const std::vector<SurfacePoint>& scan, 
     return Beside{at, d.normal, d.mm};
   };
   for (int i = 0; i < k_fine_steps; ++i)
-    if (!step(points, pose, fine, [=](const std::vector<double>& sizes) { return std::max(k_sigmas * rank_of(sizes, 0.5), k_least_reach_mm); }))
+    if (!step(points, pose, fine, [=](const std::vector<double>& sizes) { return std::max(k_sigmas * rank_of(sizes, 0.5), k_min_reach_mm); }))
       return std::nullopt;
   return pose;
 }

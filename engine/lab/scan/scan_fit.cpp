@@ -11,7 +11,7 @@ namespace cavum {
 namespace {
 
 constexpr std::size_t k_looked_at = 40000;
-constexpr double k_fits_near_mm = 0.15, k_fits_facing = 0.5, k_fits_shallow_mm = 0.3, k_least_within_mm = 0.03;
+constexpr double k_fits_near_mm = 0.15, k_fits_facing = 0.5, k_fits_shallow_mm = 0.3, k_min_within_mm = 0.03;
 
 struct Seen {
   double mm = 0.0;
@@ -89,7 +89,7 @@ ScanFit fit_of(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, con
   ScanFit fit;
   fit.noise_mm = k_sigma_of_median * median_of(near);
   fit.form_mm = k_sigma_of_median * median_of(patches.mean_sizes());
-  fit.within_mm = std::max(k_least_within_mm, 3 * fit.noise_mm);
+  fit.within_mm = std::max(k_min_within_mm, 3 * fit.noise_mm);
   double squares = 0;
   const double one = 1.0 / static_cast<double>(seen.size());
   for (const Seen& s : seen) {
@@ -110,12 +110,12 @@ ScanFit fit_of(const std::vector<SurfacePoint>& scan, const Rigid& to_tooth, con
 }
 
 bool fits_tooth(const ScanFit& f) noexcept {
-  constexpr double k_most_noise_mm = 0.06, k_most_form_mm = 0.018, k_least_agreement = 0.88, k_most_beyond = 0.04;
-  return f.noise_mm <= k_most_noise_mm && f.form_mm <= k_most_form_mm && agreement(f) >= k_least_agreement && f.beyond <= k_most_beyond;
+  constexpr double k_max_noise_mm = 0.06, k_max_form_mm = 0.018, k_min_agreement = 0.88, k_max_beyond = 0.04;
+  return f.noise_mm <= k_max_noise_mm && f.form_mm <= k_max_form_mm && agreement(f) >= k_min_agreement && f.beyond <= k_max_beyond;
 }
 
 void require_same_tooth(const ScanFit& f, const std::string& where) {
-  constexpr double k_least_crown = 0.45;
+  constexpr double k_min_crown = 0.45;
   const auto percent = [](double share) { return as_percent(100 * share, 1); };
   const Message found = msg(
       "where it fits best, {} of its surface lies within {} of the tooth (RMS {}, patches of {} {}), {} outside it and {} just below it; {} of the "
@@ -127,7 +127,7 @@ void require_same_tooth(const ScanFit& f, const std::string& where) {
                 msg("give the scan of this very tooth, without its neighbours, or name its tooth with --tooth; if it is this tooth, too much of its "
                     "crown was "
                     "ground off to lay the scan upon the rest"));
-  if (f.crown_seen < k_least_crown)
+  if (f.crown_seen < k_min_crown)
     throw Error(ScanError::crown_not_seen, Name{where}, msg("shows too little of the crown to be sure: {}", found),
                 msg("scan the whole crown down to its neck"));
 }

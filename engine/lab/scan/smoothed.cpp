@@ -14,9 +14,9 @@ class Neighbours {
     Bounds box;
     for (const auto& p : points) box.add(p.at_mm);
     cell_mm_ = radius_mm;
-    constexpr double k_most_cells = 8e6;
+    constexpr double k_max_cells = 8e6;
     const auto along = [&](double mm) { return std::floor(mm / cell_mm_) + 1; };
-    while (along(box.high.x - box.low.x) * along(box.high.y - box.low.y) * along(box.high.z - box.low.z) > k_most_cells) cell_mm_ *= 1.25;
+    while (along(box.high.x - box.low.x) * along(box.high.y - box.low.y) * along(box.high.z - box.low.z) > k_max_cells) cell_mm_ *= 1.25;
     low_mm_ = box.low;
     size_ = {static_cast<int>(along(box.high.x - box.low.x)), static_cast<int>(along(box.high.y - box.low.y)),
              static_cast<int>(along(box.high.z - box.low.z))};

@@ -15,7 +15,7 @@ using Corners = std::array<Vec3, 3>;
 /// The triangle in halves, across its longest edge each, until no edge is longer: `visit(corners, halvings)`.
 template <class Visit>
 void halved(const Corners& whole, double longest_mm, const Visit& visit) {
-  constexpr int k_most_halvings = 40;
+  constexpr int k_max_halvings = 40;
   std::vector<std::pair<Corners, int>> open{{whole, 0}};
   while (!open.empty()) {
     const auto [t, halvings] = open.back();
@@ -23,7 +23,7 @@ void halved(const Corners& whole, double longest_mm, const Visit& visit) {
     std::size_t longest = 0;
     const auto edge = [&](std::size_t i) { return length(t[(i + 1) % 3] - t[i]); };
     for (std::size_t i = 1; i < 3; ++i) longest = edge(i) > edge(longest) ? i : longest;
-    if (edge(longest) <= longest_mm || halvings == k_most_halvings) {
+    if (edge(longest) <= longest_mm || halvings == k_max_halvings) {
       visit(t, halvings);
       continue;
     }
@@ -44,8 +44,8 @@ std::vector<SurfacePoint> surface_points(const TriangleMesh& mesh, double longes
     const double twice = length(across);
     if (!(twice > 1e-12)) continue;
     halved(whole, longest_mm, [&](const Corners& part, int halvings) {
-      if (points.size() >= k_most_scan_points)
-        throw Error(where, msg("its triangles cover more than {} places", k_most_scan_points),
+      if (points.size() >= k_max_scan_points)
+        throw Error(where, msg("its triangles cover more than {} places", k_max_scan_points),
                     msg("check the unit, and that it is the surface of one tooth"));
       points.push_back({(part[0] + part[1] + part[2]) / 3, across / twice, 0.5 * twice / static_cast<double>(std::uint64_t{1} << halvings)});
     });

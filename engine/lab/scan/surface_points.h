@@ -15,7 +15,7 @@ struct SurfacePoint {
 };
 
 /// Places on one surface.
-inline constexpr std::size_t k_most_scan_points = 6'000'000;
+inline constexpr std::size_t k_max_scan_points = 6'000'000;
 
 /// Each triangle in parts with edges of at most `longest_mm`, by halving its longest edge: their middles. Triangles without area give none. Throws
 /// Error(`where`, ...) where that would be more than those.

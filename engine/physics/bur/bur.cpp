@@ -35,8 +35,8 @@ Bur parse_bur(const std::string& text, const std::string& where) {
   bur.cutting_length_mm = in.number("cutting_length_mm", 0.1, 20);
   const toml::array* pieces = in.array("profile");
   if (pieces == nullptr) in.fail("profile", msg("is missing"), msg("list {{r_mm, z_mm}} from the tip upwards"));
-  constexpr std::size_t k_most_pieces = 64;  // the distance to each is taken at each node of the head's table
-  if (pieces->size() > k_most_pieces) in.fail("profile", msg("has {} pieces", pieces->size()), msg("list at most {}", k_most_pieces));
+  constexpr std::size_t k_max_pieces = 64;  // the distance to each is taken at each node of the head's table
+  if (pieces->size() > k_max_pieces) in.fail("profile", msg("has {} pieces", pieces->size()), msg("list at most {}", k_max_pieces));
   std::vector<ProfileSegment> segments;
   for (const auto& node : *pieces) {
     if (!node.is_table()) in.fail("profile", msg("has an entry that is not a table"), msg("write {{r_mm = .., z_mm = ..}}"));

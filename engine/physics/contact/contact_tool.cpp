@@ -142,7 +142,7 @@ ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm) {
   tool.bur = bur;
   tool.turning = turning_pieces(bur);
   // a long head is sampled more coarsely: its sides are straight, and the count decides the time of a tick
-  constexpr double k_most_head_samples = 450;
+  constexpr double k_max_head_samples = 450;
   double head_area = 0;
   ProfilePoint before;
   for (const auto& p : bur.profile.walk(0.02, bur.cutting_length_mm)) {
@@ -150,7 +150,7 @@ ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm) {
     head_area += 2 * k_pi * p.at.r_mm * std::sqrt(dr * dr + dz * dz);
     before = p.at;
   }
-  head_spacing_mm = std::clamp(std::sqrt(head_area / k_most_head_samples), head_spacing_mm, 2 * head_spacing_mm);
+  head_spacing_mm = std::clamp(std::sqrt(head_area / k_max_head_samples), head_spacing_mm, 2 * head_spacing_mm);
   spread(bur.profile, 0, bur.cutting_length_mm, head_spacing_mm, tool.samples);
   tool.samples.push_back({{0, 0, 0}, {0, 0, -1}, 1e-4});  // the very tip: a sharp bur touches with nothing else
   group(tool, 0, 0.4);

@@ -22,7 +22,7 @@ constexpr std::size_t k_refined_room = 32;
 // Half spaces say little of a crest of tissue between two samples, or of a sheet between head and neck: the proxy goes forth and back over it, and
 // gathers anew each time. So a step back makes the stride shorter, and the search ends for this tick once more places than that were looked up,
 // sooner after a second step back: the proxy goes on in the next tick. The last gathering comes on top (some 450 places in a deep hole).
-constexpr int k_most_looked_up = 1200, k_most_going_back = 300;
+constexpr int k_max_looked_up = 1200, k_max_going_back = 300;
 constexpr int k_all_places = 1 << 30;
 constexpr int k_part_looked_up = 140;              // places of a gathering that is spread over ticks, in each of them
 constexpr double k_aside_leaves = 0.1;             // the proxy takes an opened way while it lies no further beside it
@@ -270,7 +270,7 @@ bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, Cont
     state.last_step_mm = s.step;
     strode |= s.is_long;
     if (s.is_long && !s.back) stride = std::min(k_longer * stride, leaf);
-    on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_most_going_back : k_most_looked_up);
+    on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_max_going_back : k_max_looked_up);
     if (on_its_way) break;
   }
   if (!strode) {  // at rest

@@ -17,8 +17,8 @@ constexpr double k_ahead_leaves = 1.6;      // so far before a sample its tissue
 constexpr double k_close_leaves = 0.1;      // and there, where a sheet is thinner than that: just inside the surface
 constexpr double k_void_near_leaves = 3.0;  // what is looked up ahead, and the eight leaves around it
 constexpr double k_furthest_mm2 = 1e-3;     // an eighth of what a sample of the head stands for
-constexpr double k_least_area_mm2 = 1e-9;   // rounding
-constexpr double k_least_radius_mm = 0.05;  // half a coarse grain: no grain stands still, though the axis does
+constexpr double k_min_area_mm2 = 1e-9;     // rounding
+constexpr double k_min_radius_mm = 0.05;    // half a coarse grain: no grain stands still, though the axis does
 constexpr double k_even_share = 0.999;      // stiffnesses nearer than that are one tissue's
 
 /// Means of k, c, 1/τ and 1/K over the solid (or the void) tissues of a mix, and their share in it.
@@ -125,7 +125,7 @@ class Touching {
   /// All sums over their areas.
   [[nodiscard]] TouchedMeans means() noexcept {
     TouchedMeans m = sums_;
-    m.touching = cut_area_ > k_least_area_mm2;
+    m.touching = cut_area_ > k_min_area_mm2;
     if (!m.touching) {
       m.of = {};
       m.grinding = {};
@@ -186,7 +186,7 @@ class Touching {
   void count_ground(Vec3 at_tool, double touched, double cosine) noexcept {
     const double resisted = touched * solid_mean_.resistance_n_per_mm2;
     sums_.grinding.sliding_n += resisted;
-    sums_.grinding.per_turn_n_per_mm += resisted * cosine / std::max(k_least_radius_mm, std::sqrt(at_tool.x * at_tool.x + at_tool.y * at_tool.y));
+    sums_.grinding.per_turn_n_per_mm += resisted * cosine / std::max(k_min_radius_mm, std::sqrt(at_tool.x * at_tool.x + at_tool.y * at_tool.y));
     ground_area_ += touched;
   }
 

@@ -16,12 +16,12 @@ void carve_at_lift_off(const Recession& owed, double leaf_mm, HeadCarving& carvi
 
 }  // namespace
 
-void find_contact(ServoState& state, Tick& tick) noexcept {
+void solve_proxy(ServoState& state, Tick& tick) noexcept {
   tick.was_touching = state.contact.touching;
   tick.contact = update_contact(state.tooth, tick.tool, tick.input.bur, tick.device, state.contact);
 }
 
-void settle_recession(ServoState& state, Tick& tick) noexcept {
+void penetration(ServoState& state, Tick& tick) noexcept {
   const double leaf_mm = state.tooth.leaf_mm();
   if (tick.was_touching && !tick.contact.touching) carve_at_lift_off(state.recession, leaf_mm, state.carving);
   follow_recession(state.contact, tick.contact, tick.was_touching, state.carving.last, leaf_mm, state.recession);
@@ -30,7 +30,7 @@ void settle_recession(ServoState& state, Tick& tick) noexcept {
   tick.approach_mm = -dot(tick.moved_mm, tick.contact.normal);
 }
 
-void look_at_tissue(const ServoModel& model, ServoState& state, Tick& tick) noexcept {
+void tissue_mixture(const ServoModel& model, ServoState& state, Tick& tick) noexcept {
   if (tick.contact.in_air || !(tick.contact.touching || state.handpiece.rpm > 0)) return;
   const TouchedMeans before = state.contact.touched.means;
   TouchedMeans& means = tick.means;

@@ -29,7 +29,7 @@ TermInput seen_by_terms(const ServoModel& model, const ServoState& state, const 
 
 }  // namespace
 
-void work_out_force(const ServoModel& model, ServoState& state, Tick& tick, TickOutput& out) noexcept {
+void model_force(const ServoModel& model, ServoState& state, Tick& tick, TickOutput& out) noexcept {
   const ForceModel& force = model.force;
   update_speed(force.rendering, state.render, tick.contact.touching, tick.approach_mm, model.config.tick_s);
   const double speed_mm_s = state.render.speed_mm_s;

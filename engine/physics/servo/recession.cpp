@@ -9,11 +9,11 @@ namespace cavum {
 namespace {
 
 // A leaf of 0.025 mm goes at once, a coarse one in four: what a carve costs hardly depends on how deep it is, so that finer steps would cost more.
-constexpr double k_least_step_mm = 0.025, k_step_leaves = 0.25;
+constexpr double k_min_step_mm = 0.025, k_step_leaves = 0.25;
 // In carves: one that contact is following, one under way, and one that gathers. A head that neck or shank hold owes no more than that.
-constexpr double k_most_owed_steps = 3.0;
+constexpr double k_max_owed_steps = 3.0;
 // The distance field is cut wider than the head by a clearance of 0.01 leaf and more (carve_head.cpp): the proxy may be paid for that in advance.
-constexpr double k_most_ahead_leaves = 0.1;
+constexpr double k_max_ahead_leaves = 0.1;
 // Half the distance of two leaves: a proxy further aside stands in another hole.
 constexpr double k_same_hole_leaves = 0.5;
 
@@ -23,12 +23,12 @@ double owed_at_touch_mm(const ContactState& contact, const CarvedHead& carved, d
   const Vec3 way = carved.tip_mm - contact.proxy_mm;
   const double deeper_mm = dot(way, contact.normal);
   const bool there = length(way - contact.normal * deeper_mm) <= k_same_hole_leaves * leaf_mm;
-  return there ? -std::clamp(deeper_mm, 0.0, k_most_ahead_leaves * leaf_mm) : 0.0;
+  return there ? -std::clamp(deeper_mm, 0.0, k_max_ahead_leaves * leaf_mm) : 0.0;
 }
 
 }  // namespace
 
-double carve_step_mm(double leaf_mm) noexcept { return std::max(k_step_leaves * leaf_mm, k_least_step_mm); }
+double carve_step_mm(double leaf_mm) noexcept { return std::max(k_step_leaves * leaf_mm, k_min_step_mm); }
 
 void follow_recession(const ContactState& contact, const ContactResult& found, bool was_touching, const CarvedHead& carved, double leaf_mm,
                       Recession& state) noexcept {
@@ -38,12 +38,12 @@ void follow_recession(const ContactState& contact, const ContactResult& found, b
   else if (!was_touching)
     state.owed_mm = owed_at_touch_mm(contact, carved, leaf_mm);
   else if (state.followed_edit != contact.gathered.edit)
-    state.owed_mm = std::max(state.owed_mm + dot(found.moved_mm, found.normal), -k_most_ahead_leaves * leaf_mm);
+    state.owed_mm = std::max(state.owed_mm + dot(found.moved_mm, found.normal), -k_max_ahead_leaves * leaf_mm);
   if (!found.on_its_way) state.followed_edit = contact.gathered.edit;
 }
 
 void gather_recession(double speed_mm_s, double dt_s, double leaf_mm, Recession& state) noexcept {
-  state.owed_mm = std::min(state.owed_mm + speed_mm_s * dt_s, k_most_owed_steps * carve_step_mm(leaf_mm));
+  state.owed_mm = std::min(state.owed_mm + speed_mm_s * dt_s, k_max_owed_steps * carve_step_mm(leaf_mm));
 }
 
 CarvedHead receded(CarvedHead head, Vec3 normal, double owed_mm) noexcept {

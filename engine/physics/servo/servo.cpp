@@ -11,7 +11,7 @@ namespace cavum {
 namespace {
 
 constexpr double k_mm_per_m = 1000.0;
-constexpr std::size_t k_most_burs = 255;         // TickInput::bur is a byte
+constexpr std::size_t k_max_burs = 255;          // TickInput::bur is a byte
 constexpr std::size_t k_edit_room = 1 << 17;     // bricks, 8 million leaves: more than a tooth has at its surface; untouched room costs no memory
 constexpr std::size_t k_removed_room = 1 << 16;  // leaves a tick: a ball of 2.5 mm radius at leaves of 0.1 mm, or of 1.2 mm at 0.05
 
@@ -24,7 +24,7 @@ auto material_of(const ForceModel& force, const std::string& tissue) {
 }  // namespace
 
 ServoModel make_servo_model(const Tooth& tooth, const std::vector<Bur>& tray, const ForceModel& force, const ServoConfig& config) {
-  if (tray.empty() || tray.size() > k_most_burs) throw Error(msg("tray"), msg("holds {} burs", tray.size()), msg("allow between 1 and 255"));
+  if (tray.empty() || tray.size() > k_max_burs) throw Error(msg("tray"), msg("holds {} burs", tray.size()), msg("allow between 1 and 255"));
   ServoModel model;
   model.config = config;
   model.force = force;
@@ -75,12 +75,12 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   if (input.bur < model.tray.size()) {
     const Pose device{state.estimate.tip_mm, input.pose().rotation};
     Tick tick{.input = input, .tool = model.tray[input.bur], .device = device, .moved_mm = device.tip_mm - tip_before_mm};
-    find_contact(state, tick);                // p, n
-    settle_recession(state, tick);            // X = max(0, |p − s| − r)
-    look_at_tissue(model, state, tick);       // k, c, 1/τ
-    work_out_force(model, state, tick, out);  // F = max(0, k X + c V + Σ)
-    wanted_n = render(model, state, tick);    // k X + z + b V + Σ, along n
-    cut(model, state, tick, out);             // r' = X/τ · rpm/rpm_ref, or by pressure
+    solve_proxy(state, tick);               // p, n
+    penetration(state, tick);               // X = max(0, |p − s| − r)
+    tissue_mixture(model, state, tick);     // k, c, 1/τ
+    model_force(model, state, tick, out);   // F = max(0, k X + c V + Σ)
+    wanted_n = render(model, state, tick);  // k X + z + b V + Σ, along n
+    cut(model, state, tick, out);           // r' = X/τ · rpm/rpm_ref, or by pressure
   } else {
     out.notices |= k_notice_bad_bur;
     state.handpiece = {};

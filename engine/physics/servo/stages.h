@@ -23,13 +23,13 @@ struct Tick {
 };
 
 /// p = the place nearest to s that the tooth allows; n = (p − s)/|p − s|.
-void find_contact(ServoState& state, Tick& tick) noexcept;
+void solve_proxy(ServoState& state, Tick& tick) noexcept;
 /// What a tool that lifts off still owes is carved where it was; then X = max(0, |p − s| − r).
-void settle_recession(ServoState& state, Tick& tick) noexcept;
+void penetration(ServoState& state, Tick& tick) noexcept;
 /// k, c and 1/τ: means over the area touched.
-void look_at_tissue(const ServoModel& model, ServoState& state, Tick& tick) noexcept;
+void tissue_mixture(const ServoModel& model, ServoState& state, Tick& tick) noexcept;
 /// F = max(0, k X + c V + Σ tissue terms) along n, and the drag of the terms.
-void work_out_force(const ServoModel& model, ServoState& state, Tick& tick, TickOutput& out) noexcept;
+void model_force(const ServoModel& model, ServoState& state, Tick& tick, TickOutput& out) noexcept;
 /// The same as a sampled device may be given it, N: k X + z + b V + Σ tissue terms, and drag through a spring.
 [[nodiscard]] Vec3 render(const ServoModel& model, ServoState& state, const Tick& tick) noexcept;
 /// r' = X/τ · rpm/rpm_ref, or by pressure (grinding.h); the head, moved on by r, is carved when enough has gathered.

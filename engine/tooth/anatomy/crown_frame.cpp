@@ -49,7 +49,7 @@ CrownFrame crown_frame(const Tooth& tooth, const TissueIds& ids) {
   frame.origin_mm = enamel.centre_mm(tree);
   const Vec3 along = frame.origin_mm - dentin.centre_mm(tree);
   // centroids that nearly coincide (enamel all round) point nowhere
-  frame.own_axis = dentin.n > 0 && length(along) > 1.0 && along.z > k_least_axis_cosine * length(along);
+  frame.own_axis = dentin.n > 0 && length(along) > 1.0 && along.z > k_min_axis_cosine * length(along);
   const Vec3 z = frame.own_axis ? normalized(along) : Vec3{0, 0, 1};
   const Vec3 x = normalized(Vec3{1, 0, 0} - z * z.x);
   frame.axes = {x, cross(z, x), z};

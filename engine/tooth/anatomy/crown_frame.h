@@ -23,14 +23,14 @@ struct CrownFrame {
   Vec3 enamel_low, enamel_high;  ///< box of the enamel, in this frame
   Vec3 solid_low, solid_high;    ///< box of all solid tissue, in this frame
   std::uint64_t enamel_leaves = 0, dentin_leaves = 0;
-  bool own_axis = true;  ///< false: the tissues tell no axis, or one more than k_most_tilt_deg off; then it is the tooth frame's +z
+  bool own_axis = true;  ///< false: the tissues tell no axis, or one more than k_max_tilt_deg off; then it is the tooth frame's +z
 
   [[nodiscard]] Vec3 to_tooth(Vec3 p) const noexcept { return axes.transposed(p) + origin_mm; }
   [[nodiscard]] Vec3 from_tooth(Vec3 p) const noexcept { return axes * (p - origin_mm); }
 };
 
 /// The largest angle between the tooth frame's +z and a long axis that is believed: cos 25 degrees.
-inline constexpr double k_least_axis_cosine = 0.9063;
+inline constexpr double k_min_axis_cosine = 0.9063;
 
 /// A tooth without enamel gets a frame with `enamel_leaves` 0.
 [[nodiscard]] CrownFrame crown_frame(const Tooth& tooth, const TissueIds& ids);

@@ -19,7 +19,7 @@ constexpr double k_from_crest_mm = 0.2;        // a hollow nearer to the ridge i
 constexpr double k_knee_from_crest_mm = 0.35;  // a valley that begins on the crest itself has no end to be told
 constexpr double k_usual_from_crest_mm = 1.0;  // a pit
 constexpr double k_pits_apart_mm = 1.0;
-constexpr double k_least_branch_mm = 0.8;
+constexpr double k_min_branch_mm = 0.8;
 constexpr int k_passes = 4;
 
 std::size_t place(int cell) { return static_cast<std::size_t>(cell); }
@@ -171,7 +171,7 @@ void find_fissures(const CrownMaps& maps, const OcclusalTable& table, const std:
     if (branch.size() < 3) continue;
     std::reverse(branch.begin(), branch.end());
     const Polyline line = line_of(map, branch, false, k_passes);
-    if (flat_length(line) >= k_least_branch_mm && median_bend(branch, curvature, 0, branch.size()) >= k_fissure_per_mm)
+    if (flat_length(line) >= k_min_branch_mm && median_bend(branch, curvature, 0, branch.size()) >= k_fissure_per_mm)
       marks.branches.push_back(thinned(line, 2, false));
   }
 }

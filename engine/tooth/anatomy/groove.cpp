@@ -8,15 +8,15 @@
 namespace cavum {
 namespace {
 
-constexpr double k_end_mm = 0.3;                           // of the crown's length at each end: there a way begins
-constexpr double k_side_slope = 0.15;                      // a steeper climb is the side, not the crest
-constexpr double k_rounded_mm = 0.8;                       // the highest place of a ridge lies at most so far inside of that
-constexpr double k_slope_over_mm = 0.4;                    // slopes are measured over this
-constexpr double k_least_share = 0.4;                      // of half the crown's length: a ridge lies beyond
-constexpr double k_between_share = 0.25;                   // nearer to the middle the groove has both sides above it
-constexpr double k_side_reach_mm = 3.5;                    // how far across the groove its sides are looked at
-constexpr double k_side_mm = 0.1, k_least_side_mm = 0.03;  // so much both sides stand above it, mostly and at least
-constexpr std::size_t k_smooth_cells = 2;                  // to both sides, along the way
+constexpr double k_end_mm = 0.3;                         // of the crown's length at each end: there a way begins
+constexpr double k_side_slope = 0.15;                    // a steeper climb is the side, not the crest
+constexpr double k_rounded_mm = 0.8;                     // the highest place of a ridge lies at most so far inside of that
+constexpr double k_slope_over_mm = 0.4;                  // slopes are measured over this
+constexpr double k_min_share = 0.4;                      // of half the crown's length: a ridge lies beyond
+constexpr double k_between_share = 0.25;                 // nearer to the middle the groove has both sides above it
+constexpr double k_side_reach_mm = 3.5;                  // how far across the groove its sides are looked at
+constexpr double k_side_mm = 0.1, k_min_side_mm = 0.03;  // so much both sides stand above it, mostly and at least
+constexpr std::size_t k_smooth_cells = 2;                // to both sides, along the way
 
 struct Reach {
   double low = 1e9, high = -1e9;
@@ -108,7 +108,7 @@ std::optional<Groove> find_groove(const HeightMap& map, double least_z, double l
     const double at = map.place(c).x;
     if (at > x.high - k_end_mm) mesial.push_back(c);
     if (at < x.low + k_end_mm) distal.push_back(c);
-    if (std::fabs(at - x.middle()) < k_between_share * x.half()) allowed[i] = side_height(map, c) >= k_least_side_mm;
+    if (std::fabs(at - x.middle()) < k_between_share * x.half()) allowed[i] = side_height(map, c) >= k_min_side_mm;
   }
   const auto bend = surface_curvature(map);
   Groove groove;
@@ -123,7 +123,7 @@ std::optional<Groove> find_groove(const HeightMap& map, double least_z, double l
   groove.distal = {groove.way.size() - 1 - distal_end->place, distal_end->ridge};
   const double out_mesial = map.place(groove.way[groove.mesial.place]).x - x.middle(),
                out_distal = x.middle() - map.place(groove.way[groove.distal.place]).x;
-  if (std::min(out_mesial, out_distal) < k_least_share * x.half()) return std::nullopt;
+  if (std::min(out_mesial, out_distal) < k_min_share * x.half()) return std::nullopt;
   std::vector<double> bends, sides;
   for (std::size_t i = groove.mesial.place; i <= groove.distal.place; ++i) {
     bends.push_back(bend[static_cast<std::size_t>(groove.way[i])]);

@@ -16,7 +16,7 @@
 namespace cavum {
 namespace {
 
-constexpr double k_least_crown_mm = 2.0, k_largest_crown_mm = 25.0;
+constexpr double k_min_crown_mm = 2.0, k_largest_crown_mm = 25.0;
 constexpr double k_high_share = 0.45;  // cusps stand above this share of the way from the neck to the top
 constexpr double k_degrees = 57.29577951308232;
 
@@ -72,7 +72,7 @@ Landmarks found_landmarks(const Tooth& tooth) {
     return out;
   }
   const Vec3 crown = frame.enamel_high - frame.enamel_low;
-  if (std::min({crown.x, crown.y, crown.z}) < k_least_crown_mm || std::max({crown.x, crown.y, crown.z}) > k_largest_crown_mm) {
+  if (std::min({crown.x, crown.y, crown.z}) < k_min_crown_mm || std::max({crown.x, crown.y, crown.z}) > k_largest_crown_mm) {
     out.notes.push_back(msg("enamel of {} x {} x {} is no crown", as_number(crown.x, 1), as_number(crown.y, 1), as_mm(crown.z, 1)));
     return out;
   }

@@ -23,8 +23,8 @@ using Polyline = std::vector<Vec3>;
 
 struct ClassGuess {
   ToothClass kind = ToothClass::unknown;
-  double sureness = 0.0;  ///< 0 to 1: how many of the signs agree, none against the guess
-  Message reason;         ///< the signs with their figures, for people
+  double probability = 0.0;  ///< 0 to 1: how many of the signs agree, none against the guess
+  Message reason;            ///< the signs with their figures, for people
 };
 
 enum class CuspSide : std::uint8_t { untold, buccal, lingual };

@@ -30,7 +30,7 @@ void json_fields(auto& of, JsonOf<Landmarks> auto& self) {
 namespace {
 
 constexpr double k_furthest_landmark_mm = 1000.0;
-constexpr std::size_t k_most_landmark_points = 20'000;
+constexpr std::size_t k_max_landmark_points = 20'000;
 constexpr JsonLimits k_landmark_json{8U << 20, 400'000, 8};
 
 }  // namespace
@@ -40,7 +40,7 @@ std::string landmarks_text(const Landmarks& landmarks) { return to_json_value(la
 Landmarks parse_landmarks(std::string_view text, const std::string& where) {
   return json_value_of<Landmarks>(parse_json(text, where, k_landmark_json), {.where = where,
                                                                              .advice = msg("the file was changed or is damaged: use the original"),
-                                                                             .most_elements = k_most_landmark_points,
+                                                                             .most_elements = k_max_landmark_points,
                                                                              .largest = k_furthest_landmark_mm});
 }
 

@@ -9,7 +9,7 @@
 
 namespace cavum {
 
-/// One line of JSON; the keys are the names in `Landmarks`. Notes for people are left out, and so are the class's reason and sureness.
+/// One line of JSON; the keys are the names in `Landmarks`. Notes for people are left out, and so are the class's reason and probability.
 [[nodiscard]] std::string landmarks_text(const Landmarks& landmarks);
 
 /// What landmarks_text wrote. Throws Error at `where` when it is anything else: no JSON, a key too few or of another kind, a number that is none or

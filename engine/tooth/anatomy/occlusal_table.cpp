@@ -9,7 +9,7 @@ namespace cavum {
 namespace {
 
 constexpr int k_unknown = 0, k_outside = 1, k_inside = 2;
-constexpr double k_least_table_mm2 = 2.0;
+constexpr double k_min_table_mm2 = 2.0;
 /// Eight neighbours, counter-clockwise from +x.
 constexpr std::array<std::array<int, 2>, 8> k_ring{{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}}};
 
@@ -133,7 +133,7 @@ std::optional<OcclusalTable> occlusal_table(const HeightMap& map, const std::vec
   OcclusalTable table;
   table.inside = largest_piece(map, in);
   const auto cells = std::count(table.inside.begin(), table.inside.end(), std::uint8_t{1});
-  if (static_cast<double>(cells) * HeightMap::k_cell_mm * HeightMap::k_cell_mm < k_least_table_mm2) return std::nullopt;
+  if (static_cast<double>(cells) * HeightMap::k_cell_mm * HeightMap::k_cell_mm < k_min_table_mm2) return std::nullopt;
   table.edge = trace(map, table.inside);
   return table;
 }

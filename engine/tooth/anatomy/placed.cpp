@@ -11,7 +11,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::size_t k_most_of_a_kind = 16;
+constexpr std::size_t k_max_of_a_kind = 16;
 
 enum class Kind { cusp, mesial_ridge, distal_ridge, mesial_pit, central_pit, distal_pit, pulp_horn, chamber_roof, chamber_floor, canal_mouth, apex };
 struct KindName {
@@ -45,7 +45,7 @@ std::optional<Name> parsed(std::string_view text) {
     const auto digits = text.substr(k.name.size() + 1);
     std::size_t number = 0;
     const auto read = std::from_chars(digits.data(), digits.data() + digits.size(), number);
-    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && digits[0] != '0' && number <= k_most_of_a_kind)
+    if (read.ec == std::errc{} && read.ptr == digits.data() + digits.size() && digits[0] != '0' && number <= k_max_of_a_kind)
       return Name{k.kind, number};
   }
   return std::nullopt;

@@ -21,7 +21,7 @@ constexpr double k_mouth_mm2 = 0.02;
 constexpr double k_chamber = 0.8;    // of the widest slice's area: such slices tell the chamber's middle
 constexpr double k_wider = 1.4;      // than the narrowest slice of canals: what is more is a rest of the floor
 constexpr double k_mouths_mm = 0.8;  // below the floor, in which all canals have parted
-constexpr double k_least_pulp_mm3 = 0.5;
+constexpr double k_min_pulp_mm3 = 0.5;
 constexpr double k_apex_mm = 1.0, k_flat_mm = 0.1, k_flat_mm2 = 1.0;
 
 /// The pulp in slices of one cell across the long axis.
@@ -178,7 +178,7 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
   PulpMarks marks;
   const Slices s = slices_of(tooth, frame, pulp);
   const auto cells = std::count(s.in.begin(), s.in.end(), std::uint8_t{1});
-  if (pulp == k_air || static_cast<double>(cells) * k_cell * k_cell * k_cell < k_least_pulp_mm3) {
+  if (pulp == k_air || static_cast<double>(cells) * k_cell * k_cell * k_cell < k_min_pulp_mm3) {
     marks.notes.emplace_back(msg("no pulp"));
     return marks;
   }

@@ -83,8 +83,8 @@ ClassSigns class_signs(const CrownWalls& walls, const std::vector<int>& contour,
 ClassGuess guess_class(const ClassSigns& s) {
   ClassGuess guess;
   const double area = s.wide_x_mm * s.wide_y_mm;
-  const auto say = [&](ToothClass kind, double sureness, const Message& shape) {
-    guess = {kind, sureness, msg("{}; crown {} x {}", shape, as_number(s.wide_x_mm, 1), as_mm(s.wide_y_mm, 1))};
+  const auto say = [&](ToothClass kind, double probability, const Message& shape) {
+    guess = {kind, probability, msg("{}; crown {} x {}", shape, as_number(s.wide_x_mm, 1), as_mm(s.wide_y_mm, 1))};
   };
   if (s.level_share > 0.3) {
     say(ToothClass::unknown, 0.0, msg("{} of the top are level", as_percent(100 * s.level_share)));

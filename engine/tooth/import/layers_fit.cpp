@@ -212,34 +212,34 @@ double pulp_below_dentin_mm(const TissueGrid& grid) {
 }
 
 void require_pulp_in_root(double below_mm, const std::string& where) {
-  constexpr double k_most_mm = 0.5;
-  if (below_mm > k_most_mm)
+  constexpr double k_max_mm = 0.5;
+  if (below_mm > k_max_mm)
     throw Error(ImportError::layers_apart, Name{where}, msg("pulp and dentin do not fit: the pulp hangs {} out of the root", as_mm(below_mm, 1)),
                 msg("check that both surfaces are of one tooth and in one frame"));
 }
 
 void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps, const std::string& where) {
   // thirteen human teeth: see docs/anatomy.md
-  constexpr double k_least_facing = 0.5, k_most_apart = 0.03, k_most_overlap = 0.1, k_pulp_in = 0.8, k_chamber = 0.3;
+  constexpr double k_min_facing = 0.5, k_max_apart = 0.03, k_max_overlap = 0.1, k_pulp_in = 0.8, k_chamber = 0.3;
   constexpr const char* k_what_to_do =
       said("check that all surfaces are of one tooth and in one frame, and that enamel is the enamel alone, not the whole crown");
-  if (apart.facing < k_least_facing)
+  if (apart.facing < k_min_facing)
     throw Error(
         ImportError::layers_apart, Name{where},
         msg("enamel and dentin do not fit: along {} of the ways through the enamel no dentin is met", as_percent(100 * (1 - apart.facing), 0)),
         msg(k_what_to_do));
-  if (apart.share > k_most_apart)
+  if (apart.share > k_max_apart)
     throw Error(ImportError::layers_apart, Name{where},
                 msg("enamel and dentin do not fit: at {} of the places where they face each other there is a void between them, half of them {} wide "
                     "or more along the lattice",
                     as_percent(100 * apart.share, 0), as_mm(apart.usual_mm, 1)),
                 msg(k_what_to_do));
-  if (overlaps.of_the_enamel > k_most_overlap)
+  if (overlaps.of_the_enamel > k_max_overlap)
     throw Error(ImportError::layers_apart, Name{where},
                 msg("enamel and dentin do not fit: {} of the enamel lie in the dentin, too", as_percent(100 * overlaps.of_the_enamel, 0)),
                 msg(k_what_to_do));
   const bool has_chamber = overlaps.chamber > k_chamber;
-  if (has_chamber ? overlaps.of_the_pulp > k_most_overlap : overlaps.of_the_pulp > k_most_overlap && overlaps.of_the_pulp < k_pulp_in)
+  if (has_chamber ? overlaps.of_the_pulp > k_max_overlap : overlaps.of_the_pulp > k_max_overlap && overlaps.of_the_pulp < k_pulp_in)
     throw Error(ImportError::layers_apart, Name{where},
                 msg("pulp and dentin do not fit: {} of the pulp lie in the dentin, {}", as_percent(100 * overlaps.of_the_pulp, 0),
                     has_chamber ? msg("which has a chamber of its own for it") : msg("where all of it should, or none")),
@@ -247,13 +247,13 @@ void require_layers_that_fit(const LayersApart& apart, const Overlaps& overlaps,
 }
 
 EnamelPieces enamel_pieces(const TissueGrid& grid) {
-  constexpr double k_least_mm3 = 0.02;
+  constexpr double k_min_mm3 = 0.02;
   std::vector<Piece> pieces = pieces_of_enamel(grid).list;
   EnamelPieces found;
   std::sort(pieces.begin(), pieces.end(), [](const Piece& a, const Piece& b) { return a.leaves > b.leaves; });
   for (std::size_t i = 1; i < pieces.size(); ++i) {
     const double mm3 = static_cast<double>(pieces[i].leaves) * grid.leaf_mm * grid.leaf_mm * grid.leaf_mm;
-    if (mm3 < k_least_mm3) break;
+    if (mm3 < k_min_mm3) break;
     double& sum = pieces[i].on_dentin ? found.apart_mm3 : found.floating_mm3;
     if (sum == 0) (pieces[i].on_dentin ? found.apart_mm : found.floating_mm) = pieces[i].sum / static_cast<double>(pieces[i].leaves);
     sum += mm3;

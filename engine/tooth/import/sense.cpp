@@ -18,7 +18,7 @@ namespace {
 constexpr double k_across_cosine = 0.70710678;  // 45 degrees
 constexpr double k_centroids_apart_mm = 1.0;    // nearer ones tell no direction
 constexpr double k_sure = 0.6;                  // a class guessed less surely contradicts nobody
-constexpr double k_least_coronal_share = 0.35;  // of the pulp, in the coronal half of its length
+constexpr double k_min_coronal_share = 0.35;    // of the pulp, in the coronal half of its length
 constexpr double k_askew_deg = 30.0, k_wrong_deg = 50.0;
 // Bays of the outlines of 8 human premolars and molars are at most 0.11 mm deep. A front tooth has its wide places at different heights: not tried.
 constexpr double k_bay_mm = 0.6;
@@ -32,7 +32,7 @@ void object(const SenseOptions& options, std::string_view name, const std::strin
   sense.warnings.push_back(msg("confirmed against what was measured ({}): {}", name, what));
 }
 
-bool is_crown_width(double mm) { return mm >= k_least_crown_width_mm && mm <= k_most_crown_width_mm; }
+bool is_crown_width(double mm) { return mm >= k_min_crown_width_mm && mm <= k_max_crown_width_mm; }
 
 /// Share of the pulp's leaves in the upper half of its height; none without pulp.
 std::optional<double> coronal_share(const Tooth& tooth) {
@@ -164,8 +164,8 @@ void check_crown_size(Vec3 extent, const SenseOptions& options, const std::strin
       likely.push_back(msg("{} ({})", Term{std::string(u.text)}, as_mm(width / given * u.mm, 1)));
       options_likely.push_back(msg("--units {}", u.name));
     }
-  const Message wide = msg("the enamel is {} wide, and human crowns {} to {}", as_mm(width, k_as_needed), as_number(k_least_crown_width_mm, 1),
-                           as_mm(k_most_crown_width_mm, 0));
+  const Message wide = msg("the enamel is {} wide, and human crowns {} to {}", as_mm(width, k_as_needed), as_number(k_min_crown_width_mm, 1),
+                           as_mm(k_max_crown_width_mm, 0));
   if (likely.empty())
     object(options, "size", where, msg("{}; no unit known here makes it one", wide),
            msg("check file and unit, and that it is one tooth alone, without its neighbours"), sense);
@@ -237,19 +237,19 @@ void sense_tooth(const Tooth& tooth, const FrameOptions& frame, const SenseOptio
   if (l.tooth_class.kind == ToothClass::unknown)
     sense.guesses.push_back(l.tooth_class.reason.empty() ? msg("class not told") : msg("class not told: {}", l.tooth_class.reason));
   else
-    sense.guesses.push_back(msg("{}, sure to {}: {}", kind, as_number(l.tooth_class.sureness, 2), l.tooth_class.reason));
+    sense.guesses.push_back(msg("{}, sure to {}: {}", kind, as_number(l.tooth_class.probability, 2), l.tooth_class.reason));
   if (options.number) {
     const ToothClass said = options.number->tooth_class();
     if (l.tooth_class.kind == ToothClass::unknown)
       sense.warnings.push_back(msg("whether it is tooth {} could not be checked", options.number->in_words()));
-    else if (l.tooth_class.kind != said && l.tooth_class.sureness >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
+    else if (l.tooth_class.kind != said && l.tooth_class.probability >= k_sure && !(is_front(l.tooth_class.kind) && is_front(said)))
       object(options, "class", where,
              msg("it is said to be tooth {}, but by its shape it is {} ({})", options.number->in_words(), kind, l.tooth_class.reason),
              msg("give another number"), sense);
     else if (l.tooth_class.kind != said)
       sense.warnings.push_back(msg("tooth {}: by its shape rather {}", options.number->in_words(), kind));
   }
-  if (const auto share = coronal_share(tooth); share && *share < k_least_coronal_share)
+  if (const auto share = coronal_share(tooth); share && *share < k_min_coronal_share)
     object(options, "pulp", where,
            msg("only {} of the pulp lie in the half of its length that is nearer to the crown: crown and root may be exchanged",
                as_percent(100 * *share, 0)),

@@ -43,7 +43,7 @@ struct ToothSense {
 
 /// Least and largest width of a human crown, mm: mean mesiodistal widths run from 5 (lower central incisor) to 11 (lower first molar), buccolingual
 /// ones from 6 to 11 (Nelson, Wheeler's Dental Anatomy, table of measurements), each with a spread of some 10 %.
-inline constexpr double k_least_crown_width_mm = 4.5, k_most_crown_width_mm = 14.0;
+inline constexpr double k_min_crown_width_mm = 4.5, k_max_crown_width_mm = 14.0;
 
 /// The frame in which the tooth will stand: mirrored where the number says that +y is lingual, for every later task, picture and word takes +x for
 /// mesial and +y for buccal. Throws Error("--mirror", ...) where a mirror would make +y lingual.

@@ -17,7 +17,7 @@ struct Places {
 /// As it was said, else by the shape.
 ToothClass class_of(const RowTooth& tooth) {
   if (tooth.kind.tooth_class != ToothClass::unknown) return tooth.kind.tooth_class;
-  return tooth.shape.sureness < k_sure_class ? ToothClass::unknown : tooth.shape.kind;
+  return tooth.shape.probability < k_sure_class ? ToothClass::unknown : tooth.shape.kind;
 }
 
 /// Where a tooth may stand. By shape alone incisors and canines pass for one another.

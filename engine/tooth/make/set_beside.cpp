@@ -21,11 +21,11 @@ namespace cavum {
 namespace {
 
 constexpr double k_below_contact_mm = 5.0;
-constexpr double k_area_mm = 0.05;         // surfaces nearer than that are the contact area
-constexpr double k_seen_leaves = 1.95;     // further than that a distance only says "far"
-constexpr double k_facing_mm = 2.5;        // of the tooth's surface, how deep behind its furthest place
-constexpr double k_most_overlap_mm = 3.0;  // bodies that have not met by then do not face each other
-constexpr int k_edge_leaves = 3;           // of air that stays at the lattice's sides
+constexpr double k_area_mm = 0.05;        // surfaces nearer than that are the contact area
+constexpr double k_seen_leaves = 1.95;    // further than that a distance only says "far"
+constexpr double k_facing_mm = 2.5;       // of the tooth's surface, how deep behind its furthest place
+constexpr double k_max_overlap_mm = 3.0;  // bodies that have not met by then do not face each other
+constexpr int k_edge_leaves = 3;          // of air that stays at the lattice's sides
 
 /// Places on the solid surface of a body with x beyond `from` on a side.
 std::vector<Vec3> surface_places(const Octree& tree, int side, double from_mm) {
@@ -95,7 +95,7 @@ std::optional<Placed> moved_to_contact(Placed n, int side, const std::vector<Vec
   while (n.moved(side * met).least_mm(places, cursor) > wanted_mm) {
     apart = met;
     met -= 0.5 * leaf;
-    if (met < -k_most_overlap_mm - k_facing_mm) return {};
+    if (met < -k_max_overlap_mm - k_facing_mm) return {};
   }
   for (int i = 0; i < k_halvings; ++i) {
     const double middle = 0.5 * (apart + met);
@@ -129,7 +129,7 @@ ContactFacts contact_facts(const Placed& n, const std::vector<Vec3>& places) {
 /// The same leaves with more air around.
 TissueGrid with_room(const TissueGrid& grid, IVec3 before, IVec3 after, const std::string& where) {
   const IVec3 size = grid.size + before + after;
-  check_lattice(size, grid.leaf_mm, where, k_most_row_leaves);
+  check_lattice(size, grid.leaf_mm, where, k_max_row_leaves);
   TissueGrid wide;
   wide.allocate(size, grid.leaf_mm, grid.origin_mm - to_vec3(before) * grid.leaf_mm);
   for (std::int32_t z = 0; z < grid.size.z; ++z)
@@ -231,7 +231,7 @@ Side place_side(const Tooth& tooth, const Landmarks& marks, const BesideTooth& b
   const double far = furthest_mm(tooth.octree, side);
   const std::vector<Vec3> facing = surface_places(tooth.octree, side, side * (far - k_facing_mm));
   double its_reach = -1e9;  // towards the tooth, in the tooth's frame
-  for (const Vec3 q : surface_places(s.filled.octree, -side, -side * (furthest_mm(s.filled.octree, -side) - k_most_overlap_mm))) {
+  for (const Vec3 q : surface_places(s.filled.octree, -side, -side * (furthest_mm(s.filled.octree, -side) - k_max_overlap_mm))) {
     const Vec3 r = q - s.placed.own;
     its_reach = std::max(its_reach, -side * (s.placed.at.x + r.x * s.placed.turn.cos - r.y * s.placed.turn.sin));
   }
@@ -255,8 +255,8 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
     tooth.tissues.push_back({wanted, name, true});
     return wanted;
   };
-  constexpr std::size_t k_most_tissues = 200;
-  if (tooth.tissues.size() > k_most_tissues) throw Error(msg("tooth"), msg("has too many tissues to set something beside it"), msg("use fewer"));
+  constexpr std::size_t k_max_tissues = 200;
+  if (tooth.tissues.size() > k_max_tissues) throw Error(msg("tooth"), msg("has too many tissues to set something beside it"), msg("use fewer"));
   BesideIds ids;
   if (neighbours) {
     ids.enamel = add(k_neighbour_enamel, "neighbour_enamel");

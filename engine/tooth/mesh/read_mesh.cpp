@@ -80,10 +80,10 @@ void require_whole_stl(const Bytes& file, const std::string& name) {
 }
 
 /// OpenMesh walks around a corner for each triangle that it joins there: at one that 190,000 share it would walk for minutes.
-constexpr std::size_t k_most_at_corner = 2000;
+constexpr std::size_t k_max_at_corner = 2000;
 
 [[noreturn]] void fail_crowded(const std::string& name) {
-  throw Error(FileError::too_large, Name{name}, msg("more than {} triangles meet at one corner", k_most_at_corner),
+  throw Error(FileError::too_large, Name{name}, msg("more than {} triangles meet at one corner", k_max_at_corner),
               msg("remesh the surface in a mesh editor"));
 }
 
@@ -91,8 +91,8 @@ using Corner = std::array<float, 3>;
 /// `corners` of all triangles, in any order.
 void require_few_at_each(std::vector<Corner> corners, const std::string& name) {
   std::sort(corners.begin(), corners.end());
-  for (std::size_t i = k_most_at_corner; i < corners.size(); ++i)
-    if (corners[i] == corners[i - k_most_at_corner]) fail_crowded(name);
+  for (std::size_t i = k_max_at_corner; i < corners.size(); ++i)
+    if (corners[i] == corners[i - k_max_at_corner]) fail_crowded(name);
 }
 
 /// The same of polygons, which become fans about their first corners.
@@ -100,7 +100,7 @@ void require_few_at_each(const Polygons& polygons, const std::string& name) {
   std::vector<std::size_t> at(polygons.corners_mm.size());
   for (const auto& polygon : polygons.polygons)
     for (std::size_t i = 0; i < polygon.size(); ++i)
-      if ((at[polygon[i]] += i == 0 ? polygon.size() - 2 : 1) > k_most_at_corner) fail_crowded(name);
+      if ((at[polygon[i]] += i == 0 ? polygon.size() - 2 : 1) > k_max_at_corner) fail_crowded(name);
 }
 
 /// The corners of an STL's facets, three each, in their order. Throws Error when the file is cut off, a corner is no number, or too many meet in one:
@@ -338,8 +338,8 @@ TriangleMesh read_open_mesh(const std::string& path) {
     mesh = fans_of(read_off(file, path));
   if (mesh.triangles.empty())
     throw Error(FileError::malformed, Name{path}, msg("cannot be read as a triangle mesh"), msg("give an intact STL, PLY, OBJ or OFF file"));
-  if (mesh.triangles.size() > k_most_scan_triangles)
-    throw Error(FileError::too_large, Name{path}, msg("has {} triangles, {} is the most", mesh.triangles.size(), k_most_scan_triangles),
+  if (mesh.triangles.size() > k_max_scan_triangles)
+    throw Error(FileError::too_large, Name{path}, msg("has {} triangles, {} is the most", mesh.triangles.size(), k_max_scan_triangles),
                 msg("reduce the mesh, or cut out the one tooth"));
   for (std::size_t i = 0; i < mesh.vertices_mm.size(); ++i)
     if (const Vec3 p = mesh.vertices_mm[i]; !is_finite(p) || length(p) > k_farthest_place) fail_place(path, i, p);

@@ -26,7 +26,7 @@ void require_mesh_file(const std::string& path);
 [[nodiscard]] ReadMesh read_closed_mesh(const std::string& path);
 
 /// Triangles of a surface that may be open and have holes, as a scanner leaves it: at most this many.
-inline constexpr std::size_t k_most_scan_triangles = 3'000'000;
+inline constexpr std::size_t k_max_scan_triangles = 3'000'000;
 /// The surface as it stands in the file, equal corners of an STL joined; unused corners and triangles with a corner twice left out. Nothing is
 /// checked of how triangles join. Throws Error naming the file when it is missing or unreadable, holds a coordinate that is not finite, or has more
 /// triangles than above.

@@ -10,7 +10,7 @@
 namespace cavum {
 namespace {
 
-constexpr std::uint64_t k_most_pages = 20'000, k_most_pieces = 1U << 20;
+constexpr std::uint64_t k_max_pages = 20'000, k_max_pieces = 1U << 20;
 constexpr std::uint64_t k_strip_offsets = 273, k_strip_bytes = 279, k_tile_offsets = 324, k_tile_bytes = 325;
 
 class Walk {
@@ -25,7 +25,7 @@ class Walk {
     wide_ = mark == 43;
     std::uint64_t page = wide_ ? number(8, 8) : number(4, 4);
     for (std::uint64_t pages = 0; page != 0; ++pages) {
-      if (pages == k_most_pages) fail(FileError::damaged, msg("damaged: its pages have no end"));
+      if (pages == k_max_pages) fail(FileError::damaged, msg("damaged: its pages have no end"));
       page = walk_page(page);
     }
   }
@@ -46,7 +46,7 @@ class Walk {
   };
   [[nodiscard]] std::vector<std::uint64_t> values(const Entry& e) const {
     const std::uint64_t bytes = e.type == 3 ? 2 : e.type == 4 ? 4 : e.type == 16 ? 8 : 0;
-    if (bytes == 0 || e.count > k_most_pieces) fail(FileError::damaged, msg("damaged: a page has an impossible list of pieces"));
+    if (bytes == 0 || e.count > k_max_pieces) fail(FileError::damaged, msg("damaged: a page has an impossible list of pieces"));
     const std::uint64_t room = wide_ ? 8 : 4, from = bytes * e.count <= room ? e.at : number(e.at, room);
     std::vector<std::uint64_t> out;
     for (std::uint64_t i = 0; i < e.count; ++i) out.push_back(number(from + i * bytes, bytes));

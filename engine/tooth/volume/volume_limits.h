@@ -20,7 +20,7 @@ namespace cavum {
 /// Bytes of address space for reading them: libraries, the file's own numbers (up to 8 bytes each) and ours (4).
 [[nodiscard]] constexpr std::uint64_t most_read_memory(std::uint64_t bytes) noexcept { return (std::uint64_t{448} << 20) + 12 * most_voxels(bytes); }
 
-inline constexpr std::uint64_t k_most_slice_files = 20'000;               ///< in one folder
+inline constexpr std::uint64_t k_max_slice_files = 20'000;                ///< in one folder
 inline constexpr std::uint64_t k_largest_slice = std::uint64_t{1} << 30;  ///< bytes of one slice's file
 inline constexpr int k_longest_read_s = 600;                              ///< by the clock, for a disk that does not answer
 

@@ -54,7 +54,7 @@ TEST(SurfaceFit, StaysFiniteWhateverTheLeavesHold) {
     const SurfaceFit fit = fit_surface(window, FitWindow::index(static_cast<int>(random.below(4)), 1, 3));
     ASSERT_TRUE(std::isfinite(fit.near) && std::isfinite(fit.wide));
     ASSERT_GE(fit.error_8, -1);
-    ASSERT_LE(fit.error_8, 8 * FitLeaf::k_most_error);
+    ASSERT_LE(fit.error_8, 8 * FitLeaf::k_max_error);
   }
 }
 

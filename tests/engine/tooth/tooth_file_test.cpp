@@ -93,11 +93,11 @@ std::optional<Error> refusal_of_octree(double leaf_mm, int edge, const Bytes& sh
 }
 
 TEST(ToothFile, LeavesAndBoxesOfNoToothAreRefusedWithTheLimitNamed) {
-  constexpr int k_most_leaves = Octree::k_max_edge_leaves;
+  constexpr int k_max_leaves = Octree::k_max_edge_leaves;
   const Bytes uniform{0, 0};  // one uniform cube of air
   EXPECT_FALSE(refusal_of_octree(0.05, 512, uniform, 0));
-  for (const double leaf : {0.001, 10.0, -1.0}) EXPECT_TRUE(tells(refusal_of_octree(leaf, 8, uniform, 0), k_most_leaves)) << leaf;
-  EXPECT_TRUE(tells(refusal_of_octree(0.1, 1024, uniform, 0), k_most_leaves));
+  for (const double leaf : {0.001, 10.0, -1.0}) EXPECT_TRUE(tells(refusal_of_octree(leaf, 8, uniform, 0), k_max_leaves)) << leaf;
+  EXPECT_TRUE(tells(refusal_of_octree(0.1, 1024, uniform, 0), k_max_leaves));
 }
 
 TEST(ToothFile, PlacedLandmarksAreKeptAndCountInTheHash) {

@@ -197,8 +197,8 @@ TEST(Circuit, TheNumberOfExamsThatIsEnoughHasARange) {
   const CircuitStudy s = study_of_judges(marks.marks, 60);
   ASSERT_TRUE(s.for_enough.estimate && s.for_enough.low);
   EXPECT_LE(*s.for_enough.low, *s.for_enough.estimate);
-  EXPECT_GE(s.for_enough.high.value_or(k_most_tasks + 1), *s.for_enough.estimate);
-  EXPECT_LT(*s.for_enough.low, s.for_enough.high.value_or(k_most_tasks + 1)) << "thirty candidates at three exams do not know it";
+  EXPECT_GE(s.for_enough.high.value_or(k_max_tasks + 1), *s.for_enough.estimate);
+  EXPECT_LT(*s.for_enough.low, s.for_enough.high.value_or(k_max_tasks + 1)) << "thirty candidates at three exams do not know it";
   CircuitFigures f;
   f.why_no_program = msg("none");
   f.people = s;

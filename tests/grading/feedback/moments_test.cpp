@@ -24,8 +24,8 @@ TEST(Moments, TheLargestAreKeptInTheirOrder) {
   std::vector<double> amounts;
   for (int i = 0; i < 50; ++i) amounts.push_back(i % 7 == 0 ? 100 + i : 50 - i);  // 8 large ones, then the early ones
   auto items = items_of(amounts);
-  EXPECT_EQ(keep_largest(items).size(), 50 - k_most_moments);
-  ASSERT_EQ(items.size(), k_most_moments);
+  EXPECT_EQ(keep_largest(items).size(), 50 - k_max_moments);
+  ASSERT_EQ(items.size(), k_max_moments);
   std::vector<double> sorted = amounts, kept;
   std::sort(sorted.rbegin(), sorted.rend());
   std::int64_t last = -1;
@@ -39,10 +39,10 @@ TEST(Moments, TheLargestAreKeptInTheirOrder) {
 }
 
 TEST(Moments, OfEqualOnesTheEarlierStay) {
-  auto items = items_of(std::vector<double>(k_most_moments + 15, 0.25));
+  auto items = items_of(std::vector<double>(k_max_moments + 15, 0.25));
   EXPECT_EQ(keep_largest(items).size(), 15u);
-  ASSERT_EQ(items.size(), k_most_moments);
-  EXPECT_EQ(items.back().tick, static_cast<std::int64_t>(k_most_moments) - 1);
+  ASSERT_EQ(items.size(), k_max_moments);
+  EXPECT_EQ(items.back().tick, static_cast<std::int64_t>(k_max_moments) - 1);
 }
 
 TEST(Moments, AFewAreLeftAlone) {

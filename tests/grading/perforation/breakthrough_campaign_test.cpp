@@ -36,7 +36,7 @@ struct Outcome {
   LookAlike what;
   bool touched = false, felt = false, grazed_elsewhere = false;
   double least_share = 1.0;
-  double sureness = 0.0;             // of the surest event that counts: at the perforation, or anywhere in a session without one
+  double probability = 0.0;          // of the surest event that counts: at the perforation, or anywhere in a session without one
   double dated_ms = 0, told_ms = 0;  // from the first leaf to the event's time; from when it could be felt to when the detector said so
   std::string story;
 };
@@ -81,7 +81,7 @@ std::string roc_svg(const std::vector<Outcome>& all) {
   std::ostringstream svg;
   svg << "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"560\" height=\"420\" font-family=\"sans-serif\" font-size=\"13\">\n"
       << "<rect width=\"560\" height=\"420\" fill=\"white\"/><text x=\"70\" y=\"28\" font-size=\"15\">Breakthroughs found over false alarms, by "
-         "least sureness</text>\n"
+         "least probability</text>\n"
       << "<path d=\"M70 50V350H520\" fill=\"none\" stroke=\"#333\"/>\n";
   const auto x = [](double rate) { return 70 + 450 * std::min(1.0, rate / 0.2); };
   const auto y = [](double rate) { return 350 - 300 * rate; };
@@ -97,7 +97,7 @@ std::string roc_svg(const std::vector<Outcome>& all) {
     double found = 0, perforated = 0, alarmed = 0, clean = 0;
     for (const auto& o : all) {
       (o.felt ? perforated : clean) += 1;
-      if (o.sureness >= least) (o.felt ? found : alarmed) += 1;
+      if (o.probability >= least) (o.felt ? found : alarmed) += 1;
     }
     const double px = x(alarmed / std::max(1.0, clean)), py = y(found / std::max(1.0, perforated));
     svg << px << ',' << py << ' ';
@@ -126,8 +126,8 @@ std::vector<Outcome> run_sessions(std::uint64_t seed, int sessions, Drawn drawn)
     o = {s.what, s.touched >= 0, s.felt >= 0, s.grazed_elsewhere, s.least_share, 0, 0, 0, s.story};
     for (const auto& e : find_breakthroughs(s.inputs, s.records, any)) {
       if (o.touched && e.seen_tick < s.touched - k_early_ticks) continue;
-      if (e.sureness <= o.sureness) continue;
-      o.sureness = e.sureness;
+      if (e.probability <= o.probability) continue;
+      o.probability = e.probability;
       o.dated_ms = static_cast<double>(e.tick - s.touched);
       o.told_ms = static_cast<double>(e.seen_tick - s.felt);
     }
@@ -155,7 +155,7 @@ void judge(const std::vector<Outcome>& all, const Promise& promise, const char* 
       ++grazed;
       continue;
     }
-    const bool alarm = o.sureness >= 0.5;
+    const bool alarm = o.probability >= 0.5;
     if (o.touched && !o.felt) {
       const auto k = static_cast<std::size_t>(std::upper_bound(up_to.begin(), up_to.end() - 1, o.least_share) - up_to.begin());
       ++unfelt[k];

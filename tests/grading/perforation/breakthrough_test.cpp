@@ -183,13 +183,13 @@ TEST(Breakthrough, IsSilentInALesionOfAThirdOfTheResistance) {
 }
 
 TEST(Breakthrough, IsLessSureInANoisierForce) {
-  const auto sureness = [](double noise_n) {
+  const auto probability = [](double noise_n) {
     Tape t(8, noise_n);
     t.run(200, {0, 0, -2}, 0).run(100, {0, 0, -1}, 0.12).run(1500, {0, 0, -0.25}, 0.12).run(80, {0, 0, -4}, 0.001).run(400, {0, 0, 0}, 0.001);
     const auto events = t.events();
-    return events.empty() ? 0.0 : events[0].sureness;
+    return events.empty() ? 0.0 : events[0].probability;
   };
-  EXPECT_GT(sureness(0.0), sureness(0.1));
+  EXPECT_GT(probability(0.0), probability(0.1));
 }
 
 TEST(Breakthrough, SeesTheSecondBreakthroughToo) {

@@ -376,7 +376,7 @@ TEST_F(Attack, TwoEndingsOfOneExam) {
 
   // a person chooses one, by its entry, and that one alone counts
   const std::string candidate = registry.sessions[0].candidate;
-  const auto refused = [&](const ReleaseWish& wish, const std::optional<ErrorCode>& why, const std::vector<std::string>& names) {
+  const auto refused = [&](const ReleaseCommand& wish, const std::optional<ErrorCode>& why, const std::vector<std::string>& names) {
     const auto error = thrown_by([&] { release_results(ledger, wish); });
     EXPECT_EQ(code_of(error), why) << text_of(error);
     for (const auto& n : names) EXPECT_NE(text_of(error).find(n), std::string::npos) << "'" << n << "' is missing in: " << text_of(error);

@@ -112,7 +112,7 @@ TEST(ExamDay, ARecordingWhoseClockStoodStillByItselfIsNotFiledAsSound) {
   Ledger ledger = school.ledger();
   const std::string first = school.file("first.cavum"), second = school.file("second.cavum");
   sit_shortly(k_scenario, first, school.ticket("1"), {}, held);
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   const Filing refused = file_session(ledger, first, {}, grounds);
   EXPECT_FALSE(refused.seq);
   expect_kinds(refused.findings, {Kind::pause_unknown});

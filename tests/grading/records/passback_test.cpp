@@ -28,7 +28,7 @@ class Passbacks : public testing::Test {
   }
   void release() {
     Ledger ledger = school_.ledger();
-    ReleaseWish wish;
+    ReleaseCommand wish;
     wish.sessions = {session_};
     ASSERT_EQ(release_results(ledger, wish).results.size(), 1U);
   }

@@ -135,7 +135,7 @@ TEST_F(Promised, AStationsClockThatWasSetBackIsNamedByTheLedgersWord) {
     for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
     if (!exam->over()) exam->end();
     exam->recorder().flush();
-    grading::ExamGrounds grounds;
+    grading::ExamContexts grounds;
     const auto graded = grading::load_for_grading(SessionReader(dated), exam->tooth_now(), grounds);
     exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
   }

@@ -102,7 +102,7 @@ class School {
     for (TickInput input; !exam->over() && candidate.next(exam->last(), exam->last_input(), input); ++ticks) static_cast<void>(exam->tick(input));
     if (!exam->over()) exam->end();
     exam->recorder().flush();
-    grading::ExamGrounds grounds(*setup);
+    grading::ExamContexts grounds(*setup);
     const auto graded = grading::load_for_grading(SessionReader(path), exam->tooth_now(), grounds);
     exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
     return path;

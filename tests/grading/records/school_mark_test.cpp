@@ -89,7 +89,7 @@ class SchoolMarks : public testing::Test {
 
 TEST_F(SchoolMarks, TheSameAsTheStationWhereBothAreHonest) {
   const std::string again = forged(school_, session_, {});
-  grading::ExamGrounds grounds;
+  grading::ExamContexts grounds;
   const grading::SchoolMark mark = grading::mark_again(SessionReader(again), grounds);
   EXPECT_TRUE(mark.holds()) << testing_basics::text_of(mark.findings());
   EXPECT_EQ(mark.result, json::parse(SessionReader(session_).result_json()));

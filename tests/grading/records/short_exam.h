@@ -60,7 +60,7 @@ inline void sit_shortly(const std::string& scenario, const std::string& path, co
   }
   exam->end();
   exam->recorder().flush();
-  grading::ExamGrounds grounds(*setup);
+  grading::ExamContexts grounds(*setup);
   const auto graded = grading::load_for_grading(SessionReader(path), exam->tooth_now(), grounds);
   exam->close(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());
 }

@@ -149,7 +149,7 @@ TEST(Runner, TheEndHasItsPlaceInAFullListOfEvents) {
     turning.rpm = 5000;
     exam.runner.advance(exam.state, in, turning, {});
   }
-  EXPECT_EQ(exam.state.event_count, RunnerState::k_most_events - 1);
+  EXPECT_EQ(exam.state.event_count, RunnerState::k_max_events - 1);
   EXPECT_GT(exam.state.events_dropped, 0u);
   const std::uint32_t recorded = exam.state.event_count;  // a recorder takes each once
   exam.runner.end(exam.state);

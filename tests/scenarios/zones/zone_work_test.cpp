@@ -47,13 +47,13 @@ std::string zigzag(int points, const std::string& half) {
   return "outline = { kind = \"stroke\", width_mm = 1.4, points_mm = [" + list + "] }\n";
 }
 
-constexpr double k_most_seconds = 5;  // on the machine that tests run on; as built, without sanitizers
+constexpr double k_max_seconds = 5;  // on the machine that tests run on; as built, without sanitizers
 
 void expect_refused(const std::string& zones, int limit) {
   const Laid laid = lay(zones);
   EXPECT_EQ(testing_basics::code_of(laid.refusal), Mistake::too_large);
   EXPECT_TRUE(testing_basics::tells(laid.refusal, limit)) << limit;
-  EXPECT_LT(laid.seconds, k_most_seconds) << zones;
+  EXPECT_LT(laid.seconds, k_max_seconds) << zones;
 }
 
 TEST(ZoneWork, ATargetOfTheWholeToothIsRefused) {
@@ -86,7 +86,7 @@ TEST(ZoneWork, ASurfaceOfManyLargeTrianglesIsRefused) {
 TEST(ZoneWork, AColumnOfAsManyPointsAsAreAllowedIsLaidInTime) {
   const Laid laid = lay("[[zones.target]]\nshape = \"column\"\nbottom = { kind = \"below_lowest\", depth_mm = 1.8 }\n" + zigzag(100, "4"));
   EXPECT_FALSE(laid.refusal);
-  EXPECT_LT(laid.seconds, k_most_seconds);
+  EXPECT_LT(laid.seconds, k_max_seconds);
 }
 
 // The table of columns holds what the outline itself says: a stroke laid twice, once as a column, once as the prism that reaches through the tooth.

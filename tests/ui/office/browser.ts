@@ -13,7 +13,7 @@ const cavum = process.env.CAVUM_BINARY!;
 const source = process.env.CAVUM_SOURCE_DIR!;
 const axe = readFileSync(createRequire(resolve("package.json")).resolve("axe-core/axe.min.js"), "utf8");
 const pictures = resolve("pictures");
-const password = "correct horse battery";
+const password = "correct horse trial";
 
 /** Of the office that is open. */
 export let folder = "";

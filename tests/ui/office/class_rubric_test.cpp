@@ -66,7 +66,7 @@ TEST_F(ClassRubric, ShowsWhoWouldChangeAndCountsAllAtOnce) {
   const auto registry = records::read_registry(opened_.content());
   for (std::size_t i = 0; i < 2; ++i) {  // marked here by the rubric itself, without the office
     const json& row = state["sessions"][i];
-    grading::ExamGrounds grounds;
+    grading::ExamContexts grounds;
     const auto graded = grading::load_for_grading(SessionReader(opened_.school().places().session(registry.sessions[i].file_sha256)), grounds);
     grading::use_rubric(*graded, scenarios::parse_rubric(k_new_rubric, "rubric"));
     const json wanted = json::parse(grading::to_json(grading::grade(graded->input(), graded->rubric)).dump());

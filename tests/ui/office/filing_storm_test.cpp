@@ -61,7 +61,7 @@ std::size_t acknowledged(const School& school, const std::vector<Seat>& seats, c
 TEST(FilingStorm, NothingAcknowledgedIsLostAndEveryExamIsFiledOnce) {
   const bool deep = std::getenv("CAVUM_DEEP") != nullptr;
   const int stations = deep ? 200 : 12, kills = deep ? 50 : 6;
-  constexpr long k_most_kb = 1'000'000;
+  constexpr long k_max_kb = 1'000'000;
   const School school;
   const std::uint64_t seed = test::drawn_seed("when the server is killed in the storm");
   std::mt19937_64 random(seed);
@@ -106,7 +106,7 @@ TEST(FilingStorm, NothingAcknowledgedIsLostAndEveryExamIsFiledOnce) {
   for (const auto& e : records::read_ledger(school.places()).entries)
     if (const auto* s = e.as<records::SessionEntry>()) entries.insert(s->file_sha256);
   for (const Seat& seat : seats) EXPECT_EQ(entries.count(seat.sha256), 1U) << "seed " << seed;
-  EXPECT_LE(most_kb, k_most_kb);
+  EXPECT_LE(most_kb, k_max_kb);
   std::printf(
       "FilingStorm: %d stations, %d kills, %d of them before all was filed, %d lives with a full disk; %zu filed before the last life, all %.1f s "
       "after it began; %ld kB\n",

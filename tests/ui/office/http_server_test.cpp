@@ -183,7 +183,7 @@ class Silent {
 
 TEST(ManySilentConnections, LeaveTheirPlaceToWhoAsksSomething) {
   constexpr std::size_t k_silent = 700;
-  constexpr long k_most_kb = 400'000;
+  constexpr long k_max_kb = 400'000;
   const testing_ledger::School school;
   const Served served(school);
   const std::string ask = "GET /office.css HTTP/1.1\r\nHost: x\r\n\r\n";
@@ -201,7 +201,7 @@ TEST(ManySilentConnections, LeaveTheirPlaceToWhoAsksSomething) {
     std::this_thread::sleep_for(200ms);
   }
   EXPECT_GT(silent.opened(), k_silent) << "none of them was ever dropped";
-  EXPECT_LT(served.peak_kb(), k_most_kb);
+  EXPECT_LT(served.peak_kb(), k_max_kb);
   std::printf("%zu silent connections opened, the server's memory at most %ld kB\n", silent.opened(), served.peak_kb());
 }
 

@@ -17,7 +17,7 @@
 
 namespace cavum::testing_office {
 
-inline constexpr char k_password[] = "correct horse battery";
+inline constexpr char k_password[] = "correct horse trial";
 
 class Opened {
  public:

@@ -43,7 +43,7 @@ test("a sign-in by the school's account", { skip: k_skip }, async () => {
   await page.reload();
   await page.waitForSelector("form");
   await type(page, "Name", "Rita Reader");
-  await type(page, "Password", "correct horse battery");
+  await type(page, "Password", "correct horse trial");
   await page.keyboard.press("Enter");
   await page.waitForSelector("nav");
   assert.deepEqual(complaints, []);

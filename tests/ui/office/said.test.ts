@@ -162,7 +162,7 @@ test("a class list says what it knows, and outlives a look at another page", { s
   await press(page, "Sign out");
   await page.waitForSelector("input[type=password]");
   await type(page, "Name", "Anna Officer");
-  await type(page, "Password", "correct horse battery");
+  await type(page, "Password", "correct horse trial");
   await press(page, "Sign in");
   await page.waitForSelector("nav");
   await go(page, "Class list");

@@ -168,8 +168,8 @@ Vec3 MouseMeans::move(Vec3 units) {
   const Vec3 did{x / k_px, y / k_px, notches / k_notches};
   // as a hand does: not all at once
   while (x != 0 || y != 0 || notches != 0) {
-    constexpr int k_most_px = 6;
-    const int dx = std::clamp(x, -k_most_px, k_most_px), dy = std::clamp(y, -k_most_px, k_most_px);
+    constexpr int k_max_px = 6;
+    const int dx = std::clamp(x, -k_max_px, k_max_px), dy = std::clamp(y, -k_max_px, k_max_px);
     if (dx != 0 || dy != 0) hand_.move(dx, -dy);
     x -= dx;
     y -= dy;

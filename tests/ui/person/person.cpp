@@ -155,14 +155,14 @@ void Person::want(Vec3 tip_mm) {
 
 int Person::follow(const Way& way) {
   // the hand aims at the line, a little ahead of the tip, and never further from the tip than it would press
-  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_most_ahead_mm = 1.0, k_press_mm = 0.7, k_patience_s = 25.0, k_progress_mm = 0.05,
-                   k_on_line_mm = 0.4, k_most_aside_mm = 2.0, k_above_mm = 0.15, k_beside_mm = 0.25;
+  constexpr double k_near_mm = 0.08, k_ahead_mm = 0.6, k_max_ahead_mm = 1.0, k_press_mm = 0.7, k_patience_s = 25.0, k_progress_mm = 0.05,
+                   k_on_line_mm = 0.4, k_max_aside_mm = 2.0, k_above_mm = 0.15, k_beside_mm = 0.25;
   bool begun = false;
   double done_mm = 0.0, deepest_mm = 1e9, ahead_mm = k_ahead_mm;
   auto progressed = std::chrono::steady_clock::now();
   for (;;) {
     const Vec3 tip = look().tip_mm;
-    const double at_mm = begun ? nearest_mm(way, tip, done_mm + k_most_ahead_mm) : 0.0, all_mm = length_mm(way);
+    const double at_mm = begun ? nearest_mm(way, tip, done_mm + k_max_ahead_mm) : 0.0, all_mm = length_mm(way);
     const Vec3 there = at(way, at_mm), off = tip - there;
     begun = begun || length(off) < k_on_line_mm;
     if (all_mm - at_mm < k_near_mm && length(off) < 2 * k_near_mm) return 0;
@@ -173,7 +173,7 @@ int Person::follow(const Way& way) {
       ahead_mm = k_ahead_mm;
       progressed = now;
     } else {
-      ahead_mm = std::min(ahead_mm + 0.1, k_most_ahead_mm);
+      ahead_mm = std::min(ahead_mm + 0.1, k_max_ahead_mm);
       if (std::chrono::duration<double>(now - progressed).count() > k_patience_s) return 1;
     }
     // over the line first, then down to it, then along it
@@ -187,7 +187,7 @@ int Person::follow(const Way& way) {
     // what keeps the tip off the line, be it the tooth or that the hand is elsewhere than it believes: as much is added on the other side
     if (begun) {
       aside_mm_ += Vec3{off.x, off.y, off.z > k_above_mm ? 0.0 : off.z} * 0.25;
-      if (const double size = length(aside_mm_); size > k_most_aside_mm) aside_mm_ = aside_mm_ * (k_most_aside_mm / size);
+      if (const double size = length(aside_mm_); size > k_max_aside_mm) aside_mm_ = aside_mm_ * (k_max_aside_mm / size);
       aim -= off * (0.5 * std::min(1.0, k_on_line_mm / std::max(length(off), k_near_mm)));
     }
     want(aim - aside_mm_);

@@ -67,9 +67,7 @@ class LandmarkWindow : public AuthorWindow {
     EXPECT_EQ(std::system((CAVUM_BINARY " tooth landmarks " + tooth_file + " --json >" + folder_.file("json")).c_str()), 0);
     return nlohmann::json::parse(read_text_file(folder_.file("json")));
   }
-  [[nodiscard]] int check() const {
-    return std::system((CAVUM_BINARY " scenario check --no-battery " + file() + " >" + folder_.file("out")).c_str());
-  }
+  [[nodiscard]] int check() const { return std::system((CAVUM_BINARY " scenario check --no-trial " + file() + " >" + folder_.file("out")).c_str()); }
 };
 
 constexpr const char* k_save = "hold ctrl\nkey s\nrelease ctrl\nsleep 0.4\n";

@@ -98,7 +98,7 @@ void XHand::click(unsigned number, int ms) const {
 }
 
 std::optional<std::pair<int, int>> XHand::see(unsigned long colour) const {
-  constexpr int k_least_wide = 60;
+  constexpr int k_min_wide = 60;
   Display* d = display_of(display_);
   const int wide = DisplayWidth(d, DefaultScreen(d)), high = DisplayHeight(d, DefaultScreen(d));
   XImage* image = XGetImage(d, DefaultRootWindow(d), 0, 0, static_cast<unsigned>(wide), static_cast<unsigned>(high), AllPlanes, ZPixmap);
@@ -116,8 +116,8 @@ std::optional<std::pair<int, int>> XHand::see(unsigned long colour) const {
       }
     }
     const int middle = end - longest / 2;
-    const bool there = longest >= k_least_wide;
-    rows = !there ? 0 : last >= 0 && middle > last - k_least_wide && middle < last + k_least_wide ? rows + 1 : 1;
+    const bool there = longest >= k_min_wide;
+    rows = !there ? 0 : last >= 0 && middle > last - k_min_wide && middle < last + k_min_wide ? rows + 1 : 1;
     last = there ? middle : -1;
     if (rows > best_rows) {
       best_rows = rows;

@@ -40,7 +40,7 @@ using Builder = std::unique_ptr<OSSL_PARAM_BLD, Freed<OSSL_PARAM_BLD_free>>;
 using Params = std::unique_ptr<OSSL_PARAM, Freed<OSSL_PARAM_free>>;
 
 constexpr unsigned k_own_bits = 3072;
-constexpr int k_fewest_bits = 2048, k_most_bits = 8192;
+constexpr int k_fewest_bits = 2048, k_max_bits = 8192;
 constexpr std::size_t k_longest_token = 64U << 10, k_kid_bytes = 16;
 
 Error key_error() {
@@ -72,7 +72,7 @@ Big number_in(const json& jwk, const char* name) {
 /// Null: it is no RSA key that we take.
 RsaKey public_key(const json& jwk) {
   const Big n = number_in(jwk, "n"), e = number_in(jwk, "e");
-  if (!n || !e || BN_num_bits(n.get()) < k_fewest_bits || BN_num_bits(n.get()) > k_most_bits || BN_num_bits(e.get()) > 64 || !BN_is_odd(e.get()) ||
+  if (!n || !e || BN_num_bits(n.get()) < k_fewest_bits || BN_num_bits(n.get()) > k_max_bits || BN_num_bits(e.get()) > 64 || !BN_is_odd(e.get()) ||
       BN_is_one(e.get()))
     return {};
   const Builder builder(OSSL_PARAM_BLD_new());

@@ -21,7 +21,7 @@ using nlohmann::json;
 constexpr char k_claims[] = "https://purl.imsglobal.org/spec/lti/claim/";
 constexpr char k_grades_claim[] = "https://purl.imsglobal.org/spec/lti-ags/claim/endpoint";
 constexpr char k_membership[] = "http://purl.imsglobal.org/vocab/lis/v2/membership#";
-constexpr std::size_t k_longest_sub = 255, k_most_used = 200'000, k_random_bytes = 32;
+constexpr std::size_t k_longest_sub = 255, k_max_used = 200'000, k_random_bytes = 32;
 
 Error launch_error(LtiError code, const Message& what) {
   return {code, msg("this launch"), what, msg("open the link on the platform again; if it stays, tell the office")};
@@ -163,7 +163,7 @@ LtiLaunch LtiLogins::finish(const LtiPlatforms& platforms, const std::map<std::s
   LtiLaunch launch = checked_claims(token.claims, *platform, nonce, now_s);
   const std::lock_guard guard(lock_);
   std::erase_if(used_, [&](const auto& one) { return one.second < now_s; });
-  if (used_.size() >= k_most_used) throw launch_error(LtiError::used, msg("is one of too many at once: wait some minutes"));
+  if (used_.size() >= k_max_used) throw launch_error(LtiError::used, msg("is one of too many at once: wait some minutes"));
   if (!used_.emplace(nonce, whole_in(kept, "until")).second) throw launch_error(LtiError::used, msg("was used before"));
   return launch;
 }

@@ -182,10 +182,10 @@ std::string left_words() { return tr("{} left", as_mm(k_colours_end_mm, 1)); }
 
 /// Room beside the picture for the key, in the reader's language.
 double key_width_px() {
-  constexpr double k_least_px = 190, k_letter_px = 10;  // of letters of 16 px, wide ones
+  constexpr double k_min_px = 190, k_letter_px = 10;  // of letters of 16 px, wide ones
   std::size_t letters = 0;
   for (const std::string& words : {beyond_words(), left_words(), tr("as planned")}) letters = std::max(letters, words.size());
-  return std::max(k_least_px, 20 + k_bar_px + 8 + k_letter_px * static_cast<double>(letters));
+  return std::max(k_min_px, 20 + k_bar_px + 8 + k_letter_px * static_cast<double>(letters));
 }
 
 /// The bar of colours with its corner at `left` and `top`, and a millimetre of `mm_px` below it.

@@ -16,7 +16,7 @@ namespace cavum::report {
 namespace {
 
 constexpr double k_scale_px_per_mm = 25;
-constexpr double k_least_seen_mm = 0.05;  // what is less deep does not show in a section
+constexpr double k_min_seen_mm = 0.05;  // what is less deep does not show in a section
 
 /// A section that could be shown, and why.
 struct Wish {
@@ -48,7 +48,7 @@ std::optional<Worst> worst(const grading::Result& r, double grading::WallMeasure
   std::optional<Worst> w;
   for (std::size_t i = 0; i < scenarios::k_walls; ++i) {
     const grading::WallMeasures& m = r.shape.wall[i];
-    if ((m.*where).tick < 0 || m.*largest < k_least_seen_mm || (w && w->mm >= m.*largest)) continue;
+    if ((m.*where).tick < 0 || m.*largest < k_min_seen_mm || (w && w->mm >= m.*largest)) continue;
     w = Worst{(m.*where).site_mm, i, m.*largest};
   }
   return w;
@@ -74,7 +74,7 @@ scenarios::View other(scenarios::View v) {
 /// Where a neighbour was nicked, and where a contact that was to be opened is narrowest.
 void add_beside(const grading::BesideMeasures& m, std::vector<Wish>& list) {
   constexpr double k_narrow_mm = 0.2;
-  if (m.nick_depth_mm >= k_least_seen_mm)
+  if (m.nick_depth_mm >= k_min_seen_mm)
     for (const scenarios::View v : {scenarios::View::mesio_distal, scenarios::View::horizontal})
       list.push_back({v, m.deepest.site_mm, msg("neighbouring tooth cut, {} deep here", as_mm(m.nick_depth_mm)), SectionOf::nick});
   if (m.clearance_mm && *m.clearance_mm < k_narrow_mm)

@@ -14,7 +14,7 @@ namespace {
 
 constexpr double k_wanted_cell_mm = 0.1, k_around_target_mm = 1.0;
 constexpr int k_margin_cells = 2;
-constexpr std::size_t k_most_counts = 24'000'000;  // cells times tissues: 48 MB while counting
+constexpr std::size_t k_max_counts = 24'000'000;  // cells times tissues: 48 MB while counting
 
 /// Cells from a multiple of the edge, so that the same tooth gives the same cells wherever its tissue begins.
 int floor_div(int a, int b) { return a >= 0 ? a / b : -((b - 1 - a) / b); }
@@ -108,7 +108,7 @@ void fill_cells(ToothGrid& g, const Octree& tree, const std::vector<std::uint8_t
 
 ToothGrid make_tooth_grid(const Tooth& tooth, std::size_t most_cells) {
   const ToothContent content = content_of(tooth);
-  ToothGrid g = empty_grid(tooth.octree, content, std::min(most_cells, k_most_counts / content.ids.size()));
+  ToothGrid g = empty_grid(tooth.octree, content, std::min(most_cells, k_max_counts / content.ids.size()));
   fill_cells(g, tooth.octree, content.ids, count_tissues(tooth.octree, g, content));
   return g;
 }

@@ -13,9 +13,9 @@ namespace cavum::report {
 namespace {
 
 constexpr double k_text_pt = 9.5, k_small_pt = 8, k_cell_pt = 7.8, k_padding_pt = 3, k_gap_pt = 6;
-constexpr double k_pt_per_px = 0.75, k_most_of_page = 0.42;
+constexpr double k_pt_per_px = 0.75, k_max_of_page = 0.42;
 // Of their size: pictures that stand on the rest of a page rather than leave it empty; one that has its line for itself, several side by side.
-constexpr double k_least_alone = 0.5, k_least_beside = 0.7;
+constexpr double k_min_alone = 0.5, k_min_beside = 0.7;
 
 PdfColour verdict_colour(const std::string& verdict) {
   if (verdict == "pass") return {0.0, 0.447, 0.698};
@@ -185,7 +185,7 @@ class Printer {
     double width = 0, tallest = 0, titles = 0;
     /// With its pictures at such a share of their size.
     [[nodiscard]] double height(double share = 1) const { return share * tallest + titles + k_gap_pt; }
-    [[nodiscard]] double least_height() const { return height(placed.size() > 1 ? k_least_beside : k_least_alone); }
+    [[nodiscard]] double least_height() const { return height(placed.size() > 1 ? k_min_beside : k_min_alone); }
     void shrink_to(double height_pt) {
       const double share = (height_pt - titles - k_gap_pt) / tallest;
       tallest *= share;
@@ -196,7 +196,7 @@ class Printer {
   [[nodiscard]] PictureRow row_of(const Pictures& b, std::size_t first) {
     const std::size_t columns = columns_of(b), end = std::min(b.list.size(), first + columns);
     // three rows of sections to a page: two leave a third of it empty
-    const double most = b.sections ? s_.page_height_pt() / 3 - k_gap_pt - 3 * k_small_pt : k_most_of_page * s_.page_height_pt();
+    const double most = b.sections ? s_.page_height_pt() / 3 - k_gap_pt - 3 * k_small_pt : k_max_of_page * s_.page_height_pt();
     PictureRow row;
     row.width = (s_.width_pt() - k_between_pt * static_cast<double>(columns - 1)) / static_cast<double>(columns);
     for (std::size_t i = first; i < end; ++i) {

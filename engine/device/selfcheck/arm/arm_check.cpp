@@ -85,12 +85,12 @@ void require_still(ArmServo& servo, double quantum_mm) {
 
 /// What the passes themselves say against the figures.
 Message doubt_of(const ArmFigures& f) {
-  constexpr double k_most_friction_error_n = 0.03, k_most_mass_error = 0.05;
+  constexpr double k_max_friction_error_n = 0.03, k_max_mass_error = 0.05;
   for (std::size_t i = 0; i < 3; ++i) {
-    if (f.axes[i].friction_error_n > k_most_friction_error_n)
+    if (f.axes[i].friction_error_n > k_max_friction_error_n)
       return msg("friction along {} was not the same twice (to {}); take the hand off it, and begin again", k_axes_of_check[i],
                  as_n(f.axes[i].friction_error_n, 3));
-    if (f.axes[i].mass_error > k_most_mass_error)
+    if (f.axes[i].mass_error > k_max_mass_error)
       return msg("it did not swing evenly along {} (to {}); take the hand off it, and begin again", k_axes_of_check[i],
                  as_percent(100.0 * f.axes[i].mass_error));
   }

@@ -31,7 +31,7 @@ ArmServo::ArmServo(Stylus& stylus, Vec3 home_mm, double most_n, ArmClock clock, 
 }
 
 void ArmServo::look() {
-  constexpr int k_most_silent = 500;
+  constexpr int k_max_silent = 500;
   if (stop_ && stop_()) throw ArmStopped(msg("it was stopped; begin it again"));
   const std::int64_t now = clock_();
   if (last_ns_ != 0) {
@@ -47,7 +47,7 @@ void ArmServo::look() {
   moved_s_ += dt_s_;
   if (!fresh_) {
     ++stale_;
-    if (++silent_ > k_most_silent) {
+    if (++silent_ > k_max_silent) {
       stylus_.cut_force();
       throw stylus_error(stylus_.facts().id, DeviceError::silent, msg("fell silent while it was checked"),
                          msg("see `cavum devices`, and begin again"));

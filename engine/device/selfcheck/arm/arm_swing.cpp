@@ -45,9 +45,9 @@ std::vector<SwingRun> runs_of(std::span<const SwingSample> s, double middle_mm) 
     passage = i;
   }
   std::vector<SwingRun> runs;
-  constexpr std::size_t k_least_samples = 16;
+  constexpr std::size_t k_min_samples = 16;
   for (std::size_t i = 1; i < turns.size(); ++i)
-    if (turns[i] - turns[i - 1] >= k_least_samples) runs.push_back({turns[i - 1], turns[i]});
+    if (turns[i] - turns[i - 1] >= k_min_samples) runs.push_back({turns[i - 1], turns[i]});
   return runs;
 }
 
@@ -136,8 +136,8 @@ bool solve(const SwingRows& rows, int without, SwingSolution& x, double& rms, do
     squares += rows.rows[i].rhs * rows.rows[i].rhs;
     ++n;
   }
-  constexpr std::size_t k_least_rows = 30;
-  if (n < k_least_rows) return false;
+  constexpr std::size_t k_min_rows = 30;
+  if (n < k_min_rows) return false;
   const SwingSolution scale = a.diagonal().cwiseMax(1e-30).cwiseSqrt().cwiseInverse();
   const Eigen::Matrix<double, k_unknowns, k_unknowns> scaled = scale.asDiagonal() * a * scale.asDiagonal();
   const Eigen::LDLT<Eigen::Matrix<double, k_unknowns, k_unknowns>> ldlt(scaled);
@@ -173,9 +173,9 @@ std::vector<SwingFit> fit_swings(std::span<const std::vector<SwingSample>> swing
     }
     return sum;
   };
-  constexpr double k_most_delay_s = 0.010, k_delay_step_s = 0.0005;
+  constexpr double k_max_delay_s = 0.010, k_delay_step_s = 0.0005;
   double best = 0.0, least = squares_at(0.0);
-  for (double delay = k_delay_step_s; delay <= k_most_delay_s; delay += k_delay_step_s)
+  for (double delay = k_delay_step_s; delay <= k_max_delay_s; delay += k_delay_step_s)
     if (const double squares = squares_at(delay); squares < least) {
       least = squares;
       best = delay;
@@ -217,8 +217,8 @@ double swing_force_n(const ArmServo& servo, std::size_t axis, const ArmFigures& 
 }  // namespace
 
 Message too_heavy_to_swing(const ArmServo& servo, std::size_t axis, const ArmFigures& figures) {
-  constexpr double k_least_over_friction = 1.15;
-  if (swing_force_n(servo, axis, figures) >= k_least_over_friction * figures.axes[axis].friction_n) return {};
+  constexpr double k_min_over_friction = 1.15;
+  if (swing_force_n(servo, axis, figures) >= k_min_over_friction * figures.axes[axis].friction_n) return {};
   return msg("weight and friction along {} leave too little of {} to swing it; balance it, or have its joints seen to", k_swing_names[axis],
              as_n(servo.most_n(), k_as_needed));
 }
@@ -227,7 +227,7 @@ std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const Arm
   const double weight = figures.axes[axis].weight_n, home = on_axis(servo.home_mm(), axis), swing_n = swing_force_n(servo, axis, figures);
   // The force turns `ahead_mm` past home, on either side. From a turning point at X an arm that is driven by A − c and braked by A + c comes to
   // ahead + kept (X + ahead) on the other side, kept = (A − c)/(A + c): any arm swings by k_swing_mm.
-  constexpr double k_most_ahead_mm = 5.5, k_risen_mm = 0.5, k_lost_s = 0.7;
+  constexpr double k_max_ahead_mm = 5.5, k_risen_mm = 0.5, k_lost_s = 0.7;
   const double friction = figures.axes[axis].friction_n, kept = (swing_n - friction) / (swing_n + friction);
   std::vector<SwingSample> samples;
   double ahead_mm = 0.0, way = 1.0, lowest_mm = 0.0, turned_s = servo.now_s();
@@ -236,7 +236,7 @@ std::vector<SwingSample> swing_axis(ArmServo& servo, std::size_t axis, const Arm
     servo.look();
     double at = (on_axis(servo.at_mm(), axis) - home) * way;
     lowest_mm = std::min(lowest_mm, at);
-    ahead_mm = std::clamp((k_swing_mm + kept * lowest_mm) / (1.0 + kept), -k_most_ahead_mm, k_most_ahead_mm);
+    ahead_mm = std::clamp((k_swing_mm + kept * lowest_mm) / (1.0 + kept), -k_max_ahead_mm, k_max_ahead_mm);
     if (at > ahead_mm && at - lowest_mm > k_risen_mm) {
       way = -way;
       lowest_mm = at = -at;

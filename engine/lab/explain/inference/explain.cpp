@@ -239,7 +239,7 @@ std::optional<Unexplained> doubtful(const Step& first) {
 }
 
 /// What sessions differ in, and whether the recorded speed was used, as notes.
-void say_what_differs(Explanation& e, const Motion& motion) {
+void report_differences(Explanation& e, const Motion& motion) {
   if ((motion.x_mm <= 0.0).all()) e.notes.push_back(msg("the tool never touches: only what acts in air can be found"));
   if (!motion.speed_note.empty()) e.notes.push_back(motion.speed_note);
   if (motion.noise_mm > 0.0)
@@ -343,12 +343,12 @@ Explanation explain(const Recording& given, const ExplainOptions& options) {
     take_back(search, e.causes, first, false);
     put_figures(e, options, first, search.step);
   }
-  if (!e.causes.empty() && e.gain.percent.low <= k_least_low_percent) {
+  if (!e.causes.empty() && e.gain.percent.low <= k_min_low_percent) {
     search.doubted_percent = std::max(search.doubted_percent, e.gain.percent.value);
     e.causes.clear();
   }
   if (is_doubted(search) && e.causes.empty() && !e.unexplained) e.unexplained = doubtful(first);
-  say_what_differs(e, *search.motion);
+  report_differences(e, *search.motion);
   if (e.causes.empty() && !e.unexplained) e.unexplained = sessions_apart(e);
   drop_lesser_causes(e, search.step);
   drop_named_untestable(e);

@@ -10,8 +10,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_rivals = 3;      // refined in each fold
-constexpr double k_least_earned = 10.0;  // chi² that a cause must earn
+constexpr std::size_t k_rivals = 3;    // refined in each fold
+constexpr double k_min_earned = 10.0;  // chi² that a cause must earn
 
 /// Causes found without one fold: `view` gives that fold no weight.
 std::vector<Term> search_without(const View& view, const Null& null, int fold, int most) {
@@ -26,7 +26,7 @@ std::vector<Term> search_without(const View& view, const Null& null, int fold, i
     if (found.empty()) break;
     std::sort(found.begin(), found.end(), [](const auto& a, const auto& b) { return a.first < b.first; });
     TermFits fits(now);
-    double least = penalised_chi2(fits, causes) - k_least_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
+    double least = penalised_chi2(fits, causes) - k_min_earned * (step > 0 ? 2.0 * j.inflation : 1.0);  // as the search with all sessions asks
     std::vector<Term> best;
     for (std::size_t i = 0; i < std::min(k_rivals, found.size()); ++i) {
       std::vector<Term> trial = causes;

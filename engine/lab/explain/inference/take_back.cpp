@@ -13,8 +13,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr double k_likely_enough = 0.75;      // less is no claim: of what would be named below it, two in five are false
-constexpr double k_least_gain_percent = 1.0;  // of the error on sessions left out: less is of no use to anybody
+constexpr double k_likely_enough = 0.75;    // less is no claim: of what would be named below it, two in five are false
+constexpr double k_min_gain_percent = 1.0;  // of the error on sessions left out: less is of no use to anybody
 
 const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
 
@@ -132,8 +132,8 @@ bool take_back(CauseSearch& search, std::vector<Cause>& causes, const Step& firs
     for (std::size_t i = 0; i < causes.size(); ++i) {
       now.causes[i].gain_percent = gains[i].percent;
       now.causes[i].by_fold_percent = gains[i].by_fold_percent;
-      if (is_signed(now.causes[i], *search.step.view.scene) && gains[i].percent.low > k_least_low_percent &&
-          gains[i].percent.value > k_least_gain_percent)
+      if (is_signed(now.causes[i], *search.step.view.scene) && gains[i].percent.low > k_min_low_percent &&
+          gains[i].percent.value > k_min_gain_percent)
         continue;
       if (auto in_place = plainer || !by_plainer ? std::nullopt : plainer_of(search, i))
         worst = i, plainer = in_place;  // what stands in its place may need the others
@@ -163,6 +163,6 @@ bool drop_unlikely(CauseSearch& search, Explanation& e) {
   return true;
 }
 
-bool is_doubted(const CauseSearch& search) { return search.doubted_percent > k_least_gain_percent; }
+bool is_doubted(const CauseSearch& search) { return search.doubted_percent > k_min_gain_percent; }
 
 }  // namespace cavum::explain

@@ -7,7 +7,7 @@
 namespace cavum::explain {
 
 /// The least gain, at the low end of its interval, that a cause and all causes together must have; percent of the error on sessions left out.
-inline constexpr double k_least_low_percent = 0.5;
+inline constexpr double k_min_low_percent = 0.5;
 
 /// Causes that say no more than a plainer law does become it. True: some did.
 [[nodiscard]] bool prefer_plainer(CauseSearch& search);

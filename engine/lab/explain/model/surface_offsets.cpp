@@ -9,7 +9,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr Eigen::Index k_least_rows = 20;   // in air, and in contact
+constexpr Eigen::Index k_min_rows = 20;     // in air, and in contact
 constexpr double k_none_mm = 1e-9;          // an offset that is fitted, and not 0: a shape of 0 is one that is not there
 constexpr double k_ridge = 1e-6;            // of a column's own norm
 constexpr Eigen::Index k_looked_at = 2000;  // rows of a session that an estimate is made from
@@ -18,7 +18,7 @@ constexpr std::array k_steps_mm{0.005, 0.0005, 0.0005, 0.0005}, k_reach_mm{k_far
 
 bool crosses_the_surface(const Scene& s, const SessionRows& rows) {
   const auto x = s.motion->x_mm.segment(rows.begin, rows.end - rows.begin);
-  return (x < 0.0).count() >= k_least_rows && (s.active.segment(rows.begin, rows.end - rows.begin) > 0.5).count() >= k_least_rows;
+  return (x < 0.0).count() >= k_min_rows && (s.active.segment(rows.begin, rows.end - rows.begin) > 0.5).count() >= k_min_rows;
 }
 
 /// The estimate as it grows.

@@ -11,7 +11,7 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_steps_of_span = 4.0;       // of the encoder, for its position to be held against a measured speed
-constexpr double k_least_noise_mm = 2e-4;     // below, positions count as exact
+constexpr double k_min_noise_mm = 2e-4;       // below, positions count as exact
 constexpr double k_flicker = 0.1;             // of an encoder's steps that go back at once: then the position is noisy
 constexpr double k_more_than_rounding = 1.5;  // scatter over that of a fine rounding
 constexpr Eigen::Index k_check_rows = 200;    // of a stretch in which the integral of the speed is held against the position
@@ -83,7 +83,7 @@ double position_noise_mm(const Recording& r, double quantum_mm) {
     if (back >= k_flicker * steps) return std::max(0.3 * quantum_mm, beside);
     return seen > k_more_than_rounding * rounding ? beside : 0.0;
   }
-  return seen > k_least_noise_mm ? seen : 0.0;
+  return seen > k_min_noise_mm ? seen : 0.0;
 }
 
 SpeedCheck check_speed(const Recording& r) {

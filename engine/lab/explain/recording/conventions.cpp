@@ -14,9 +14,9 @@
 namespace cavum::explain {
 namespace {
 
-constexpr Eigen::Index k_least_rows_judged = 50, k_most_rows_judged = 200'000, k_most_rows_refined = 20'000;
+constexpr Eigen::Index k_min_rows_judged = 50, k_max_rows_judged = 200'000, k_max_rows_refined = 20'000;
 constexpr int k_bins = 60;
-constexpr double k_least_rows_of_bin = 4.0;
+constexpr double k_min_rows_of_bin = 4.0;
 constexpr double k_bend_over_line = 0.3;    // squares left by the bend over those left by a straight line: a weight on a joint is no contact
 constexpr double k_bend_explains = 0.75;    // of the scatter of the means
 constexpr double k_air_share = 0.05;        // of the rows on the flat side, at least
@@ -33,7 +33,7 @@ struct Means {
 };
 
 Means means_over_position(const Recording& r) {
-  const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_most_rows_judged);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_max_rows_judged);
   const double low = r.x_mm.minCoeff(), span = r.x_mm.maxCoeff() - low;
   std::vector<double> n(k_bins, 0.0), sum(k_bins, 0.0), sum_x(k_bins, 0.0);
   if (!(span > 0.0) || !std::isfinite(span)) return {};
@@ -43,7 +43,7 @@ Means means_over_position(const Recording& r) {
   }
   Means out;
   for (std::size_t b = 0; b < n.size(); ++b)
-    if (n[b] >= k_least_rows_of_bin) out.x.push_back(sum_x[b] / n[b]), out.f.push_back(sum[b] / n[b]), out.rows.push_back(n[b]);
+    if (n[b] >= k_min_rows_of_bin) out.x.push_back(sum_x[b] / n[b]), out.f.push_back(sum[b] / n[b]), out.rows.push_back(n[b]);
   return out;
 }
 
@@ -90,7 +90,7 @@ double squares_from(const std::vector<std::array<double, 3>>& rows, double at) {
 
 /// The same place by all rows and with the damper, which makes the mean force begin earlier than the contact does.
 double refined_surface_mm(const Recording& r, const ContactSeen& seen) {
-  const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_most_rows_refined);
+  const Eigen::Index stride = std::max<Eigen::Index>(1, r.rows() / k_max_rows_refined);
   const double turn = seen.towards, push = seen.reached_n < 0.0 ? -1.0 : 1.0;
   std::vector<std::array<double, 3>> rows;  // position along the feed, its speed, force
   for (const SessionRows& s : r.sessions)
@@ -112,7 +112,7 @@ double refined_surface_mm(const Recording& r, const ContactSeen& seen) {
   return turn * best;
 }
 
-std::optional<ContactSeen> find_contact(const Recording& r) {
+std::optional<ContactSeen> solve_proxy(const Recording& r) {
   const Means m = means_over_position(r);
   if (m.x.size() < 8) return std::nullopt;
   const double line = fit_shape(m, [](double x) { return x; }).squares;
@@ -195,8 +195,8 @@ const Doubt* Conventions::first_clear() const {
 
 Conventions judge_conventions(const Recording& r) {
   Conventions out;
-  if (r.rows() < k_least_rows_judged || r.exact_motion || r.x_mm.size() != r.rows()) return out;
-  out.contact = find_contact(r);
+  if (r.rows() < k_min_rows_judged || r.exact_motion || r.x_mm.size() != r.rows()) return out;
+  out.contact = solve_proxy(r);
   const bool has_speed = r.v_mm_s.size() == r.rows();
   if (has_speed) out.speed_agrees = position_over_speed(r).correlation;
   if (out.contact) {

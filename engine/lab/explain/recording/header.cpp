@@ -11,7 +11,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_most_listed = 20;
+constexpr std::size_t k_max_listed = 20;
 constexpr std::size_t k_longest_compared = 64;
 
 std::string trimmed(std::string_view text) { return std::string(without_blanks(text)); }
@@ -149,8 +149,8 @@ std::optional<std::string> nearest_name(const std::vector<std::string>& names, s
 
 Message list_of_names(const std::vector<std::string>& names) {
   List list;
-  for (std::size_t i = 0; i < names.size() && i < k_most_listed; ++i) list.items.push_back(msg("'{}'", one_line(names[i])));
-  return names.size() > k_most_listed ? msg("{} and {} more", list, names.size() - k_most_listed) : msg("{}", list);
+  for (std::size_t i = 0; i < names.size() && i < k_max_listed; ++i) list.items.push_back(msg("'{}'", one_line(names[i])));
+  return names.size() > k_max_listed ? msg("{} and {} more", list, names.size() - k_max_listed) : msg("{}", list);
 }
 
 }  // namespace cavum::explain

@@ -10,8 +10,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_most_layers = 12;
-constexpr double k_least_rows = 100.0, k_alike = 0.05, k_held = 0.01;
+constexpr std::size_t k_max_layers = 12;
+constexpr double k_min_rows = 100.0, k_alike = 0.05, k_held = 0.01;
 
 /// Sums of products of X, V and F over rows in contact.
 struct Sums {
@@ -38,9 +38,9 @@ void set_layers(Recording& r) {
     if (motion.x_mm[i] <= 2.0 * motion.sd_x_mm[i] || r.f_n[i] <= 0.0) continue;
     sums[(*layer)[i]].add(motion.x_mm[i], motion.v_mm_s[i], r.f_n[i]);
     all.add(motion.x_mm[i], motion.v_mm_s[i], r.f_n[i]);
-    if (sums.size() > k_most_layers) return;
+    if (sums.size() > k_max_layers) return;
   }
-  std::erase_if(sums, [](const auto& s) { return s.second.rows < k_least_rows; });
+  std::erase_if(sums, [](const auto& s) { return s.second.rows < k_min_rows; });
   if (sums.size() < 2) return;
   const Eigen::Vector2d together = all.solved({0.0, 0.0});
   std::map<double, Eigen::Vector2d> fitted;

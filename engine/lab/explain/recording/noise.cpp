@@ -10,11 +10,11 @@ namespace {
 
 constexpr double k_huber = 2.5;  // in standard deviations: 99 % efficient on Gaussian noise
 constexpr double k_blow = 6.0;   // scatters: one blow must not set the noise
-constexpr double k_most_reflected = 0.9995;
+constexpr double k_max_reflected = 0.9995;
 // What wanders beside the model is a fault of the model as likely as noise: a share of it counts as white, or a fit would believe in nothing but the
 // fastest changes. Of 82 real holds (docs/explain.md) 0, 0.02, 0.1, 0.5 left 58, 65, 66, 66 % gain on sessions not seen.
 constexpr double k_white_share = 0.1;
-constexpr double k_least_left = 1e-6;  // of the variance: less comes of covariances that are no process's
+constexpr double k_min_left = 1e-6;  // of the variance: less comes of covariances that are no process's
 
 /// The residual about each session's mean, 0 where it does not count.
 Series centred(const Recording& recording, const Series& residual, const Series& counts) {
@@ -87,17 +87,17 @@ Noise estimate_noise(const Recording& recording, const Series& residual, const S
     double sum = c[static_cast<std::size_t>(order)];
     for (std::size_t j = 0; j < phi.size(); ++j) sum -= phi[j] * c[static_cast<std::size_t>(order) - 1 - j];
     if (order > 1 && std::fabs(sum) >= variance) break;  // rows that do not count may leave covariances that are no process's
-    const double reflected = std::clamp(sum / variance, -k_most_reflected, k_most_reflected);
+    const double reflected = std::clamp(sum / variance, -k_max_reflected, k_max_reflected);
     phi = raised(phi, reflected);
     variance *= 1.0 - reflected * reflected;
     if (const double cost = rows * std::log(variance) + order * std::log(rows); cost < least) {
       least = cost;
       best.ar = phi;
       const double left = left_by(phi, c), expected = variance / (1.0 + k_white_share);
-      best.step_sd_n = std::max(1e-9, std::sqrt(left > k_least_left * c[0] ? left : expected));
+      best.step_sd_n = std::max(1e-9, std::sqrt(left > k_min_left * c[0] ? left : expected));
     }
   }
-  best.rho = std::clamp(c[1] / c[0], -k_most_reflected, k_most_reflected);
+  best.rho = std::clamp(c[1] / c[0], -k_max_reflected, k_max_reflected);
   best.sd_n = std::max(best.sd_n, rounding_n);
   best.step_sd_n = std::max(best.step_sd_n, rounding_n);
   return best;

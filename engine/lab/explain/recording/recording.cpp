@@ -47,8 +47,8 @@ void add_row(std::vector<SessionRows>& sessions, std::string_view name, const Ro
   if (sessions.empty() || sessions.back().name != name) {
     if (std::any_of(sessions.begin(), sessions.end(), [&](const SessionRows& s) { return s.name == name; }))
       in.fail(FileError::inconsistent, msg("session '{}' is in two places", one_line(name)), msg("sort the rows by session, then by time"));
-    if (sessions.size() == k_most_sessions)
-      in.fail(FileError::too_large, msg("has more than {} sessions", k_most_sessions),
+    if (sessions.size() == k_max_sessions)
+      in.fail(FileError::too_large, msg("has more than {} sessions", k_max_sessions),
               msg("give column 'session' a name for each run, not for each row"));
     sessions.push_back({std::string(name), row, row});
   }

@@ -14,7 +14,7 @@ namespace cavum::explain {
 namespace {
 
 constexpr double k_row_s = 0.005;
-constexpr double k_least_contact_s = 0.5;
+constexpr double k_min_contact_s = 0.5;
 constexpr double k_felt_n = 1e-3;  // of a law without noise: no hand and no load cell of an exam tells less
 
 /// A force over time, linear between its samples.
@@ -170,7 +170,7 @@ Recording read_session_recording(const std::string& path, const std::string& for
     throw Error(path, msg("no material of its force model resists"), msg("explain a session in which something does"));
 
   const auto every = std::max<std::int64_t>(1, std::llround(k_row_s / tick_s));
-  const auto least = static_cast<std::size_t>(k_least_contact_s / (tick_s * static_cast<double>(every)));
+  const auto least = static_cast<std::size_t>(k_min_contact_s / (tick_s * static_cast<double>(every)));
   Apart rendering;
   Recording r = joined(contacts_of(session, simulation, measured, every, path, rendering), least, reference);
   if (r.sessions.empty())

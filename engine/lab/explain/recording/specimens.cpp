@@ -10,7 +10,7 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_least_sessions = 8;
+constexpr std::size_t k_min_sessions = 8;
 constexpr double k_scatter = 0.2;
 constexpr double k_onset = 0.02;  // of the peak force
 
@@ -47,7 +47,7 @@ Specimen specimen_of(const Recording& r, const SessionRows& s) {
 }  // namespace
 
 bool are_specimens(const Recording& r) {
-  if (r.sessions.size() < k_least_sessions || r.rig.k_n_per_mm) return false;
+  if (r.sessions.size() < k_min_sessions || r.rig.k_n_per_mm) return false;
   double sum = 0.0, square = 0.0, follows = 0.0;
   for (const auto& s : r.sessions) {
     const Specimen p = specimen_of(r, s);

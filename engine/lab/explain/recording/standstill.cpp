@@ -11,8 +11,8 @@
 namespace cavum::explain {
 namespace {
 
-constexpr Eigen::Index k_least_stuck_rows = 20;
-constexpr double k_least_stuck_s = 0.2;
+constexpr Eigen::Index k_min_stuck_rows = 20;
+constexpr double k_min_stuck_s = 0.2;
 constexpr double k_force_due = 0.25;  // of what the force does over the position, that it should have done while it stood still
 constexpr double k_way_due = 0.05;    // of the range of the position
 constexpr double k_speed_due = 0.3;   // of the usual speed: an offset of the speed is no motion
@@ -31,7 +31,7 @@ std::vector<Still> long_runs(const Recording& r, const Series& values) {
   for (std::size_t s = 0; s < r.sessions.size(); ++s)
     for (Eigen::Index i = r.sessions[s].begin, end = i; i < r.sessions[s].end; i = end) {
       while (end < r.sessions[s].end && values[end] == values[i]) ++end;
-      if (end - i >= k_least_stuck_rows && r.t_s[end - 1] - r.t_s[i] >= k_least_stuck_s) out.push_back({i, end, s});
+      if (end - i >= k_min_stuck_rows && r.t_s[end - 1] - r.t_s[i] >= k_min_stuck_s) out.push_back({i, end, s});
     }
   return out;
 }

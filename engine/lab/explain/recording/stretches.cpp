@@ -16,7 +16,7 @@ Eigen::Index cut_near(const Series& x_mm, Eigen::Index row, Eigen::Index reach) 
 }  // namespace
 
 std::optional<Recording> in_stretches(const Recording& r) {
-  if (r.sessions.size() != 1 || r.rows() < k_stretches * k_least_stretch_rows) return {};
+  if (r.sessions.size() != 1 || r.rows() < k_stretches * k_min_stretch_rows) return {};
   Recording out = r;
   const std::string name = r.sessions[0].name;
   out.sessions.clear();

@@ -7,10 +7,10 @@
 
 namespace cavum::explain {
 
-inline constexpr Eigen::Index k_stretches = 6, k_least_stretch_rows = 300;
+inline constexpr Eigen::Index k_stretches = 6, k_min_stretch_rows = 300;
 
 /// The recording with its one session cut into k_stretches of about as many rows each, and a note that says so; none when it has several sessions, or
-/// fewer than k_stretches × k_least_stretch_rows rows. A cut lies in air where the tool is in air within a quarter of a stretch of it: states
+/// fewer than k_stretches × k_min_stretch_rows rows. A cut lies in air where the tool is in air within a quarter of a stretch of it: states
 /// that fade (relaxation, play) begin anew there.
 [[nodiscard]] std::optional<Recording> in_stretches(const Recording& recording);
 

@@ -16,9 +16,9 @@
 namespace cavum::explain {
 namespace {
 
-constexpr std::size_t k_most_lines = 400;      // that are looked at
+constexpr std::size_t k_max_lines = 400;       // that are looked at
 constexpr std::size_t k_longest_line = 20000;  // bytes that are looked at
-constexpr std::size_t k_most_cells = 200;
+constexpr std::size_t k_max_cells = 200;
 constexpr std::array k_separators{'\t', ';', ',', ' '};  // a table that can be read by two of them is read by the first
 
 struct Line {
@@ -32,7 +32,7 @@ using Cells = std::vector<std::string_view>;
 std::vector<Line> first_lines(std::string_view text) {
   std::vector<Line> lines;
   int number = 1;
-  for (std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0; at < text.size() && lines.size() < k_most_lines; ++number) {
+  for (std::size_t at = text.starts_with("\xef\xbb\xbf") ? 3 : 0; at < text.size() && lines.size() < k_max_lines; ++number) {
     const std::size_t end = std::min(text.find_first_of("\r\n", at), text.size());
     const std::string_view line = text.substr(at, end - at);
     if (!without_blanks(line).empty() && !is_comment_line(line)) lines.push_back({at, number, line.substr(0, k_longest_line)});
@@ -44,7 +44,7 @@ std::vector<Line> first_lines(std::string_view text) {
 Cells cells_of(const Line& line, char separator) {
   Cells cells;
   bool closed = true;
-  split_line(line.text, separator, k_most_cells, cells, closed);
+  split_line(line.text, separator, k_max_cells, cells, closed);
   return cells;
 }
 
@@ -84,7 +84,7 @@ struct Place {
 
 /// The header under one separator.
 std::optional<Place> header_under(const std::vector<Line>& lines, char separator) {
-  for (std::size_t i = 0; i + 1 < lines.size() && i <= k_most_lines_before; ++i) {
+  for (std::size_t i = 0; i + 1 < lines.size() && i <= k_max_lines_before; ++i) {
     const Cells heading = cells_of(lines[i], separator), below = cells_of(lines[i + 1], separator);
     if (!is_heading(heading) || below.size() != heading.size()) continue;
     if (is_data(below)) return Place{i, false};
@@ -144,7 +144,7 @@ std::optional<Line> header_in_comment(std::string_view text, const Line& data, c
 
 /// A table whose cells and decimals are both parted by commas has twice the cells that its header has.
 void refuse_commas_twice(const std::vector<Line>& lines, const std::string& where) {
-  for (std::size_t i = 0; i + 1 < lines.size() && i <= k_most_lines_before; ++i) {
+  for (std::size_t i = 0; i + 1 < lines.size() && i <= k_max_lines_before; ++i) {
     const Cells heading = cells_of(lines[i], ','), below = cells_of(lines[i + 1], ',');
     if (is_heading(heading) && below.size() > heading.size() + 1 && below.size() <= 2 * heading.size() &&
         std::all_of(below.begin(), below.end(), is_number))

@@ -21,7 +21,7 @@ struct TableForm {
 };
 
 /// Most lines before the header.
-inline constexpr std::size_t k_most_lines_before = 50;
+inline constexpr std::size_t k_max_lines_before = 50;
 
 /// Lines of blanks and those that begin with #, % or // are passed over. The header is the first line of names with a line of as many cells below it,
 /// two of them numbers or stamps. Throws Error(where:line, ...) for a table without a header, for decimal commas in a table parted by commas, for

@@ -32,10 +32,10 @@ bool RowReader::next_line() {
     at_ = end + (text_.substr(end).starts_with("\r\n") ? 2U : 1U);
     if (without_blanks(line).empty() || is_comment_line(line)) continue;
     bool closed = true;
-    split_line(line, form_.separator, k_most_columns, cells_, closed);
+    split_line(line, form_.separator, k_max_columns, cells_, closed);
     if (!closed) fail(FileError::malformed, msg("begins a quote that does not end"), msg("close it with \" on the same line"));
-    if (cells_.size() > k_most_columns)
-      fail(FileError::too_large, msg("has more than {} cells", k_most_columns), msg("leave out what is not asked for"));
+    if (cells_.size() > k_max_columns)
+      fail(FileError::too_large, msg("has more than {} cells", k_max_columns), msg("leave out what is not asked for"));
     return true;
   }
   return false;
@@ -46,8 +46,8 @@ bool RowReader::next() {
   while (cells_.size() > header_.size() && cells_.back().empty()) cells_.pop_back();
   if (cells_.size() != header_.size())
     fail(FileError::inconsistent, msg("has {} cells for {} columns", cells_.size(), header_.size()), msg("complete the row"));
-  if (rows_++ == k_most_recording_rows)
-    fail(FileError::too_large, msg("is beyond the limit of {} rows", k_most_recording_rows), msg("split the table"));
+  if (rows_++ == k_max_recording_rows)
+    fail(FileError::too_large, msg("is beyond the limit of {} rows", k_max_recording_rows), msg("split the table"));
   return true;
 }
 

@@ -11,9 +11,9 @@
 namespace cavum::explain {
 
 /// Most rows, columns and sessions of a recording.
-inline constexpr std::size_t k_most_recording_rows = 5'000'000;  ///< 7 hours at 200 Hz; beyond that memory, not time, is the limit
-inline constexpr std::size_t k_most_columns = 200;
-inline constexpr std::size_t k_most_sessions = 1000;
+inline constexpr std::size_t k_max_recording_rows = 5'000'000;  ///< 7 hours at 200 Hz; beyond that memory, not time, is the limit
+inline constexpr std::size_t k_max_columns = 200;
+inline constexpr std::size_t k_max_sessions = 1000;
 
 class RowReader {
  public:

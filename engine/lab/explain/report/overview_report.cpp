@@ -7,7 +7,7 @@ namespace {
 
 using nlohmann::json;
 
-constexpr std::size_t k_most_sessions_in_words = 12;
+constexpr std::size_t k_max_sessions_in_words = 12;
 
 json as_json(const ColumnSeen& c) {
   json j{{"name", c.name}, {"header", c.header}, {"low", c.low}, {"high", c.high}};
@@ -82,9 +82,9 @@ Lines to_text(const Overview& o) {
   out.add(msg("columns:"));
   for (const ColumnSeen& c : o.columns) out.add(line_of(c), 2);
   out.add(msg("sessions:"));
-  for (std::size_t i = 0; i < o.sessions.size() && i < k_most_sessions_in_words; ++i)
+  for (std::size_t i = 0; i < o.sessions.size() && i < k_max_sessions_in_words; ++i)
     out.add(msg("{}: {} rows, {}", o.sessions[i].name, o.sessions[i].rows, as_s(o.sessions[i].lasts_s, k_as_needed)), 2);
-  if (o.sessions.size() > k_most_sessions_in_words) out.add(msg("{} more", o.sessions.size() - k_most_sessions_in_words), 2);
+  if (o.sessions.size() > k_max_sessions_in_words) out.add(msg("{} more", o.sessions.size() - k_max_sessions_in_words), 2);
   out.add(msg("steps: position {}, force {} (0: none seen)", as_mm(o.position_quantum_mm, k_as_needed), as_n(o.force_quantum_n, k_as_needed)));
   out.add(contact_words(o.conventions));
   for (const Doubt& d : o.conventions.doubts)

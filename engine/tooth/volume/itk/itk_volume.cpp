@@ -213,8 +213,8 @@ std::vector<std::string> files_of(const std::string& folder, std::uint64_t& byte
                   msg("give a folder with nothing but the slices of one volume"));
     bytes += entry.file_size();
     files.push_back(entry.path().string());
-    if (files.size() > k_most_slice_files)
-      throw Error(FileError::too_large, Name{folder}, msg("holds more than {} files", k_most_slice_files),
+    if (files.size() > k_max_slice_files)
+      throw Error(FileError::too_large, Name{folder}, msg("holds more than {} files", k_max_slice_files),
                   msg("give a folder with nothing but the slices of one volume"));
   }
   std::sort(files.begin(), files.end(), natural_less);

@@ -73,7 +73,7 @@ TEST(Landmarks, CuspsOfTheMolarStandWhereItsFormulaIsHighest) {
   }
   std::cout << "cusp tips of the molar: within " << worst << " mm of the formula's\n";
   EXPECT_EQ(l.tooth_class.kind, ToothClass::molar);
-  EXPECT_GT(l.tooth_class.sureness, 0.9);
+  EXPECT_GT(l.tooth_class.probability, 0.9);
   EXPECT_LT(l.long_axis.tilt_deg, 1.0);
 }
 

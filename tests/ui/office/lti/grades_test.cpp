@@ -38,7 +38,7 @@ class Grades : public testing::Test {
   void TearDown() override { EXPECT_EQ(platform_.control()["violations"], json::array()) << "what this office sent and a standard refuses"; }
 
   void release(const std::vector<std::string>& numbers) {
-    records::ReleaseWish wish;
+    records::ReleaseCommand wish;
     wish.undecided = true;
     for (const auto& n : numbers) wish.sessions.push_back(sessions_.at(n));
     auto ledger = opened_.school().ledger();

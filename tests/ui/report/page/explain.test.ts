@@ -17,7 +17,7 @@ const folder = mkdtempSync(join(tmpdir(), "cavum_explain_page_"));
 const source = process.env.CAVUM_SOURCE_DIR!;
 const k_wide_px = 1280;
 const k_narrow_px = 390;
-const k_least_text_px = 16;
+const k_min_text_px = 16;
 let browser: Browser;
 
 function cavum(...args: string[]): void {
@@ -72,7 +72,7 @@ async function unread(page: Page): Promise<string[]> {
       if (px < least_px - 0.01) said.push(`${px.toFixed(1)} px: ${walk.currentNode.textContent!.trim().slice(0, 60)}`);
     }
     return said;
-  }, k_least_text_px);
+  }, k_min_text_px);
 }
 
 /** Opens a page in both widths and colours and tells whatever is wrong with it. */

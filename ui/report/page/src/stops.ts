@@ -21,7 +21,7 @@ export interface Stop {
 }
 
 const k_lost_colour = "#c65600";
-const k_least_points = 0.005; // reads 0.00
+const k_min_points = 0.005; // reads 0.00
 
 function of_event(event: ExamEvent): Stop {
   return { t_s: event.t_s, to_s: event.t_s, colour: event_colour(event.kind), text: event.text, site_mm: event.site_mm, lost: false };
@@ -40,7 +40,7 @@ export function event_stops(events: ExamEvent[]): Stop[] {
 
 /** Those that cost points: the others say more of a criterion, and stand in its table. */
 export function loss_stops(moments: Moment[]): Stop[] {
-  return moments.filter((m) => m.t_s !== null && m.points_lost !== null && m.points_lost > k_least_points).map(of_moment).sort((a, b) => a.t_s - b.t_s);
+  return moments.filter((m) => m.t_s !== null && m.points_lost !== null && m.points_lost > k_min_points).map(of_moment).sort((a, b) => a.t_s - b.t_s);
 }
 
 /** Ticks and bars under the range; buttons do for the keyboard what a click on them does. */

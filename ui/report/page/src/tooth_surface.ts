@@ -7,7 +7,7 @@ import { k_level, offset, type ToothField } from "./tooth_field.ts";
 /** Beyond the box lies nothing within 1 mm of the target; this stands for all of it, beyond what a packed distance can say. */
 export const k_no_distance_mm = 2.625;
 const k_distance_unit_mm = 0.02;
-const k_least_heat_percent = 5;
+const k_min_heat_percent = 5;
 
 export interface Surface extends Mesh {
   /** Tissue's colour of each vertex, red green blue 0..255. */
@@ -85,7 +85,7 @@ export class ToothSurface {
       const heat = heat_at(field, at, [surface.normals[3 * i], surface.normals[3 * i + 1], surface.normals[3 * i + 2]], deeper_mm);
       if (heat === null) continue;
       marks[2 * i] = heat / 100;
-      marks[2 * i + 1] = Math.abs(heat) >= k_least_heat_percent ? 1 : surface.marks[2 * i + 1];
+      marks[2 * i + 1] = Math.abs(heat) >= k_min_heat_percent ? 1 : surface.marks[2 * i + 1];
     }
     return marks;
   }

@@ -1,26 +1,26 @@
-#include "grading/trial/battery_output.h"
+#include "grading/trial/trial_output.h"
 
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {
 
-Lines battery_text(const Battery& battery) {
+Lines trial_text(const Trial& trial) {
   Lines out;
-  const auto line = [&](const BatteryRow& row, bool wrong) {
+  const auto line = [&](const TrialRow& row, bool wrong) {
     const Message by = !row.caught_by.empty() ? msg("by {}", List{row.caught_by, false})
                        : row.should.empty()   ? Message()
                                               : msg("should: {}", row.should);
     out.row({wrong ? msg("!") : Message(), Name{row.name}, msg("{}", word_of(row.verdict)),
              msg("{} of {}", as_points(row.points), as_points(row.max)), by});
   };
-  line(battery.honest, battery.honest.verdict != Verdict::pass);
-  for (const auto& row : battery.rows) line(row, row.verdict == Verdict::pass);
+  line(trial.honest, trial.honest.verdict != Verdict::pass);
+  for (const auto& row : trial.rows) line(row, row.verdict == Verdict::pass);
   return out;
 }
 
-nlohmann::ordered_json battery_json(const Battery& battery) {
+nlohmann::ordered_json trial_json(const Trial& trial) {
   auto rows = nlohmann::ordered_json::array();
-  for (const auto& row : battery.rows) {
+  for (const auto& row : trial.rows) {
     auto caught_by = nlohmann::ordered_json::array();
     for (const Message& by : row.caught_by) caught_by.push_back(english_text(by));
     rows.push_back({{"name", row.name},

@@ -1,5 +1,5 @@
 // What is cut, on teeth of known geometry: of a stump, "too wide" is its walls and nothing else; a cavity in a side is displaced along the crown.
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 
 #include <gtest/gtest.h>
 
@@ -23,22 +23,22 @@ struct OnRoundTooth {
   scenarios::ZoneMap zones;
   Task task;
   TargetField field;
-  std::vector<WrongWork> works;
+  std::vector<FaultyPreparation> works;
   explicit OnRoundTooth(const std::string& target)
       : scenario(scenarios::parse_scenario(testing::scenario_text(target), "s.toml")),
         zones(scenarios::build_zones(scenario, tooth, testing::round_landmarks(k_round_radius_mm, -6))),
         task(make_task(scenario, tooth, zones)),
         field(tooth, zones),
-        works(wrong_works(task, field)) {}
-  [[nodiscard]] const WrongWork* find(const std::string& name) const {
-    const auto found = std::find_if(works.begin(), works.end(), [&](const WrongWork& w) { return w.name == name; });
+        works(faulty_preparations(task, field)) {}
+  [[nodiscard]] const FaultyPreparation* find(const std::string& name) const {
+    const auto found = std::find_if(works.begin(), works.end(), [&](const FaultyPreparation& w) { return w.name == name; });
     return found == works.end() ? nullptr : &*found;
   }
 };
 
-TEST(WrongWork, OfAStumpTooWideIsItsWallsAlone) {
+TEST(FaultyPreparation, OfAStumpTooWideIsItsWallsAlone) {
   const OnRoundTooth crown("[[zones.target]]\nshape = \"crown\"\nabove_neck_mm = 0.5\ndepth_mm = 1.0\ntaper_deg = 0\nocclusal_mm = 1.5\n");
-  const WrongWork* wide = crown.find("too_wide_by_1_mm");
+  const FaultyPreparation* wide = crown.find("too_wide_by_1_mm");
   ASSERT_NE(wide, nullptr);
   // the stump's wall stands at 3 mm, its top at z = -1.5, the finish line at z = -5.5
   EXPECT_LT(wide->cut({3.4, 0, -3}), 0);    // the shell itself
@@ -50,7 +50,7 @@ TEST(WrongWork, OfAStumpTooWideIsItsWallsAlone) {
   EXPECT_EQ(crown.find("shank_at_the_entrance"), nullptr);
 }
 
-TEST(WrongWork, AShareOfAShallowTargetIsNoMoreThanThat) {
+TEST(FaultyPreparation, AShareOfAShallowTargetIsNoMoreThanThat) {
   // 1.0 mm deep in leaves of 0.1 mm: ten layers of equal size
   const Tooth tooth = testing::dentin_block(4, 4, 0.1);
   const auto scenario =
@@ -65,13 +65,13 @@ TEST(WrongWork, AShareOfAShallowTargetIsNoMoreThanThat) {
   }
 }
 
-TEST(WrongWork, FromASideIsShiftedTowardsOcclusalAndGingiva) {
+TEST(FaultyPreparation, FromASideIsShiftedTowardsOcclusalAndGingiva) {
   const OnRoundTooth cavity(
       "[[zones.target]]\nshape = \"side_cavity\"\nside = \"buccal\"\ndepth_mm = 1.2\noutline = { kind = \"polygon\", points_mm = [[-2, 1], [2, 1], "
       "[2, "
       "3], [-2, 3]] }\n");
   // the target lies between z = -5 and -3, from radius 2.8 outwards
-  const WrongWork *up = cavity.find("shifted_1_mm_occlusal"), *down = cavity.find("shifted_1_mm_gingival");
+  const FaultyPreparation *up = cavity.find("shifted_1_mm_occlusal"), *down = cavity.find("shifted_1_mm_gingival");
   ASSERT_NE(up, nullptr);
   ASSERT_NE(down, nullptr);
   EXPECT_LT(up->cut({0, 3.5, -2.4}), 0);
@@ -81,7 +81,7 @@ TEST(WrongWork, FromASideIsShiftedTowardsOcclusalAndGingiva) {
   EXPECT_EQ(cavity.find("shifted_1_mm_buccal"), nullptr);
 }
 
-TEST(WrongWork, TheContactThatIsLeftIsWhereTheNeighbourBulges) {
+TEST(FaultyPreparation, TheContactThatIsLeftIsWhereTheNeighbourBulges) {
   // a block that ends at x = 3, and a neighbour who bulges towards it at z = -3: the target comes nearest to him far above that
   const auto own = [](Vec3 p) { return std::max({std::fabs(p.x) - 3, std::fabs(p.y) - 3, p.z, -6 - p.z}); };
   const auto his = [](Vec3 p) { return std::max({3.1 + 0.4 * std::fabs(p.z + 3) - p.x, p.x - 5, std::fabs(p.y) - 3, p.z, -6 - p.z}); };
@@ -101,8 +101,8 @@ TEST(WrongWork, TheContactThatIsLeftIsWhereTheNeighbourBulges) {
   const scenarios::ZoneMap zones = scenarios::build_zones(scenario, tooth);
   const Task task = make_task(scenario, tooth, zones);
   const TargetField field(tooth, zones);
-  const auto works = wrong_works(task, field);
-  const auto left = std::find_if(works.begin(), works.end(), [](const WrongWork& w) { return w.name == "leaves_the_contact"; });
+  const auto works = faulty_preparations(task, field);
+  const auto left = std::find_if(works.begin(), works.end(), [](const FaultyPreparation& w) { return w.name == "leaves_the_contact"; });
   ASSERT_NE(left, works.end());
   EXPECT_LT(left->cut({2.0, 0, -3}), 0) << "the target";
   EXPECT_GT(left->cut({2.6, 0, -3}), 0) << "0.8 mm before the bulge";

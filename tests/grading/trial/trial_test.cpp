@@ -1,5 +1,5 @@
-// Wrong pieces of work against rubrics: a rubric that is blind to one lets it pass, and the battery must name it; good rubrics let none pass.
-#include "grading/trial/battery.h"
+// Faulty preparations against rubrics: a rubric that is blind to one lets it pass, and the trial must name it; good rubrics let none pass.
+#include "grading/trial/trial.h"
 
 #include <fmt/core.h>
 #include <gtest/gtest.h>
@@ -45,31 +45,31 @@ std::string scenario_with(const std::string& criteria, const std::string& rules 
   return text + "[rubric]\nrule = \"compensatory\"\n" + rules + criteria;
 }
 
-Battery battery_of(const std::string& text, const Tooth& tooth) {
+Trial trial_of(const std::string& text, const Tooth& tooth) {
   const scenarios::Scenario scenario = scenarios::parse_scenario(text, "s.toml");
-  return run_battery(scenario, tooth, scenarios::build_zones(scenario, tooth), Look::full);
+  return run_trial(scenario, tooth, scenarios::build_zones(scenario, tooth), Look::full);
 }
 
-std::set<std::string> passing(const Battery& b) {
+std::set<std::string> passing(const Trial& b) {
   std::set<std::string> names;
   for (const auto& row : b.rows)
     if (row.verdict == Verdict::pass) names.insert(row.name);
   return names;
 }
 
-/// What is said of a wrong piece of work that passes, or of an error that gains points by growing.
-const scenarios::Problem* problem_of(const Battery& b, const auto& work) {
+/// What is said of a faulty preparation that passes, or of an error that gains points by growing.
+const scenarios::Problem* problem_of(const Trial& b, const auto& work) {
   const auto p = std::find_if(b.problems.begin(), b.problems.end(),
-                              [&](const auto& one) { return one.mistake == scenarios::Mistake::wrong_work && tells(one.what, work); });
+                              [&](const auto& one) { return one.mistake == scenarios::Mistake::faulty_preparations && tells(one.what, work); });
   return p == b.problems.end() ? nullptr : &*p;
 }
-bool named(const Battery& b, const std::string& name) {
+bool named(const Trial& b, const std::string& name) {
   const auto* p = problem_of(b, name);
   return p != nullptr && !p->warning;
 }
 
-TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
-  const Battery b = battery_of(scenario_with(k_removed + k_sides + k_floor + k_pulp), chambered_block(0.1));
+TEST(Trial, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
+  const Trial b = trial_of(scenario_with(k_removed + k_sides + k_floor + k_pulp), chambered_block(0.1));
   EXPECT_EQ(b.honest.verdict, Verdict::pass);
   EXPECT_DOUBLE_EQ(b.honest.points, 100);
   for (const auto& row : b.rows) EXPECT_NE(row.verdict, Verdict::pass) << row.name;
@@ -77,10 +77,10 @@ TEST(Battery, GoodRubricLetsNoneOfThemPassAndHonestWorkAll) {
   EXPECT_GE(b.rows.size(), 30u);
 }
 
-TEST(Battery, RubricThatLooksAtNothingIsToldOfEveryWrongPieceOfWork) {
+TEST(Trial, RubricThatLooksAtNothingIsToldOfEveryWrongPieceOfWork) {
   const std::string text =
       scenario_with(criterion("time", "time_s", 5, 10, 10), "pass_percent = 0\nborderline_percent = 0\nopen_step_passes = true\n");
-  const Battery b = battery_of(text, chambered_block(0.1));
+  const Trial b = trial_of(text, chambered_block(0.1));
   const auto line = 1 + std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(text.find("[rubric]")), '\n');
   for (const auto& row : b.rows) {
     EXPECT_EQ(row.verdict, Verdict::pass) << row.name;
@@ -103,7 +103,7 @@ struct Blind {
 class BlindRubric : public ::testing::TestWithParam<Blind> {};
 
 TEST_P(BlindRubric, LetsThatPassAndIsToldSo) {
-  const Battery b = battery_of(scenario_with(GetParam().criteria), chambered_block(0.1));
+  const Trial b = trial_of(scenario_with(GetParam().criteria), chambered_block(0.1));
   const auto passes = passing(b);
   for (const auto& name : GetParam().passes) {
     EXPECT_TRUE(passes.contains(name)) << name;
@@ -131,12 +131,12 @@ INSTANTIATE_TEST_SUITE_P(
                             "target_removed_percent"}),
     [](const auto& test) { return test.param.to; });
 
-TEST(Battery, AccessTaskHasTheRoofLeftAndHoldsOnlyWhatApplies) {
+TEST(Trial, AccessTaskHasTheRoofLeftAndHoldsOnlyWhatApplies) {
   std::string text = scenario_with(k_removed + k_sides + criterion("roof", "overhang_mm3", 0.3, 2, 20, "critical_above = 1"));
   const std::string from = "aims = []\nfaults = [\"pulp\", \"periodontium\"]";
   text.replace(text.find(from), from.size(), "aims = [\"pulp\"]\nfaults = [\"periodontium\"]");
   text.replace(text.find("z_mm = -1.6"), 11, "z_mm = -4.5");
-  const Battery b = battery_of(text, chambered_block(0.1));
+  const Trial b = trial_of(text, chambered_block(0.1));
   std::set<std::string> names;
   for (const auto& row : b.rows) names.insert(row.name);
   EXPECT_TRUE(names.contains("never_opened"));
@@ -145,20 +145,21 @@ TEST(Battery, AccessTaskHasTheRoofLeftAndHoldsOnlyWhatApplies) {
   EXPECT_FALSE(names.contains("turned_30_degrees") && names.contains("mirrored_mesial_distal")) << "a mirrored box is the box";
 }
 
-TEST(Battery, SaysWhenExactlyTheTargetDoesNotPass) {
-  const Battery b = battery_of(
-      scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)), chambered_block(0.1));
+TEST(Trial, SaysWhenExactlyTheTargetDoesNotPass) {
+  const Trial b = trial_of(scenario_with(criterion("removed", "target_removed_percent", 95, 60, 10) + criterion("much", "removed_mm3", 30, 12, 90)),
+                           chambered_block(0.1));
   ASSERT_FALSE(b.problems.empty());
   EXPECT_EQ(figures_in(b.problems[0].what), (std::vector<double>{10, 100})) << b.problems[0].message();
   EXPECT_TRUE(tells(b.problems[0].what_to_do, "much")) << b.problems[0].message();
 }
 
-TEST(Battery, MoreOfAnErrorThatGainsPointsIsFoundWithTheCriterion) {
+TEST(Trial, MoreOfAnErrorThatGainsPointsIsFoundWithTheCriterion) {
   // the author thinks that a wide cavity is a good one
-  const Battery b =
-      battery_of(scenario_with(k_removed + k_floor + k_pulp + criterion("generous", "container_sides_mm3", 6, 0, 40)), chambered_block(0.1));
-  EXPECT_TRUE(std::any_of(b.problems.begin(), b.problems.end(),
-                          [](const auto& p) { return p.mistake == scenarios::Mistake::wrong_work && p.warning && tells(p.what_to_do, "generous"); }));
+  const Trial b =
+      trial_of(scenario_with(k_removed + k_floor + k_pulp + criterion("generous", "container_sides_mm3", 6, 0, 40)), chambered_block(0.1));
+  EXPECT_TRUE(std::any_of(b.problems.begin(), b.problems.end(), [](const auto& p) {
+    return p.mistake == scenarios::Mistake::faulty_preparations && p.warning && tells(p.what_to_do, "generous");
+  }));
 }
 
 /// A result with one criterion.
@@ -196,7 +197,7 @@ TEST(GrowingErrors, RiseWithinTheBoundIsNoneAndPassingAfterFailingIsAMistake) {
   EXPECT_EQ(figures_in(passes[0].what), (std::vector<double>{0.1, 0.5, 70})) << passes[0].message();
 }
 
-TEST(Battery, EveryMeasureThatShouldCatchSomethingExists) {
+TEST(Trial, EveryMeasureThatShouldCatchSomethingExists) {
   for (int m = 0; m <= static_cast<int>(Mistake::ragged); ++m) {
     EXPECT_FALSE(measures_against(static_cast<Mistake>(m)).empty());
     for (const auto& name : measures_against(static_cast<Mistake>(m))) EXPECT_TRUE(scenarios::find_measure(name)) << name;
@@ -214,17 +215,17 @@ TEST(CoarseTooth, HoldsTheSameVolumes) {
 }
 
 /// The tasks that ship, as `cavum scenario check` tries them: two drawn by the seed, and all with CAVUM_DEEP, for each takes some ten seconds.
-TEST(Battery, NoWrongWorkPassesATaskThatShips) {
+TEST(Trial, NoWrongWorkPassesATaskThatShips) {
   namespace fs = std::filesystem;
   const std::string folder = std::string(CAVUM_SOURCE_DIR) + "/data/scenarios";
   std::vector<std::string> files;
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".toml") files.push_back(entry.path().string());
   std::sort(files.begin(), files.end());
-  for (const auto& file : testing_basics::some_of(files, 2, "Battery.NoWrongWorkPassesATaskThatShips")) {
+  for (const auto& file : testing_basics::some_of(files, 2, "Trial.NoWrongWorkPassesATaskThatShips")) {
     const scenarios::Scenario scenario = scenarios::load_scenario(file);
     const Tooth tooth = load_tooth_file(scenarios::find_tooth_file(scenario));
-    const Battery b = run_battery(scenario, tooth, scenarios::build_zones(scenario, tooth), Look::screened);
+    const Trial b = run_trial(scenario, tooth, scenarios::build_zones(scenario, tooth), Look::screened);
     EXPECT_EQ(b.honest.verdict, Verdict::pass) << file;
     EXPECT_GE(b.rows.size(), 30u) << file;
     for (const auto& p : b.problems) EXPECT_TRUE(p.warning) << p.message();

@@ -14,10 +14,10 @@
 
 namespace cavum::grading {
 
-struct ExamGround {
-  ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it = {});
-  ExamGround(const ExamGround&) = delete;  // `known` refers to it
-  ExamGround& operator=(const ExamGround&) = delete;
+struct ExamContext {
+  ExamContext(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it = {});
+  ExamContext(const ExamContext&) = delete;  // `known` refers to it
+  ExamContext& operator=(const ExamContext&) = delete;
   const Tooth tooth;       ///< before the first tick
   const KnownFits fits;    ///< of it; may be null
   const std::string hash;  ///< of it
@@ -27,17 +27,17 @@ struct ExamGround {
 };
 
 /// Keeps the last few grounds that were asked for. Any number of threads may ask: one makes a ground, those who want the same wait for it.
-class ExamGrounds {
+class ExamContexts {
  public:
-  ExamGrounds() = default;
+  ExamContexts() = default;
   /// Begins with that of an exam that was made ready here.
-  explicit ExamGrounds(const scenarios::ExamSetup& exam);
+  explicit ExamContexts(const scenarios::ExamSetup& exam);
   /// Throws Error when the tooth cannot be read or the zones do not fit; `where` names it.
-  [[nodiscard]] std::shared_ptr<const ExamGround> of(const scenarios::ExamTask& task, const std::string& where);
+  [[nodiscard]] std::shared_ptr<const ExamContext> of(const scenarios::ExamTask& task, const std::string& where);
 
  private:
   struct Kept {
-    std::shared_ptr<const ExamGround> ground;
+    std::shared_ptr<const ExamContext> ground;
     std::uint64_t asked = 0;
   };
   std::mutex mutex_;

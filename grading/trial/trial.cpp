@@ -1,4 +1,4 @@
-#include "grading/trial/battery.h"
+#include "grading/trial/trial.h"
 
 #include <fmt/core.h>
 
@@ -21,7 +21,7 @@
 namespace cavum::grading {
 namespace {
 
-constexpr std::int64_t k_most_wait_ticks = std::int64_t{600} * k_ticks_per_second;  // 60 MB of ticks
+constexpr std::int64_t k_max_wait_ticks = std::int64_t{600} * k_ticks_per_second;  // 60 MB of ticks
 
 /// Not more than these: each holds a tooth of its own.
 std::size_t threads() { return std::min(4U, std::thread::hardware_concurrency()); }
@@ -63,7 +63,7 @@ struct Should {
   }
 };
 
-Should should_catch(const Task& task, const WrongWork& work, const Result& r, const Result& honest) {
+Should should_catch(const Task& task, const FaultyPreparation& work, const Result& r, const Result& honest) {
   std::vector<std::string> metrics;
   if (!work.measure.empty()) metrics.push_back(work.measure);
   for (const auto& m : measures_against(work.mistake)) metrics.push_back(m);
@@ -82,7 +82,7 @@ Should should_catch(const Task& task, const WrongWork& work, const Result& r, co
   return first.value_or(Should{});
 }
 
-/// What to do about a wrong piece of work that passes.
+/// What to do about a faulty preparation that passes.
 Message advice_against(const Should& should) {
   if (should.metric.empty()) return msg("add a criterion that tells it from honest work");
   const Message value = should.wrong.value ? msg("{}", as_number(*should.wrong.value, 2)) : msg("what honest work has");
@@ -101,7 +101,7 @@ bool is_wrong(const Result& r) {
   return r.volumes.missed.mm3 >= k_share * r.volumes.target.mm3 || beyond >= k_share * r.volumes.target.mm3;
 }
 
-BatteryRow row_of(const std::string& name, const Message& what, const Result& r) {
+TrialRow row_of(const std::string& name, const Message& what, const Result& r) {
   return {name, what, r.verdict, r.points, r.max_points, caught_by(r), {}};
 }
 
@@ -147,7 +147,7 @@ bool surely_fails(const Result& r, const scenarios::RubricSpec& rubric) {
 /// A scenario in a tooth, with the works for it.
 struct Bench {
   Bench(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones)
-      : task(make_task(scenario, tooth, zones)), field(tooth, zones), works(wrong_works(task, field)), errors(ladders(task, field)) {}
+      : task(make_task(scenario, tooth, zones)), field(tooth, zones), works(faulty_preparations(task, field)), errors(ladders(task, field)) {}
   Bench(const Bench&) = delete;
   Bench& operator=(const Bench&) = delete;
   [[nodiscard]] Result honest(std::int64_t wait) const { return sit(task, honest_cut(field), box_of_work(field), wait); }
@@ -156,15 +156,15 @@ struct Bench {
   }
   Task task;
   TargetField field;
-  std::vector<WrongWork> works;
+  std::vector<FaultyPreparation> works;
   std::vector<Ladder> errors;
 };
 
 /// Both teeth, and what is found out on them.
-class BatteryRun {
+class TrialRun {
  public:
-  BatteryRun(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look)
-      : scenario_(scenario), fine_(scenario, tooth, zones), limit_(std::min(scenarios::exam_limit_ticks(scenario), k_most_wait_ticks)) {
+  TrialRun(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look)
+      : scenario_(scenario), fine_(scenario, tooth, zones), limit_(std::min(scenarios::exam_limit_ticks(scenario), k_max_wait_ticks)) {
     constexpr double k_fine_leaf_mm = 0.07;  // what is wider is quick as it is
     if (look == Look::full || tooth.octree.leaf_mm() > k_fine_leaf_mm) return;
     coarse_tooth_ = coarse_tooth(tooth);
@@ -174,22 +174,22 @@ class BatteryRun {
     coarse_.emplace(scenario, coarse_tooth_, coarse_zones_);
   }
 
-  Battery run() {
+  Trial run() {
     honest_ = fine_.honest(0);
     if (!honest_.progress.open_last_step.empty()) {  // a step may ask for time, or for a look with the pedal off
       wait_ = limit_;
       honest_ = fine_.honest(wait_);
     }
-    battery_.honest = row_of("honest", msg("exactly the target"), honest_);
-    judge_honest(scenario_, honest_, battery_.problems);
+    trial_.honest = row_of("honest", msg("exactly the target"), honest_);
+    judge_honest(scenario_, honest_, trial_.problems);
     try_works();
     grow_errors();
-    return std::move(battery_);
+    return std::move(trial_);
   }
 
  private:
   void try_works();
-  void put(const WrongWork& work, const Result& r);
+  void put(const FaultyPreparation& work, const Result& r);
   void grow_errors();
   /// Growth of error `l` on a bench.
   [[nodiscard]] std::vector<scenarios::Problem> growth(const Bench& bench, std::size_t l, const Result& honest) const;
@@ -201,10 +201,10 @@ class BatteryRun {
   scenarios::ZoneMap coarse_zones_;
   std::optional<Bench> coarse_;
   Result honest_;
-  Battery battery_;
+  Trial trial_;
 };
 
-void BatteryRun::try_works() {
+void TrialRun::try_works() {
   const std::size_t n = fine_.works.size();
   std::vector<std::optional<Result>> results(n);
   const auto try_one = [&](std::size_t i) {
@@ -217,27 +217,28 @@ void BatteryRun::try_works() {
   for (std::size_t i = 0; i < n; ++i) put(fine_.works[i], *results[i]);
 }
 
-void BatteryRun::put(const WrongWork& work, const Result& r) {
+void TrialRun::put(const FaultyPreparation& work, const Result& r) {
   if (work.may_be_right && !is_wrong(r)) return;
   const Should should = should_catch(fine_.task, work, r, honest_);
-  BatteryRow& row = battery_.rows.emplace_back(row_of(work.name, work.what, r));
+  TrialRow& row = trial_.rows.emplace_back(row_of(work.name, work.what, r));
   row.should = should.text();
   if (r.verdict != Verdict::pass) return;
-  battery_.problems.push_back(scenarios::problem_at(
+  trial_.problems.push_back(scenarios::problem_at(
       scenario_, "rubric",
-      row.should.empty() ? msg("wrong work passes: '{}' ({}) gets {} of {} points", row.name, row.what, as_points(row.points), as_points(row.max))
-                         : msg("wrong work passes: '{}' ({}) gets {} of {} points, and {} should have caught it", row.name, row.what,
-                               as_points(row.points), as_points(row.max), row.should),
-      advice_against(should), scenarios::Mistake::wrong_work));
+      row.should.empty()
+          ? msg("faulty preparations passes: '{}' ({}) gets {} of {} points", row.name, row.what, as_points(row.points), as_points(row.max))
+          : msg("faulty preparations passes: '{}' ({}) gets {} of {} points, and {} should have caught it", row.name, row.what, as_points(row.points),
+                as_points(row.max), row.should),
+      advice_against(should), scenarios::Mistake::faulty_preparations));
 }
 
-std::vector<scenarios::Problem> BatteryRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {
+std::vector<scenarios::Problem> TrialRun::growth(const Bench& bench, std::size_t l, const Result& honest) const {
   std::vector<Result> grown;
   for (const Cut& cut : bench.errors[l].cut) grown.push_back(sit(bench.task, cut, box_of_work(bench.field), wait_));
   return judge_growth(scenario_, bench.errors[l], honest, grown);
 }
 
-void BatteryRun::grow_errors() {
+void TrialRun::grow_errors() {
   const std::size_t n = fine_.errors.size();
   std::vector<std::vector<scenarios::Problem>> problems(n);
   const bool screened = coarse_ && coarse_->errors.size() == n;
@@ -248,16 +249,16 @@ void BatteryRun::grow_errors() {
   };
   independent_runs(n, grow, threads());
   for (auto& list : problems)
-    for (auto& p : list) battery_.problems.push_back(std::move(p));
+    for (auto& p : list) trial_.problems.push_back(std::move(p));
 }
 
 }  // namespace
 
-Battery run_battery(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look) {
+Trial run_trial(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look) {
   const auto from = std::chrono::steady_clock::now();
-  Battery battery = BatteryRun(scenario, tooth, zones, look).run();
-  battery.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
-  return battery;
+  Trial trial = TrialRun(scenario, tooth, zones, look).run();
+  trial.wall_s = std::chrono::duration<double>(std::chrono::steady_clock::now() - from).count();
+  return trial;
 }
 
 }  // namespace cavum::grading

@@ -1,4 +1,4 @@
-// Reports in German of each wrong piece of work that the battery makes (docs/battery.md): no English word is left, and numbers and units are as
+// Reports in German of each faulty preparation that the trial makes (docs/trial.md): no English word is left, and numbers and units are as
 // German has them. What an English word is follows from the catalogue: one that its English sentences hold, and its German ones do not, or seldom.
 #include <algorithm>
 #include <cctype>
@@ -11,7 +11,7 @@
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/tooth.h"
 #include "grading/trial/coarse_tooth.h"
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 #include "scenarios/file/parse.h"
 #include "scenarios/zones/placed.h"
 #include "scenarios/zones/zone_map.h"
@@ -94,7 +94,7 @@ struct Texts {
   void operator()(const CutLine&) {}
 };
 
-class BatteryLanguage : public ::testing::TestWithParam<const char*> {
+class TrialLanguage : public ::testing::TestWithParam<const char*> {
  protected:
   void TearDown() override { set_language("en"); }
 
@@ -107,7 +107,7 @@ class BatteryLanguage : public ::testing::TestWithParam<const char*> {
                                                                                    : scenarios::build_zones(scenario_, tooth);
     const grading::Task task = grading::make_task(scenario_, tooth, zones);
     const grading::TargetField field(tooth, zones);
-    const auto works = grading::wrong_works(task, field);
+    const auto works = grading::faulty_preparations(task, field);
     int reports = 0;
     for (std::size_t i = 0; i < works.size(); i += std::string(GetParam()) == "slot" ? 1 : every)
       static_cast<void>(
@@ -135,7 +135,7 @@ class BatteryLanguage : public ::testing::TestWithParam<const char*> {
   scenarios::Scenario scenario_ = scenarios::load_scenario(k_data + "/scenarios/" + GetParam() + ".toml");
 };
 
-TEST_P(BatteryLanguage, NoEnglishIsLeftInAReportOfAnyWrongWork) {
+TEST_P(TrialLanguage, NoEnglishIsLeftInAReportOfAnyFaultyPreparation) {
   set_language("de");
   std::set<std::string> english = english_words();
   for (const char* word : {"the", "cut", "left", "wall", "tick", "removed", "seed"}) EXPECT_TRUE(english.contains(word)) << word;
@@ -156,7 +156,7 @@ TEST_P(BatteryLanguage, NoEnglishIsLeftInAReportOfAnyWrongWork) {
   EXPECT_GT(reports, 20);
 }
 
-TEST_P(BatteryLanguage, NoWordIsOutsideThePseudoLanguagesBrackets) {
+TEST_P(TrialLanguage, NoWordIsOutsideThePseudoLanguagesBrackets) {
   set_language(k_pseudo_language);
   std::vector<std::string> own;  // the texts of the scenario, which has no such language; German ones, where German was shown before
   for (const auto& [original, text] : scenario_.languages.at("de")) own.insert(own.end(), {original, text});
@@ -171,7 +171,7 @@ TEST_P(BatteryLanguage, NoWordIsOutsideThePseudoLanguagesBrackets) {
   EXPECT_GT(reports, 10);
 }
 
-INSTANTIATE_TEST_SUITE_P(Tasks, BatteryLanguage, ::testing::Values("slot", "class_2_neighbour", "molar_access"),
+INSTANTIATE_TEST_SUITE_P(Tasks, TrialLanguage, ::testing::Values("slot", "class_2_neighbour", "molar_access"),
                          [](const auto& task) { return std::string(task.param); });
 
 }  // namespace

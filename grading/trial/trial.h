@@ -1,16 +1,16 @@
-// Tries a scenario's rubric on wrong pieces of work, without physics: none of them may pass, the honest one must; and more of an error must never be
-// better. What `cavum scenario check` says of it, and the table of `cavum scenario solve --battery`.
+// Tries a scenario's rubric on faulty preparations, without physics: none of them may pass, the honest one must; and more of an error must never be
+// better. What `cavum scenario check` says of it, and the table of `cavum scenario solve --trial`.
 #pragma once
 
 #include <string>
 #include <vector>
 
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 #include "scenarios/file/parse.h"
 
 namespace cavum::grading {
 
-struct BatteryRow {
+struct TrialRow {
   std::string name;
   Message what;
   Verdict verdict = Verdict::fail;
@@ -19,9 +19,9 @@ struct BatteryRow {
   Message should;                  ///< measure that should catch it, and the criterion on it where there is one
 };
 
-struct Battery {
-  BatteryRow honest;                         ///< exactly the target
-  std::vector<BatteryRow> rows;              ///< the wrong ones
+struct Trial {
+  TrialRow honest;                           ///< exactly the target
+  std::vector<TrialRow> rows;                ///< the wrong ones
   std::vector<scenarios::Problem> problems;  ///< a mistake for each wrong one that passes, and when the honest one does not; warnings
   double wall_s = 0.0;                       ///< what it took
 };
@@ -34,6 +34,6 @@ inline constexpr double k_honest_percent = 90.0;
 enum class Look { screened, full };
 
 /// The same scenario on the same tooth gives the same table, on however many threads it works. Throws Error when the scenario cannot be run.
-[[nodiscard]] Battery run_battery(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look);
+[[nodiscard]] Trial run_trial(const scenarios::Scenario& scenario, const Tooth& tooth, const scenarios::ZoneMap& zones, Look look);
 
 }  // namespace cavum::grading

@@ -1,4 +1,4 @@
-#include "grading/marking/exam_ground.h"
+#include "grading/marking/exam_context.h"
 
 #include <algorithm>
 
@@ -26,7 +26,7 @@ std::string content_of(const SessionSetup& session) {
 
 }  // namespace
 
-ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it)
+ExamContext::ExamContext(Tooth tooth_before, scenarios::ZoneMap zones_of_it, KnownFits fits_of_it)
     : tooth(std::move(tooth_before)),
       fits(std::move(fits_of_it)),
       hash(tooth_hash(tooth)),
@@ -34,11 +34,11 @@ ExamGround::ExamGround(Tooth tooth_before, scenarios::ZoneMap zones_of_it, Known
       apart(take_apart(tooth)),
       known(tooth, apart ? apart->own : tooth) {}
 
-ExamGrounds::ExamGrounds(const scenarios::ExamSetup& exam) {
-  by_content_[content_of(exam.session)] = {std::make_shared<const ExamGround>(exam.tooth, exam.zones), ++asked_};
+ExamContexts::ExamContexts(const scenarios::ExamSetup& exam) {
+  by_content_[content_of(exam.session)] = {std::make_shared<const ExamContext>(exam.tooth, exam.zones), ++asked_};
 }
 
-std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::ExamTask& task, const std::string& where) {
+std::shared_ptr<const ExamContext> ExamContexts::of(const scenarios::ExamTask& task, const std::string& where) {
   const std::string content = content_of(task.session);
   const std::lock_guard lock(mutex_);
   Kept& kept = by_content_[content];
@@ -47,7 +47,7 @@ std::shared_ptr<const ExamGround> ExamGrounds::of(const scenarios::ExamTask& tas
       KnownFits fits;
       Tooth tooth = load_tooth_like(task.session.tooth, where + ": tooth", nullptr, &fits);
       scenarios::ZoneMap zones = scenarios::build_zones_of_exam(task.scenario, tooth, task.session.landmarks_json, where);
-      kept.ground = std::make_shared<const ExamGround>(std::move(tooth), std::move(zones), std::move(fits));
+      kept.ground = std::make_shared<const ExamContext>(std::move(tooth), std::move(zones), std::move(fits));
     } catch (...) {
       by_content_.erase(content);
       throw;

@@ -1,4 +1,4 @@
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 
 #include <fmt/core.h>
 
@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "engine/base/text.h"
-#include "grading/trial/random_work.h"
+#include "grading/trial/random_preparations.h"
 #include "grading/trial/shares_of_target.h"
 #include "scenarios/file/measures.h"
 
@@ -18,11 +18,11 @@ namespace {
 
 double across(Vec3 a, Vec3 b) { return std::sqrt((a.x - b.x) * (a.x - b.x) + (a.y - b.y) * (a.y - b.y)); }
 
-/// All wrong pieces of work, family by family.
+/// All faulty preparations, family by family.
 class Works {
  public:
   Works(const Task& task, const TargetField& f) : task_(task), f_(f), middle_((f.low_mm() + f.high_mm()) * 0.5) {}
-  std::vector<WrongWork> all() {
+  std::vector<FaultyPreparation> all() {
     nothing();
     short_of_it();
     wrong_place();
@@ -82,7 +82,7 @@ class Works {
   const Task& task_;
   const TargetField& f_;
   Vec3 middle_;
-  std::vector<WrongWork> list_;
+  std::vector<FaultyPreparation> list_;
 };
 
 Cut Works::deeper(double mm) const {
@@ -223,7 +223,7 @@ std::optional<Vec3> Works::hard_floor(double deep_mm) const {
 
 /// One hole of a bur's width through the floor, where what lies below it is nearest: it stops short of that. Means and shares hardly see it.
 void Works::pit() {
-  constexpr double k_radius_mm = 0.5, k_deep_mm = 1.0, k_spared_mm = 0.3, k_least_mm = 0.4;
+  constexpr double k_radius_mm = 0.5, k_deep_mm = 1.0, k_spared_mm = 0.3, k_min_mm = 0.4;
   std::optional<Vec3> floor = hard_floor(k_deep_mm);
   double deep = k_deep_mm;
   for (const auto& tissue : task_.scenario.perforation.faults)
@@ -231,7 +231,7 @@ void Works::pit() {
       floor = below->floor;
       deep = below->floor.z - below->tissue.z - k_spared_mm;
     }
-  if (!floor || deep < k_least_mm) return;
+  if (!floor || deep < k_min_mm) return;
   add("pit_in_the_floor",
       msg("the target, and a pit 1 mm wide and up to {} deep in its floor, {} short of what lies below", as_mm(k_deep_mm, k_as_needed),
           as_mm(k_spared_mm, k_as_needed)),
@@ -406,9 +406,9 @@ Cut honest_cut(const TargetField& field) {
   return [&field](Vec3 p) { return field.target_mm(p); };
 }
 
-std::vector<WrongWork> wrong_works(const Task& task, const TargetField& field) {
-  std::vector<WrongWork> all = Works(task, field).all();
-  for (auto& work : random_works(task, field)) all.push_back(std::move(work));
+std::vector<FaultyPreparation> faulty_preparations(const Task& task, const TargetField& field) {
+  std::vector<FaultyPreparation> all = Works(task, field).all();
+  for (auto& work : random_preparations(task, field)) all.push_back(std::move(work));
   return all;
 }
 

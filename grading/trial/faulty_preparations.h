@@ -1,4 +1,4 @@
-// Wrong pieces of work for a scenario on its tooth: what anybody could hand in that is not the target. One table; which rows apply follows from the
+// Faulty preparations for a scenario on its tooth: what anybody could hand in that is not the target. One table; which rows apply follows from the
 // scenario (aims, faults, a tissue to be excavated).
 #pragma once
 
@@ -31,7 +31,7 @@ enum class Mistake {
 /// Measures that should catch it, the best first.
 [[nodiscard]] const std::vector<std::string>& measures_against(Mistake mistake);
 
-struct WrongWork {
+struct FaultyPreparation {
   std::string name;  ///< "stops_at_70_percent_of_depth"
   Message what;      ///< what is cut
   Mistake mistake = Mistake::too_little;
@@ -46,7 +46,7 @@ struct WrongWork {
 /// The honest piece of work: exactly the target.
 [[nodiscard]] Cut honest_cut(const TargetField& field);
 /// All that apply. `field` must outlive them. The random ones are drawn by a fixed seed.
-[[nodiscard]] std::vector<WrongWork> wrong_works(const Task& task, const TargetField& field);
+[[nodiscard]] std::vector<FaultyPreparation> faulty_preparations(const Task& task, const TargetField& field);
 
 /// Steps of an error that grows: more of it must never be better.
 struct Ladder {
@@ -59,6 +59,6 @@ struct Ladder {
 [[nodiscard]] std::vector<Ladder> ladders(const Task& task, const TargetField& field);
 
 /// Where work reaches that goes so far below the target, tooth frame.
-[[nodiscard]] CutBox box_of_work(const TargetField& field, double below_mm = WrongWork{}.below_mm);
+[[nodiscard]] CutBox box_of_work(const TargetField& field, double below_mm = FaultyPreparation{}.below_mm);
 
 }  // namespace cavum::grading

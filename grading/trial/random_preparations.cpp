@@ -1,4 +1,4 @@
-#include "grading/trial/random_work.h"
+#include "grading/trial/random_preparations.h"
 
 #include <fmt/core.h>
 
@@ -13,7 +13,7 @@ namespace {
 
 constexpr int k_works = 6;
 constexpr std::uint64_t k_seed = 20261125;
-constexpr std::size_t k_most_pillars = 200, k_most_bites = 60;  // where a target or what lies around it holds less
+constexpr std::size_t k_max_pillars = 200, k_max_bites = 60;  // where a target or what lies around it holds less
 
 /// A ball drawn out along the way in: downwards where it is left standing, upwards where it was removed.
 struct Rod {
@@ -28,7 +28,7 @@ double up_mm(Vec3 q, Rod rod) { return length(q - Vec3{rod.at.x, rod.at.y, std::
 std::vector<Rod> pillars(const TargetField& f, double share, Random& random) {
   std::vector<Rod> rods;
   std::vector<std::uint8_t> left(f.leaves().size(), 0);
-  for (std::size_t count = 0; static_cast<double>(count) < share * static_cast<double>(left.size()) && rods.size() < k_most_pillars;) {
+  for (std::size_t count = 0; static_cast<double>(count) < share * static_cast<double>(left.size()) && rods.size() < k_max_pillars;) {
     rods.push_back({f.leaves()[random.below(f.leaves().size())].at, random.uniform(0.3, 0.9)});
     for (std::size_t i = 0; i < left.size(); ++i)
       if (left[i] == 0 && down_mm(f.leaves()[i].at, rods.back()) < 0) {
@@ -45,7 +45,7 @@ std::vector<Rod> bites(const TargetField& f, double share, Random& random) {
   const double leaf = tree.leaf_mm(), wanted = share * static_cast<double>(f.leaves().size());
   std::vector<Rod> rods;
   double count = 0;
-  while (count < wanted && rods.size() < k_most_bites) {
+  while (count < wanted && rods.size() < k_max_bites) {
     const double angle_x = random.normal(), angle_y = random.normal();
     const Vec3 way = normalized({angle_x, angle_y, 0}, {1, 0, 0});
     Rod rod{f.leaves()[random.below(f.leaves().size())].at, random.uniform(0.4, 1.0)};
@@ -67,7 +67,7 @@ std::vector<Rod> bites(const TargetField& f, double share, Random& random) {
 
 }  // namespace
 
-std::vector<WrongWork> random_works(const Task&, const TargetField& field) {
+std::vector<FaultyPreparation> random_preparations(const Task&, const TargetField& field) {
   struct Kind {
     const char* name;
     Message what;
@@ -76,7 +76,7 @@ std::vector<WrongWork> random_works(const Task&, const TargetField& field) {
   const Kind kinds[] = {{"pillars", msg("the target with pillars left in it, a quarter of its volume"), 0.27, 0},
                         {"bites", msg("the target and bites around it, a third of its volume"), 0, 0.36},
                         {"ragged", msg("pillars left, a quarter of the target, and bites around it, a third"), 0.27, 0.36}};
-  std::vector<WrongWork> list;
+  std::vector<FaultyPreparation> list;
   for (int i = 0; i < k_works; ++i) {
     const Kind& kind = kinds[i % 3];
     Random random(k_seed + static_cast<std::uint64_t>(i));

@@ -3,12 +3,12 @@
 
 #include <vector>
 
-#include "grading/trial/wrong_work.h"
+#include "grading/trial/faulty_preparations.h"
 
 namespace cavum::grading {
 
 /// In turn: at least a quarter of the target left; a third of its volume removed beyond it; both by half of that and more. None where a target's
 /// surroundings do not hold so much.
-[[nodiscard]] std::vector<WrongWork> random_works(const Task& task, const TargetField& field);
+[[nodiscard]] std::vector<FaultyPreparation> random_preparations(const Task& task, const TargetField& field);
 
 }  // namespace cavum::grading
