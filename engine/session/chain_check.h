@@ -11,6 +11,6 @@ namespace cavum {
 
 /// Every disagreement in words, naming chunk, ticks or table; empty when all of it holds. What the reader found
 /// (SessionReader::findings) is not repeated.
-[[nodiscard]] std::vector<Message> check_chain(const SessionReader& session);
+[[nodiscard]] Damages check_chain(const SessionReader& session);
 
 }  // namespace cavum

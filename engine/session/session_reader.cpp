@@ -26,7 +26,7 @@ std::int64_t header_number(const Bytes& image, std::size_t at) {
 /// Reads one table row by row; damage in it is one finding and leaves the other tables alone. Keys must rise,
 /// so that pages which refer to one another in a circle cannot go on for ever.
 template <class Row>
-void read_table(Database& database, const char* table, const std::string& columns, std::vector<Message>& findings, const Row& row) {
+void read_table(Database& database, const char* table, const std::string& columns, Damages& findings, const Row& row) {
   std::size_t rows = 0;
   try {
     Statement s = database.prepare(fmt::format("SELECT {} FROM {} ORDER BY 1", columns, table).c_str());
@@ -35,7 +35,7 @@ void read_table(Database& database, const char* table, const std::string& column
       row(s);
     }
   } catch (const Error& e) {
-    findings.push_back(msg("table {}, row {}: {}", table, rows, e.where_and_problem()));
+    findings.push_back({DamageKind::file, msg("table {}, row {}: {}", table, rows, e.where_and_problem())});
   }
 }
 
@@ -45,7 +45,7 @@ std::int64_t rising(const Statement& s, std::int64_t expected, const char* table
   return seq;
 }
 
-void check_schema(Database& database, std::vector<Message>& findings) {
+void check_schema(Database& database, Damages& findings) {
   std::size_t i = 0;
   Statement s = database.prepare("SELECT type, name, sql FROM sqlite_schema ORDER BY rowid");
   for (; s.step(); ++i)
@@ -53,17 +53,18 @@ void check_schema(Database& database, std::vector<Message>& findings) {
       throw Error(msg("schema"), msg("'{}' is not a table of a session of format {}", s.text(1), k_session_format), msg("use an intact copy"));
   if (i != k_session_schema.size()) throw Error(msg("schema"), msg("a table is missing"), msg("use an intact copy"));
   if (const auto v = database.integer("PRAGMA user_version"); v != k_session_format)
-    findings.push_back(msg("file: user_version is {}, this program reads format {}", v, k_session_format));
-  if (database.integer("PRAGMA application_id") != k_session_application_id) findings.push_back(msg("file: application_id is not Cavum's"));
+    findings.push_back({DamageKind::file, msg("file: user_version is {}, this program reads format {}", v, k_session_format)});
+  if (database.integer("PRAGMA application_id") != k_session_application_id)
+    findings.push_back({DamageKind::file, msg("file: application_id is not Cavum's")});
 }
 
-void quick_check(Database& database, std::vector<Message>& findings) {
+void quick_check(Database& database, Damages& findings) {
   try {
     Statement s = database.prepare("PRAGMA quick_check(10)");
     while (s.step())
-      if (const std::string line = s.text(0); line != "ok") findings.push_back(msg("file: {}", line));
+      if (const std::string line = s.text(0); line != "ok") findings.push_back({DamageKind::file, msg("file: {}", line)});
   } catch (const DatabaseError& e) {
-    findings.push_back(msg("file: {}", e.where_and_problem()));
+    findings.push_back({DamageKind::file, msg("file: {}", e.where_and_problem())});
   }
 }
 
@@ -117,7 +118,7 @@ void SessionReader::read(Bytes image) {
     if (!marked)
       throw Error(SessionError::not_a_session, Name{path_}, msg("is an SQLite database, but not a Cavum session"),
                   msg("name a .cavum file that an exam wrote"));
-    findings_.push_back(msg("file: {}", e.where_and_problem()));
+    findings_.push_back({DamageKind::file, msg("file: {}", e.where_and_problem())});
     return;  // with tables of another shape, every query would be a guess
   }
   quick_check(database, findings_);
@@ -132,7 +133,7 @@ void SessionReader::read(Bytes image) {
     } catch (const DatabaseError&) {
       throw;
     } catch (const Error& e) {
-      findings_.push_back(e.message());
+      findings_.push_back({DamageKind::event, e.message()});
     }
   });
   read_table(database, "result", "seq, json", findings_, [&](const Statement& row) {
@@ -148,7 +149,8 @@ void SessionReader::read_artifacts(Database& database) {
     rising(row, static_cast<std::int64_t>(artifacts_.size()), "artifact");
     Artifact a{row.text(1), row.fixed_blob<32>(2), row.blob(4)};
     if (!names.insert(a.name).second) throw Error(msg("artifact"), msg("'{}' is there twice", a.name), msg("use an intact copy"));
-    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size())) findings_.push_back(msg("table artifact, '{}': its size was changed", a.name));
+    if (row.integer(3) != static_cast<std::int64_t>(a.bytes.size()))
+      findings_.push_back({DamageKind::artifact, msg("table artifact, '{}': its size was changed", a.name)});
     artifacts_.push_back(std::move(a));
   });
 }

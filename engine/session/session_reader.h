@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/session/chunk_codec.h"
+#include "engine/session/damage.h"
 #include "engine/session/session.h"
 
 namespace cavum {
@@ -33,7 +34,7 @@ class SessionReader {
 
   [[nodiscard]] const std::string& path() const noexcept { return path_; }
   /// Damage found while reading, each naming its table and row; empty for a sound file.
-  [[nodiscard]] const std::vector<Message>& findings() const noexcept { return findings_; }
+  [[nodiscard]] const Damages& findings() const noexcept { return findings_; }
   /// Throws Error with the first finding, or of another physics, for callers that can do nothing with such a session.
   void require_readable() const;
 
@@ -75,7 +76,7 @@ class SessionReader {
   void read_seal(Database& database);
 
   std::string path_;
-  std::vector<Message> findings_;
+  Damages findings_;
   std::map<std::string, std::string> meta_;
   std::vector<Artifact> artifacts_;
   std::vector<ChunkRow> chunks_;

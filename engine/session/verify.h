@@ -31,9 +31,9 @@ struct VerifyReport {
   std::int64_t ticks_replayed = 0;
   std::int64_t ticks_different = 0;
   std::optional<Divergence> first_divergence;
-  std::vector<Message> findings;  ///< empty when verified
-  double speed_x_realtime = 0;    ///< of the replay, decoding and comparing included; 0 when nothing was replayed
-  std::string station_key;        ///< public key that signed, hexadecimal; empty when not closed
+  Damages findings;             ///< empty when verified
+  double speed_x_realtime = 0;  ///< of the replay, decoding and comparing included; 0 when nothing was replayed
+  std::string station_key;      ///< public key that signed, hexadecimal; empty when not closed
 };
 
 /// Teeth that somebody else has, or wants to have: unpacking one takes as long as simulating a third of a minute.

@@ -143,7 +143,7 @@ std::vector<Message> result_differences(const json& sealed, const json& marked) 
 }
 
 std::vector<Message> SchoolMark::findings() const {
-  std::vector<Message> all = replay.findings;
+  std::vector<Message> all = words_of(replay.findings);
   all.insert(all.end(), exam.begin(), exam.end());
   if (!other_result.empty()) all.push_back(other_result);
   return all;

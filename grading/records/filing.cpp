@@ -53,7 +53,7 @@ SessionEntry entry_of(const SessionReader& session, const SessionSetup& setup, c
 void require_closed(const SessionReader& session) {
   const std::string& path = session.path();
   if (!session.closed() && !session.findings().empty())
-    throw Error(path, msg("is damaged: {}", session.findings().front()), msg("use an intact copy"));
+    throw Error(path, msg("is damaged: {}", session.findings().front().what), msg("use an intact copy"));
   if (!session.closed())
     throw Error(path, msg("was never closed"), msg("resume the exam, or close it as it stands: `cavum exam --resume --end --out {}`", path));
 }

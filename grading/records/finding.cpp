@@ -16,7 +16,7 @@ Findings findings_of(FindingKind kind, const std::vector<Message>& messages) {
 
 Findings findings_of(const grading::SchoolMark& mark) {
   const bool open = mark.replay.intact && !mark.replay.closed;  // and nothing else is wrong
-  Findings out = findings_of(open ? FindingKind::not_closed : FindingKind::recording_unsound, mark.replay.findings);
+  Findings out = findings_of(open ? FindingKind::not_closed : FindingKind::recording_unsound, words_of(mark.replay.findings));
   append(out, findings_of(FindingKind::exam_differs, mark.exam));
   if (!mark.other_result.empty()) out.push_back({FindingKind::result_differs, mark.other_result});
   return out;

@@ -37,8 +37,8 @@ class EditedSession : public testing::Test {
   }
   /// Expects a finding that tells all of `values`.
   void expect_finding(const VerifyReport& report, const std::vector<Value>& values) {
-    EXPECT_TRUE(std::any_of(report.findings.begin(), report.findings.end(), [&](const Message& f) {
-      return std::all_of(values.begin(), values.end(), [&f](const Value& v) { return testing_basics::tells(f, v); });
+    EXPECT_TRUE(std::any_of(report.findings.begin(), report.findings.end(), [&](const Damage& f) {
+      return std::all_of(values.begin(), values.end(), [&f](const Value& v) { return testing_basics::tells(f.what, v); });
     })) << testing_basics::text_of(report.findings);
   }
   /// The number of a chunk, a tick.

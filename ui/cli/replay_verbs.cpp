@@ -49,7 +49,7 @@ Outcome verify_timed(const std::string& path, const std::string& station_key) {
     o.report = verify_session(path, station_key);
   } catch (const Error& e) {
     o.report.file = path;
-    o.report.findings.push_back(e.message());
+    o.report.findings.push_back({DamageKind::file, e.message()});
     o.unreadable = std::current_exception();
   }
   o.seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
@@ -91,7 +91,10 @@ json to_json(const std::string& folder, const std::vector<Outcome>& outcomes) {
       sum["first_divergence"] = one["first_divergence"];
       sum["first_divergence"]["file"] = o.report.file;
     }
-    for (const auto& f : o.report.findings) sum["findings"].push_back(msg("{}: {}", o.report.file, f));
+    for (json f : one["findings"]) {
+      f["file"] = o.report.file;
+      sum["findings"].push_back(std::move(f));
+    }
     sessions.push_back(std::move(one));
   }
   sum["ticks"] = ticks;
@@ -119,9 +122,9 @@ std::string to_junit(const std::vector<Outcome>& outcomes) {
       continue;
     }
     std::string lines;
-    for (const auto& f : o.report.findings) lines += english_text(f) + "\n";
+    for (const auto& f : o.report.findings) lines += english_text(f.what) + "\n";
     const char* tag = o.readable() ? "failure" : "error";
-    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front()))
+    out << ">\n    <" << tag << " message=\"" << xml_text(o.report.findings.empty() ? "not verified" : english_text(o.report.findings.front().what))
         << "\">" << xml_text(lines) << "</" << tag << ">\n  </testcase>\n";
   }
   out << "</testsuite>\n</testsuites>\n";
@@ -133,7 +136,7 @@ void print(const Outcome& o) {
   say(r.verified ? msg("{}: verified", r.file) : msg("{}: NOT VERIFIED", r.file));
   if (r.ticks_replayed > 0) say(msg("{} of {} ticks replayed, {} times real time", r.ticks_replayed, r.ticks, as_number(r.speed_x_realtime, 0)), 2);
   if (r.closed) say(msg("closed by station {}", r.station_key), 2);
-  for (const auto& f : r.findings) say(msg("- {}", f), 2);
+  for (const auto& f : r.findings) say(msg("- {}", f.what), 2);
 }
 
 int run(const ReplayArguments& options) {

@@ -42,7 +42,7 @@ Handed facts_of(const std::string& path) {
     const bool closed = session.closed();
     if (!closed && session.findings().empty()) facts.findings.push_back({FindingKind::not_closed, msg("was never closed")});
     if (!closed && !session.findings().empty())
-      facts.findings.push_back({FindingKind::recording_unsound, msg("is damaged: {}", session.findings().front())});
+      facts.findings.push_back({FindingKind::recording_unsound, msg("is damaged: {}", session.findings().front().what)});
     if (closed) facts.station = to_hex(session.seal()->public_key);
     const std::string candidate = session.setup().candidate;
     if (candidate.size() <= k_longest_candidate) facts.candidate = one_line(candidate);

@@ -35,7 +35,7 @@ ReportIntegrity read_seal(const std::string& path, const SessionReader& session)
 ReportIntegrity read_integrity(const std::string& path) {
   const SessionReader session(path);
   ReportIntegrity i = read_seal(path, session);
-  for (const auto& f : check_chain(session)) i.findings.push_back(msg("{}", f));
+  i.findings = words_of(check_chain(session));
   if (i.findings.empty())
     i.proved.push_back(msg(
         "nothing in the file was changed since it was recorded: {} seconds linked by SHA-256, each with its motion, forces, events and clocks, and "

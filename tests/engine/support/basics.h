@@ -138,6 +138,13 @@ inline std::optional<ErrorCode> code_of(const std::optional<Error>& problem) { r
 inline std::string text_of(const std::optional<Error>& problem) { return problem ? problem->what() : ""; }
 inline std::string text_of(const Message& message) { return english_text(message); }
 /// Of several, each on a line.
+template <class Found>
+requires requires(const Found& f) { text_of(f.what); }
+std::string text_of(const std::vector<Found>& all) {
+  std::string text;
+  for (const Found& f : all) text += text_of(f.what) + "\n";
+  return text;
+}
 inline std::string text_of(const std::vector<Message>& messages) {
   std::string all;
   for (const Message& m : messages) all += english_text(m) + "\n";

@@ -1,0 +1,58 @@
+// What does not hold of a recording: a kind, which programs ask for, and the sentence.
+#pragma once
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+#include "engine/base/message.h"
+
+namespace cavum {
+
+// clang-format off
+#define CAVUM_DAMAGES(DAMAGE) \
+  DAMAGE(file)      /* its database: form, log, a row that cannot be read */ \
+  DAMAGE(meta)      /* a fact of the exam, or the beginning's signature */ \
+  DAMAGE(artifact)  /* a file in it is changed or missing */ \
+  DAMAGE(event) \
+  DAMAGE(chunk)     /* motion, forces or their chain */ \
+  DAMAGE(result) \
+  DAMAGE(seal) \
+  DAMAGE(station)   /* closed by another than expected */ \
+  DAMAGE(physics)   /* of another version: cannot be replayed */ \
+  DAMAGE(replay)    /* did not come to its end */ \
+  DAMAGE(ticks)     /* forces of the replay differ from the recorded ones */ \
+  DAMAGE(state)     /* the replay's state differs at a chunk's end */ \
+  DAMAGE(tooth)     /* the final tooth is not the one that the replay leaves */ \
+  DAMAGE(open)      /* never closed */
+// clang-format on
+
+enum class DamageKind : std::uint8_t {
+#define CAVUM_DAMAGE_KIND(KIND) KIND,
+  CAVUM_DAMAGES(CAVUM_DAMAGE_KIND)
+#undef CAVUM_DAMAGE_KIND
+};
+[[nodiscard]] constexpr auto names_of(DamageKind) {
+#define CAVUM_DAMAGE_KIND(KIND) std::string_view(#KIND),
+  return std::array{CAVUM_DAMAGES(CAVUM_DAMAGE_KIND)};
+#undef CAVUM_DAMAGE_KIND
+}
+
+struct Damage {
+  DamageKind kind{};
+  Message what;
+};
+using Damages = std::vector<Damage>;
+[[nodiscard]] inline std::vector<Message> words_of(const Damages& damages) {
+  std::vector<Message> out;
+  for (const Damage& d : damages) out.push_back(d.what);
+  return out;
+}
+
+/// For other programs: {"kind", "text"}.
+template <class Json>
+void to_json(Json& json, const Damage& damage) {
+  json = {{"kind", names_of(damage.kind)[static_cast<std::size_t>(damage.kind)]}, {"text", damage.what}};
+}
+
+}  // namespace cavum
