@@ -102,7 +102,12 @@ RemovedTicks removed_in(const ChunkRow& c, const std::string& path) {
 
 }  // namespace
 
-SessionReader::SessionReader(const std::string& path) : path_(path) { read(read_session_image(path, findings_)); }
+SessionReader::SessionReader(const std::string& path) : path_(path) {
+  std::vector<Message> left_out;
+  Bytes image = read_session_image(path, left_out);
+  for (Message& what : left_out) findings_.push_back({DamageKind::file, std::move(what)});
+  read(std::move(image));
+}
 
 SessionReader::SessionReader(Bytes file, const std::string& name) : path_(name) {
   require_session_image(file, name);

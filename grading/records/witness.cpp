@@ -62,7 +62,7 @@ void make_room_for_witness(const std::string& id, std::size_t lines) {
   if (fd >= 0) ::close(fd);
   if (!held)
     throw DatabaseError(path, msg("the ledger's witness has no room for a line ({})", std::strerror(why)),
-                        msg("make room on the disk, or the folder writable; nothing was entered"), 0);
+                        msg("make room on the disk, or the folder writable; nothing was entered"), DiskRefusal{});
 }
 
 void tell_witness(const std::string& id, const Checkpoint& p) {
