@@ -53,7 +53,10 @@ struct IVec3 {
 [[nodiscard]] constexpr IVec3 min(IVec3 a, IVec3 b) noexcept { return {std::min(a.x, b.x), std::min(a.y, b.y), std::min(a.z, b.z)}; }
 [[nodiscard]] constexpr IVec3 max(IVec3 a, IVec3 b) noexcept { return {std::max(a.x, b.x), std::max(a.y, b.y), std::max(a.z, b.z)}; }
 [[nodiscard]] constexpr Vec3 to_vec3(IVec3 a) noexcept { return {double(a.x), double(a.y), double(a.z)}; }
-/// How many cells a lattice of this size has, and which of them, x fastest, is at a place.
+/// Whether a lattice of this size has such a cell; how many it has; and where that cell stands among them, x fastest.
+[[nodiscard]] constexpr bool lies_in(IVec3 at, IVec3 size) noexcept {
+  return at.x >= 0 && at.y >= 0 && at.z >= 0 && at.x < size.x && at.y < size.y && at.z < size.z;
+}
 [[nodiscard]] constexpr std::size_t cells_of(IVec3 size) noexcept {
   return static_cast<std::size_t>(size.x) * static_cast<std::size_t>(size.y) * static_cast<std::size_t>(size.z);
 }

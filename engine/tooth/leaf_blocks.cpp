@@ -104,7 +104,7 @@ void LeafBlocks::copy_cube(IVec3 low, int edge, std::uint8_t* tissue, std::int8_
         const IVec3 leaf = low + IVec3{x, y, z}, at{block_at(leaf.x), block_at(leaf.y), block_at(leaf.z)};
         const int inner = leaf.x - at.x * k_edge, n = std::min(k_edge - inner, edge - x);
         const auto to = static_cast<std::size_t>((z * edge + y) * edge + x), count = static_cast<std::size_t>(n);
-        const bool outside = at.x < 0 || at.y < 0 || at.z < 0 || at.x >= blocks_.x || at.y >= blocks_.y || at.z >= blocks_.z;
+        const bool outside = !lies_in(at, blocks_);
         const Block* const block = outside ? nullptr : &all_[index(at)];
         if (block == nullptr || !block->leaves) {
           std::memset(tissue + to, block == nullptr ? int{k_air} : block->tissue, count);

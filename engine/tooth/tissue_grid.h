@@ -65,7 +65,7 @@ struct TissueGrid {
   }
   [[nodiscard]] std::size_t count() const noexcept { return cells_of(size); }
   [[nodiscard]] std::size_t index(IVec3 i) const noexcept { return cell_index(i, size); }
-  [[nodiscard]] bool inside(IVec3 i) const noexcept { return i.x >= 0 && i.y >= 0 && i.z >= 0 && i.x < size.x && i.y < size.y && i.z < size.z; }
+  [[nodiscard]] bool inside(IVec3 i) const noexcept { return lies_in(i, size); }
   [[nodiscard]] Vec3 centre_mm(IVec3 i) const noexcept { return origin_mm + Vec3{i.x + 0.5, i.y + 0.5, i.z + 0.5} * leaf_mm; }
   /// Makes every code's sign agree with its label: solid at most -1, void at least +1.
   void make_consistent(const std::vector<Tissue>& tissues) {

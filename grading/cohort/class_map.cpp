@@ -18,10 +18,7 @@
 
 namespace cavum::cohort {
 
-std::size_t ClassMap::index(IVec3 leaf) const noexcept {
-  const IVec3 l = leaf - low_;
-  return cell_index(l, size_);
-}
+std::size_t ClassMap::index(IVec3 leaf) const noexcept { return cell_index(leaf - low_, size_); }
 
 void ClassMap::reach(IVec3 low, IVec3 high) {
   const IVec3 end = low_ + size_;
@@ -55,7 +52,7 @@ void ClassMap::add(const std::vector<IVec3>& removed) {
 
 double ClassMap::percent(IVec3 leaf) const noexcept {
   const IVec3 l = leaf - low_;
-  if (sessions_ == 0 || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z) return 0;
+  if (sessions_ == 0 || !lies_in(l, size_)) return 0;
   const double removed = 100.0 * count_[index(leaf)] / static_cast<double>(sessions_);
   const scenarios::Zone zone = zones_->zone(leaf);
   if (zone == scenarios::Zone::target) return removed - 100;

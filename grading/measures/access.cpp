@@ -20,7 +20,7 @@ class Marks {
   explicit Marks(const scenarios::ZoneMap& zones) : low_(zones.low()), size_(zones.size()), mark_(cells_of(size_), Mark{}) {}
   [[nodiscard]] Mark at(IVec3 leaf) const noexcept {
     const IVec3 l = leaf - low_;
-    return l.x < 0 || l.y < 0 || l.z < 0 || l.x >= size_.x || l.y >= size_.y || l.z >= size_.z ? Mark{} : mark_[index(l)];
+    return lies_in(l, size_) ? mark_[index(l)] : Mark{};
   }
   void set(IVec3 leaf, Mark mark) noexcept { mark_[index(leaf - low_)] = mark; }
   /// What of a cube of leaves lies in the box.

@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include "scenarios/review/picture_colours.h"
+#include "engine/base/svg.h"
 
 namespace cavum::scenarios {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
 #include "scenarios/review/contour.h"
 #include "scenarios/review/picture_colours.h"
 #include "scenarios/review/section.h"
@@ -15,9 +15,7 @@ namespace cavum::scenarios {
 namespace {
 
 std::string line(const std::string& path, const char* colour, double leaf_px, double width_px, const char* dash) {
-  if (path.empty()) return "";
-  return fmt::format("<path fill='none' stroke='{}' stroke-width='{}' stroke-linecap='round'{} d='{}'/>\n", colour, svg_number(width_px / leaf_px),
-                     dash[0] != 0 ? fmt::format(" stroke-dasharray='{}'", dash) : "", path);
+  return path.empty() ? "" : svg_path(path, colour, width_px / leaf_px, fmt::format("stroke-linecap='round' stroke-dasharray='{}'", dash));
 }
 
 /// Of the leaves in any of these zones: it runs where the zone changes.
@@ -49,20 +47,17 @@ std::string guard_contour(const Section& section, const Shape& guard) {
 
 /// Outlines of tooth and zones; `px` is a leaf's edge.
 std::string section_lines_svg(const Section& section, const PictureSpec& spec, const Palette& colours, double px) {
-  std::string svg = line(tooth_contour(section), "#7a7a7a", px, 0.8, "");
+  std::string svg = line(tooth_contour(section), "#7a7a7a", px, 0.8, "none");
   svg += line(zone_contour(section, {Zone::target, Zone::leeway_sides, Zone::leeway_bottom, Zone::container_sides, Zone::container_bottom}),
-              colours.container_line, px, colours.line_px, "");
-  svg += line(zone_contour(section, {Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), colours.leeway_line, px, colours.line_px, "");
-  svg += line(target_contour(section), colours.target_line, px, 1.8 * colours.line_px, "");
+              colours.container_line, px, colours.line_px, "none");
+  svg += line(zone_contour(section, {Zone::target, Zone::leeway_sides, Zone::leeway_bottom}), colours.leeway_line, px, colours.line_px, "none");
+  svg += line(target_contour(section), colours.target_line, px, 1.8 * colours.line_px, "none");
   if (spec.guard == nullptr || section.from_above()) return svg;
   const std::string dash = fmt::format("{} {}", svg_number(5 / px), svg_number(3 / px));
   return svg + line(guard_contour(section, *spec.guard), colours.guard_line, px, 1.4 * colours.line_px, dash.c_str());
 }
 
-std::string caption(double x, double y, const std::string& text, const char* anchor) {
-  return fmt::format("<text x='{}' y='{}' font-size='11' fill='#444444' text-anchor='{}'>{}</text>\n", svg_number(x), svg_number(y), anchor,
-                     xml_text(text));
-}
+std::string caption(double x, double y, const std::string& text, const char* anchor) { return svg_text(x, y, text, 11, anchor, "fill='#444444'"); }
 
 }  // namespace
 
@@ -73,22 +68,18 @@ std::string section_svg(const Tooth& before, const Octree* after, const ZoneMap&
   constexpr double k_caption_px = 16, k_scale_px = 18;  // bands above and below the picture
   const double title_px = (spec.title.empty() ? 0 : 20) + k_caption_px, width_px = section.width() * px,
                height_px = section.height() * px + k_scale_px;
-  std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<title>{}</title>\n"
-      "<rect width='100%' height='100%' fill='#ffffff'/>\n",
-      svg_number(width_px), svg_number(height_px + title_px), svg_number(width_px), svg_number(height_px + title_px), xml_text(spec.title));
-  if (!spec.title.empty()) svg += fmt::format("<text x='4' y='15' font-size='13' fill='#222222'>{}</text>\n", xml_text(spec.title));
+  std::string svg = fmt::format("<title>{}</title>\n{}", xml_text(spec.title), k_svg_white);
+  if (!spec.title.empty()) svg += svg_text(4, 15, spec.title, 13, "start", "fill='#222222'");
   svg += fmt::format("<g transform='translate(0 {}) scale({})'>\n", svg_number(title_px), svg_number(px));
   svg += section_leaves_svg(section, spec, colours) + section_lines_svg(section, spec, colours, px);
   svg += "</g>\n";
   // a millimetre, and which way is which
   const double bottom = height_px + title_px;
-  svg += fmt::format("<path d='M6 {}h{}' stroke='#222222' stroke-width='2'/>\n", svg_number(bottom - 6), svg_number(spec.scale_px_per_mm));
+  svg += svg_line(6, bottom - 6, 6 + spec.scale_px_per_mm, bottom - 6, "#222222", 2);
   svg += caption(10 + spec.scale_px_per_mm, bottom - 3, spec.in_words(msg("{}", as_mm(1, 0))), "start");
   svg += caption(width_px - 4, title_px - 4, spec.in_words(spec.view == View::bucco_lingual ? msg("buccal →") : msg("mesial →")), "end");
   svg += caption(4, title_px - 4, spec.in_words(section.upright() ? msg("↑ occlusal") : msg("↑ buccal")), "start");
-  svg += "</svg>\n";
-  return svg;
+  return svg_root(width_px, height_px + title_px, svg);
 }
 
 std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, const ZoneMap& zones, InWords in_words) {
@@ -115,7 +106,7 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
       x = 10;
     }
     const std::string svg = section_svg(tooth, nullptr, zones, specs[i]);
-    body += fmt::format("<g transform='translate({} {})'>{}</g>\n", svg_number(x), svg_number(row_y), svg);
+    body += svg_group(x, row_y, svg);
     row_height = std::max(row_height, size_of(svg, "height='"));
     x += size_of(svg, "width='") + 14;
     width = std::max(width, x);
@@ -125,11 +116,9 @@ std::string scenario_sheet_svg(const Scenario& scenario, const Tooth& tooth, con
   const double title_px = 9.0 * static_cast<double>(title.size());
   width = std::max({width, size_of(legend, "width='") + 20, title_px + 20});
   const double height = row_y + row_height + 18 + size_of(legend, "height='");
-  return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' font-family='sans-serif'>\n"
-      "<rect width='100%' height='100%' fill='#ffffff'/>\n<text x='10' y='26' font-size='17' fill='#111111'>{}</text>\n{}<g transform='translate(10 "
-      "{})'>{}</g>\n</svg>\n",
-      svg_number(width), svg_number(height), xml_text(title), body, svg_number(height - 8 - size_of(legend, "height='")), legend);
+  return svg_root(
+      width, height,
+      k_svg_white + svg_text(10, 26, title, 17, "start", "fill='#111111'") + body + svg_group(10, height - 8 - size_of(legend, "height='"), legend));
 }
 
 }  // namespace cavum::scenarios

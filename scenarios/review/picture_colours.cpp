@@ -7,7 +7,7 @@
 #include <iterator>
 #include <vector>
 
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/review/picture.h"
 
@@ -62,18 +62,16 @@ std::string key_svg(const std::vector<KeyEntry>& first, const std::vector<KeyEnt
         y += k_row_px;
       }
       if (e.is_line)
-        items += fmt::format("<path d='M{} {}h16' stroke='{}' stroke-width='2'/>", svg_number(x), svg_number(y + 11), e.colour);
+        items += svg_line(x, y + 11, x + 16, y + 11, e.colour, 2);
       else
-        items += fmt::format("<rect x='{}' y='{}' width='16' height='14' fill='{}' stroke='#777777' stroke-width='0.6'/>", svg_number(x),
-                             svg_number(y + 4), e.colour);
-      items += fmt::format("<text x='{}' y='{}' font-size='12' fill='#222222'>{}</text>", svg_number(x + 21), svg_number(y + 15), xml_text(text));
+        items += svg_rect(x, y + 4, 16, 14, e.colour, "stroke='#777777' stroke-width='0.6'");
+      items += svg_text(x + 21, y + 15, text, 12, "start", "fill='#222222'");
       x += wide;
       width = std::max(width, x);
     }
     y += k_row_px;
   }
-  return fmt::format("<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>{}</svg>\n",
-                     svg_number(width), svg_number(y), svg_number(width), svg_number(y), items);
+  return svg_root(width, y, items);
 }
 
 }  // namespace
@@ -87,13 +85,6 @@ const char* heat_colour(double percent) {
 const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong : k_usual; }
 
 const Palette& grey_palette() { return k_grey; }
-
-std::string svg_number(double v) {
-  std::string s = fixed(v, 2);
-  while (s.back() == '0') s.pop_back();
-  if (s.back() == '.') s.pop_back();
-  return s == "-0" ? "0" : s;
-}
 
 const char* tissue_colour(const Palette& colours, std::uint8_t t) {
   switch (t) {

@@ -27,7 +27,4 @@ struct Palette {
 [[nodiscard]] const char* heat_colour(double percent);
 inline constexpr double k_min_heat_percent = 5;
 
-/// With two digits at most, as short as they allow.
-[[nodiscard]] std::string svg_number(double v);
-
 }  // namespace cavum::scenarios

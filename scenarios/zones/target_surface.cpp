@@ -81,7 +81,7 @@ void ask_neighbours(const ShapeField& shape, std::vector<NearestPlace>& nearest,
   double best = dot(here - nearest[c].at(), here - nearest[c].at());
   for (const IVec3 step : neighbours) {
     const IVec3 next = at + step;
-    if (next.x < 0 || next.y < 0 || next.z < 0 || next.x >= size.x || next.y >= size.y || next.z >= size.z) continue;
+    if (!lies_in(next, size)) continue;
     const std::size_t m = shape.index(next);
     if (shape.inside[m] != shape.inside[c]) continue;
     const Vec3 way = here - nearest[m].at();

@@ -43,10 +43,7 @@ class ZoneMap {
   [[nodiscard]] IVec3 low() const noexcept { return low_; }
   [[nodiscard]] IVec3 size() const noexcept { return size_; }
   [[nodiscard]] Vec3 centre_mm(IVec3 leaf) const noexcept { return origin_mm_ + Vec3{leaf.x + 0.5, leaf.y + 0.5, leaf.z + 0.5} * leaf_mm_; }
-  [[nodiscard]] bool in_box(IVec3 leaf) const noexcept {
-    const IVec3 l = leaf - low_;
-    return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size_.x && l.y < size_.y && l.z < size_.z;
-  }
+  [[nodiscard]] bool in_box(IVec3 leaf) const noexcept { return lies_in(leaf - low_, size_); }
   /// Zone of a leaf of the tooth; none where the tooth has no tissue. Outside the box: protected or none.
   [[nodiscard]] Zone zone(IVec3 leaf) const noexcept {
     if (in_box(leaf)) return static_cast<Zone>(zone_[index(leaf)]);
@@ -107,12 +104,9 @@ class ZoneMap {
 
  private:
   friend class ZoneBuilder;  // of build_zones
-  [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept {
-    const IVec3 l = leaf - low_;
-    return cell_index(l, size_);
-  }
+  [[nodiscard]] std::size_t index(IVec3 leaf) const noexcept { return cell_index(leaf - low_, size_); }
   [[nodiscard]] bool guarded_beyond(IVec3 l) const noexcept {
-    if (guarded_.empty() || l.x < 0 || l.y < 0 || l.z < 0 || l.x >= tooth_size_.x || l.y >= tooth_size_.y || l.z >= tooth_size_.z) return false;
+    if (guarded_.empty() || !lies_in(l, tooth_size_)) return false;
     return guarded_[tooth_index(l)];
   }
   [[nodiscard]] std::size_t tooth_index(IVec3 l) const noexcept { return cell_index(l, tooth_size_); }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <vector>
 
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
@@ -65,9 +65,8 @@ std::string runs_svg(Cells& cells, const Panel& panel, const std::vector<std::st
       int end = x + 1;
       while (end < cells.nx && cells.at(end, y) == value) ++end;
       if (value >= 0)
-        out += fmt::format("<rect x='{:.1f}' y='{:.1f}' width='{:.2f}' height='{:.2f}' fill='{}'/>", panel.px(panel.low().x + x * k_cell_mm),
-                           panel.py(panel.low().y + (y + 1) * k_cell_mm), (end - x) * k_cell_mm * k_px_per_mm + 0.3, k_cell_mm * k_px_per_mm + 0.3,
-                           colours[static_cast<std::size_t>(value)]);
+        out += svg_rect(panel.px(panel.low().x + x * k_cell_mm), panel.py(panel.low().y + (y + 1) * k_cell_mm),
+                        (end - x) * k_cell_mm * k_px_per_mm + 0.3, k_cell_mm * k_px_per_mm + 0.3, colours[static_cast<std::size_t>(value)]);
       x = end;
     }
   return out;
@@ -135,7 +134,7 @@ std::string line_svg(const Panel& panel, const Polyline& line, const char* colou
 }
 
 std::string dot_svg(const Panel& panel, Vec3 p, const char* colour, const std::string& label) {
-  return fmt::format("<circle cx='{:.1f}' cy='{:.1f}' r='4' fill='{}' stroke='#ffffff'/>", panel.px(p), panel.py(p), colour) +
+  return svg_circle(panel.px(p), panel.py(p), 4, colour, "stroke='#ffffff'") +
          svg_text(panel.px(p) + 6, panel.py(p) - 4, label, 11, "start",
                   fmt::format("fill='{}' stroke='#ffffff' stroke-width='2.5' paint-order='stroke'", colour));
 }

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <functional>
 
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
 #include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 
@@ -42,8 +42,7 @@ std::string heat_colour(double value, double limit) {
 }
 
 std::string field(double x, double y, double w, double h, const std::string& colour, const std::string& words, bool bold) {
-  return fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>{}", fixed(x, 1), fixed(y, 1), fixed(w - 1, 1), fixed(h - 1, 1), colour,
-                     svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : ""));
+  return svg_rect(x, y, w - 1, h - 1, colour) + svg_text(x + w / 2, y + h / 2 + 3.5, words, 10, "middle", bold ? "font-weight='bold'" : "");
 }
 
 /// The straight line of a fit, over all stiffnesses.
@@ -272,8 +271,7 @@ std::string press_legend(const PressOptions& o, double y) {
   std::string body;
   double x = 16;
   for (const auto& [times, words] : scale) {
-    body += fmt::format("<rect x='{}' y='{}' width='16' height='12' fill='{}'/>{}", fixed(x, 1), fixed(y - 10, 1), heat_colour(times, 1.0),
-                        svg_text(x + 21, y, words, 11));
+    body += svg_rect(x, y - 10, 16, 12, heat_colour(times, 1.0)) + svg_text(x + 21, y, words, 11);
     x += 40 + 6.2 * static_cast<double>(words.size());
   }
   body += svg_text(

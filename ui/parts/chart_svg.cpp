@@ -4,9 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
+#include "engine/base/vec.h"
 #include "ui/language/say.h"
 
 namespace cavum::ui {
@@ -71,11 +71,8 @@ Frame frame_of(const Chart& chart, double y_low, double y_high) {
   return f;
 }
 
-std::string num(double v) { return fixed(v, 1); }
-
-std::string line(double x1, double y1, double x2, double y2, const std::string& colour, double width, const std::string& more = "") {
-  return fmt::format("<line x1='{}' y1='{}' x2='{}' y2='{}' stroke='{}' stroke-width='{}' {}/>", num(x1), num(y1), num(x2), num(y2), colour,
-                     num(width), more);
+std::string series_dot(const ChartSeries& s, double x, double y) {
+  return svg_circle(x, y, 3.4, s.style == ChartSeries::Style::rings ? "white" : s.colour, fmt::format("stroke='{}' stroke-width='1.4'", s.colour));
 }
 
 std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
@@ -83,35 +80,34 @@ std::string drawn(const ChartSeries& s, const Axis& x, const Axis& y) {
   std::string out;
   if (s.style == Style::band) {
     std::string path;
-    for (const auto& p : s.points) path += fmt::format("{},{} ", num(x.px(p.x)), num(y.px(p.y + p.error)));
-    for (auto p = s.points.rbegin(); p != s.points.rend(); ++p) path += fmt::format("{},{} ", num(x.px(p->x)), num(y.px(p->y - p->error)));
+    for (const auto& p : s.points) path += fmt::format("{},{} ", svg_number(x.px(p.x)), svg_number(y.px(p.y + p.error)));
+    for (auto p = s.points.rbegin(); p != s.points.rend(); ++p)
+      path += fmt::format("{},{} ", svg_number(x.px(p->x)), svg_number(y.px(p->y - p->error)));
     return fmt::format("<polygon points='{}' fill='{}' fill-opacity='0.22'/>", path, s.colour);
   }
   if (s.style == Style::line || s.style == Style::dashed) {
     std::string path;
-    for (const auto& p : s.points) path += fmt::format("{},{} ", num(x.px(p.x)), num(y.px(p.y)));
-    return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path, s.colour, num(s.width_px),
-                       s.style == Style::dashed ? " stroke-dasharray='5 4'" : "");
+    for (const auto& p : s.points) path += fmt::format("{},{} ", svg_number(x.px(p.x)), svg_number(y.px(p.y)));
+    return fmt::format("<polyline points='{}' fill='none' stroke='{}' stroke-width='{}' stroke-linejoin='round'{}/>", path, s.colour,
+                       svg_number(s.width_px), s.style == Style::dashed ? " stroke-dasharray='5 4'" : "");
   }
   for (const auto& p : s.points) {
     const double px = x.px(p.x), py = y.px(p.y);
     if (p.error > 0) {
       const double high = y.px(p.y + p.error), low = y.px(p.y - p.error);
-      out += line(px, high, px, low, s.colour, 1) + line(px - 3, high, px + 3, high, s.colour, 1) + line(px - 3, low, px + 3, low, s.colour, 1);
+      out += svg_line(px, high, px, low, s.colour, 1) + svg_line(px - 3, high, px + 3, high, s.colour, 1) +
+             svg_line(px - 3, low, px + 3, low, s.colour, 1);
     }
-    out += fmt::format("<circle cx='{}' cy='{}' r='3.4' stroke='{}' stroke-width='1.4' fill='{}'/>", num(px), num(py), s.colour,
-                       s.style == Style::rings ? "white" : s.colour);
+    out += series_dot(s, px, py);
   }
   return out;
 }
 
 std::string legend_sign(const ChartSeries& s, double x, double y) {
-  if (s.style == ChartSeries::Style::band)
-    return fmt::format("<rect x='{}' y='{}' width='22' height='10' fill='{}' fill-opacity='0.22'/>", num(x), num(y - 5), s.colour);
+  if (s.style == ChartSeries::Style::band) return svg_rect(x, y - 5, 22, 10, s.colour, "fill-opacity='0.22'");
   if (s.style == ChartSeries::Style::line || s.style == ChartSeries::Style::dashed)
-    return line(x, y, x + 22, y, s.colour, s.width_px, s.style == ChartSeries::Style::dashed ? "stroke-dasharray='5 4'" : "");
-  return fmt::format("<circle cx='{}' cy='{}' r='3.4' stroke='{}' stroke-width='1.4' fill='{}'/>", num(x + 11), num(y), s.colour,
-                     s.style == ChartSeries::Style::rings ? "white" : s.colour);
+    return svg_line(x, y, x + 22, y, s.colour, s.width_px, s.style == ChartSeries::Style::dashed ? "stroke-dasharray='5 4'" : "");
+  return series_dot(s, x + 11, y);
 }
 
 std::string legend(const Chart& chart) {
@@ -125,8 +121,7 @@ std::string legend(const Chart& chart) {
   if (n == 0) return "";
   const double width = 40 + 5.9 * static_cast<double>(longest), height = 8 + 16.0 * static_cast<double>(n);
   const double x = chart.legend_at_right ? chart.width_px - k_right - width - 6 : k_left + 8, y = k_top + (chart.spans.empty() ? 6 : 22);
-  std::string out = fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='white' fill-opacity='0.85' stroke='#cccccc'/>", num(x), num(y),
-                                num(width), num(height));
+  std::string out = svg_rect(x, y, width, height, "white", "fill-opacity='0.85' stroke='#cccccc'");
   double at = y + 12;
   for (const auto& s : chart.series) {
     if (s.label.empty()) continue;
@@ -138,65 +133,52 @@ std::string legend(const Chart& chart) {
 
 }  // namespace
 
-std::string svg_text(double x_px, double y_px, const std::string& text, double size_px, const std::string& anchor, const std::string& more) {
-  return fmt::format("<text x='{}' y='{}' font-size='{}' text-anchor='{}' {}>{}</text>", num(x_px), num(y_px), num(size_px), anchor, more,
-                     xml_text(text));
-}
-
 std::string chart_group(const Chart& chart, double x_px, double y_px) {
-  constexpr double k_huge = std::numeric_limits<double>::max();
-  double x_low = k_huge, x_high = -k_huge, y_low = k_huge, y_high = -k_huge;
+  Bounds box;
   for (const auto& s : chart.series)
-    for (const auto& p : s.points) {
-      x_low = std::min(x_low, p.x);
-      x_high = std::max(x_high, p.x);
-      y_low = std::min(y_low, p.y - p.error);
-      y_high = std::max(y_high, p.y + p.error);
-    }
-  if (x_low > x_high) x_low = y_low = 0, x_high = y_high = 1;
-  const Frame f = frame_of(chart, y_low, y_high);
+    for (const auto& p : s.points) box.add({p.x, p.y - p.error, 0}, {p.x, p.y + p.error, 0});
+  if (box.empty()) box = {{0, 0, 0}, {1, 1, 0}};
+  const Frame f = frame_of(chart, box.low.y, box.high.y);
   const double text = chart.text_px, larger = text / k_text_px;
-  Axis x = make_axis(chart.x_range, x_low, x_high, f.across), y = make_axis(chart.y_range, y_low, y_high, f.up);
+  Axis x = make_axis(chart.x_range, box.low.x, box.high.x, f.across), y = make_axis(chart.y_range, box.low.y, box.high.y, f.up);
   x.from_px = f.left;
   x.to_px = chart.width_px - f.right;
   y.from_px = chart.height_px - f.bottom;
   y.to_px = f.top;
   // charts of one page may lie at one place of their own drawings: what differs in size must differ in name
-  const std::string clip = fmt::format("plot{}-{}-{}x{}", num(x_px), num(y_px), num(x.to_px), num(y.from_px));
-  std::string out =
-      fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>", num(x_px), num(y_px),
-                  clip, num(f.left - f.spill), num(f.top), num(x.to_px - f.left + 2 * f.spill), num(y.from_px - f.top));
+  const std::string clip = fmt::format("plot{}-{}-{}x{}", svg_number(x_px), svg_number(y_px), svg_number(x.to_px), svg_number(y.from_px));
+  std::string out = fmt::format("<g transform='translate({} {})'><clipPath id='{}'><rect x='{}' y='{}' width='{}' height='{}'/></clipPath>",
+                                svg_number(x_px), svg_number(y_px), clip, svg_number(f.left - f.spill), svg_number(f.top),
+                                svg_number(x.to_px - f.left + 2 * f.spill), svg_number(y.from_px - f.top));
   out += svg_text(f.left, 20 * larger, chart.title, 13 * larger, "start", "font-weight='bold'");
   std::string names;
   for (const auto& s : chart.spans) {
     const double from = std::max(f.left, x.px(s.from)), to = std::min(x.to_px, x.px(s.to));
     if (to <= from) continue;
-    out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", num(from), num(f.top), num(to - from), num(y.from_px - f.top),
-                       s.colour);
+    out += svg_rect(from, f.top, to - from, y.from_px - f.top, s.colour);
     names += svg_text((from + to) / 2, f.top + 14, s.label, text, "middle",
                       fmt::format("fill='#555555' paint-order='stroke' stroke-width='4' stroke='{}'", s.colour));
   }
   for (double v = std::ceil(x.low / x.step - 1e-9) * x.step; v <= x.high + 1e-9 * x.step; v += x.step)
-    out += line(x.px(v), f.top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16 * larger, x.label(v), text, "middle");
+    out += svg_line(x.px(v), f.top, x.px(v), y.from_px, "#e4e4e4", 1) + svg_text(x.px(v), y.from_px + 16 * larger, x.label(v), text, "middle");
   for (double v = std::ceil(y.low / y.step - 1e-9) * y.step; v <= y.high + 1e-9 * y.step; v += y.step)
-    out += line(f.left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(f.left - 6, y.px(v) + 4 * larger, y.label(v), text, "end");
+    out += svg_line(f.left, y.px(v), x.to_px, y.px(v), "#e4e4e4", 1) + svg_text(f.left - 6, y.px(v) + 4 * larger, y.label(v), text, "end");
   out += fmt::format("{}<g clip-path='url(#{})'>", names, clip);
   for (const auto& s : chart.series) out += drawn(s, x, y);
   out += "</g>";
   for (const auto& m : chart.marks) {
     if (m.vertical)
-      out += line(x.px(m.at), f.top, x.px(m.at), y.from_px, "#333333", 1, "stroke-dasharray='3 3'") +
+      out += svg_line(x.px(m.at), f.top, x.px(m.at), y.from_px, "#333333", 1, "stroke-dasharray='3 3'") +
              svg_text(x.px(m.at) + 5, y.from_px - 8, m.label, text, "start", "fill='#333333'");
     else
-      out += line(f.left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
+      out += svg_line(f.left, y.px(m.at), x.to_px, y.px(m.at), "#333333", 1, "stroke-dasharray='3 3'") +
              svg_text(x.to_px - 4, y.px(m.at) - 5, m.label, text, "end", "fill='#333333'");
   }
-  out += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>", num(f.left), num(f.top), num(x.to_px - f.left),
-                     num(y.from_px - f.top));
+  out += svg_rect(f.left, f.top, x.to_px - f.left, y.from_px - f.top, "none", "stroke='#666666'");
   const double names_px = std::max(12.0, text), middle = (f.top + y.from_px) / 2;
-  out +=
-      svg_text((f.left + x.to_px) / 2, chart.height_px - 10, chart.x_label, names_px, "middle") +
-      svg_text(names_px + 4, middle, chart.y_label, names_px, "middle", fmt::format("transform='rotate(-90 {} {})'", num(names_px + 4), num(middle)));
+  out += svg_text((f.left + x.to_px) / 2, chart.height_px - 10, chart.x_label, names_px, "middle") +
+         svg_text(names_px + 4, middle, chart.y_label, names_px, "middle",
+                  fmt::format("transform='rotate(-90 {} {})'", svg_number(names_px + 4), svg_number(middle)));
   return fmt::format("{}{}</g>\n", out, legend(chart));
 }
 
@@ -205,12 +187,8 @@ std::string legend_sign_svg(const ChartSeries& series) {
 }
 
 std::string svg_page(double width_px, double height_px, const std::string& content, const std::string& name) {
-  const std::string w = fixed(width_px, 0), h = fixed(height_px, 0),
-                    role = name.empty() ? "" : fmt::format(" role='img' aria-label='{}'", xml_text(name));
-  return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}'{} font-family='Helvetica, Arial, sans-serif' "
-      "fill='#222222'>\n<rect width='100%' height='100%' fill='white'/>\n{}</svg>\n",
-      w, h, w, h, role, content);
+  const std::string role = name.empty() ? "" : fmt::format(" role='img' aria-label='{}'", xml_text(name));
+  return svg_root(width_px, height_px, k_svg_white + content, "font-family='Helvetica, Arial, sans-serif' fill='#222222'" + role);
 }
 
 std::string charts_page(const std::string& title, const std::vector<Chart>& charts, const std::vector<std::string>& small_print) {

@@ -48,9 +48,6 @@ struct Chart {
 
 /// A group of `chart.width_px` × `chart.height_px` with its corner at x, y.
 [[nodiscard]] std::string chart_group(const Chart& chart, double x_px, double y_px);
-/// Words at a place; `anchor` start, middle or end. Text is made safe for XML.
-[[nodiscard]] std::string svg_text(double x_px, double y_px, const std::string& text, double size_px, const std::string& anchor = "start",
-                                   const std::string& more = "");
 /// A drawing of 26 × 14 with the sign of a series alone, for a legend beside a chart.
 [[nodiscard]] std::string legend_sign_svg(const ChartSeries& series);
 /// A whole file around groups. `name`: what is read aloud in its place, in a page.

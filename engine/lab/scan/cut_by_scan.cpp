@@ -29,14 +29,8 @@ struct LeafLattice {
         leaf_mm(octree.leaf_mm()),
         first_mm(octree.centre_mm(low)) {}
   [[nodiscard]] std::size_t count() const { return cells_of(size); }
-  [[nodiscard]] bool holds(IVec3 leaf) const {
-    const IVec3 l = leaf - low;
-    return l.x >= 0 && l.y >= 0 && l.z >= 0 && l.x < size.x && l.y < size.y && l.z < size.z;
-  }
-  [[nodiscard]] std::size_t index(IVec3 leaf) const {
-    const IVec3 l = leaf - low;
-    return cell_index(l, size);
-  }
+  [[nodiscard]] bool holds(IVec3 leaf) const { return lies_in(leaf - low, size); }
+  [[nodiscard]] std::size_t index(IVec3 leaf) const { return cell_index(leaf - low, size); }
   [[nodiscard]] IVec3 leaf(std::size_t i) const {
     const auto nx = static_cast<std::size_t>(size.x), ny = static_cast<std::size_t>(size.y);
     return low + IVec3{static_cast<std::int32_t>(i % nx), static_cast<std::int32_t>(i / nx % ny), static_cast<std::int32_t>(i / (nx * ny))};

@@ -31,7 +31,7 @@ class Field {
   Field(IVec3 size, const std::vector<float>& values, float outside) : size_(size), values_(values), outside_(outside) {}
 
   [[nodiscard]] float at(IVec3 v) const noexcept {
-    if (v.x < 0 || v.y < 0 || v.z < 0 || v.x >= size_.x || v.y >= size_.y || v.z >= size_.z) return outside_;
+    if (!lies_in(v, size_)) return outside_;
     return values_[cell_index(v, size_)];
   }
   [[nodiscard]] double linear(Vec3 p) const noexcept {
@@ -76,7 +76,7 @@ std::vector<std::uint8_t> mixed_cells(IVec3 size, const std::vector<float>& soli
           for (int dy = -2; dy <= 2; ++dy)
             for (int dx = -2; dx <= 2; ++dx) {
               const IVec3 c{x + dx, y + dy, z + dz};
-              if (c.x >= 0 && c.y >= 0 && c.z >= 0 && c.x < size.x && c.y < size.y && c.z < size.z)
+              if (lies_in(c, size))
                 mixed[static_cast<std::size_t>(c.z) * nxy + static_cast<std::size_t>(c.y) * nx + static_cast<std::size_t>(c.x)] = 1;
             }
       }
@@ -134,7 +134,7 @@ TissueGrid resample(const Volume& volume, const Segmentation& s, const Mat3& axe
         const auto i = grid.index({x, y, z});
         const Vec3 p = voxel_of(grid.centre_mm({x, y, z}));
         const IVec3 cell = Field::low(p);
-        const bool within = cell.x >= 0 && cell.y >= 0 && cell.z >= 0 && cell.x < s.size.x && cell.y < s.size.y && cell.z < s.size.z;
+        const bool within = lies_in(cell, s.size);
         const double value = !within || mixed[volume.index(cell)] ? solid.cubic(p) : solid.at(cell);
         field[i] = static_cast<float>(-value);
         if (field[i] < 0)

@@ -122,7 +122,7 @@ double measure_rim_percent(const Segmentation& s, const Volume& v, const Mask& o
         for (int step = 1; step <= 3; ++step) {
           const auto round = [](double w) { return static_cast<std::int32_t>(std::floor(w + 0.5)); };
           const IVec3 below{x + round(inwards.x * step), y + round(inwards.y * step), z + round(inwards.z * step)};
-          if (below.x < 0 || below.y < 0 || below.z < 0 || below.x >= s.size.x || below.y >= s.size.y || below.z >= s.size.z) break;
+          if (!lies_in(below, s.size)) break;
           if (s.tissue[v.index(below)] == k_enamel) {
             ++covered;
             break;

@@ -75,7 +75,7 @@ TEST(ThinnedPatches, AreClosedTogetherWhateverTheirCells) {
           for (int dy = -1; dy <= 1; ++dy)
             for (int dx = -1; dx <= 1; ++dx) {
               const IVec3 p = place.number + IVec3{dx, dy, dz};
-              const bool there = p.x >= 0 && p.y >= 0 && p.z >= 0 && p.x < size.x && p.y < size.y && p.z < size.z;
+              const bool there = lies_in(p, size);
               if (there) place.cells[PatchPlace::beside(dx, dy, dz)] = cells[static_cast<std::size_t>((p.z * size.y + p.y) * size.x + p.x)];
             }
         const SurfacePatch made = thinned(surface.patch(i), place);

@@ -11,7 +11,7 @@
 
 #include "engine/base/encoding.h"
 #include "engine/base/error.h"
-#include "engine/base/text.h"
+#include "engine/base/svg.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/language/say.h"
 
@@ -173,9 +173,7 @@ Bytes columns_png(const Columns& columns) {
 
 constexpr double k_top_px = 24, k_bar_px = 18, k_bar_height_px = 200;  // the key stands beside the picture
 
-std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") {
-  return fmt::format("<text x='{}' y='{}' text-anchor='{}'>{}</text>", fixed(x, 0), fixed(y, 0), anchor, xml_text(words));
-}
+std::string text_at(double x, double y, const std::string& words, const char* anchor = "start") { return svg_text(x, y, words, 16, anchor); }
 
 std::string beyond_words() { return tr("{} beyond", as_mm(k_colours_end_mm, 1)); }
 std::string left_words() { return tr("{} left", as_mm(k_colours_end_mm, 1)); }
@@ -195,15 +193,12 @@ std::string key_svg(double left, double top, double mm_px) {
   constexpr double k_step_px = k_bar_height_px / k_steps;
   std::string svg;
   for (int i = 0; i < k_steps; ++i)
-    svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='{}'/>", fixed(left, 0), fixed(top + i * k_step_px, 0), fixed(k_bar_px, 0),
-                       fixed(k_step_px + 0.5, 1), hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
-  svg += fmt::format("<rect x='{}' y='{}' width='{}' height='{}' fill='none' stroke='#666666'/>\n", fixed(left, 0), fixed(top, 0), fixed(k_bar_px, 0),
-                     fixed(k_bar_height_px, 0));
+    svg += svg_rect(left, top + i * k_step_px, k_bar_px, k_step_px + 0.5, hex(of_deviation(k_colours_end_mm * (1 - 2.0 * (i + 0.5) / k_steps))));
+  svg += svg_rect(left, top, k_bar_px, k_bar_height_px, "none", "stroke='#666666'");
   svg += text_at(words, top + 14, beyond_words()) + text_at(words, top + k_bar_height_px / 2 + 5, tr("as planned")) +
          text_at(words, top + k_bar_height_px - 4, left_words());
-  svg += fmt::format("\n<path d='M{} {}h{}' stroke='#222222' stroke-width='2'/>{}", fixed(left, 0), fixed(top + k_bar_height_px + 34, 0),
-                     fixed(mm_px, 1), text_at(left + mm_px + 8, top + k_bar_height_px + 40, tr("{}", as_mm(1, 0))));
-  return svg;
+  const double below = top + k_bar_height_px + 34;
+  return svg + svg_line(left, below, left + mm_px, below, "#222222", 2) + text_at(left + mm_px + 8, below + 6, tr("{}", as_mm(1, 0)));
 }
 
 constexpr double k_line_px = 26;  // of the second part of the key
@@ -225,8 +220,7 @@ std::vector<std::string> key_beside(const grading::GradeInput& input, double lef
   std::vector<std::string> lines;
   for (const auto& [colour, words] : entries) {
     const double y = top + static_cast<double>(lines.size()) * k_line_px;
-    lines.push_back(fmt::format("<rect x='{}' y='{}' width='{}' height='16' fill='{}' stroke='#666666'/>{}\n", fixed(left, 0), fixed(y, 0),
-                                fixed(k_bar_px, 0), hex(colour), text_at(left + k_bar_px + 8, y + 13, tr(words))));
+    lines.push_back(svg_rect(left, y, k_bar_px, 16, hex(colour), "stroke='#666666'") + text_at(left + k_bar_px + 8, y + 13, tr(words)));
   }
   return lines;
 }
@@ -236,23 +230,18 @@ std::string picture_svg(const Columns& columns, bool with_key, bool& beside_show
   const grading::GradeInput& input = columns.input;
   const IVec3 n = columns.size;
   const double px = k_wanted_px / std::max(n.x, n.y), width = n.x * px, height = n.y * px;
-  constexpr double k_font_px = 16;
   constexpr double k_below_bar_px = k_bar_height_px + 60;
   const auto beside = with_key ? key_beside(input, width + 20, k_top_px + 10 + k_below_bar_px) : std::vector<std::string>{};
   beside_shown = !beside.empty();
   const double all_width = width + key_width_px(),
                key_height = k_below_bar_px + (beside.empty() ? 0.0 : 10 + k_line_px * static_cast<double>(beside.size())),
                all_height = k_top_px + std::max(height, key_height);
-  std::string svg = fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif' font-size='{}' "
-      "fill='#222222'>\n<rect width='100%' height='100%' fill='#ffffff'/>\n{}{}\n",
-      fixed(all_width, 0), fixed(all_height, 0), fixed(all_width, 0), fixed(all_height, 0), fixed(k_font_px, 0), text_at(4, 17, tr("↑ buccal")),
-      text_at(width - 4, 17, tr("mesial →"), "end"));
+  std::string svg = k_svg_white + text_at(4, 17, tr("↑ buccal")) + text_at(width - 4, 17, tr("mesial →"), "end");
   svg += fmt::format("<image x='0' y='{}' width='{}' height='{}' preserveAspectRatio='none' href='data:image/png;base64,{}'/>\n", fixed(k_top_px, 0),
                      fixed(width, 1), fixed(height, 1), to_base64(columns_png(columns)));
-  if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm()) + "\n";
+  if (with_key) svg += key_svg(width + 20, k_top_px + 10, px / input.before.octree.leaf_mm());
   for (const auto& line : beside) svg += line;
-  return svg + "</svg>\n";
+  return svg_root(all_width, all_height, svg, "font-family='sans-serif' fill='#222222'");
 }
 
 }  // namespace

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <optional>
 
+#include "engine/base/svg.h"
 #include "engine/base/text.h"
 #include "scenarios/review/section.h"
 #include "ui/language/say.h"
@@ -166,7 +167,7 @@ std::string ring_svg(const scenarios::Section& section, IVec3 at, double leaf_px
   }
   std::string svg;
   for (const auto& [colour, width] : {std::pair{"#ffffff", k_widest_px}, std::pair{"#111111", 2.0}})
-    svg += fmt::format("<path class='ring' fill='none' stroke='{}' stroke-width='{}' d='{}'/>\n", colour, fixed(width / leaf_px, 3), path);
+    svg += svg_path(path, colour, width / leaf_px, "class='ring'");
   return svg;
 }
 
@@ -232,26 +233,20 @@ std::optional<SectionPicture> section_of_mistake(const grading::GradeInput& inpu
 
 std::string sections_svg(const grading::Result& r, const grading::GradeInput& input) {
   constexpr double k_margin_px = 10, k_text_px = 30;
-  const auto group = [](double x, double y, const std::string& content) {
-    return fmt::format("<g transform='translate({} {})'>{}</g>\n", fixed(x, 0), fixed(y, 2), content);
-  };
   const auto pictures = three_sections(r, input);
   const std::string legend = scenarios::legend_svg(input.seen_before(), true, input.scenario.accommodations.high_contrast, tr);
   double height = 0, x = k_margin_px;
   for (const auto& p : pictures) height = std::max(height, svg_px(p, "height='"));
   std::string body;
   for (const auto& p : pictures) {  // standing on one line
-    body += group(x, k_text_px + height - svg_px(p, "height='"), p);
+    body += svg_group(x, k_text_px + height - svg_px(p, "height='"), p);
     x += std::ceil(svg_px(p, "width='")) + k_margin_px;
   }
   const double width = std::max(x, svg_px(legend, "width='") + 2 * k_margin_px), legend_px = svg_px(legend, "height='") + 8,
                all = height + k_text_px + legend_px + k_margin_px;
-  return fmt::format(
-      "<svg xmlns='http://www.w3.org/2000/svg' width='{}' height='{}' viewBox='0 0 {} {}' font-family='sans-serif'>\n<rect width='100%' "
-      "height='100%' fill='#ffffff'/>\n<text id='cavum-sections' x='10' y='20' font-size='15'>{}</text>\n{}{}</svg>\n",
-      fixed(width, 0), fixed(all, 0), fixed(width, 0), fixed(all, 0),
-      xml_text(tr("{}: {} of the target removed", Authored{r.scenario_title}, as_percent(r.volumes.target_removed_percent, 1))), body,
-      group(k_margin_px, all - legend_px, legend));
+  const std::string title = tr("{}: {} of the target removed", Authored{r.scenario_title}, as_percent(r.volumes.target_removed_percent, 1));
+  return svg_root(width, all,
+                  k_svg_white + svg_text(10, 20, title, 15, "start", "id='cavum-sections'") + body + svg_group(k_margin_px, all - legend_px, legend));
 }
 
 }  // namespace cavum::report
