@@ -184,7 +184,7 @@ void SessionReader::read_seal(Database& database) {
 }
 
 void SessionReader::require_readable() const {
-  if (!findings_.empty()) throw Error(path_, findings_.front(), msg("use an intact copy"));
+  if (!findings_.empty()) throw Error(path_, findings_.front().what, msg("use an intact copy"));
   if (number("physics_version", 0) != k_physics_version)
     throw Error(path_, msg("was recorded under physics {}, this program has {}", fact("physics_version"), k_physics_version),
                 msg("use the program that recorded it"));
