@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/octree_edit.h"
 #include "ui/parts/say.h"
 
@@ -34,7 +35,7 @@ nlohmann::ordered_json describe(const Tooth& tooth, std::uintmax_t file_bytes) {
       tissues.push_back(
           {{"name", t.name}, {"volume_mm3", rounded(static_cast<double>(count[t.id]) * o.leaf_volume_mm3(), 1e-6)}, {"solid", t.solid}});
   Json source = Json::array();
-  for (const auto& entry : tooth.source) source.push_back(encode(entry));
+  for (const auto& entry : tooth.source) source.push_back(Json(encode(entry)));
   return {{"name", tooth.name},
           {"jaw", tooth.kind.jaw == Jaw::upper   ? Json("upper")
                   : tooth.kind.jaw == Jaw::lower ? Json("lower")
