@@ -87,7 +87,7 @@ TEST_F(EditedSession, EachPartOfAChunkIsNamedInItsOwnWords) {
   for (const char* part : {"inputs = x'00'", "records = x'00'", "removed = x'00'", "utc_ns = utc_ns - 1"}) {
     write_file(path_, intact);
     test::tamper(path_, std::string("UPDATE chunk SET ") + part + " WHERE seq = 1");
-    for (const Message& f : verify_session(path_).findings)
+    for (const Message& f : words_of(verify_session(path_).findings))
       if (f.values().size() == 2 && testing_basics::tells(f, 1999))
         if (const auto* what = std::get_if<Message>(&f.values()[1])) parts.insert(what->english());
   }

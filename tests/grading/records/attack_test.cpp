@@ -315,7 +315,7 @@ std::string cut_back(const School& school, const std::string& session, const std
 /// Takes it up as `exam --resume --end` does at the station of the present CAVUM_HOME, and closes it.
 void close_again(const std::string& session) {
   const auto setup = scenarios::prepare_exam(SessionReader(session).setup());
-  const auto exam = scenarios::Exam::resume(*setup, session, {{}, "", require_not_closed(setup->session.notes, session)});
+  const auto exam = scenarios::Exam::resume(*setup, session, {{}, require_not_closed(setup->session.notes, session)});
   if (!exam->over()) exam->end();
   static_cast<void>(grading::grade_and_close(*exam));
 }

@@ -21,7 +21,7 @@ struct Undo {
 };
 
 struct State {
-  DiskFault fault = DiskFault::none;
+  InjectedFault fault = InjectedFault::none;
   int at = 0, changes = 0;
   bool happened = false;
   Random random{1};
@@ -55,13 +55,13 @@ void lose_what_was_not_synced() {
 /// True when this change does not happen.
 bool fails() {
   if (g_state == nullptr) return false;
-  if (g_state->happened && g_state->fault == DiskFault::power_cut) return true;
-  if (++g_state->changes != g_state->at || g_state->fault == DiskFault::none) return false;
+  if (g_state->happened && g_state->fault == InjectedFault::power_cut) return true;
+  if (++g_state->changes != g_state->at || g_state->fault == InjectedFault::none) return false;
   g_state->happened = true;
-  if (g_state->fault == DiskFault::power_cut) lose_what_was_not_synced();
+  if (g_state->fault == InjectedFault::power_cut) lose_what_was_not_synced();
   return true;
 }
-bool dark() { return g_state != nullptr && g_state->happened && g_state->fault == DiskFault::power_cut; }
+bool dark() { return g_state != nullptr && g_state->happened && g_state->fault == InjectedFault::power_cut; }
 
 void remember(sqlite3_file* f, sqlite3_int64 offset, int bytes) {
   if (g_state == nullptr) return;
@@ -136,7 +136,7 @@ void set_up() {
 
 }  // namespace
 
-FaultyDisk::FaultyDisk(DiskFault fault, int at, std::uint64_t seed) {
+FaultyDisk::FaultyDisk(InjectedFault fault, int at, std::uint64_t seed) {
   sqlite3_initialize();
   set_up();
   g_state = new State;

@@ -7,13 +7,13 @@
 
 namespace cavum::testing_ledger {
 
-enum class DiskFault { none, refused, power_cut };
+enum class InjectedFault { none, refused, power_cut };
 
 /// One at a time. While it lives every new SQLite connection of this process goes through it.
 class FaultyDisk {
  public:
   /// `at`: number of the change (write, truncate, sync or delete, from 1) at which it happens.
-  FaultyDisk(DiskFault fault, int at, std::uint64_t seed);
+  FaultyDisk(InjectedFault fault, int at, std::uint64_t seed);
   ~FaultyDisk();
   FaultyDisk(const FaultyDisk&) = delete;
   FaultyDisk& operator=(const FaultyDisk&) = delete;

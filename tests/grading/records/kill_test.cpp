@@ -42,7 +42,7 @@ void expect_nothing_lost(const School& school, const std::vector<std::string>& a
   EXPECT_GE(read_ledger(school.places()).entries.size(), k_first_entries + 3 + acknowledged.size()) << when;
 }
 
-void try_all(DiskFault fault, const char* name) {
+void try_all(InjectedFault fault, const char* name) {
   const std::uint64_t seed = testing_basics::drawn_seed(name);
   const School fresh;
   int n = 1, changes = 0;
@@ -60,7 +60,7 @@ void try_all(DiskFault fault, const char* name) {
       happened = FaultyDisk::happened();
       changes = FaultyDisk::changes();
     }
-    if (fault == DiskFault::power_cut) {  // what lies in memory alone is gone
+    if (fault == InjectedFault::power_cut) {  // what lies in memory alone is gone
       std::error_code ignored;
       std::filesystem::remove(school.places().database() + "-shm", ignored);
     }
@@ -71,11 +71,11 @@ void try_all(DiskFault fault, const char* name) {
   EXPECT_GE(n, 8) << "entering changes files more often than that";
 }
 
-TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenTheDiskRefuses) { try_all(DiskFault::refused, "refused"); }
-TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenThePowerGoes) { try_all(DiskFault::power_cut, "power cut"); }
+TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenTheDiskRefuses) { try_all(InjectedFault::refused, "refused"); }
+TEST(KilledLedger, LosesNothingThatWasAcknowledgedWhenThePowerGoes) { try_all(InjectedFault::power_cut, "power cut"); }
 
 /// Three entries in one transaction.
-void try_together(DiskFault fault, const char* name) {
+void try_together(InjectedFault fault, const char* name) {
   const std::uint64_t seed = testing_basics::drawn_seed(name);
   const School fresh;
   int n = 1;
@@ -95,7 +95,7 @@ void try_together(DiskFault fault, const char* name) {
       happened = FaultyDisk::happened();
     }
     std::error_code ignored;
-    if (fault == DiskFault::power_cut) std::filesystem::remove(school.places().database() + "-shm", ignored);
+    if (fault == InjectedFault::power_cut) std::filesystem::remove(school.places().database() + "-shm", ignored);
     const LedgerContent content = read_ledger(school.places());
     ASSERT_TRUE(content.findings.empty()) << name << " at change " << n << ": " << content.findings[0].what;
     const std::size_t added = content.entries.size() - k_first_entries;
@@ -106,8 +106,8 @@ void try_together(DiskFault fault, const char* name) {
   EXPECT_GT(without, 0u);
 }
 
-TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenTheDiskRefuses) { try_together(DiskFault::refused, "together, refused"); }
-TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenThePowerGoes) { try_together(DiskFault::power_cut, "together, power cut"); }
+TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenTheDiskRefuses) { try_together(InjectedFault::refused, "together, refused"); }
+TEST(KilledLedger, HasAllOfSeveralEntriesOrNoneWhenThePowerGoes) { try_together(InjectedFault::power_cut, "together, power cut"); }
 
 TEST(KilledLedger, AWitnessThatCannotBeWrittenRefusesTheEntryBeforeItIsMade) {
   const School school;
