@@ -90,7 +90,7 @@ int add_until_enough(const School& school, Growth& growth) {
         ledger.append([&](const LedgerContent&) { return ForgetEntry{"C-" + random_hex(200), {}}; });
         ++growth.added;
       } catch (const DatabaseError& e) {  // another one has it at the moment
-        if (e.refusal().fault != InjectedFault::held) return 2;
+        if (e.refusal().fault != DiskFault::held) return 2;
       }
   } catch (const std::exception&) {
     return 1;
