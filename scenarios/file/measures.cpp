@@ -291,7 +291,7 @@ std::vector<Measure> progress_measures() {
   };
 }
 
-/// A name ends with its unit.
+/// That a name ends with.
 const char* unit_of(std::string_view name) {
   using namespace std::string_view_literals;
   for (const auto& [end, unit] :
@@ -307,7 +307,7 @@ std::vector<Measure> all_measures() {
     for (auto& m : family()) {
       if (std::any_of(all.begin(), all.end(), [&](const Measure& other) { return other.name == m.name; }))
         throw std::logic_error("measures: two are called " + m.name);
-      m.unit = unit_of(m.name);
+      if (m.unit == nullptr) m.unit = unit_of(m.name);
       all.push_back(std::move(m));
     }
   return all;
