@@ -274,27 +274,46 @@ struct JsonPlace {
   }
 };
 
+template <class T>
+void read_fields(const nlohmann::json& from, const JsonPlace& at, T& into) {
+  at.require(from.is_object(), msg("is no object"));
+  std::set<std::string> known;
+  each_field(into, [&]<class Member>(const char* name, Member&& member, JsonField field = JsonField::always) {
+    known.insert(name);
+    const auto found = from.find(name);
+    if (found != from.end() && (at.source.strict || !found->is_null())) return read_json_value(*found, at.member(name), member);
+    if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"), FileError::missing);
+  });
+  if (at.source.strict)
+    for (const auto& [name, value] : from.items())
+      if (!known.contains(name)) at.member(name).refuse(msg("has no place here"), FileError::unknown);
+}
+
+/// Or a yes or no.
+template <class T>
+void read_number(const nlohmann::json& from, const JsonPlace& at, T& into) {
+  if constexpr (std::same_as<T, bool>) {
+    at.require(from.is_boolean(), msg("is neither true nor false"));
+  } else if constexpr (std::integral<T>) {
+    const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
+                                                : from.is_number_integer() && sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
+                                                      std::in_range<T>(from.template get<std::int64_t>());
+    at.require(fits, msg("is no whole number in its range"), FileError::out_of_range);
+  } else {
+    at.require(from.is_number(), msg("is no number"));
+  }
+  into = from;
+  if constexpr (std::floating_point<T>)
+    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)), FileError::out_of_range);
+}
+
 /// Throws Error when `from` is none, or beyond a limit.
 template <class T>
 void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
-  const auto read_list = [&](std::size_t most) {
-    at.require(from.is_array(), msg("is no list"));
-    at.require(from.size() <= most, msg("has more than {} elements", most), FileError::too_large);
-  };
   if constexpr (requires { read_json(from, at, into); }) {
     read_json(from, at, into);
   } else if constexpr (JsonStruct<T>) {
-    at.require(from.is_object(), msg("is no object"));
-    std::set<std::string> known;
-    each_field(into, [&]<class Member>(const char* name, Member&& member, JsonField field = JsonField::always) {
-      known.insert(name);
-      const auto found = from.find(name);
-      if (found != from.end() && (at.source.strict || !found->is_null())) return read_json_value(*found, at.member(name), member);
-      if (field == JsonField::always && !k_is_optional<std::remove_cvref_t<Member>>) at.member(name).refuse(msg("is missing"), FileError::missing);
-    });
-    if (at.source.strict)
-      for (const auto& [name, value] : from.items())
-        if (!known.contains(name)) at.member(name).refuse(msg("has no place here"), FileError::unknown);
+    read_fields(from, at, into);
   } else if constexpr (k_is_optional<T>) {
     read_json_value(from, at, into.emplace());
   } else if constexpr (NamedEnum<T>) {
@@ -324,10 +343,10 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
       else
         read_json_value(one, at.member(name), into.emplace_back(name, "").second);
   } else if constexpr (JsonList<T>) {
-    if constexpr (requires { T::k_most; })
-      read_list(T::k_most);
-    else
-      read_list(at.source.most_elements);
+    std::size_t most = at.source.most_elements;
+    if constexpr (requires { T::k_most; }) most = T::k_most;
+    at.require(from.is_array(), msg("is no list"));
+    at.require(from.size() <= most, msg("has more than {} elements", most), FileError::too_large);
     for (const auto& one : from) {
       const JsonPlace place{at.source, fmt::format("{}[{}]", at.field, into.size())};
       read_json_value(one, place, into.emplace_back());
@@ -342,22 +361,11 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     if constexpr (requires { T::k_most; }) most = T::k_most;
     at.require(into.size() <= most, msg("is longer than {} bytes", most), FileError::too_large);
     if constexpr (requires { into.problem(); }) at.require(into.problem().empty(), into.problem());
-  } else if constexpr (std::same_as<T, bool>) {
-    at.require(from.is_boolean(), msg("is neither true nor false"));
-    into = from;
-  } else if constexpr (std::integral<T>) {
-    const bool fits = from.is_number_unsigned() ? std::in_range<T>(from.template get<std::uint64_t>())
-                                                : from.is_number_integer() && sizeof(T) == sizeof(std::int64_t) &&  // smaller ones are counts
-                                                      std::in_range<T>(from.template get<std::int64_t>());
-    at.require(fits, msg("is no whole number in its range"), FileError::out_of_range);
-    into = from;
+  } else if constexpr (std::is_arithmetic_v<T>) {
+    read_number(from, at, into);
   } else if constexpr (requires { T::k_least; }) {
     read_json_value(from, at, into.value);
     at.require(into.value >= T::k_least && into.value <= T::k_most, msg("is not between {} and {}", T::k_least, T::k_most), FileError::out_of_range);
-  } else if constexpr (std::floating_point<T>) {
-    at.require(from.is_number(), msg("is no number"));
-    into = from;
-    at.require(std::fabs(into) <= at.source.largest, msg("is larger than {}", as_number(at.source.largest)), FileError::out_of_range);
   } else {
     static_assert(std::same_as<T, nlohmann::json>);
     into = from;

@@ -72,6 +72,23 @@ bool asks_for_perforation(const Result& r, const scenarios::Measure& measure) {
   return r.perforation.fault.perforated && measure.tissue == r.perforation.fault.tissue;
 }
 
+/// Facts about the critical limits, and whether one lies within the value's bound.
+void judge_limits(const scenarios::CriterionSpec& c, double value, double bound, const scenarios::Measure& measure, CriterionResult& out) {
+  const auto near = [&](const std::optional<double>& limit) { return limit && bound > 0 && std::fabs(value - *limit) <= bound; };
+  out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
+  const auto fact = [&]() -> Finding {
+    const bool above = c.critical_above && (out.critical_failed ? value > *c.critical_above : near(c.critical_above));
+    const auto& limit = above ? c.critical_above : c.critical_below;
+    const Number at = as_number(limit.value_or(0), 2);
+    if (!out.critical_failed) return finding<Kind::critical_in_bound>(at);
+    const bool in_bound = near(limit);
+    if (measure.reads == scenarios::Reads::yes_no) return in_bound ? finding<Kind::fails_exam_in_bound>() : finding<Kind::fails_exam>();
+    if (in_bound) return above ? finding<Kind::above_critical_in_bound>(at) : finding<Kind::below_critical_in_bound>(at);
+    return above ? finding<Kind::above_critical>(at) : finding<Kind::below_critical>(at);
+  };
+  if (out.critical_failed || out.limit_in_bound) out.facts.push_back(fact());
+}
+
 /// `c`: as_marked.
 CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   const Asked a = asked(c.metric, c.full);
@@ -122,23 +139,7 @@ CriterionResult mark_one(const Result& r, const scenarios::CriterionSpec& c) {
   }
   if (const double stretch = granted_stretch(r); c.metric == k_exam_time && stretch != 1)
     facts.push_back(finding<Kind::granted_limits>(as_number(std::round(100 * stretch) / 100)));
-  const auto near = [&](const std::optional<double>& limit) { return limit && v.bound > 0 && std::fabs(*v.value - *limit) <= v.bound; };
-  out.limit_in_bound = near(c.critical_above) || near(c.critical_below);
-  const auto limit_value = [&](const std::optional<double>& limit) { return as_number(limit.value_or(0), 2); };
-  if (out.critical_failed) {
-    const bool above = c.critical_above && *v.value > *c.critical_above;
-    const auto& limit = above ? c.critical_above : c.critical_below;
-    const Number at = limit_value(limit);
-    const bool in_bound = near(limit);
-    if (a.measure.reads == scenarios::Reads::yes_no)
-      facts.push_back(in_bound ? finding<Kind::fails_exam_in_bound>() : finding<Kind::fails_exam>());
-    else if (in_bound)
-      facts.push_back(above ? finding<Kind::above_critical_in_bound>(at) : finding<Kind::below_critical_in_bound>(at));
-    else
-      facts.push_back(above ? finding<Kind::above_critical>(at) : finding<Kind::below_critical>(at));
-  } else if (out.limit_in_bound) {
-    facts.push_back(finding<Kind::critical_in_bound>(limit_value(near(c.critical_above) ? c.critical_above : c.critical_below)));
-  }
+  judge_limits(c, *v.value, v.bound, a.measure, out);
   if (out.work_share < 1) {
     if (out.first.tick < 0) out.first = r.end;
     facts.push_back(work_counts(work));
@@ -170,10 +171,6 @@ Standing standing_of(const Result& r) {
   s.none = s.criterion.empty();
   return s;
 }
-
-}  // namespace
-
-namespace {
 
 /// The worst and the best that the points could be, percent, whatever the criteria that were not judged are worth.
 struct Reach {
@@ -236,7 +233,10 @@ scenarios::CriterionSpec as_marked(scenarios::CriterionSpec c, const Result& r) 
   return c;
 }
 
-void mark(Result& r, const scenarios::RubricSpec& rubric) {
+namespace {
+
+/// Each criterion by itself, and the sums.
+void mark_criteria(Result& r, const scenarios::RubricSpec& rubric) {
   r.criteria.clear();
   r.verdict_reasons.clear();
   r.points = r.max_points = r.points_bound = r.unjudged_points = 0;
@@ -253,6 +253,30 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     r.points_bound += r.criteria.back().points_bound;
     (r.criteria.back().judged ? r.max_points : r.unjudged_points) += r.criteria.back().max;
   }
+}
+
+/// What points and limits do not tell.
+void ask_examiner(Result& r, const scenarios::RubricSpec& rubric) {
+  if (!r.perforation.agree())
+    r.verdict_reasons.push_back(r.perforation.detected() ? finding<Kind::force_without_tissue>() : finding<Kind::tissue_without_force>());
+  if (r.verdict == Verdict::pass && !r.progress.open_last_step.empty() && !rubric.open_step_passes) {
+    r.verdict = Verdict::review;
+    r.verdict_reasons.push_back(finding<Kind::last_step_open>(r.progress.open_last_step));
+  }
+  if (r.perforation.fault.perforated &&
+      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))
+    r.verdict_reasons.push_back(finding<Kind::fault_not_asked>(Term{r.perforation.fault.tissue}));
+  for (const Finding& note : r.notes)
+    if (note.asks_examiner()) {
+      r.verdict = Verdict::review;
+      r.verdict_reasons.push_back(note);
+    }
+}
+
+}  // namespace
+
+void mark(Result& r, const scenarios::RubricSpec& rubric) {
+  mark_criteria(r, rubric);
   bool critical = false, certain = false, limit_open = false;
   for (const auto& c : r.criteria) {
     limit_open = limit_open || c.limit_in_bound;
@@ -289,20 +313,7 @@ void mark(Result& r, const scenarios::RubricSpec& rubric) {
     r.verdict = Verdict::review;
     r.verdict_reasons.push_back(finding<Kind::bounds_open>());
   }
-  if (!r.perforation.agree())
-    r.verdict_reasons.push_back(r.perforation.detected() ? finding<Kind::force_without_tissue>() : finding<Kind::tissue_without_force>());
-  if (r.verdict == Verdict::pass && !r.progress.open_last_step.empty() && !rubric.open_step_passes) {
-    r.verdict = Verdict::review;
-    r.verdict_reasons.push_back(finding<Kind::last_step_open>(r.progress.open_last_step));
-  }
-  if (r.perforation.fault.perforated &&
-      std::none_of(r.criteria.begin(), r.criteria.end(), [&](const auto& c) { return asks_for_perforation(r, scenarios::known_measure(c.metric)); }))
-    r.verdict_reasons.push_back(finding<Kind::fault_not_asked>(Term{r.perforation.fault.tissue}));
-  for (const Finding& note : r.notes)
-    if (note.asks_examiner()) {
-      r.verdict = Verdict::review;
-      r.verdict_reasons.push_back(note);
-    }
+  ask_examiner(r, rubric);
 }
 
 }  // namespace cavum::grading

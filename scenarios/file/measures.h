@@ -69,7 +69,7 @@ enum class Reads : std::uint8_t { figure, count, yes_no };
 
 struct Measure {
   std::string name;
-  const char* unit = "";
+  const char* unit = nullptr;  ///< left out: what its name ends with; of measures() and find_measure never null
   std::string words;
   Better better = Better::less;
   Judges judges = Judges::care;

@@ -1,12 +1,6 @@
 #include "ui/station/author.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
-#include <imgui.h>
-
 #include <algorithm>
-#include <chrono>
-#include <thread>
 #include <utility>
 
 #include "engine/base/error.h"
@@ -14,6 +8,7 @@
 #include "ui/parts/interrupt.h"
 #include "ui/parts/say.h"
 #include "ui/station/author_screen.h"
+#include "ui/station/look.h"
 #include "ui/station/script.h"
 #include "ui/station/window.h"
 
@@ -21,14 +16,13 @@ namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 class Author {
  public:
   Author(const StationOptions& options, const std::string& scenario)
       : document_(scenario), window_({"Cavum: authoring", options.width, options.height, options.monitor}) {
     if (!options.script.empty()) script_ = Script(read_text_file(options.script), options.script, options.pictures);
-    ImGui::GetIO().ConfigFlags &= ~ImGuiConfigFlags_NavEnableKeyboard;  // every key has a meaning of its own here
+    window_.walk_by_keys(false);  // every key has a meaning of its own here
     state_.screen = Screen::author_busy;
     state_.own_arrows = true;
     state_.left_handed = options.left_handed;
@@ -52,13 +46,13 @@ class Author {
     const auto began = Clock::now();
     const double frame_s = std::min(0.1, seconds_since(last_frame_));
     last_frame_ = began;
-    dress();
+    look_.follow(window_, state_);
     follow_text();
     follow_findings();
     script_.step(window_, state_.screen, 0.0, seconds_since(start_));
     window_.begin_frame();
     state_.view.stereo = false;  // points are shown for one eye
-    const ScreenContext screen{theme_, state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, true, window_.input()};
+    const ScreenContext screen{look_.theme(), state_, scenario_, shelf_, nullptr, scene_.get(), nullptr, frame_s, true, window_.input()};
     const AuthorContext context{screen,          document_, author_,    zones_, landmarks_, busy() ? mistakes_ : findings_->problems,
                                 findings_.get(), busy(),    floor_z_mm_};
     const AuthorWish wish = author_screen(context);
@@ -69,23 +63,10 @@ class Author {
       window_.stay_open();
       grant(AuthorWish::close);
     }
-    const double least_s = window_.software() ? 1.0 / 25.0 : 1.0 / 120.0;
-    if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+    window_.rest(began);
   }
 
   [[nodiscard]] bool busy() const { return findings_ == nullptr || findings_->version != document_.version() || !findings_->checked; }
-
-  void dress() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
-    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
-    const double scale = state_.text_scale * window_.screen_scale();
-    if (scale == dressed_scale_) return;
-    dressed_scale_ = scale;
-    theme_ = make_theme(state_.high_contrast, scale);
-    apply_theme(theme_);
-    window_.set_text_scale(scale);
-  }
 
   /// What the text says, at once; what it means on the tooth, when the hand has rested for a moment.
   void follow_text() {
@@ -232,8 +213,7 @@ class Author {
   Script script_;
   StationState state_;
   AuthorState author_;
-  Theme theme_;
-  double dressed_scale_ = 0.0;
+  Look look_;
   std::unique_ptr<Scene> scene_;
   std::shared_ptr<const AuthorTooth> shown_tooth_;
   std::unique_ptr<AuthorFindings> findings_;

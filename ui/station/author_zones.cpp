@@ -8,37 +8,53 @@
 namespace cavum::station {
 namespace {
 
-using Kind = scenarios::ShapeSpec::Kind;
+using Spec = scenarios::ShapeSpec;
+using Kind = Spec::Kind;
 
-Message shape_word(Kind kind) {
-  switch (kind) {
-    case Kind::box:
-      return msg("box");
-    case Kind::cylinder:
-      return msg("cylinder");
-    case Kind::cone:
-      return msg("cone");
-    case Kind::ball:
-      return msg("ball");
-    case Kind::prism:
-      return msg("prism");
-    case Kind::column:
-      return msg("column");
-    case Kind::tissue:
-      return msg("tissue");
-    case Kind::stl:
-      return msg("STL file");
-    case Kind::canal_cone:
-      return msg("canal cone");
-    case Kind::proximal_box:
-      return msg("proximal box");
-    case Kind::side_cavity:
-      return msg("cavity in a side");
-    case Kind::crown:
-      break;
-  }
-  return msg("crown");
+Term shape_word(Kind kind) {
+  constexpr const char* k_words[] = {said("box"),
+                                     said("cylinder"),
+                                     said("cone"),
+                                     said("ball"),
+                                     said("prism"),
+                                     said("column"),
+                                     said("tissue"),
+                                     said("STL file"),
+                                     said("canal cone"),
+                                     said("proximal box"),
+                                     said("cavity in a side"),
+                                     said("crown")};
+  return {k_words[static_cast<std::size_t>(kind)]};
 }
+
+/// Numbers of a shape beside those of its outline and bottom.
+struct ShapeNumber {
+  Kind kind;
+  const char *label, *key;
+  double Spec::*value;
+  double low, high;
+  Unit unit = Unit::mm;
+};
+constexpr ShapeNumber k_numbers[] = {
+    {Kind::column, said("taper of the walls"), "taper_deg", &Spec::taper_deg, -30, 45, Unit::deg},
+    {Kind::proximal_box, said("width"), "width_mm", &Spec::width_mm, 0.5, 10},
+    {Kind::proximal_box, said("axial depth"), "depth_mm", &Spec::depth_mm, 0.2, 5},
+    {Kind::proximal_box, said("floor above the neck"), "above_neck_mm", &Spec::above_neck_mm, 0, 6},
+    {Kind::side_cavity, said("depth below the surface"), "depth_mm", &Spec::depth_mm, 0.1, 5},
+    {Kind::crown, said("finish line above the neck"), "above_neck_mm", &Spec::above_neck_mm, 0, 4},
+    {Kind::crown, said("depth of the chamfer"), "depth_mm", &Spec::depth_mm, 0.3, 3},
+    {Kind::crown, said("taper of each wall"), "taper_deg", &Spec::taper_deg, 0, 20, Unit::deg},
+    {Kind::crown, said("occlusal reduction"), "occlusal_mm", &Spec::occlusal_mm, 0.3, 4},
+    {Kind::cylinder, said("height"), "height_mm", &Spec::height_mm, 0.05, 100},
+    {Kind::cylinder, said("radius"), "radius_mm", &Spec::radius_mm, 0.05, 100},
+    {Kind::cone, said("height"), "height_mm", &Spec::height_mm, 0.05, 100},
+    {Kind::cone, said("radius below"), "radius_mm", &Spec::radius_mm, 0, 100},
+    {Kind::cone, said("radius above"), "top_radius_mm", &Spec::top_radius_mm, 0, 100},
+    {Kind::ball, said("radius"), "radius_mm", &Spec::radius_mm, 0.05, 100},
+    {Kind::tissue, said("grown by"), "offset_mm", &Spec::offset_mm, -5, 5},
+    {Kind::canal_cone, said("begins below the mouth by"), "deeper_mm", &Spec::deeper_mm, -5, 5},
+    {Kind::canal_cone, said("taper"), "taper_deg", &Spec::taper_deg, 0, 45, Unit::deg},
+};
 
 /// "target 2, box": the how-manieth of its list, and whether it is laid over or under what stands before it.
 Message title_of(AuthorLayer layer, std::size_t number, const scenarios::ShapeSpec& s) {
@@ -99,71 +115,28 @@ void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::s
   zone.points_mm = o.points_mm;
 }
 
-AuthorZone zone_of(const scenarios::ShapeSpec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
+AuthorZone zone_of(const Spec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
   AuthorZone zone;
   zone.line = s.line;
   zone.frame = scenarios::shape_frame(s);
-  const auto number = [&](const Message& label, const char* key, double value, double low, double high, Unit unit = Unit::mm) {
-    zone.numbers.push_back({label, fmt::format("{}/{}", at, key), value, low, high, unit});
-  };
-  switch (s.kind) {
-    case Kind::column: {
-      add_bottom(zone, s.bottom, at + "/bottom");
-      add_outline(zone, s.outline, at + "/outline");
-      number(msg("taper of the walls"), "taper_deg", s.taper_deg, -30, 45, Unit::deg);
-      const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
-      zone.frame = {{from.x + s.outline.centre_mm.x, from.y + s.outline.centre_mm.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-      break;
-    }
-    case Kind::prism: {
-      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
-      add_outline(zone, s.outline, at + "/outline");
-      const scenarios::ShapeFrame f = zone.frame;
-      const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
-      zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
-      break;
-    }
-    case Kind::proximal_box:
-      number(msg("width"), "width_mm", s.width_mm, 0.5, 10);
-      number(msg("axial depth"), "depth_mm", s.depth_mm, 0.2, 5);
-      number(msg("floor above the neck"), "above_neck_mm", s.above_neck_mm, 0, 6);
-      break;
-    case Kind::side_cavity:
-      number(msg("depth below the surface"), "depth_mm", s.depth_mm, 0.1, 5);
-      break;
-    case Kind::crown:
-      number(msg("finish line above the neck"), "above_neck_mm", s.above_neck_mm, 0, 4);
-      number(msg("depth of the chamfer"), "depth_mm", s.depth_mm, 0.3, 3);
-      number(msg("taper of each wall"), "taper_deg", s.taper_deg, 0, 20, Unit::deg);
-      number(msg("occlusal reduction"), "occlusal_mm", s.occlusal_mm, 0.3, 4);
-      break;
-    case Kind::box:
-      zone.numbers.push_back({msg("size along x"), at + "/size_mm/0", s.size_mm.x, 0.05, 100});
-      zone.numbers.push_back({msg("size along y"), at + "/size_mm/1", s.size_mm.y, 0.05, 100});
-      zone.numbers.push_back({msg("size along z"), at + "/size_mm/2", s.size_mm.z, 0.05, 100});
-      break;
-    case Kind::cylinder:
-      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
-      number(msg("radius"), "radius_mm", s.radius_mm, 0.05, 100);
-      break;
-    case Kind::cone:
-      number(msg("height"), "height_mm", s.height_mm, 0.05, 100);
-      number(msg("radius below"), "radius_mm", s.radius_mm, 0, 100);
-      number(msg("radius above"), "top_radius_mm", s.top_radius_mm, 0, 100);
-      break;
-    case Kind::ball:
-      number(msg("radius"), "radius_mm", s.radius_mm, 0.05, 100);
-      break;
-    case Kind::tissue:
-      number(msg("grown by"), "offset_mm", s.offset_mm, -5, 5);
-      break;
-    case Kind::canal_cone:
-      number(msg("begins below the mouth by"), "deeper_mm", s.deeper_mm, -5, 5);
-      number(msg("taper"), "taper_deg", s.taper_deg, 0, 45, Unit::deg);
-      break;
-    case Kind::stl:
-      break;
+  if (s.kind == Kind::column) {
+    add_bottom(zone, s.bottom, at + "/bottom");
+    add_outline(zone, s.outline, at + "/outline");
+    const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
+    zone.frame = {{from.x + s.outline.centre_mm.x, from.y + s.outline.centre_mm.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+  } else if (s.kind == Kind::prism) {
+    zone.numbers.push_back({msg("height"), at + "/height_mm", s.height_mm, 0.05, 100});
+    add_outline(zone, s.outline, at + "/outline");
+    const scenarios::ShapeFrame f = zone.frame;
+    const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
+    zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
+  } else if (s.kind == Kind::box) {
+    zone.numbers.push_back({msg("size along x"), at + "/size_mm/0", s.size_mm.x, 0.05, 100});
+    zone.numbers.push_back({msg("size along y"), at + "/size_mm/1", s.size_mm.y, 0.05, 100});
+    zone.numbers.push_back({msg("size along z"), at + "/size_mm/2", s.size_mm.z, 0.05, 100});
   }
+  for (const ShapeNumber& n : k_numbers)
+    if (n.kind == s.kind) zone.numbers.push_back({msg("{}", Term{n.label}), fmt::format("{}/{}", at, n.key), s.*n.value, n.low, n.high, n.unit});
   if (s.kind == Kind::box || s.kind == Kind::cylinder || s.kind == Kind::cone || s.kind == Kind::ball || s.kind == Kind::prism) {
     zone.numbers.push_back({msg("place, mesial (x)"), at + "/at_mm/0", s.at_mm.x, -100, 100});
     zone.numbers.push_back({msg("place, buccal (y)"), at + "/at_mm/1", s.at_mm.y, -100, 100});

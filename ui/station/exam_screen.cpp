@@ -219,6 +219,56 @@ TutorialSight tutorial_sight(const ScreenContext& c, const scenarios::LiveView& 
   return sight;
 }
 
+/// What stands in the picture's corner.
+struct Notice {
+  Message upper, lower;
+  ImVec4 colour;
+};
+
+/// The most urgent thing that there is to say. `lost`: the bur is out of the picture.
+std::optional<Notice> notice(const ScreenContext& c, const scenarios::LiveView& view, bool lost) {
+  const Theme& t = c.theme;
+  StationState& s = c.state;
+  if (!view.recording_error.empty())
+    return Notice{msg("RECORDING"),
+                  msg("{} are kept in memory, nothing is lost. Go on working, and call the supervisor: {}",
+                      as_s(static_cast<double>(view.unwritten_ticks / 1000), 0), view.recording_error),
+                  t.bad};
+  if (!c.sitting->moved().empty())
+    return Notice{msg("RECORDING"), msg("Go on working, nothing is lost. For the supervisor: {}", c.sitting->moved()), t.warn};
+  if (const std::optional<Error> problem = c.sitting->device().problem())
+    return Notice{msg("DEVICE"), msg("Call the supervisor: {}", problem->message()), t.bad};
+  if (view.held) {
+    const Name reason{s.office ? s.office->hold_reason : ""};
+    return Notice{msg("PAUSED BY THE EXAM OFFICE"),
+                  may_go_on_without(s) ? msg("{}. The clock stands still and the handpiece stays off. The office does not answer. Supervisor: press "
+                                             "Home to go on.",
+                                             reason)
+                                       : msg("{}. The clock stands still and the handpiece stays off.", reason),
+                  t.warn};
+  }
+  if (s.office && !s.office->told.empty())
+    return Notice{msg("FROM THE EXAM OFFICE"), msg("{}  (Home)", announcement_text(s.office->told.front())), t.accent};
+  if (s.attempt_shown_s > 0) {
+    s.attempt_shown_s -= c.frame_s;
+    return Notice{msg("RECORDED"), msg("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn};
+  }
+  if (view.paused) return Notice{msg("PAUSE"), msg("The clock stands still and the handpiece stays off. Press P to go on."), t.warn};
+  if (lost)
+    return Notice{msg("BUR"),
+                  c.sitting->device().pointer() != nullptr
+                      ? msg("The bur is out of the picture, where the arrow shows. B brings it back above the tooth.")
+                      : msg("The bur is out of the picture, where the arrow shows."),
+                  t.warn};
+  if (s.tutorial) {
+    const bool done = s.tutorial->done();
+    return Notice{done ? msg("TUTORIAL") : msg("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps), s.tutorial->text(),
+                  done ? t.good : t.accent};
+  }
+  if (c.practice) return Notice{msg("PRACTICE"), coaching_hint(c.sitting->setup(), view), t.accent};
+  return {};
+}
+
 void ask_whether_finished(const ScreenContext& c) {
   StationState& s = c.state;
   bool fresh = false;
@@ -261,49 +311,12 @@ void exam_screen(const ScreenContext& c) {
   ImGui::PopStyleVar();
   const bool over = tooth_area(c, l.tooth);
   const bool lost = s.view.bur >= 0 && arrow_to_what_is_out(c, view.output.proxy_mm, l.tooth_at, l.tooth);
-  const bool by_pointer = c.sitting->device().pointer() != nullptr;
-  if (!view.recording_error.empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"),
-                     msg("{} are kept in memory, nothing is lost. Go on working, and call the supervisor: {}",
-                         as_s(static_cast<double>(view.unwritten_ticks / 1000), 0), view.recording_error),
-                     t.bad);
-  } else if (!c.sitting->moved().empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDING"), msg("Go on working, nothing is lost. For the supervisor: {}", c.sitting->moved()),
-                     t.warn);
-  } else if (const std::optional<Error> problem = c.sitting->device().problem()) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("DEVICE"), msg("Call the supervisor: {}", problem->message()), t.bad);
-  } else if (view.held) {
-    const Name reason{s.office ? s.office->hold_reason : ""};
-    words_in_picture(t, l.tooth_at, l.tooth, msg("PAUSED BY THE EXAM OFFICE"),
-                     may_go_on_without(s)
-                         ? msg("{}. The clock stands still and the handpiece stays off. The office does not answer. Supervisor: press "
-                               "Home to go on.",
-                               reason)
-                         : msg("{}. The clock stands still and the handpiece stays off.", reason),
-                     t.warn);
-  } else if (s.office && !s.office->told.empty()) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("FROM THE EXAM OFFICE"), msg("{}  (Home)", announcement_text(s.office->told.front())), t.accent);
-  } else if (s.attempt_shown_s > 0) {
-    s.attempt_shown_s -= c.frame_s;
-    words_in_picture(t, l.tooth_at, l.tooth, msg("RECORDED"),
-                     msg("For the supervisor: {}. Tries to leave this exam so far: {}.", s.attempt, s.attempts), t.warn);
-  } else if (view.paused) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("PAUSE"), msg("The clock stands still and the handpiece stays off. Press P to go on."), t.warn);
-  } else if (lost) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("BUR"),
-                     by_pointer ? msg("The bur is out of the picture, where the arrow shows. B brings it back above the tooth.")
-                                : msg("The bur is out of the picture, where the arrow shows."),
-                     t.warn);
-  } else if (s.tutorial) {
-    const Message where = s.tutorial->done() ? msg("TUTORIAL") : msg("TUTORIAL   {} of {}", s.tutorial->step() + 1, Tutorial::k_steps);
-    words_in_picture(t, l.tooth_at, l.tooth, where, s.tutorial->text(), s.tutorial->done() ? t.good : t.accent);
-  } else if (c.practice) {
-    words_in_picture(t, l.tooth_at, l.tooth, msg("PRACTICE"), coaching_hint(c.sitting->setup(), view), t.accent);
-  }
-  if (by_pointer) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
+  if (const auto shown = notice(c, view, lost)) words_in_picture(t, l.tooth_at, l.tooth, shown->upper, shown->lower, shown->colour);
+  PointerStylus* pointer = c.sitting->device().pointer();
+  if (pointer != nullptr) pointer_keys(t, s.mouse_free, l.tooth_at, l.tooth);
   if (c.practice) draw_colour_key(t, colour_key(c.sitting->setup().tooth.tissues, s.high_contrast), l.tooth_at, l.tooth);
   end_area();
-  if (PointerStylus* pointer = c.sitting->device().pointer()) {
+  if (pointer != nullptr) {
     const auto& played = c.input.played();
     const bool middle = std::any_of(played.begin(), played.end(), [](const InputEvent& e) {
       return e.kind == InputEvent::Kind::button && e.code == GLFW_MOUSE_BUTTON_MIDDLE && e.down;

@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <array>
-#include <chrono>
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -31,7 +30,6 @@ double processor_s() {
   ::clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &t);
   return static_cast<double>(t.tv_sec) + 1e-9 * static_cast<double>(t.tv_nsec);
 }
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
 
 /// Of the whole computer, mean of the last minute: who waits for a core beside this program.
 std::string load_text() {
@@ -87,6 +85,55 @@ class Opened {
   int steps_ = 0;
 };
 
+/// Draws rows of the table.
+class Bench {
+ public:
+  Bench(Scene& scene, int width, int height, int frames) : scene_(scene), width_(width), height_(height), frames_(frames) {
+    view_.bur = 0;
+    view_.tool.tip_mm = {0, 0, 3};
+  }
+  /// What is compared is drawn by turns: other programs hold up all of it alike. `cut` comes before each picture.
+  void draw(const std::string& level, const char* name, bool turning, std::span<const Beside> besides, const auto& cut) {
+    std::vector<Took> took(besides.size());
+    for (int i = 0; i < frames_; ++i)
+      for (std::size_t b = 0; b < besides.size(); ++b) {
+        if (turning)  // so that the shadow is made anew each time
+          view_.camera.orbit(3.0F, 0.0F);
+        else
+          view_.tool.tip_mm.x = 0.003 * ((3 * i + static_cast<int>(b)) % 160);
+        view_.foot = besides[b].ring;
+        view_.drops = besides[b].spray;
+        view_.spray = {0.05 * i, 1.0F, 1.0F, {0.9F, 0.9F, 0.8F}};
+        cut();
+        picture(took[b]);
+      }
+    for (std::size_t b = 0; b < besides.size(); ++b) {
+      auto& [ms, processor_ms, most] = took[b];
+      std::sort(ms.begin(), ms.end());
+      std::sort(processor_ms.begin(), processor_ms.end());
+      std::printf("%-9s %-14s %-12s %8.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), name, besides[b].name, quantile_of_sorted(ms, 0.5),
+                  ms.front(), quantile_of_sorted(ms, 0.95), quantile_of_sorted(processor_ms, 0.5), most.draws, most.triangles);
+      std::fflush(stdout);
+    }
+  }
+
+ private:
+  void picture(Took& took) {
+    const double before_s = processor_s();
+    const auto began = Clock::now();
+    scene_.tooth().update();
+    static_cast<void>(scene_.picture(view_, width_, height_));
+    took.ms.push_back(1e3 * seconds_since(began));
+    took.processor_ms.push_back(1e3 * (processor_s() - before_s));
+    took.most.draws = std::max(took.most.draws, scene_.counted().draws);
+    took.most.triangles = std::max(took.most.triangles, scene_.counted().triangles);
+  }
+
+  Scene& scene_;
+  SceneView view_;
+  int width_, height_, frames_;
+};
+
 }  // namespace
 
 void print_frame_times(const StationOptions& options, int frames) {
@@ -99,44 +146,11 @@ void print_frame_times(const StationOptions& options, int frames) {
   const double processor_before_s = processor_s();
   Scene scene(setup->tooth.octree, setup->tooth.tissues, setup->burs, nullptr);
   const double made_s = seconds_since(began), made_processor_s = processor_s() - processor_before_s;
-  SceneView view;
-  view.bur = 0;
-  view.tool.tip_mm = {0, 0, 3};
   std::printf("%s, %d x %d: %zu triangles, %zu of them kept for drawing; first mesh %.2f s (processor %.2f s)\n", renderer_name().c_str(),
               options.width, options.height, scene.tooth().triangles(), scene.tooth().triangles_kept(), made_s, made_processor_s);
   std::printf("load of the computer: %s\n", load_text().c_str());
   std::printf("effects   picture        beside     ms: median  least   95 %%  of the processor  draws  triangles\n");
-  // What is compared is drawn by turns: other programs hold up all of it alike.
-  const auto draw = [&](const std::string& level, const char* name, bool turning, std::span<const Beside> besides, const auto& cut) {
-    std::vector<Took> took(besides.size());
-    for (int i = 0; i < frames; ++i)
-      for (std::size_t b = 0; b < besides.size(); ++b) {
-        if (turning)  // so that the shadow is made anew each time
-          view.camera.orbit(3.0F, 0.0F);
-        else
-          view.tool.tip_mm.x = 0.003 * ((3 * i + static_cast<int>(b)) % 160);
-        view.foot = besides[b].ring;
-        view.drops = besides[b].spray;
-        view.spray = {0.05 * i, 1.0F, 1.0F, {0.9F, 0.9F, 0.8F}};
-        cut();
-        const double before_s = processor_s();
-        const auto took_from = Clock::now();
-        scene.tooth().update();
-        static_cast<void>(scene.picture(view, options.width, options.height));
-        took[b].ms.push_back(1e3 * seconds_since(took_from));
-        took[b].processor_ms.push_back(1e3 * (processor_s() - before_s));
-        took[b].most.draws = std::max(took[b].most.draws, scene.counted().draws);
-        took[b].most.triangles = std::max(took[b].most.triangles, scene.counted().triangles);
-      }
-    for (std::size_t b = 0; b < besides.size(); ++b) {
-      std::sort(took[b].ms.begin(), took[b].ms.end());
-      std::sort(took[b].processor_ms.begin(), took[b].processor_ms.end());
-      std::printf("%-9s %-14s %-12s %8.1f %6.1f %6.1f %17.1f %6d %10d\n", level.c_str(), name, besides[b].name, quantile_of_sorted(took[b].ms, 0.5),
-                  took[b].ms.front(), quantile_of_sorted(took[b].ms, 0.95), quantile_of_sorted(took[b].processor_ms, 0.5), took[b].most.draws,
-                  took[b].most.triangles);
-      std::fflush(stdout);
-    }
-  };
+  Bench bench{scene, options.width, options.height, frames};
   const auto at_each_level = [&](const auto& rows) {
     for (std::size_t level = 0; level < k_effects.size(); ++level) {
       scene.fix_effects(level);
@@ -146,8 +160,8 @@ void print_frame_times(const StationOptions& options, int frames) {
     rows("by itself");
   };
   at_each_level([&](const std::string& level) {
-    draw(level, "view turns", true, k_beside, [] {});
-    draw(level, "bur moves", false, k_beside, [] {});
+    bench.draw(level, "view turns", true, k_beside, [] {});
+    bench.draw(level, "bur moves", false, k_beside, [] {});
   });
 
   Opened opened(setup->tooth.octree, setup->zones);
@@ -156,8 +170,8 @@ void print_frame_times(const StationOptions& options, int frames) {
   std::printf("the target's box cut away: %zu triangles kept for drawing\n", scene.tooth().triangles_kept());
   const auto ring_and_spray = std::span(k_beside).last(1);
   at_each_level([&](const std::string& level) {
-    draw(level, "opened, turns", true, ring_and_spray, [] {});
-    draw(level, "cuts on", false, ring_and_spray, [&] {
+    bench.draw(level, "opened, turns", true, ring_and_spray, [] {});
+    bench.draw(level, "cuts on", false, ring_and_spray, [&] {
       opened.cut_on();
       scene.tooth().take(opened.tooth());
     });

@@ -8,6 +8,7 @@
 #include <algorithm>
 #include <ctime>
 #include <nlohmann/json.hpp>
+#include <utility>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
@@ -204,7 +205,7 @@ void ask_whether_to_go_on(const ScreenContext& c, bool locked) {
   if (locked) {
     text_line(msg("Supervisor, type your code:"));
     ImGui::SetNextItemWidth(-1);
-    if (fresh) ImGui::SetKeyboardFocusHere();
+    if (fresh || std::exchange(s.focus_supervisor, false)) ImGui::SetKeyboardFocusHere();
     ImGui::InputText("##go on", s.supervisor_code.data(), s.supervisor_code.size(), ImGuiInputTextFlags_Password);
     bad_text(c.theme, s.leave_message);
   }

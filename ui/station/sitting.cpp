@@ -8,6 +8,7 @@
 #include <filesystem>
 
 #include "engine/base/error.h"
+#include "engine/base/file.h"
 #include "engine/base/file_name.h"
 #include "engine/base/text.h"
 #include "engine/base/write_file.h"
@@ -88,6 +89,20 @@ Begun begun_so_far(const std::string& path) {
 }
 
 }  // namespace
+
+std::vector<Bur> read_shelf(const std::string& scenario_path) {
+  std::vector<Bur> shelf;
+  for (const auto& name : scenarios::data_names("burs", scenario_path)) {
+    const std::string path = scenarios::find_data_file("burs", name + ".toml", scenario_path);
+    shelf.push_back(parse_bur(read_text_file(path), path));
+  }
+  return shelf;
+}
+
+scenarios::Scenario scenario_of(const SittingOptions& o) {
+  return o.resume.empty() ? scenarios::parse_scenario(read_text_file(o.scenario), o.scenario)
+                          : scenarios::prepare_exam(SessionReader(o.resume).setup())->scenario;
+}
 
 Sitting::Sitting(SittingOptions options, std::string candidate)
     : options_(std::move(options)), candidate_(std::move(candidate)), device_(make_station_device(options_.device)) {
@@ -248,6 +263,24 @@ void Sitting::rescue() {
       refused(refusal.message(), refusal.refusal());
     }
   }
+}
+
+double Sitting::exam_s() {
+  if (stage_ != Stage::running) return 0.0;
+  const scenarios::LiveView view = live_->view();
+  return static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s;
+}
+
+ui::SoundParameters Sitting::sound() {
+  if (stage_ != Stage::running) return {};
+  const scenarios::LiveView view = live_->view();
+  return {.rpm = view.output.rpm,
+          .load_n = length(view.output.rendered_force_n),
+          .cutting = view.output.cutting,
+          .enamel_share = view.enamel_share,
+          .dentin_share = view.dentin_share,
+          .spray = view.output.rpm > 0.0 ? 1.0 : 0.0,
+          .suction = 1.0};
 }
 
 void Sitting::ask_to_end() {

@@ -14,6 +14,7 @@
 #include "grading/marking/close_exam.h"
 #include "grading/records/station_ticket.h"
 #include "scenarios/exam/live_exam.h"
+#include "ui/sound/handpiece_sound.h"
 #include "ui/station/device_check.h"
 #include "ui/station/station_device.h"
 
@@ -32,6 +33,11 @@ struct SittingOptions {
   /// The exam office's word to begin the exam of this ticket's number; empty when the office does not answer. Waits, of the thread that prepares.
   std::function<std::string(const std::string& ticket_nonce)> word = {};
 };
+
+/// Throws Error when its file is damaged or gone.
+[[nodiscard]] scenarios::Scenario scenario_of(const SittingOptions& options);
+/// All burs there are, by name. Throws Error when the file of one is damaged.
+[[nodiscard]] std::vector<Bur> read_shelf(const std::string& scenario_path);
 
 enum class Stage {
   preparing,    ///< files are read, zones laid into the tooth
@@ -63,6 +69,8 @@ class Sitting {
   /// Goes on to the next stage when it is time. Often; never waits for long. Throws Error when preparing or grading failed.
   void advance();
   [[nodiscard]] Stage stage() const noexcept { return stage_; }
+  /// Whether its session stays open when the station ends now.
+  [[nodiscard]] bool open() const noexcept { return stage_ == Stage::running || stage_ == Stage::interrupted || stage_ == Stage::unsaved; }
   [[nodiscard]] const std::string& candidate() const noexcept { return candidate_; }
   [[nodiscard]] bool practice() const noexcept { return options_.practice; }
   /// Since the candidate signed in.
@@ -81,6 +89,10 @@ class Sitting {
   /// While `running`.
   [[nodiscard]] scenarios::LiveExam& live() { return *live_; }
   [[nodiscard]] Desk& desk() noexcept { return desk_; }
+  /// Of its clock; 0 while it does not run.
+  [[nodiscard]] double exam_s();
+  /// What is heard of the handpiece: nothing while it does not run.
+  [[nodiscard]] ui::SoundParameters sound();
   void ask_to_end();
   /// Recorded as an event of the session, see LiveExam::note; nothing while it does not run.
   void note(Event event);

@@ -1,65 +1,31 @@
 #include "ui/station/station.h"
 
-#define GLFW_INCLUDE_NONE
-#include <GLFW/glfw3.h>
 #include <imgui.h>
-#include <malloc.h>
 
 #include <algorithm>
-#include <chrono>
+#include <array>
 #include <filesystem>
-#include <thread>
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
 #include "engine/base/said_by.h"
-#include "engine/session/session_reader.h"
 #include "scenarios/exam/other_place.h"
 #include "ui/parts/interrupt.h"
 #include "ui/parts/say.h"
 #include "ui/parts/scenario_words.h"
 #include "ui/report/report.h"
 #include "ui/sound/sound_output.h"
+#include "ui/station/look.h"
 #include "ui/station/office_line.h"
 #include "ui/station/screens.h"
 #include "ui/station/script.h"
 #include "ui/station/station_lock.h"
-#include "ui/station/supervisor_code.h"
 #include "ui/station/window.h"
 
 namespace cavum::station {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-// what the screens need at scale 1, pixels: a window that has less shows smaller text, whatever was asked for
-constexpr double k_min_width = 720.0, k_min_height = 450.0, k_min_scale = 0.6;
-
-double seconds_since(Clock::time_point t) { return std::chrono::duration<double>(Clock::now() - t).count(); }
-
-std::vector<Bur> read_shelf(const std::string& scenario_path) {
-  std::vector<Bur> shelf;
-  for (const auto& name : scenarios::data_names("burs", scenario_path)) {
-    const std::string path = scenarios::find_data_file("burs", name + ".toml", scenario_path);
-    shelf.push_back(parse_bur(read_text_file(path), path));
-  }
-  return shelf;
-}
-
-scenarios::Scenario scenario_of(const SittingOptions& o) {
-  return o.resume.empty() ? scenarios::parse_scenario(read_text_file(o.scenario), o.scenario)
-                          : scenarios::prepare_exam(SessionReader(o.resume).setup())->scenario;
-}
-
-/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as the exam begins: it does not grow any more then.
-/// The allocator keeps it, instead of giving it back at once.
-void reserve_memory() {
-  constexpr std::size_t k_blocks = 384,
-                        k_block_bytes = std::size_t{64} * 1024;  // 24 MB: ten minutes of hard work took 8, a picture takes 8 for a moment
-  mallopt(M_TRIM_THRESHOLD, 4 * static_cast<int>(k_blocks * k_block_bytes));
-  std::vector<std::vector<char>> blocks(k_blocks);
-  for (auto& block : blocks) block.assign(k_block_bytes, 1);
-}
 
 class Station {
  public:
@@ -109,11 +75,7 @@ class Station {
 
  private:
   /// Path of the session that would stay open if the window closed now.
-  [[nodiscard]] std::string open_session() const {
-    const bool open =
-        sitting_ && (sitting_->stage() == Stage::running || sitting_->stage() == Stage::interrupted || sitting_->stage() == Stage::unsaved);
-    return open ? sitting_->path() : std::string();
-  }
+  [[nodiscard]] std::string open_session() const { return sitting_ && sitting_->open() ? sitting_->path() : std::string(); }
 
   /// The window was asked to close, and nothing would be lost. Else it stays open, and asks or waits.
   bool may_close() {
@@ -150,7 +112,7 @@ class Station {
     const auto began = Clock::now();
     const double frame_s = std::min(0.1, seconds_since(last_frame_));
     last_frame_ = began;
-    dress();
+    look_.follow(window_, state_, most_scale());
     script_.step(window_, state_.screen, exam_s(), seconds_since(start_));
     window_.begin_frame();
     show(frame_s);
@@ -158,17 +120,15 @@ class Station {
     script_.shown(state_.screen, exam_s(), state_.view.tool.tip_mm);
     const bool is_stylus = std::exchange(state_.capture_mouse, false) && state_.screen == Screen::exam;
     window_.capture_mouse(is_stylus);
-    set_navigation(!pointer_at_work());
-    sound();
+    window_.walk_by_keys(!pointer_at_work());
+    sound_.set(state_.screen == Screen::exam ? sitting_->sound() : ui::SoundParameters());
+    sound_.set_muted(state_.muted);
     note_tutorial();
     lock_.watch(window_, state_, sitting_.get());
     if (office_) office_->exchange(state_, sitting_.get());
     grant(std::exchange(state_.wish, Wish::none));
     go_on();
-    // no more pictures than eyes need, fewer when the processor draws: the servo shares it
-    const double usual_hz = window_.software() ? 25.0 : 120.0;
-    const double least_s = 1.0 / (script_.pace_hz() > 0 ? script_.pace_hz() : usual_hz);
-    if (const double left_s = least_s - seconds_since(began); left_s > 0) std::this_thread::sleep_for(std::chrono::duration<double>(left_s));
+    window_.rest(began, script_.pace_hz());
   }
 
   /// Mouse and keyboard are the stylus: every key has a meaning of its own, and none walks from button to button.
@@ -176,36 +136,17 @@ class Station {
     return state_.screen == Screen::exam && sitting_ && sitting_->device().pointer() != nullptr && !state_.confirm_end && !state_.confirm_close &&
            !state_.confirm_leave;
   }
-  static void set_navigation(bool by_keys) {
-    int& flags = ImGui::GetIO().ConfigFlags;
-    flags = by_keys ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
+  /// A window that has less than the screens need shows smaller text, whatever was asked for.
+  [[nodiscard]] static double most_scale() {
+    constexpr double k_min_width = 720.0, k_min_height = 450.0, k_min_scale = 0.6;  // pixels at scale 1
+    const ImVec2 size = ImGui::GetIO().DisplaySize;
+    return std::max(k_min_scale, std::min(size.x / k_min_width, size.y / k_min_height));
   }
 
-  /// Colours and sizes as they were chosen.
-  void dress() {
-    const ImGuiIO& io = ImGui::GetIO();
-    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_EQUAL)) state_.text_scale = std::min(1.8, state_.text_scale + 0.1);
-    if (io.KeyCtrl && ImGui::IsKeyPressed(GLFW_KEY_MINUS)) state_.text_scale = std::max(0.8, state_.text_scale - 0.1);
-    const double scale = std::min(state_.text_scale * window_.screen_scale(),
-                                  std::max(k_min_scale, std::min(io.DisplaySize.x / k_min_width, io.DisplaySize.y / k_min_height)));
-    const bool scale_differs = scale != dressed_scale_;
-    if (scale_differs && ImGui::IsMouseDown(ImGuiMouseButton_Left)) return;  // while the slider moves
-    if (!scale_differs && state_.high_contrast == dressed_contrast_) return;
-    theme_ = make_theme(state_.high_contrast, scale);
-    apply_theme(theme_);
-    if (scale_differs) window_.set_text_scale(scale);
-    dressed_scale_ = scale;
-    dressed_contrast_ = state_.high_contrast;
-  }
-
-  [[nodiscard]] double exam_s() {
-    if (!sitting_ || sitting_->stage() != Stage::running) return 0.0;
-    const scenarios::LiveView view = sitting_->live().view();
-    return static_cast<double>(view.ticks - view.paused_ticks) * k_tick_s;
-  }
+  [[nodiscard]] double exam_s() { return sitting_ ? sitting_->exam_s() : 0.0; }
 
   void show(double frame_s) {
-    const ScreenContext context{theme_,
+    const ScreenContext context{look_.theme(),
                                 state_,
                                 scenario_,
                                 shelf_,
@@ -224,33 +165,10 @@ class Station {
     if (office_) ask_whether_to_go_on(context, lock_.locked());
   }
   static void show_screen(const ScreenContext& context) {
-    switch (context.state.screen) {
-      case Screen::sign_in:
-        return sign_in_screen(context);
-      case Screen::self_check:
-        return self_check_screen(context);
-      case Screen::preparing:
-        return preparing_screen(context);
-      case Screen::device_check:
-        return device_check_screen(context);
-      case Screen::briefing:
-        return briefing_screen(context);
-      case Screen::exam:
-        return exam_screen(context);
-      case Screen::grading:
-        return grading_screen(context);
-      case Screen::result:
-        return result_screen(context);
-      case Screen::trouble:
-        return trouble_screen(context);
-      case Screen::save:
-        return save_screen(context);
-      case Screen::replay:
-        return replay_screen(context);
-      case Screen::author:  // in a window of its own, author.h
-      case Screen::author_busy:
-        return;
-    }
+    constexpr std::array k_screens = {sign_in_screen, self_check_screen, preparing_screen, device_check_screen, briefing_screen, exam_screen,
+                                      grading_screen, result_screen,     replay_screen,    trouble_screen,      save_screen};
+    // the author's come after these, in a window of their own (author.h)
+    if (const auto screen = static_cast<std::size_t>(context.state.screen); screen < k_screens.size()) k_screens[screen](context);
   }
 
   /// Each step of the tutorial that was done is recorded.
@@ -260,40 +178,19 @@ class Station {
     tutorial_noted_ = done;
   }
 
-  /// What the handpiece does is heard.
-  void sound() {
-    ui::SoundParameters heard;
-    if (state_.screen == Screen::exam && sitting_->stage() == Stage::running) {
-      const scenarios::LiveView view = sitting_->live().view();
-      heard.rpm = view.output.rpm;
-      heard.load_n = length(view.output.rendered_force_n);
-      heard.cutting = view.output.cutting;
-      heard.enamel_share = view.enamel_share;
-      heard.dentin_share = view.dentin_share;
-      heard.spray = heard.rpm > 0.0 ? 1.0 : 0.0;
-      heard.suction = 1.0;
-    }
-    sound_.set(heard);
-    sound_.set_muted(state_.muted);
-  }
-
   void grant(Wish wish) {
     try {
       switch (wish) {
         case Wish::sign_in:
-          sign_in();
-          break;
+          return sign_in();
         case Wish::check:
           state_.message = {};
           state_.focus_supervisor = true;  // once there is its field
-          check_.begin();
-          break;
+          return check_.begin();
         case Wish::check_go_on:
-          go_on_with_check();
-          break;
+          return go_on_with_check();
         case Wish::to_briefing:
-          go_to(Screen::briefing);
-          break;
+          return go_to(Screen::briefing);
         case Wish::begin:
           OfficeLine::require_free(state_);
           sitting_->begin();
@@ -301,15 +198,12 @@ class Station {
           state_.tutorial.reset();
           if (state_.tutorial_wanted) state_.tutorial.emplace(sitting_->device().pointer() != nullptr);
           state_.attempt_shown_s = 0.0;
-          reserve_memory();
-          go_to(Screen::exam);
-          break;
+          reserve_picture_memory();
+          return go_to(Screen::exam);
         case Wish::end:
-          sitting_->ask_to_end();
-          break;
+          return sitting_->ask_to_end();
         case Wish::save:
-          sitting_->save(state_.place.data());
-          break;
+          return sitting_->save(state_.place.data());
         case Wish::rescue: {
           state_.rescue_failed = true;  // unless it is saved
           const std::string first = sitting_->path();
@@ -321,26 +215,19 @@ class Station {
         }
         case Wish::abandon:
           abandoned_ = true;
-          window_.ask_to_close();
-          break;
+          return window_.ask_to_close();
         case Wish::leave:
-          lock_.leave(window_, state_, sitting_.get());
-          break;
+          return lock_.leave(window_, state_, sitting_.get());
         case Wish::read:
-          office_->read(state_, sitting_.get());
-          break;
+          return office_->read(state_, sitting_.get());
         case Wish::go_on:
-          go_on_without_office();
-          break;
+          return go_on_without_office();
         case Wish::report:
-          write_report();
-          break;
+          return write_report();
         case Wish::next_candidate:
-          next_candidate();
-          break;
+          return next_candidate();
         case Wish::quit:
-          window_.ask_to_close();
-          break;
+          return window_.ask_to_close();
         default:
           break;
       }
@@ -353,26 +240,15 @@ class Station {
   /// What a check found was read: on with it, when it is good or somebody who may decides so.
   void go_on_with_check() {
     if (check_.running() || !check_.found()) return;
-    if (!check_.good() && lock_.locked()) {
-      const bool right = is_supervisor_code(options_.supervisor_hash, state_.supervisor_code.data());
-      state_.supervisor_code = {};
-      state_.focus_supervisor = true;
-      if (!right) {
-        state_.message = msg("This is not the supervisor's code.");
-        return;
-      }
-    }
+    if (!check_.good()) state_.message = lock_.refusal(state_);
+    if (!check_.good() && !state_.message.empty()) return;
     check_.go_on(lock_.locked());
     sign_in();
   }
 
   void go_on_without_office() {
-    if (lock_.locked()) {
-      const bool right = is_supervisor_code(options_.supervisor_hash, state_.supervisor_code.data());
-      state_.supervisor_code = {};
-      state_.leave_message = right ? Message() : msg("This is not the supervisor's code.");
-      if (!right) return;
-    }
+    state_.leave_message = lock_.refusal(state_);
+    if (!state_.leave_message.empty()) return;
     state_.confirm_go_on = false;
     office_->release(state_, sitting_.get());
   }
@@ -389,12 +265,8 @@ class Station {
     lock_.begin_sitting();
     seen_ = Stage::preparing;
     const bool fixed = !o.tickets.empty() || !o.resume.empty();  // what is granted stands there already; the layout is the candidate's own
-    if (fixed) {
-      sitting_ = std::make_unique<Sitting>(o, state_.code.data());
-      return go_to(Screen::preparing);
-    }
-    if (state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
-    if (state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
+    if (!fixed && state_.left_handed != scenario_.accommodations.left_handed) o.grant.left_handed = state_.left_handed;
+    if (!fixed && state_.high_contrast != scenario_.accommodations.high_contrast) o.grant.high_contrast = state_.high_contrast;
     sitting_ = std::make_unique<Sitting>(o, state_.code.data());
     go_to(Screen::preparing);
   }
@@ -503,9 +375,7 @@ class Station {
   Window window_;
   Script script_;
   StationState state_;
-  Theme theme_;
-  double dressed_scale_ = 0.0;
-  bool dressed_contrast_ = false;
+  Look look_;
   std::unique_ptr<OfficeLine> office_;  // outlives the sitting, which may ask it for its word
   std::unique_ptr<Sitting> sitting_;
   std::unique_ptr<Scene> scene_;

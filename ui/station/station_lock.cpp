@@ -40,15 +40,17 @@ bool StationLock::lets_close(Window& window, StationState& state, Sitting* sitti
   return false;
 }
 
-void StationLock::leave(Window& window, StationState& state, Sitting* sitting) {
+Message StationLock::refusal(StationState& state) const {
   const std::string code = state.supervisor_code.data();
   state.supervisor_code = {};
-  if (locked() && !lock_.opens(code)) {
-    keep({LockTry::close_refused}, state, sitting);
-    state.focus_supervisor = true;
-    state.leave_message = msg("This is not the supervisor's code.");
-    return;
-  }
+  if (!locked() || lock_.opens(code)) return {};
+  state.focus_supervisor = true;
+  return msg("This is not the supervisor's code.");
+}
+
+void StationLock::leave(Window& window, StationState& state, Sitting* sitting) {
+  state.leave_message = refusal(state);
+  if (!state.leave_message.empty()) return keep({LockTry::close_refused}, state, sitting);
   keep({LockTry::close_granted, locked()}, state, sitting);
   granted_ = true;
   state.confirm_leave = false;

@@ -19,6 +19,9 @@ class StationLock {
   /// The next one begins: what was granted before counts no more.
   void begin_sitting() noexcept { granted_ = false; }
 
+  /// Takes the supervisor's code that was typed. Why it decides nothing; empty: it is right, or none is asked for.
+  [[nodiscard]] Message refusal(StationState& state) const;
+
   // `sitting` is null before sign-in.
   /// After every picture: what was tried meanwhile.
   void watch(Window& window, StationState& state, Sitting* sitting);

@@ -7,6 +7,7 @@
 #include <backends/imgui_impl_glfw.h>
 #include <backends/imgui_impl_opengl3.h>
 #include <imgui.h>
+#include <malloc.h>
 
 #include <algorithm>
 #include <array>
@@ -14,6 +15,7 @@
 #include <cstdlib>
 #include <filesystem>
 #include <limits>
+#include <thread>
 #include <vector>
 
 #include "engine/base/error.h"
@@ -86,6 +88,14 @@ void push_font(Font font) { ImGui::PushFont(ImGui::GetIO().Fonts->Fonts[static_c
 void pop_font() { ImGui::PopFont(); }
 
 void spare_the_processor() noexcept { ::setenv("LP_NUM_THREADS", "1", 0); }
+
+void reserve_picture_memory() {
+  constexpr std::size_t k_blocks = 384,
+                        k_block_bytes = std::size_t{64} * 1024;  // 24 MB: ten minutes of hard work took 8, a picture takes 8 for a moment
+  mallopt(M_TRIM_THRESHOLD, 4 * static_cast<int>(k_blocks * k_block_bytes));
+  std::vector<std::vector<char>> blocks(k_blocks);
+  for (auto& block : blocks) block.assign(k_block_bytes, 1);
+}
 
 Window::Window(const WindowOptions& options) : monitor_(options.monitor), full_screen_(options.full_screen) {
   spare_the_processor();
@@ -226,6 +236,16 @@ void Window::begin_frame() {
   io.MousePos = captured_ || !mouse_known_ ? ImVec2{k_nowhere, k_nowhere} : ImVec2{mouse_x_, mouse_y_};
   for (int i = 0; i < ImGuiMouseButton_COUNT; ++i) io.MouseDown[i] = !captured_ && input_.button_down(i);
   ImGui::NewFrame();
+}
+
+void Window::rest(std::chrono::steady_clock::time_point began, double hz) const {
+  const double least_s = 1.0 / (hz > 0 ? hz : software_ ? 25.0 : 120.0);
+  std::this_thread::sleep_until(began + std::chrono::duration<double>(least_s));
+}
+
+void Window::walk_by_keys(bool may) {
+  int& flags = ImGui::GetIO().ConfigFlags;
+  flags = may ? flags | ImGuiConfigFlags_NavEnableKeyboard : flags & ~ImGuiConfigFlags_NavEnableKeyboard;
 }
 
 void Window::keep_words(const std::string& path) {

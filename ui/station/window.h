@@ -2,6 +2,7 @@
 // door as those of a keyboard.
 #pragma once
 
+#include <chrono>
 #include <memory>
 #include <string>
 #include <vector>
@@ -16,6 +17,13 @@ namespace cavum::station {
 /// A renderer on the computer's processor takes one core and leaves the others to the servo, unless LP_NUM_THREADS says otherwise. Changes the
 /// environment, so before there are other threads; a Window asks for it too.
 void spare_the_processor() noexcept;
+/// Takes the memory that a cavity's surface will need, here and in a renderer on the processor, as an exam begins: it does not grow any more then.
+/// The allocator keeps it, instead of giving it back at once.
+void reserve_picture_memory();
+
+[[nodiscard]] inline double seconds_since(std::chrono::steady_clock::time_point t) {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now() - t).count();
+}
 
 struct WindowOptions {
   std::string title = "Cavum";
@@ -36,6 +44,11 @@ class Window {
   void begin_frame();
   /// Draws the frame's ImGui content over what was drawn and shows it, unless the window is hidden.
   void end_frame();
+  /// No more pictures than eyes need, fewer where the processor draws, which the servo shares: waits while the one that `began` then is to stay.
+  /// `hz`: so many instead, unless 0.
+  void rest(std::chrono::steady_clock::time_point began, double hz = 0.0) const;
+  /// Whether keys walk from button to button.
+  void walk_by_keys(bool may);
   /// Fonts for another size of text, 1 = normal; between frames.
   void set_text_scale(double scale);
 

@@ -55,25 +55,70 @@ double small_angle_deg(Vec3 a, Vec3 b) {
   return 2 * k_degrees * half * (1 + half * half / 6);
 }
 
-void add_notes(std::vector<Message>& all, const std::vector<Message>& more) { all.insert(all.end(), more.begin(), more.end()); }
+/// Why the enamel is no crown; none: it is one.
+std::optional<Message> why_no_crown(const TissueIds& ids, const CrownFrame& frame) {
+  if (ids.enamel == k_air || frame.enamel_leaves == 0) return msg("no enamel, so no crown");
+  const Vec3 crown = frame.enamel_high - frame.enamel_low;
+  if (std::min({crown.x, crown.y, crown.z}) >= k_min_crown_mm && std::max({crown.x, crown.y, crown.z}) <= k_largest_crown_mm) return {};
+  return msg("enamel of {} x {} x {} is no crown", as_number(crown.x, 1), as_number(crown.y, 1), as_mm(crown.z, 1));
+}
 
-double mean_z(const std::vector<Vec3>& line) {
-  double sum = 0;
-  for (const Vec3 p : line) sum += p.z;
-  return sum / static_cast<double>(line.size());
+/// What runs round the crown, in its frame.
+struct Girth {
+  Polyline neck, widest;
+  Vec3 middle;  ///< of the neck, else of the crown
+};
+Girth find_girth(const CrownWalls& walls, const std::vector<int>& contour, const TissueIds& ids, std::vector<Message>& notes) {
+  Girth out;
+  out.neck = neck_line(walls, contour, ids);
+  out.middle = walls.middle;
+  if (out.neck.empty()) {
+    notes.emplace_back(msg("the neck cannot be followed round the crown"));
+  } else {
+    Vec3 sum;
+    for (const Vec3 p : out.neck) sum += p;
+    out.middle = sum / static_cast<double>(out.neck.size());
+  }
+  for (int d = 0; d < CrownWalls::k_directions; ++d)
+    if (contour[static_cast<std::size_t>(d)] >= 0) out.widest.push_back(walls.place(contour[static_cast<std::size_t>(d)], d));
+  return out;
+}
+
+/// Everything found goes into the tooth's frame.
+void put_in_tooth(const CrownFrame& frame, OcclusalMarks& marks, Polyline& edge, Girth& girth, PulpMarks& pulp, Landmarks& out) {
+  const Turned turn(frame);
+  const auto move_in = [&](auto& to, auto& from) {
+    turn(from);
+    to = std::move(from);
+  };
+  move_in(out.long_axis.through_mm, girth.middle);
+  move_in(out.cusps, marks.cusps);
+  move_in(out.cusp_ridges, marks.cusp_ridges);
+  move_in(out.mesial_ridge, marks.mesial);
+  move_in(out.distal_ridge, marks.distal);
+  move_in(out.central_fissure_mm, marks.central_fissure);
+  move_in(out.fissure_branches_mm, marks.branches);
+  move_in(out.mesial_pit_mm, marks.mesial_pit);
+  move_in(out.central_pit_mm, marks.central_pit);
+  move_in(out.distal_pit_mm, marks.distal_pit);
+  move_in(out.incisal_edge_mm, edge);
+  move_in(out.occlusal_table_mm, marks.table);
+  move_in(out.height_of_contour_mm, girth.widest);
+  move_in(out.neck_mm, girth.neck);
+  move_in(out.pulp_horns_mm, pulp.horns);
+  move_in(out.chamber_roof_mm, pulp.roof);
+  move_in(out.chamber_floor_mm, pulp.floor);
+  move_in(out.canal_mouths, pulp.mouths);
+  turn(out.apices_mm);
+  for (const auto* notes : {&marks.notes, &pulp.notes}) out.notes.insert(out.notes.end(), notes->begin(), notes->end());
 }
 
 Landmarks found_landmarks(const Tooth& tooth) {
   Landmarks out;
   const TissueIds ids = tissue_ids(tooth);
   const CrownFrame frame = crown_frame(tooth, ids);
-  if (ids.enamel == k_air || frame.enamel_leaves == 0) {
-    out.notes.emplace_back(msg("no enamel, so no crown"));
-    return out;
-  }
-  const Vec3 crown = frame.enamel_high - frame.enamel_low;
-  if (std::min({crown.x, crown.y, crown.z}) < k_min_crown_mm || std::max({crown.x, crown.y, crown.z}) > k_largest_crown_mm) {
-    out.notes.push_back(msg("enamel of {} x {} x {} is no crown", as_number(crown.x, 1), as_number(crown.y, 1), as_mm(crown.z, 1)));
+  if (auto none = why_no_crown(ids, frame)) {
+    out.notes.push_back(*std::move(none));
     return out;
   }
   CrownMaps maps;
@@ -82,8 +127,7 @@ Landmarks found_landmarks(const Tooth& tooth) {
   maps.fissures = maps.raw.smoothed(k_fissure_scale_mm);
   const CrownWalls walls = crown_walls(tooth, frame);
   const auto contour = contour_rows(walls, ids);
-  const Vec3 low = frame.enamel_low, high = frame.enamel_high;
-  const double least_z = low.z + k_high_share * (high.z - low.z);
+  const double low_z = frame.enamel_low.z, least_z = low_z + k_high_share * (frame.enamel_high.z - low_z);
   const auto groove = find_groove(maps.fissures, least_z, k_fissure_per_mm);
   const auto table = occlusal_table(maps.fissures, lowest_of_table(maps, groove));
   OcclusalMarks marks;
@@ -109,50 +153,11 @@ Landmarks found_landmarks(const Tooth& tooth) {
   Polyline edge;
   if (front) edge = find_incisal_edge(maps);
   if (out.tooth_class.kind == ToothClass::incisor) marks.cusps.clear();
-
-  Polyline neck = neck_line(walls, contour, ids);
-  if (neck.empty()) out.notes.emplace_back(msg("the neck cannot be followed round the crown"));
-  std::optional<double> neck_z;
-  Vec3 through{walls.middle.x, walls.middle.y, walls.middle.z};
-  if (!neck.empty()) {
-    neck_z = mean_z(neck);
-    Vec3 sum;
-    for (const Vec3 p : neck) sum += p;
-    through = sum / static_cast<double>(neck.size());
-  }
-  Polyline widest;
-  for (int d = 0; d < CrownWalls::k_directions; ++d)
-    if (contour[static_cast<std::size_t>(d)] >= 0) widest.push_back(walls.place(contour[static_cast<std::size_t>(d)], d));
+  Girth girth = find_girth(walls, contour, ids, out.notes);
+  const auto neck_z = girth.neck.empty() ? std::nullopt : std::optional(girth.middle.z);
   PulpMarks pulp = find_pulp_marks(tooth, frame, ids.pulp, neck_z, front);
-  if (frame.dentin_leaves > 0) out.apices_mm = find_apices(tooth, frame, neck_z.value_or(low.z), out.notes);
-
-  const Turned turn(frame);
-  const auto move_in = [&](auto& to, auto& from) {
-    turn(from);
-    to = std::move(from);
-  };
-  turn(through);
-  out.long_axis.through_mm = through;
-  move_in(out.cusps, marks.cusps);
-  move_in(out.cusp_ridges, marks.cusp_ridges);
-  move_in(out.mesial_ridge, marks.mesial);
-  move_in(out.distal_ridge, marks.distal);
-  move_in(out.central_fissure_mm, marks.central_fissure);
-  move_in(out.fissure_branches_mm, marks.branches);
-  move_in(out.mesial_pit_mm, marks.mesial_pit);
-  move_in(out.central_pit_mm, marks.central_pit);
-  move_in(out.distal_pit_mm, marks.distal_pit);
-  move_in(out.incisal_edge_mm, edge);
-  move_in(out.occlusal_table_mm, marks.table);
-  move_in(out.height_of_contour_mm, widest);
-  move_in(out.neck_mm, neck);
-  move_in(out.pulp_horns_mm, pulp.horns);
-  move_in(out.chamber_roof_mm, pulp.roof);
-  move_in(out.chamber_floor_mm, pulp.floor);
-  move_in(out.canal_mouths, pulp.mouths);
-  turn(out.apices_mm);
-  add_notes(out.notes, marks.notes);
-  add_notes(out.notes, pulp.notes);
+  if (frame.dentin_leaves > 0) out.apices_mm = find_apices(tooth, frame, neck_z.value_or(low_z), out.notes);
+  put_in_tooth(frame, marks, edge, girth, pulp, out);
   return out;
 }
 

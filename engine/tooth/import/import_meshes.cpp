@@ -147,10 +147,53 @@ void scale(ReadMesh& read, double mm) {
   read.volume_mm3 *= mm * mm * mm;
 }
 
+struct ThreeMeshes {
+  ReadMesh enamel, dentin, pulp;
+};
+
+/// What each leaf is, and that the three files can be of one tooth.
+void label_leaves(const ThreeMeshes& m, const MeshPaths& paths, const SenseOptions& sense, TissueGrid& grid, MeshImport& out) {
+  check_triangle_work(grid, m.enamel.mesh, paths.enamel);
+  check_triangle_work(grid, m.dentin.mesh, paths.dentin);
+  check_triangle_work(grid, m.pulp.mesh, paths.pulp);
+  Layers fields{fill_mesh(m.enamel.mesh, grid), fill_mesh(m.dentin.mesh, grid), fill_mesh(m.pulp.mesh, grid), {}};
+  fields.chamber = hollows(m.dentin.mesh, fields.dentin, grid);
+  const Overlaps overlaps = label_by_precedence(grid, fields);
+  out.overlap_leaves = overlaps.leaves;
+  check_layers(grid, paths);
+  const LayersApart apart = layers_apart(grid);
+  require_layers_that_fit(apart, overlaps, fmt::format("{}, {}", paths.enamel, paths.dentin));
+  tell_loose_layers(apart, overlaps, out.sense);
+  out.gap_leaves = close_gaps(grid, fields);
+  check_closed_pulp(open_pulp(grid), sense, paths.pulp, out.sense);
+  require_pulp_in_root(pulp_below_dentin_mm(grid), paths.pulp);
+  const EnamelPieces pieces = enamel_pieces(grid);
+  require_no_floating_enamel(pieces, paths.enamel);
+  tell_bare_dentin(bare_dentin(grid), out.sense);
+  tell_pieces(pieces, out.sense);
+}
+
+/// Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.
+void encode_surfaces(const ThreeMeshes& m, TissueGrid& grid, const std::vector<Tissue>& tissues) {
+  const auto label = [&](Vec3 mm) {
+    const Vec3 p = (mm - grid.origin_mm) / grid.leaf_mm;
+    return grid.tissue[grid.index({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y), static_cast<std::int32_t>(p.z)})];
+  };
+  const auto hard = [](std::uint8_t t) { return t == k_enamel || t == k_dentin; };
+  const AcceptSurface outer = [&](Vec3 q, Vec3 n) { return label(q + n * grid.leaf_mm) == k_air && hard(label(q - n * (0.75 * grid.leaf_mm))); };
+  const AcceptSurface inner = [&](Vec3 q, Vec3 n) { return hard(label(q + n * grid.leaf_mm)) && label(q - n * (0.75 * grid.leaf_mm)) == k_pulp; };
+  BandDistance band(grid);
+  band.add(m.enamel.mesh, outer);
+  band.add(m.dentin.mesh, outer);
+  band.add(m.pulp.mesh, inner);
+  band.encode(grid, tissues);
+}
+
 }  // namespace
 
 MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& options) {
-  ReadMesh enamel = read_closed_mesh(paths.enamel), dentin = read_closed_mesh(paths.dentin), pulp = read_closed_mesh(paths.pulp);
+  ThreeMeshes meshes{read_closed_mesh(paths.enamel), read_closed_mesh(paths.dentin), read_closed_mesh(paths.pulp)};
+  auto& [enamel, dentin, pulp] = meshes;
   const double unit_mm = options.sense.units.empty() ? 1.0 : mm_per_unit(options.sense.units);
   for (auto* m : {&enamel, &dentin, &pulp}) scale(*m, unit_mm);
   const FrameOptions settled = settled_frame(options.frame, options.sense);
@@ -169,40 +212,8 @@ MeshImport import_meshes(const MeshPaths& paths, const MeshImportOptions& option
   out.mesh_enamel_mm3 = enamel.volume_mm3;
   out.mesh_dentin_mm3 = dentin.volume_mm3;
   out.mesh_pulp_mm3 = pulp.volume_mm3;
-  {
-    check_triangle_work(grid, enamel.mesh, paths.enamel);
-    check_triangle_work(grid, dentin.mesh, paths.dentin);
-    check_triangle_work(grid, pulp.mesh, paths.pulp);
-    Layers fields{fill_mesh(enamel.mesh, grid), fill_mesh(dentin.mesh, grid), fill_mesh(pulp.mesh, grid), {}};
-    fields.chamber = hollows(dentin.mesh, fields.dentin, grid);
-    const Overlaps overlaps = label_by_precedence(grid, fields);
-    out.overlap_leaves = overlaps.leaves;
-    check_layers(grid, paths);
-    const LayersApart apart = layers_apart(grid);
-    require_layers_that_fit(apart, overlaps, fmt::format("{}, {}", paths.enamel, paths.dentin));
-    tell_loose_layers(apart, overlaps, out.sense);
-    out.gap_leaves = close_gaps(grid, fields);
-    check_closed_pulp(open_pulp(grid), options.sense, paths.pulp, out.sense);
-    require_pulp_in_root(pulp_below_dentin_mm(grid), paths.pulp);
-    const EnamelPieces pieces = enamel_pieces(grid);
-    require_no_floating_enamel(pieces, paths.enamel);
-    tell_bare_dentin(bare_dentin(grid), out.sense);
-    tell_pieces(pieces, out.sense);
-  }
-
-  // Only what parts solid from void is a surface: enamel on dentin is not, nor a dentin face near the pulp's.
-  const auto label = [&](Vec3 mm) {
-    const Vec3 p = (mm - grid.origin_mm) / grid.leaf_mm;
-    return grid.tissue[grid.index({static_cast<std::int32_t>(p.x), static_cast<std::int32_t>(p.y), static_cast<std::int32_t>(p.z)})];
-  };
-  const auto hard = [](std::uint8_t t) { return t == k_enamel || t == k_dentin; };
-  const AcceptSurface outer = [&](Vec3 q, Vec3 n) { return label(q + n * grid.leaf_mm) == k_air && hard(label(q - n * (0.75 * grid.leaf_mm))); };
-  const AcceptSurface inner = [&](Vec3 q, Vec3 n) { return hard(label(q + n * grid.leaf_mm)) && label(q - n * (0.75 * grid.leaf_mm)) == k_pulp; };
-  BandDistance band(grid);
-  band.add(enamel.mesh, outer);
-  band.add(dentin.mesh, outer);
-  band.add(pulp.mesh, inner);
-  band.encode(grid, out.tooth.tissues);
+  label_leaves(meshes, paths, options.sense, grid, out);
+  encode_surfaces(meshes, grid, out.tooth.tissues);
   // exchanged layers have the plainer name, and were refused above
   check_upright(frame.axes.row_z, dentin.centroid_mm, enamel.centroid_mm, options.sense, paths.enamel, out.sense);
   out.periodontium_leaves = add_periodontium(grid, options.periodontium_mm);
