@@ -465,7 +465,7 @@ TEST(Grade, AStepThatRanOutOfItsTimeIsNamedWithItsLimit) {
   c.events.push_back({5999, StepTimeUp{}});
   c.events.push_back({5999, Finished{Finish::time}});
   const Findings notes = c.graded().notes;
-  const Finding wanted = finding<FindingKind::step_timed_out>(c.scenario.steps[0].id, as_s(5999 * k_tick_s), 5999, as_s(6000 * k_tick_s, 3));
+  const Finding wanted = finding<FindingKind::step_timed_out>(c.scenario.steps[0].id, as_s(5999 * k_tick_s), as_s(6000 * k_tick_s, 3), 5999);
   EXPECT_EQ(std::count(notes.begin(), notes.end(), wanted), 1);
 }
 
@@ -573,7 +573,7 @@ TEST(Grade, ProtectedTissueCountsAsProtectedBeyondTheContainer) {
 
 TEST(Grade, JsonHoldsEveryPromisedNameEvenForAnUntouchedTooth) {
   const Carved c(scenario_text(k_box_target), dentin_block(3, 3, 0.1));
-  const auto j = to_json(c.graded());
+  const auto j = with_words(to_json(c.graded()));
   for (const char* name : {"/verdict",
                            "/score/points",
                            "/score/max",

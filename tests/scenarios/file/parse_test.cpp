@@ -109,7 +109,7 @@ INSTANTIATE_TEST_SUITE_P(
         Broken{"max_rpm = 200000", "max_rpm = \"fast\"", Mistake::wrong_type, "5:11", {"max_rpm"}},
         Broken{"time_limit_s = 10", "time_limit_s = -3", Mistake::out_of_range, "6:16", {"time_limit_s"}},
         Broken{"title = \"Test\"", "titel = \"Test\"", Mistake::missing, "1:1", {"title"}},
-        Broken{"burs = [\"round-1.0\"]", "burs = []", Mistake::missing, "4:10", {"burs"}},
+        Broken{"burs = [\"round-1.0\"]", "burs = []", Mistake::missing, "4:8", {"burs"}},
         Broken{"99\"", "99 &&\"", Mistake::condition, "10:17", {"complete_when"}},
         Broken{"\"target_removed_percent >=",
                "\"target_remove_percent >=",
