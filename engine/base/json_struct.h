@@ -347,10 +347,7 @@ void read_json_value(const nlohmann::json& from, const JsonPlace& at, T& into) {
     if constexpr (requires { T::k_most; }) most = T::k_most;
     at.require(from.is_array(), msg("is no list"));
     at.require(from.size() <= most, msg("has more than {} elements", most), FileError::too_large);
-    for (const auto& one : from) {
-      const JsonPlace place{at.source, fmt::format("{}[{}]", at.field, into.size())};
-      read_json_value(one, place, into.emplace_back());
-    }
+    for (std::size_t i = 0; i < from.size(); ++i) read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into.emplace_back());
   } else if constexpr (requires { std::tuple_size<T>::value; }) {
     at.require(from.is_array() && from.size() == into.size(), msg("is no list of {} elements", into.size()));
     for (std::size_t i = 0; i < into.size(); ++i) read_json_value(from[i], {at.source, fmt::format("{}[{}]", at.field, i)}, into[i]);

@@ -18,6 +18,21 @@ double seconds_between(std::int64_t from_ns, std::int64_t to_ns) {
   return static_cast<double>(static_cast<std::int64_t>(static_cast<std::uint64_t>(to_ns) - static_cast<std::uint64_t>(from_ns))) * 1e-9;
 }
 
+/// What the clocks say of a chunk: how far each went, and how long its ticks are.
+void remark_chunk(const ChunkRow& c, double monotonic_s, double boot_s, double utc_s, double ticks_s, std::vector<ClockRemark>& out) {
+  const auto say = [&](ClockRemark::Kind kind, const Message& what, bool doubtful) { out.push_back({kind, c.first_tick, c.ticks, what, doubtful}); };
+  if (monotonic_s < 0 || boot_s < 0) say(ClockRemark::Kind::backwards, msg("the computer's own clock ran backwards"), true);
+  if (boot_s - monotonic_s > k_suspend_s) say(ClockRemark::Kind::slept, msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
+  if (std::fabs(utc_s - boot_s) > k_set_s)
+    say(ClockRemark::Kind::set,
+        utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
+                       : msg("the wall clock was set back by {}", seconds(boot_s - utc_s)),
+        true);
+  if (monotonic_s > k_slow * ticks_s + k_slow_s)
+    say(ClockRemark::Kind::slow,
+        msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
+}
+
 }  // namespace
 
 std::vector<ClockRemark> check_clocks(const SessionReader& session) {
@@ -59,19 +74,7 @@ std::vector<ClockRemark> check_clocks(const SessionReader& session) {
       if (first_ahead < 0) first_ahead = c.first_tick;
       ahead_s = early_s;
     }
-    const auto say = [&](ClockRemark::Kind kind, const Message& what, bool doubtful) {
-      out.push_back({kind, c.first_tick, c.ticks, what, doubtful});
-    };
-    if (monotonic_s < 0 || boot_s < 0) say(ClockRemark::Kind::backwards, msg("the computer's own clock ran backwards"), true);
-    if (boot_s - monotonic_s > k_suspend_s) say(ClockRemark::Kind::slept, msg("the computer slept for {}", seconds(boot_s - monotonic_s)), true);
-    if (std::fabs(utc_s - boot_s) > k_set_s)
-      say(ClockRemark::Kind::set,
-          utc_s > boot_s ? msg("the wall clock was set forward by {}", seconds(utc_s - boot_s))
-                         : msg("the wall clock was set back by {}", seconds(boot_s - utc_s)),
-          true);
-    if (monotonic_s > k_slow * ticks_s + k_slow_s)
-      say(ClockRemark::Kind::slow,
-          msg("{} of the exam took {}: the candidate had more time than the exam's clock shows", seconds(ticks_s), seconds(monotonic_s)), false);
+    remark_chunk(c, monotonic_s, boot_s, utc_s, ticks_s, out);
   }
   end_stretch();
   if (first_ahead >= 0)

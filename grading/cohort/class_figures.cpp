@@ -27,8 +27,7 @@ constexpr int k_shuffles = 9999;
 double max_in(const json& result) { return result.at("score").at("max").get<double>(); }
 
 /// As the exam was sat; of an exam without any sealed result, as the first who counts was marked.
-records::ExamScale scale_of(const records::Registry& registry, const std::string& exam,
-                            const std::map<std::string, const records::FiledSession*>& sat) {
+records::ExamScale scale_of(const records::Registry& registry, const std::string& exam, const CountingSessions& sat) {
   const auto own = records::own_scales(registry);
   const auto at = own.find(exam);
   return at != own.end() ? at->second : records::scale_in(*sat.begin()->second->result);
@@ -47,7 +46,7 @@ struct GivenMarks {
   std::vector<double> ratings, rated;  // each rating, and the program's points of the same candidate
 };
 
-GivenMarks marks_given(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const std::vector<HumanMark>& marks) {
+GivenMarks marks_given(ClassFigures& f, const CountingSessions& sat, const std::vector<HumanMark>& marks) {
   GivenMarks given;
   for (const auto& m : marks) {
     const auto s = sat.find(m.candidate);
@@ -74,7 +73,7 @@ struct MarkPairs {
   [[nodiscard]] std::size_t incomplete() const { return program.size() - by_judge.size(); }
 };
 
-MarkPairs pair_marks(const GivenMarks& given, const std::map<std::string, const records::FiledSession*>& sat, const ClassFigures& f, double band) {
+MarkPairs pair_marks(const GivenMarks& given, const CountingSessions& sat, const ClassFigures& f, double band) {
   MarkPairs pairs;
   for (const auto& [candidate, by_judge] : given.by_candidate) {
     const double own = points_in(*sat.at(candidate)->result, f.max_points);
@@ -113,8 +112,7 @@ void put_agreement(Agreement& a, const GivenMarks& given, const MarkPairs& pairs
 }
 
 /// Candidates whom program and people see further apart than the others.
-void look_at_disagreements(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const GivenMarks& given,
-                           const MarkPairs& pairs) {
+void look_at_disagreements(ClassFigures& f, const CountingSessions& sat, const GivenMarks& given, const MarkPairs& pairs) {
   const auto& limits = f.agreement.limits;
   if (!limits || limits->sd <= 0) return;
   std::size_t i = 0;
@@ -127,7 +125,7 @@ void look_at_disagreements(ClassFigures& f, const std::map<std::string, const re
   }
 }
 
-std::vector<WallFigures> walls_of(const std::map<std::string, const records::FiledSession*>& sat) {
+std::vector<WallFigures> walls_of(const CountingSessions& sat) {
   std::vector<WallFigures> out;
   for (std::size_t w = 0; w < scenarios::k_walls; ++w) {
     WallFigures f;
@@ -149,7 +147,7 @@ std::vector<WallFigures> walls_of(const std::map<std::string, const records::Fil
 }
 
 /// Of the sessions that count: what a person should see for himself, whatever the points say; and those that do not count, with the reason.
-void look_at_sessions(ClassFigures& f, const records::Registry& registry, const std::map<std::string, const records::FiledSession*>& sat) {
+void look_at_sessions(ClassFigures& f, const records::Registry& registry, const CountingSessions& sat) {
   for (const auto& s : registry.sessions) {
     if (s.scenario_id != f.exam) continue;
     if (!s.findings.empty()) {
@@ -188,7 +186,7 @@ std::vector<std::string> criteria_of(const json& result) {
 }
 
 /// A result marked as most were.
-const json& result_by(const MarkedBy& most, const std::map<std::string, const records::FiledSession*>& sat) {
+const json& result_by(const MarkedBy& most, const CountingSessions& sat) {
   return *std::find_if(sat.begin(), sat.end(), [&](const auto& s) { return criteria_of(*s.second->result) == most.criteria; })->second->result;
 }
 
@@ -200,7 +198,7 @@ struct ClassPoints {
 };
 
 /// Counts the verdicts, too. `any`: whose criteria are compared.
-ClassPoints points_of(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const json& any) {
+ClassPoints points_of(ClassFigures& f, const CountingSessions& sat, const json& any) {
   ClassPoints all;
   for (const auto& [candidate, s] : sat) {
     const double points = points_in(*s->result, f.max_points);
@@ -218,7 +216,7 @@ ClassPoints points_of(ClassFigures& f, const std::map<std::string, const records
 }
 
 /// Mean and spread, and who lies far from them.
-void put_points(ClassFigures& f, const std::map<std::string, const records::FiledSession*>& sat, const std::vector<double>& in_order) {
+void put_points(ClassFigures& f, const CountingSessions& sat, const std::vector<double>& in_order) {
   f.n = in_order.size();
   f.mean = cohort::mean(in_order);
   if (f.n >= 2) f.sd = std::sqrt(variance(in_order));
@@ -317,8 +315,8 @@ std::vector<HumanMark> parse_marks(const std::string& text, records::Identities&
   return out;
 }
 
-std::map<std::string, const records::FiledSession*> counting_sessions(const records::Registry& registry, const std::string& exam) {
-  std::map<std::string, const records::FiledSession*> sat;  // by candidate: the order of the ledger tells nothing
+CountingSessions counting_sessions(const records::Registry& registry, const std::string& exam) {
+  CountingSessions sat;
   for (const auto& s : registry.sessions)
     if (s.scenario_id == exam && !s.doubtful() && !s.made_up_by && s.result->is_object()) sat[s.candidate] = &s;
   if (sat.empty())
@@ -326,7 +324,7 @@ std::map<std::string, const records::FiledSession*> counting_sessions(const reco
   return sat;
 }
 
-std::vector<MarkedBy> marked_by(const std::map<std::string, const records::FiledSession*>& sat) {
+std::vector<MarkedBy> marked_by(const CountingSessions& sat) {
   std::vector<MarkedBy> out;
   for (const auto& [candidate, s] : sat) {
     const records::ExamScale scale = records::scale_in(*s->result);

@@ -104,11 +104,13 @@ struct ClassFigures {
 /// A station's name in the ledger, with the beginning of its key where two have it; the beginning of its key where it has none.
 [[nodiscard]] std::string station_label(const records::Registry& registry, const std::string& key);
 
+/// By candidate: the order of the ledger tells nothing.
+using CountingSessions = std::map<std::string, const records::FiledSession*>;
 /// Who sat an exam, by candidate. Of several sessions of one candidate the last counts; those filed with findings do not. Throws Error when nobody
 /// sat it.
-[[nodiscard]] std::map<std::string, const records::FiledSession*> counting_sessions(const records::Registry& registry, const std::string& exam);
+[[nodiscard]] CountingSessions counting_sessions(const records::Registry& registry, const std::string& exam);
 /// What each of `sat` was marked by, the most frequent first.
-[[nodiscard]] std::vector<MarkedBy> marked_by(const std::map<std::string, const records::FiledSession*>& sat);
+[[nodiscard]] std::vector<MarkedBy> marked_by(const CountingSessions& sat);
 /// The pass mark, percent, by which all of them were marked; none where there are several.
 [[nodiscard]] std::optional<double> one_pass_percent(const std::vector<MarkedBy>& marked_by);
 /// The scale on which the exam was sat.

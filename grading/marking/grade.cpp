@@ -38,76 +38,80 @@ struct Course {
   LateWork late;
 };
 
-/// `ticks`: of the exam.
-Course course_of(const GradeInput& input, std::int64_t ticks) {
-  constexpr std::int64_t k_day = 86'400'000;  // whatever a file says
-  constexpr double k_longest_s = 1e9;
-  Course c;
-  c.progress.steps = static_cast<int>(input.scenario.steps.size());
-  bool last_done = c.progress.steps == 0;
-  for (const auto& e : input.events) {
-    const auto step_ended = [&](const OfStep& of, const auto& found) {
-      ++c.progress.steps_failed;
-      if (static_cast<std::size_t>(of.step) < input.scenario.steps.size())
-        c.steps.push_back(found(input.scenario.steps[static_cast<std::size_t>(of.step)]));
-    };
-    const auto end_pause = [&] {
-      if (!c.pauses.empty()) c.pauses.back().end = std::min(e.tick, ticks);
-    };
-    std::visit(EachKind{
-                   [&](const StepCompleted& of) {
-                     ++c.progress.steps_completed;
-                     last_done = last_done || of.step == c.progress.steps - 1;
-                   },
-                   [&](const StepFailed& of) {
-                     step_ended(of, [&](const scenarios::StepSpec& s) {
-                       return finding<FindingKind::step_failed>(s.id, at_time(e.tick), s.fail_when, e.tick);
-                     });
-                   },
-                   [&](const StepTimeUp& of) {
-                     step_ended(of, [&](const scenarios::StepSpec& s) {
-                       return s.time_limit_s ? finding<FindingKind::step_timed_out>(s.id, at_time(e.tick),
-                                                                                    seconds(scenarios::step_limit_ticks(input.scenario, s)), e.tick)
-                                             : finding<FindingKind::step_timed_out_otherwise>(s.id, at_time(e.tick), e.tick);
-                     });
-                   },
-                   [&](const AnyOf<BurNotAllowed, OverSpeed> auto&) {
-                     if (c.progress.violations++ == 0) c.progress.first_violation.tick = e.tick;
-                   },
-                   [&](const Finished& finished) { c.progress.finish = finished.how; },
-                   [&](const PauseStarted&) {
-                     c.pauses.push_back({e.tick, ticks, false});
-                   },
-                   [&](const HoldStarted&) {
-                     c.pauses.push_back({e.tick, ticks, true});
-                   },
-                   [&](const PauseEnded&) { end_pause(); },
-                   [&](const HoldEnded&) { end_pause(); },
-                   [&](const PauseRefused&) {
-                     const bool turning = e.tick >= 0 && e.tick < static_cast<std::int64_t>(input.records.size()) &&
-                                          input.records[static_cast<std::size_t>(e.tick)].rpm > 0;
-                     ++c.pauses_refused;
-                     c.refused.push_back(turning ? finding<FindingKind::pause_refused_turning>(at_time(e.tick), e.tick)
-                                                 : finding<FindingKind::pause_refused_none_left>(at_time(e.tick), e.tick));
-                   },
-                   [&](const ServoGap& gap) { c.lost_periods += std::clamp<std::int64_t>(gap.periods, 0, k_day); },
-                   [&](const RecordingGap& gap) {
-                     const double away_s = std::clamp(gap.utc_s(), 0.0, k_longest_s);
-                     c.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(e.tick), as_s(away_s, 0), e.tick)
-                                                          : finding<FindingKind::interrupted>(at_time(e.tick), e.tick));
-                   },
-                   [&](const WorkAfterEnd& late) {
-                     c.late = {late.ticks, late.pedal_ticks};
-                   },
-                   [](const AnyOf<StepStarted, TimeUp, AimReached, Perforated, RecordingMoved, Overruns, StylusSilent, StylusBack, PedalLost,
-                                  PedalBack, ServoStopped, ServoDisagrees, ServoLateness, LockAttempt, OfficeHold, OfficeHoldReleased, Announced,
-                                  AnnouncementRead, TutorialStep, MeasuredForce> auto&) {},
-               },
-               e.event);
+/// Takes one event after another.
+class CourseReader {
+ public:
+  /// `ticks`: of the exam.
+  CourseReader(const GradeInput& input, std::int64_t ticks) : input_(input), ticks_(ticks) {
+    course_.progress.steps = static_cast<int>(input.scenario.steps.size());
+    last_done_ = course_.progress.steps == 0;
+    for (const auto& e : input.events) {
+      tick_ = e.tick;
+      std::visit(*this, e.event);
+    }
+    if (!last_done_ && course_.progress.finish != Finish::running) course_.progress.open_last_step = input.scenario.steps.back().id;
   }
-  if (!last_done && c.progress.finish != Finish::running) c.progress.open_last_step = input.scenario.steps.back().id;
-  return c;
-}
+  [[nodiscard]] const Course& course() const noexcept { return course_; }
+
+  void operator()(const StepCompleted& of) {
+    ++course_.progress.steps_completed;
+    last_done_ = last_done_ || of.step == course_.progress.steps - 1;
+  }
+  void operator()(const StepFailed& of) {
+    if (const scenarios::StepSpec* s = failed(of))
+      course_.steps.push_back(finding<FindingKind::step_failed>(s->id, at_time(tick_), s->fail_when, tick_));
+  }
+  void operator()(const StepTimeUp& of) {
+    const scenarios::StepSpec* s = failed(of);
+    if (s == nullptr) return;
+    course_.steps.push_back(s->time_limit_s ? finding<FindingKind::step_timed_out>(s->id, at_time(tick_),
+                                                                                   seconds(scenarios::step_limit_ticks(input_.scenario, *s)), tick_)
+                                            : finding<FindingKind::step_timed_out_otherwise>(s->id, at_time(tick_), tick_));
+  }
+  void operator()(const AnyOf<BurNotAllowed, OverSpeed> auto&) {
+    if (course_.progress.violations++ == 0) course_.progress.first_violation.tick = tick_;
+  }
+  void operator()(const Finished& finished) { course_.progress.finish = finished.how; }
+  void operator()(const PauseStarted&) { course_.pauses.push_back({tick_, ticks_, false}); }
+  void operator()(const HoldStarted&) { course_.pauses.push_back({tick_, ticks_, true}); }
+  void operator()(const AnyOf<PauseEnded, HoldEnded> auto&) {
+    if (!course_.pauses.empty()) course_.pauses.back().end = std::min(tick_, ticks_);
+  }
+  void operator()(const PauseRefused&) {
+    const bool turning =
+        tick_ >= 0 && tick_ < static_cast<std::int64_t>(input_.records.size()) && input_.records[static_cast<std::size_t>(tick_)].rpm > 0;
+    ++course_.pauses_refused;
+    course_.refused.push_back(turning ? finding<FindingKind::pause_refused_turning>(at_time(tick_), tick_)
+                                      : finding<FindingKind::pause_refused_none_left>(at_time(tick_), tick_));
+  }
+  void operator()(const ServoGap& gap) {
+    constexpr std::int64_t k_day = 86'400'000;  // whatever a file says
+    course_.lost_periods += std::clamp<std::int64_t>(gap.periods, 0, k_day);
+  }
+  void operator()(const RecordingGap& gap) {
+    constexpr double k_longest_s = 1e9;
+    const double away_s = std::clamp(gap.utc_s(), 0.0, k_longest_s);
+    course_.interruptions.push_back(away_s > 0 ? finding<FindingKind::interrupted_for>(at_time(tick_), as_s(away_s, 0), tick_)
+                                               : finding<FindingKind::interrupted>(at_time(tick_), tick_));
+  }
+  void operator()(const WorkAfterEnd& late) { course_.late = {late.ticks, late.pedal_ticks}; }
+  void operator()(const AnyOf<StepStarted, TimeUp, AimReached, Perforated, RecordingMoved, Overruns, StylusSilent, StylusBack, PedalLost, PedalBack,
+                              ServoStopped, ServoDisagrees, ServoLateness, LockAttempt, OfficeHold, OfficeHoldReleased, Announced, AnnouncementRead,
+                              TutorialStep, MeasuredForce> auto&) {}
+
+ private:
+  /// The step; null: the scenario has none of that number.
+  const scenarios::StepSpec* failed(const OfStep& of) {
+    ++course_.progress.steps_failed;
+    const auto& steps = input_.scenario.steps;
+    return static_cast<std::size_t>(of.step) < steps.size() ? &steps[static_cast<std::size_t>(of.step)] : nullptr;
+  }
+
+  const GradeInput& input_;
+  std::int64_t ticks_, tick_ = 0;
+  bool last_done_ = false;
+  Course course_;
+};
 
 /// What granted, paused and late time means for a reader.
 void note_time(const Course& course, Result& r) {
@@ -170,7 +174,8 @@ Result grade(const GradeInput& input, const scenarios::RubricSpec& rubric) {
   r.access = measure_access(input, removed, last_tick);
   r.over_pulp = measure_over_pulp(input, removed, last_tick);
   if (input.beside != nullptr) r.beside = measure_beside(input, last_tick, r.volumes);
-  const Course course = course_of(input, ticks);
+  const CourseReader reader(input, ticks);
+  const Course& course = reader.course();
   r.pauses = course.pauses;
   r.pauses_refused = course.pauses_refused;
   r.late_work = course.late;

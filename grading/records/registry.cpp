@@ -43,29 +43,22 @@ bool contest_each_other(const FiledSession& a, const FiledSession& b) {
   return std::find(a.contested_by.begin(), a.contested_by.end(), b.seq) != a.contested_by.end();
 }
 
+/// Why a release of these results is none for a session; empty: it is one.
+Message why_void(const Registry& r, const FiledSession& s, const std::set<std::uint64_t>& results) {
+  if (const FiledSession* other = r.chosen_instead_of(s)) return msg("entry {}, another ending of the same exam, was chosen before", other->seq);
+  if (s.made_up_by) return msg("the makeup sitting of entry {} counts in its place", *s.made_up_by);
+  if (const FiledSession* other = r.shown_beside(s)) return msg("entry {}, another sitting of the same exam, is released", other->seq);
+  const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
+                                [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
+  return both ? msg("it names two endings of the same exam, and one counts: choose it with --session") : Message();
+}
+
 /// What the entry `seq` releases, `results`: of several endings of one exam one, and once a person has chosen, that one.
 void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set<std::uint64_t>& results) {
   for (auto& s : r.sessions) {
     if (!results.contains(s.result_seq)) continue;
-    const auto say = [&](const Message& what) {
-      r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, what), seq});
-    };
-    if (const FiledSession* other = r.chosen_instead_of(s)) {
-      say(msg("entry {}, another ending of the same exam, was chosen before", other->seq));
-      continue;
-    }
-    if (s.made_up_by) {
-      say(msg("the makeup sitting of entry {} counts in its place", *s.made_up_by));
-      continue;
-    }
-    if (const FiledSession* other = r.shown_beside(s)) {
-      say(msg("entry {}, another sitting of the same exam, is released", other->seq));
-      continue;
-    }
-    const bool both = std::any_of(r.sessions.begin(), r.sessions.end(),
-                                  [&](const FiledSession& o) { return contest_each_other(s, o) && results.contains(o.result_seq); });
-    if (both) {
-      say(msg("it names two endings of the same exam, and one counts: choose it with --session"));
+    if (const Message why = why_void(r, s, results); !why.empty()) {
+      r.remarks.push_back({FindingKind::release_void, msg("entry {}: has not released entry {}, for {}", seq, s.seq, why), seq});
       continue;
     }
     for (auto& o : r.sessions)  // released before anybody knew of this ending
@@ -79,38 +72,12 @@ void release(Registry& r, std::uint64_t seq, std::int64_t utc_ns, const std::set
   }
 }
 
-}  // namespace
-
-const FiledSession* Registry::session(std::uint64_t seq) const {
-  const auto found = std::lower_bound(sessions.begin(), sessions.end(), seq, [](const FiledSession& s, std::uint64_t at) { return s.seq < at; });
-  return found == sessions.end() || found->seq != seq ? nullptr : &*found;
+/// The one that an entry made; null: none of the list.
+template <class T>
+const T* of_entry(const std::vector<T>& list, std::uint64_t seq) {
+  const auto found = std::lower_bound(list.begin(), list.end(), seq, [](const T& one, std::uint64_t at) { return one.seq < at; });
+  return found == list.end() || found->seq != seq ? nullptr : &*found;
 }
-
-const IssuedTicket* Registry::ticket(std::uint64_t seq) const {
-  const auto found = std::lower_bound(tickets.begin(), tickets.end(), seq, [](const IssuedTicket& t, std::uint64_t at) { return t.seq < at; });
-  return found == tickets.end() || found->seq != seq ? nullptr : &*found;
-}
-
-const FiledSession* Registry::chosen_instead_of(const FiledSession& session) const {
-  for (const auto& o : sessions)
-    if (contest_each_other(session, o) && o.chosen) return &o;
-  return nullptr;
-}
-
-const FiledSession* Registry::shown_beside(const FiledSession& session) const {
-  for (const auto& o : sessions)
-    if (session.first_sitting != 0 && o.first_sitting == session.first_sitting && o.nonce != session.nonce && o.shown_seq != 0) return &o;
-  return nullptr;
-}
-
-std::map<std::pair<std::string, std::string>, std::uint64_t> Registry::counting() const {
-  std::map<std::pair<std::string, std::string>, std::uint64_t> last;
-  for (const auto& s : sessions)
-    if (s.shown->is_object()) last[{s.candidate, s.scenario_id}] = s.seq;
-  return last;
-}
-
-namespace {
 
 using Documents = std::map<std::string, std::string>;
 
@@ -137,6 +104,29 @@ std::pair<Documents, std::uint64_t> class_documents(const std::vector<const File
 }
 
 }  // namespace
+
+const FiledSession* Registry::session(std::uint64_t seq) const { return of_entry(sessions, seq); }
+
+const IssuedTicket* Registry::ticket(std::uint64_t seq) const { return of_entry(tickets, seq); }
+
+const FiledSession* Registry::chosen_instead_of(const FiledSession& session) const {
+  for (const auto& o : sessions)
+    if (contest_each_other(session, o) && o.chosen) return &o;
+  return nullptr;
+}
+
+const FiledSession* Registry::shown_beside(const FiledSession& session) const {
+  for (const auto& o : sessions)
+    if (session.first_sitting != 0 && o.first_sitting == session.first_sitting && o.nonce != session.nonce && o.shown_seq != 0) return &o;
+  return nullptr;
+}
+
+std::map<std::pair<std::string, std::string>, std::uint64_t> Registry::counting() const {
+  std::map<std::pair<std::string, std::string>, std::uint64_t> last;
+  for (const auto& s : sessions)
+    if (s.shown->is_object()) last[{s.candidate, s.scenario_id}] = s.seq;
+  return last;
+}
 
 std::set<std::uint64_t> Registry::marked_otherwise() const {
   std::map<std::string, std::vector<const FiledSession*>> exams;

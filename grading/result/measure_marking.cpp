@@ -10,6 +10,7 @@ namespace cavum::grading {
 namespace {
 
 MetricValue of_volume(const BoundedVolume& v) { return {v.mm3, v.bound_mm3}; }
+MetricValue known_to(std::optional<double> value, double bound) { return {value, bound}; }
 MetricValue exactly(double v) { return {v, 0.0}; }
 
 /// All that was removed in the row's zones.
@@ -82,9 +83,7 @@ MeasureMarking in_zones_row(const char* measure, std::vector<scenarios::Zone> zo
 std::vector<MeasureMarking> volume_markings() {
   return {
       {.measure = "target_removed_percent",
-       .value = [](R r, A) -> MetricValue {
-         return {r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent};
-       },
+       .value = [](R r, A) { return known_to(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent); },
        .reason = reason::missed_target,
        .json = "/volumes/",
        .bound_json = "/volumes/bounds/"},
@@ -109,9 +108,7 @@ std::vector<MeasureMarking> volume_markings() {
       in_zones_row("overcut_mm3",
                    {scenarios::Zone::container_sides, scenarios::Zone::container_bottom, scenarios::Zone::protected_, scenarios::Zone::none}),
       {.measure = "dice",
-       .value = [](R r, A) -> MetricValue {
-         return {r.volumes.dice, r.volumes.dice_bound};
-       },
+       .value = [](R r, A) { return known_to(r.volumes.dice, r.volumes.dice_bound); },
        .reason = reason::missed_and_beyond,
        .zones = all_zones(false),
        .json = "/volumes/",
@@ -123,45 +120,31 @@ std::vector<MeasureMarking> volume_markings() {
 std::vector<MeasureMarking> shape_markings() {
   return {
       {.measure = "outline_length_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.length_mm, r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.length_mm, r.shape.bound_mm); },
        .reason = reason::figure_alone,
        .json = "/shape/",
        .bound_json = "/shape/bound_mm"},
       {.measure = "outline_width_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.width_mm, r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.width_mm, r.shape.bound_mm); },
        .reason = reason::figure_alone,
        .json = "/shape/",
        .bound_json = "/shape/bound_mm"},
       {.measure = "outline_length_error_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.length_error_mm, 2 * r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.length_error_mm, 2 * r.shape.bound_mm); },
        .reason = reason::length_error},
       {.measure = "outline_width_error_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.width_error_mm, 2 * r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.width_error_mm, 2 * r.shape.bound_mm); },
        .reason = reason::width_error},
       {.measure = "depth_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.depth_mm, r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.depth_mm, r.shape.bound_mm); },
        .reason = reason::figure_alone,
        .json = "/shape/",
        .bound_json = "/shape/bound_mm"},
       {.measure = "depth_error_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.depth_error_mm, 2 * r.shape.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.shape.depth_error_mm, 2 * r.shape.bound_mm); },
        .reason = reason::depth_error},
       {.measure = "taper_deg",
-       .value = [](R r, A) -> MetricValue {
-         return {r.shape.taper_deg, r.shape.taper_bound_deg};
-       },
+       .value = [](R r, A) { return known_to(r.shape.taper_deg, r.shape.taper_bound_deg); },
        .reason = reason::figure_alone,
        .json = "/shape/",
        .bound_json = "/shape/taper_bound_deg"},
@@ -177,9 +160,7 @@ std::vector<MeasureMarking> access_markings() {
        .json = "/access/",
        .bound_json = "/access/bounds/"},
       {.measure = "canals_covered_percent",
-       .value = [](R r, A) -> MetricValue {
-         return {r.access.canals_covered_percent, r.access.canals_bound_percent};
-       },
+       .value = [](R r, A) { return known_to(r.access.canals_covered_percent, r.access.canals_bound_percent); },
        .reason = reason::canals_covered,
        .json = "/access/",
        .bound_json = "/access/bounds/"},
@@ -189,9 +170,7 @@ std::vector<MeasureMarking> access_markings() {
        .json = "/access/",
        .bound_json = "/access/bounds/"},
       {.measure = "dentin_over_pulp_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.over_pulp.dentin_mm, r.over_pulp.bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.over_pulp.dentin_mm, r.over_pulp.bound_mm); },
        .reason = reason::dentin_over_pulp,
        .json = "/pulp/",
        .bound_json = "/pulp/bounds/"},
@@ -201,16 +180,12 @@ std::vector<MeasureMarking> access_markings() {
 std::vector<MeasureMarking> beside_markings() {
   return {
       {.measure = "neighbour_nick_depth_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.beside.nick_depth_mm, r.beside.nick_depth_bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.beside.nick_depth_mm, r.beside.nick_depth_bound_mm); },
        .reason = reason::nick,
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
       {.measure = "neighbour_nick_area_mm2",
-       .value = [](R r, A) -> MetricValue {
-         return {r.beside.nick_area_mm2, r.beside.nick_area_bound_mm2};
-       },
+       .value = [](R r, A) { return known_to(r.beside.nick_area_mm2, r.beside.nick_area_bound_mm2); },
        .reason = reason::nick,
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
@@ -220,9 +195,7 @@ std::vector<MeasureMarking> beside_markings() {
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
       {.measure = "proximal_clearance_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.beside.clearance_mm, r.beside.clearance_bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.beside.clearance_mm, r.beside.clearance_bound_mm); },
        .reason = reason::clearance,
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
@@ -232,9 +205,7 @@ std::vector<MeasureMarking> beside_markings() {
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
       {.measure = "gum_touched_s",
-       .value = [](R r, A) -> MetricValue {
-         return {r.beside.gum_touched_s, r.beside.gum_touched_bound_s};
-       },
+       .value = [](R r, A) { return known_to(r.beside.gum_touched_s, r.beside.gum_touched_bound_s); },
        .reason = reason::gum,
        .json = "/beside/",
        .bound_json = "/beside/bounds/"},
@@ -244,49 +215,35 @@ std::vector<MeasureMarking> beside_markings() {
 std::vector<MeasureMarking> motion_markings() {
   return {
       {.measure = "time_s",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.time_s, r.motion.time_bound_s};
-       },
+       .value = [](R r, A) { return known_to(r.motion.time_s, r.motion.time_bound_s); },
        .reason = reason::time_over,
        .json = "/",
        .bound_json = "/bounds/"},
       {.measure = "handpiece_time_s",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.handpiece_time_s, r.motion.handpiece_bound_s};
-       },
+       .value = [](R r, A) { return known_to(r.motion.handpiece_time_s, r.motion.handpiece_bound_s); },
        .reason = reason::figure_alone,
        .json = "/",
        .bound_json = "/bounds/"},
       {.measure = "idle_s",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.idle_s, r.motion.idle_bound_s};
-       },
+       .value = [](R r, A) { return known_to(r.motion.idle_s, r.motion.idle_bound_s); },
        .reason = reason::figure_alone,
        .json = "/",
        .bound_json = "/bounds/"},
       {.measure = "force_mean_n",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.force_mean_n, r.motion.force_bound_n};
-       },
+       .value = [](R r, A) { return known_to(r.motion.force_mean_n, r.motion.force_bound_n); },
        .reason = reason::figure_alone,
        .json = "/force/mean_n"},
       {.measure = "force_peak_n",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.force_peak_n, r.motion.force_bound_n};
-       },
+       .value = [](R r, A) { return known_to(r.motion.force_peak_n, r.motion.force_bound_n); },
        .reason = reason::force_peak,
        .json = "/force/peak_n"},
       {.measure = "force_over_limit_s",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.force_over_limit_s, r.motion.over_limit_bound_s};
-       },
+       .value = [](R r, A) { return known_to(r.motion.force_over_limit_s, r.motion.over_limit_bound_s); },
        .reason = reason::force_over_limit,
        .json = "/force/over_limit_s",
        .bound_json = "/bounds/over_limit_s"},
       {.measure = "path_mm",
-       .value = [](R r, A) -> MetricValue {
-         return {r.motion.path_mm, r.motion.path_bound_mm};
-       },
+       .value = [](R r, A) { return known_to(r.motion.path_mm, r.motion.path_bound_mm); },
        .reason = reason::figure_alone,
        .json = "/",
        .bound_json = "/bounds/"},
@@ -301,16 +258,12 @@ std::vector<MeasureMarking> conduct_markings() {
        .json = "/perforation/truth/",
        .whole = true},
       {.measure = "perforation_volume_mm3",
-       .value = [](R r, A) -> MetricValue {
-         return {r.perforation.fault.volume_mm3, r.perforation.fault.bound_mm3};
-       },
+       .value = [](R r, A) { return known_to(r.perforation.fault.volume_mm3, r.perforation.fault.bound_mm3); },
        .reason = reason::fault_opened,
        .json = "/perforation/truth/volume_mm3",
        .bound_json = "/perforation/truth/bound_mm3"},
       {.measure = "soft_tissue_outside_mm3",
-       .value = [](R r, A) -> MetricValue {
-         return {r.perforation.fault.outside_mm3, r.perforation.fault.bound_mm3};
-       },
+       .value = [](R r, A) { return known_to(r.perforation.fault.outside_mm3, r.perforation.fault.bound_mm3); },
        .reason = reason::swept_outside,
        .json = "/perforation/truth/outside_mm3",
        .bound_json = "/perforation/truth/bound_mm3"},

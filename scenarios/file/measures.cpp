@@ -82,6 +82,8 @@ std::vector<Measure> tissue_measures() {
   return out;
 }
 
+constexpr unsigned k_counts_removed = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected;
+
 /// In the order of the result's JSON.
 std::vector<Measure> volume_measures() {
   return {
@@ -92,11 +94,7 @@ std::vector<Measure> volume_measures() {
        .most = &most::percent,
        .counts = k_counts_target},
       {.name = "missed_mm3", .words = "target left standing", .judges = Judges::work, .most = &most::target, .counts = k_counts_target},
-      {.name = "removed_mm3",
-       .words = "all tissue removed",
-       .better = Better::by_task,
-       .most = &most::tooth,
-       .counts = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected},
+      {.name = "removed_mm3", .words = "all tissue removed", .better = Better::by_task, .most = &most::tooth, .counts = k_counts_removed},
       {.name = "outside_mm3",
        .words = "removed outside target, leeway and container, what is protected included",
        .most = &most::tooth,
@@ -143,7 +141,7 @@ std::vector<Measure> volume_measures() {
        .better = Better::more,
        .judges = Judges::work,
        .most = &most::one,
-       .counts = k_counts_target | k_counts_sides | k_counts_bottom | k_counts_outside | k_counts_protected},
+       .counts = k_counts_removed},
   };
 }
 

@@ -31,6 +31,11 @@ void check_measure(CheckedTable& t, const std::string& metric) {
   t.problem("metric", what, suggestion(metric, names), Mistake::unknown_name);
 }
 
+std::optional<double> number_if_there(CheckedTable& t, const char* key) {
+  const double value = t.number(key, -1e9, 1e9, 0);
+  return t.has(key) ? std::optional(value) : std::nullopt;
+}
+
 CriterionSpec read_criterion(const toml::table& table, const std::string& at, Places& places, ProblemList& problems) {
   CheckedTable t(table, "[[rubric.criteria]]", problems);
   CriterionSpec c;
@@ -52,14 +57,8 @@ CriterionSpec read_criterion(const toml::table& table, const std::string& at, Pl
     t.problem("zero", msg("'full' and 'zero' are the same value"), msg("points run linearly from one to the other: make them differ"),
               Mistake::contradictory);
   c.points = t.number("points", 0, 1000, 1, true);
-  if (t.has("critical_above"))
-    c.critical_above = t.number("critical_above", -1e9, 1e9, 0);
-  else
-    t.number("critical_above", 0, 0, 0);
-  if (t.has("critical_below"))
-    c.critical_below = t.number("critical_below", -1e9, 1e9, 0);
-  else
-    t.number("critical_below", 0, 0, 0);
+  c.critical_above = number_if_there(t, "critical_above");
+  c.critical_below = number_if_there(t, "critical_below");
   c.band_limits = t.numbers("bands", -1e9, 1e9);
   t.note(places, "bands", fmt::format("{}/bands", at));
   const double worse = c.zero > c.full ? 1 : -1;
@@ -82,10 +81,8 @@ std::vector<BandSpec> read_bands(CheckedTable& t, ProblemList& problems) {
     CheckedTable b(*table, "[[rubric.bands]]", problems);
     BandSpec band;
     band.name = b.text("name", "", true);
-    if (b.has("most"))
-      band.most = b.whole("most", 0, 100, 0);
-    else
-      b.whole("most", 0, 0, 0);
+    const int most = b.whole("most", 0, 100, 0);
+    if (b.has("most")) band.most = most;
     if (bands.empty() && band.most)
       b.problem("most", msg("the best band has a 'most'"), msg("take it out: nobody fails for what is good"), Mistake::contradictory);
     for (const auto& other : bands)
@@ -150,12 +147,6 @@ RubricSpec read_rubric(const toml::table& table, const Where& name, Places& plac
     t.problem("criteria", msg("no criterion gives any points"), msg("give at least one some points"), Mistake::missing);
   t.finish();
   return r;
-}
-
-void check_tissues(CheckedTable& t, const char* key, const std::vector<std::string>& list) {
-  for (std::size_t i = 0; i < list.size(); ++i)
-    if (!good_id(list[i]))
-      t.problem_in(key, i, msg("'{}' is no name of a tissue", list[i]), msg("use names such as pulp or periodontium"), Mistake::bad_name);
 }
 
 PauseSpec read_pauses(const toml::table& table, ProblemList& problems) {
@@ -241,11 +232,13 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);
   if (const auto* p = t.table("perforation", true)) {
     CheckedTable pt(*p, "[perforation]", problems);
-    s.perforation.aims = pt.texts("aims");
-    s.perforation.faults = pt.texts("faults");
-    for (const char* key : {"aims", "faults"}) pt.note(s.places, key, fmt::format("perforation/{}", key));
-    check_tissues(pt, "aims", s.perforation.aims);
-    check_tissues(pt, "faults", s.perforation.faults);
+    for (const auto& [key, list] : {std::pair("aims", &s.perforation.aims), std::pair("faults", &s.perforation.faults)}) {
+      *list = pt.texts(key);
+      pt.note(s.places, key, fmt::format("perforation/{}", key));
+      for (std::size_t i = 0; i < list->size(); ++i)
+        if (!good_id((*list)[i]))
+          pt.problem_in(key, i, msg("'{}' is no name of a tissue", (*list)[i]), msg("use names such as pulp or periodontium"), Mistake::bad_name);
+    }
     for (const auto& aim : s.perforation.aims)
       if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
         pt.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"), Mistake::contradictory);

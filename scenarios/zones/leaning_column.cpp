@@ -36,6 +36,20 @@ double mean_along(const Polyline& line, Vec3 way) {
   return sum / static_cast<double>(line.size());
 }
 
+/// Of the leaves of a tissue that count, by their centres in a frame; empty where it has none.
+Bounds tissue_box(const Octree& tree, const ShapeFrame& frame, std::uint8_t id, const auto& counts) {
+  Bounds box;
+  if (id == k_air) return box;
+  tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
+    if (t != id) return;
+    for (int i = 0; i < edge * edge * edge; ++i) {
+      const Vec3 p = tree.centre_mm(at + IVec3{i % edge, i / edge % edge, i / (edge * edge)});
+      if (counts(p)) box.add(frame.local(p));
+    }
+  });
+  return box;
+}
+
 }  // namespace
 
 ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
@@ -71,15 +85,7 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   for (const auto& t : tooth.tissues)
     if (t.name == tissue) id = t.id;
   const auto counts = [&](Vec3 p) { return part == TissuePart::all || p.z >= frame.at.z; };
-  Bounds box;
-  if (id != k_air)
-    tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
-      if (t != id) return;
-      for (int i = 0; i < edge * edge * edge; ++i) {
-        const Vec3 p = tree.centre_mm(at + IVec3{i % edge, i / edge % edge, i / (edge * edge)});
-        if (counts(p)) box.add(frame.local(p));
-      }
-    });
+  const Bounds box = tissue_box(tree, frame, id, counts);
   if (box.low.x > box.high.x)
     throw Error(where, msg("the tooth '{}' has no {} along the way in", tooth.name, tissue), msg("choose a tooth with it, or another zone"));
   TissueRelief relief;

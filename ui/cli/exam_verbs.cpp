@@ -119,16 +119,14 @@ std::unique_ptr<scenarios::ExamSetup> make_setup(const ExamArguments& o, const L
     options.continuous_n = live->continuous_n();
   }
   options.grant = o.grant;
-  if (o.ticket.empty()) {
-    auto setup = scenarios::prepare_exam(o.scenario, options);
-    show_texts_of(setup->scenario);
-    return setup;
+  std::optional<records::HeldTicket> held;
+  if (!o.ticket.empty()) {
+    held = records::read_ticket(o.ticket);
+    records::require_unused(*held);
+    records::use_ticket(*held, options);
   }
-  const records::HeldTicket held = records::read_ticket(o.ticket);
-  records::require_unused(held);
-  records::use_ticket(held, options);
   auto setup = scenarios::prepare_exam(o.scenario, options);
-  records::require_promised(held, setup->session);
+  if (held) records::require_promised(*held, setup->session);
   show_texts_of(setup->scenario);
   return setup;
 }
@@ -227,9 +225,7 @@ int run_live(const ExamArguments& o, const scenarios::ExamSetup& setup, LiveSour
                       ? tr("servo: {} ticks, {} late, worst {}", report.servo.ticks, report.servo.overruns, worst)
                       : tr("servo: {} ticks, {} late, worst {} (without SCHED_FIFO)", report.servo.ticks, report.servo.overruns, worst))
               << "\n";
-  if (exam.over()) {
-    return finish(o, exam, servo);
-  }
+  if (exam.over()) return finish(o, exam, servo);
   write_somewhere(exam, o.out_if_full, [&exam] { exam.recorder().flush(); });
   const std::string& session = exam.recorder().path();
   const Message why = report.servo.failure.empty() ? msg("was stopped") : msg("was stopped: {}", report.servo.failure);
@@ -387,19 +383,13 @@ void add_exam_verbs(CLI::App& app, int& exit_code) {
   exam->add_flag("--quiet", o->quiet, tr("no progress bar"));
   exam->callback([o, model, &exit_code] {
     o->model_given = model->count() > 0;
-    if (!o->resume && names_nothing(*o)) {
-      exit_code = run_new(demonstration(*o));
-      return;
-    }
+    if (!o->resume && names_nothing(*o)) *o = demonstration(*o);
     if (o->out.empty()) throw Error(msg("exam"), msg("no session file to write is named"), msg("add --out with a name such as exam.cavum"));
-    if (o->resume) {
-      exit_code = run_resumed(*o);
-    } else {
-      if (o->scenario.empty()) throw Error(msg("exam"), msg("no scenario given"), msg("name a file such as data/scenarios/molar_access.toml"));
-      if (o->candidate.empty() && o->ticket.empty())
-        throw Error(msg("exam"), msg("no candidate given"), msg("add --candidate with a pseudonym, or --ticket"));
-      exit_code = run_new(*o);
-    }
+    if (!o->resume && o->scenario.empty())
+      throw Error(msg("exam"), msg("no scenario given"), msg("name a file such as data/scenarios/molar_access.toml"));
+    if (!o->resume && o->candidate.empty() && o->ticket.empty())
+      throw Error(msg("exam"), msg("no candidate given"), msg("add --candidate with a pseudonym, or --ticket"));
+    exit_code = o->resume ? run_resumed(*o) : run_new(*o);
   });
 }
 

@@ -9,6 +9,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/lab/explain/report/overview_report.h"
+#include "ui/cli/explain_charts.h"
 #include "ui/cli/explain_page.h"
 #include "ui/language/say.h"
 #include "ui/parts/option_checks.h"

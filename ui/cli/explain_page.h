@@ -4,14 +4,11 @@
 #include <string>
 
 #include "engine/lab/explain/inference/stiffness_table.h"
-#include "ui/parts/chart_svg.h"
 
 namespace cavum::ui {
 
 /// A whole page of `content`. `title`: the recording's name.
 [[nodiscard]] std::string page_html(const std::string& title, const std::string& content);
-/// A chart with its title and legend above it as text of the page, which breaks where a telephone ends.
-[[nodiscard]] std::string figure(Chart chart, const Message& title, const Message& x_label, const Message& y_label);
 [[nodiscard]] std::string explanation_html(const explain::Explanation& explanation, const std::string& title);
 /// The same for a table of force over stiffness.
 [[nodiscard]] std::string table_html(const explain::TableExplanation& explanation, const std::string& title);

@@ -80,70 +80,89 @@ void run_grade_one(const std::string& path, const GradeArguments& o) {
 
 Number signed_number(double points) { return {points, Unit::none, 1, 0.0, true}; }
 
-/// Several sessions as one table; below it what changed, and what cannot be graded. Returns how many could not.
-int run_grade_many(const std::vector<std::string>& files, const GradeArguments& o) {
-  Json list = Json::array();
-  Lines table, changes;
-  table.row({msg("old"), msg("new"), msg("change"), msg("session")}, 2);
-  int failed = 0, compared = 0;
-  std::map<std::pair<std::string, std::string>, int> verdicts;  // before and now
-  const auto cell = [](const std::string& verdict, double points, double max) {
+/// Several sessions as one table; below it what changed, and what cannot be graded.
+class GradedMany {
+ public:
+  GradedMany() { table_.row({msg("old"), msg("new"), msg("change"), msg("session")}, 2); }
+
+  void add(const std::string& file, const MarkedSession& g) {
+    const std::string now = grading::verdict_name(g.result.verdict);
+    Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
+    if (g.comparison) {
+      const grading::Comparison& c = *g.comparison;
+      table_.row({cell(c.before.verdict, c.before.points, c.before.max), cell(now, c.points, c.max),
+                  msg("{}", signed_number(c.points - c.before.points)), Name{file}},
+                 2);
+      for (const auto& d : c.criteria)
+        if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
+          const Message one_more = msg("{} {}", d.id, signed_number(d.difference()));
+          changes_.add(d.why.empty() ? msg("{}: {}", file, one_more) : msg("{}: {}: {}", file, one_more, all_of(d.why)), 2);
+        }
+      ++verdicts_[{c.before.verdict, now}];
+      one.update(grading::to_json(c));
+    } else {
+      table_.row({msg("none"), cell(now, g.result.points, g.result.max_points), Message(), Name{file}}, 2);
+      one["old"] = nullptr;
+      one["new"] = {{"verdict", now}, {"points", g.result.points}, {"max", g.result.max_points}};
+      ++new_ones_;
+    }
+    list_.push_back(std::move(one));
+  }
+  void add(const std::string& file, const Error& e) {
+    ++failed_;
+    list_.push_back({{"file", file}, {"error", e.message()}});
+    changes_.add(msg("cannot be graded: {}", e.message()), 2);
+  }
+
+  [[nodiscard]] int failed() const noexcept { return failed_; }
+  [[nodiscard]] Json json() const {
+    Json counts = Json::object();
+    for (const auto& [turn, count] : verdicts_)
+      counts[turn.first == turn.second ? "stay " + turn.second : fmt::format("{} -> {}", turn.first, turn.second)] = count;
+    return {{"sessions", list_}, {"graded", list_.size() - static_cast<std::size_t>(failed_)}, {"failed", failed_}, {"verdicts", counts}};
+  }
+  void say_all() const {
+    say(table_);
+    say(changes_);
+    const auto n = static_cast<std::int64_t>(list_.size());
+    List sum;
+    sum.items.push_back(msgn("{} session", "{} sessions", n, n));
+    for (const auto& [turn, count] : verdicts_)
+      sum.items.push_back(turn.first == turn.second ? msgn("{} stays {}", "{} stay {}", count, count, Term{turn.second})
+                                                    : msg("{} {} -> {}", count, Term{turn.first}, Term{turn.second}));
+    if (new_ones_ > 0) sum.items.push_back(msg("{} without a sealed result", new_ones_));
+    if (failed_ > 0) sum.items.push_back(msg("{} not graded", failed_));
+    say(msg("{}", sum));
+  }
+
+ private:
+  static Message cell(const std::string& verdict, double points, double max) {
     return msg("{} {}/{}", Term{verdict}, as_points(points), as_number(max));
-  };
+  }
+
+  Json list_ = Json::array();
+  Lines table_, changes_;
+  int failed_ = 0, new_ones_ = 0;
+  std::map<std::pair<std::string, std::string>, int> verdicts_;  // before and now
+};
+
+/// Returns how many could not be graded.
+int run_grade_many(const std::vector<std::string>& files, const GradeArguments& o) {
+  GradedMany all;
   grading::ExamContexts grounds;  // of the class
   for (const auto& file : files) {
     try {
-      const MarkedSession g = marked_session(file, o.marking, grounds);
-      const std::string now = grading::verdict_name(g.result.verdict);
-      Json one = {{"file", file}, {"candidate", g.session->facts.candidate}};
-      if (g.comparison) {
-        const grading::Comparison& c = *g.comparison;
-        table.row({cell(c.before.verdict, c.before.points, c.before.max), cell(now, c.points, c.max),
-                   msg("{}", signed_number(c.points - c.before.points)), Name{file}},
-                  2);
-        for (const auto& d : c.criteria)
-          if (std::fabs(d.difference()) >= 0.05 || !d.old_points || !d.new_points) {
-            const Message one_more = msg("{} {}", d.id, signed_number(d.difference()));
-            changes.add(d.why.empty() ? msg("{}: {}", file, one_more) : msg("{}: {}: {}", file, one_more, all_of(d.why)), 2);
-          }
-        ++compared;
-        ++verdicts[{c.before.verdict, now}];
-        const Json json = grading::to_json(c);
-        for (const auto& [key, value] : json.items()) one[key] = value;
-      } else {
-        table.row({msg("none"), cell(now, g.result.points, g.result.max_points), Message(), Name{file}}, 2);
-        one["old"] = nullptr;
-        one["new"] = {{"verdict", now}, {"points", g.result.points}, {"max", g.result.max_points}};
-      }
-      list.push_back(std::move(one));
+      all.add(file, marked_session(file, o.marking, grounds));
     } catch (const Error& e) {
-      ++failed;
-      list.push_back({{"file", file}, {"error", e.message()}});
-      changes.add(msg("cannot be graded: {}", e.message()), 2);
+      all.add(file, e);
     }
   }
-  Json counts = Json::object();
-  for (const auto& [turn, count] : verdicts)
-    counts[turn.first == turn.second ? "stay " + turn.second : fmt::format("{} -> {}", turn.first, turn.second)] = count;
-  const Json all = {{"sessions", list}, {"graded", files.size() - static_cast<std::size_t>(failed)}, {"failed", failed}, {"verdicts", counts}};
-  if (!o.out.empty()) write_new(o.out, all);
-  if (o.json) {
-    print_json(all);
-  } else {
-    say(table);
-    say(changes);
-    const auto n = static_cast<std::int64_t>(files.size());
-    List sum;
-    sum.items.push_back(msgn("{} session", "{} sessions", n, n));
-    for (const auto& [turn, count] : verdicts)
-      sum.items.push_back(turn.first == turn.second ? msgn("{} stays {}", "{} stay {}", count, count, Term{turn.second})
-                                                    : msg("{} {} -> {}", count, Term{turn.first}, Term{turn.second}));
-    if (const int new_ones = static_cast<int>(files.size()) - failed - compared; new_ones > 0)
-      sum.items.push_back(msg("{} without a sealed result", new_ones));
-    if (failed > 0) sum.items.push_back(msg("{} not graded", failed));
-    say(msg("{}", sum));
-  }
-  return failed;
+  if (!o.out.empty()) write_new(o.out, all.json());
+  if (o.json)
+    print_json(all.json());
+  else
+    all.say_all();
+  return all.failed();
 }
 
 int run_grade(const GradeArguments& o) {

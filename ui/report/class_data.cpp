@@ -8,6 +8,38 @@
 #include "ui/report/report_data.h"
 
 namespace cavum::report {
+namespace {
+
+/// Of each cell of a box the share of the class, percent, that cut there beyond the target, or left the target standing. A cell on the border tells
+/// of the side that more of it lies on.
+std::vector<std::int8_t> heat_of(const cohort::ClassTooth& t, const ToothGrid& grid, const ChangedCells& box) {
+  const Octree& tree = t.tooth.octree;
+  const int e = grid.edge_leaves;
+  std::vector<std::int8_t> heat;
+  const auto cell_heat = [&](IVec3 first) {
+    double over = 0, under = 0;
+    int outside = 0, inside = 0;
+    for (int z = 0; z < e; ++z)
+      for (int y = 0; y < e; ++y)
+        for (int x = 0; x < e; ++x) {
+          const IVec3 leaf = first + IVec3{x, y, z};
+          if (leaf.x < 0 || leaf.y < 0 || leaf.z < 0 || tree.tissue(leaf) == k_air) continue;
+          const bool target = t.zones.zone(leaf) == scenarios::Zone::target;
+          (target ? under : over) += t.map->percent(leaf);
+          ++(target ? inside : outside);
+        }
+    return inside > outside ? under / inside : outside > 0 ? over / outside : 0.0;
+  };
+  for (int z = 0; z < box.size.z; ++z)
+    for (int y = 0; y < box.size.y; ++y)
+      for (int x = 0; x < box.size.x; ++x) {
+        const IVec3 cell = box.low + IVec3{x, y, z};
+        heat.push_back(static_cast<std::int8_t>(std::lround(cell_heat(grid.low_leaf + IVec3{cell.x * e, cell.y * e, cell.z * e}))));
+      }
+  return heat;
+}
+
+}  // namespace
 
 nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::ClassTooth& t) {
   // an exam in which exactly the target went
@@ -21,43 +53,8 @@ nlohmann::json class_data(const cohort::ClassFigures& figures, const cohort::Cla
   const ToothGrid grid = make_tooth_grid(t.tooth);
   const ChangedCells box = make_changed_cells(grid, planned);
 
-  struct Sum {
-    double over = 0, under = 0;
-    int outside = 0, inside = 0;
-  };
-  std::vector<Sum> sums(box.solid.size());
-  const int e = grid.edge_leaves;
-  const auto each = [&](const auto& visit) {
-    std::size_t i = 0;
-    for (int z = 0; z < box.size.z; ++z)
-      for (int y = 0; y < box.size.y; ++y)
-        for (int x = 0; x < box.size.x; ++x) visit(i++, box.low + IVec3{x, y, z});
-  };
-  std::vector<std::int8_t> heat(box.solid.size(), 0);
-  each([&](std::size_t i, IVec3 cell) {
-    Sum& s = sums[i];
-    const IVec3 first = grid.low_leaf + IVec3{cell.x * e, cell.y * e, cell.z * e};
-    for (int z = 0; z < e; ++z)
-      for (int y = 0; y < e; ++y)
-        for (int x = 0; x < e; ++x) {
-          const IVec3 leaf = first + IVec3{x, y, z};
-          if (leaf.x < 0 || leaf.y < 0 || leaf.z < 0 || tree.tissue(leaf) == k_air) continue;
-          const double percent = t.map->percent(leaf);
-          if (t.zones.zone(leaf) == scenarios::Zone::target) {
-            s.under += percent;
-            ++s.inside;
-          } else {
-            s.over += percent;
-            ++s.outside;
-          }
-        }
-    // a cell on the border tells of the side that more of it lies on
-    const double mean = s.inside > s.outside ? s.under / s.inside : s.outside > 0 ? s.over / s.outside : 0;
-    heat[i] = static_cast<std::int8_t>(std::lround(mean));
-  });
-
   nlohmann::json cells = cells_json(grid, box);
-  cells["heat"] = packed_array(heat);
+  cells["heat"] = packed_array(heat_of(t, grid, box));
   nlohmann::json data = {{"schema", 1},
                          {"kind", "class"},
                          {"title", t.scenario.title},

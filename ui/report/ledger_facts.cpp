@@ -49,6 +49,30 @@ std::vector<Message> doubts_of(const records::FiledSession& s) {
   return out;
 }
 
+/// All of this candidate's at this task that the reader may see.
+void list_attempts(ReportFiling& f, const records::Registry& registry, const records::FiledSession& session, ReportReader reader) {
+  for (const auto& s : registry.sessions) {
+    if (s.candidate != session.candidate || s.scenario_id != session.scenario_id) continue;
+    const bool released = !s.shown->is_null();
+    if (reader == ReportReader::student && !released) continue;
+    const json& result = reader == ReportReader::student ? *s.shown : *s.result;
+    ReportAttempt a;
+    a.entry = s.seq;
+    a.date = utc_text(s.received_utc_ns);
+    a.released = reader == ReportReader::student ? released : s.released;
+    a.this_one = s.seq == session.seq;
+    a.regraded = (reader == ReportReader::student ? s.shown_seq : s.result_seq) != s.seq;
+    a.simulated = !s.simulated.empty();
+    if (const auto doubts = doubts_of(s); !doubts.empty()) a.doubt = doubts.front();
+    if (result.is_object() && result.contains("score") && result["score"].is_object()) {
+      a.verdict = result.value("verdict", "");
+      a.points = result["score"].value("points", 0.0);
+      a.max = result["score"].value("max", 0.0);
+    }
+    f.attempts.push_back(std::move(a));
+  }
+}
+
 }  // namespace
 
 ReportLedger::ReportLedger(const std::string& folder) : places{folder}, content(records::read_ledger(places)) {
@@ -104,26 +128,7 @@ ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& 
       throw Error(msg("--with-name"), msg("nobody is known behind {}", session.candidate), msg("the identity was forgotten; leave --with-name out"));
     f.name = who->name.empty() ? who->id : who->name;
   }
-  for (const auto& s : ledger.registry.sessions) {
-    if (s.candidate != session.candidate || s.scenario_id != session.scenario_id) continue;
-    const bool released = !s.shown->is_null();
-    if (reader == ReportReader::student && !released) continue;
-    const json& result = reader == ReportReader::student ? *s.shown : *s.result;
-    ReportAttempt a;
-    a.entry = s.seq;
-    a.date = utc_text(s.received_utc_ns);
-    a.released = reader == ReportReader::student ? released : s.released;
-    a.this_one = s.seq == session.seq;
-    a.regraded = (reader == ReportReader::student ? s.shown_seq : s.result_seq) != s.seq;
-    a.simulated = !s.simulated.empty();
-    if (const auto doubts = doubts_of(s); !doubts.empty()) a.doubt = doubts.front();
-    if (result.is_object() && result.contains("score") && result["score"].is_object()) {
-      a.verdict = result.value("verdict", "");
-      a.points = result["score"].value("points", 0.0);
-      a.max = result["score"].value("max", 0.0);
-    }
-    f.attempts.push_back(std::move(a));
-  }
+  list_attempts(f, ledger.registry, session, reader);
   add_progress(f, ledger.registry, session, reader);
   return f;
 }

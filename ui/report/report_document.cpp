@@ -21,10 +21,6 @@ namespace {
 const std::string k_dash = "–";
 constexpr double k_no_points = 0.005;  // reads 0.00
 
-std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
-  return points ? tr("{} / {}", as_points(*points), as_points(max.value_or(0))) : k_dash;
-}
-
 /// How far from the pass mark, in points.
 std::vector<std::string> margin(const grading::Result& r, ReportReader reader) {
   std::vector<std::string> lines;
@@ -297,94 +293,11 @@ void add_course(Document& d, const ReportSource& s) {
   d.blocks.push_back(std::move(t));
 }
 
-/// Whether the marks changed by more than they do by themselves.
-Paragraph progress_words(const ReportFiling& f) {
-  const auto paragraph = [](const char* id, const std::string& words) { return Paragraph{words, "", Paragraph::Kind::normal, id}; };
-  if (!f.scatter)
-    return paragraph("change_unknown",
-                     tr("How much marks vary from one attempt to the next is not known yet: that takes {} further attempts of {} candidates or more.",
-                        cohort::k_min_steps, cohort::k_min_repeaters));
-  if (!f.progress) return paragraph("first_attempt", tr("This is the first attempt that counts."));
-  const cohort::Progress& p = *f.progress;
-  const Message by_chance = msg("up to {} may be chance, as {} steps of {} candidates from one attempt to the next show", as_percent(p.bound_percent),
-                                f.scatter->steps, f.scatter->candidates);
-  if (!p.told())
-    return paragraph("no_change", tr("Over {} attempts no change can be told from chance: {}, and {}.", p.attempts,
-                                     Number{p.change_percent, Unit::percent, 0, 0, true}, by_chance));
-  const Number by = as_percent(std::fabs(p.change_percent));
-  return p.change_percent > 0
-             ? paragraph("rose", tr("Over {} attempts the mark rose by {}: more than chance explains ({}).", p.attempts, by, by_chance))
-             : paragraph("fell", tr("Over {} attempts the mark fell by {}: more than chance explains ({}).", p.attempts, by, by_chance));
-}
-
-void add_attempts(Document& d, const ReportSource& s) {
-  d.blocks.push_back(Heading{tr("Attempts over time")});
-  if (!s.filing) {
-    d.blocks.push_back(Paragraph{tr("This report was made from one session alone; earlier attempts are known to the school's ledger."), ""});
-    return;
-  }
-  const bool all = s.reader == ReportReader::instructor;
-  ReportTable t{{{tr("Attempt"), true, 1},
-                 {tr("Filed (UTC)"), false, 3},
-                 {tr("Verdict"), false, 1.5},
-                 {tr("Points"), true, 2},
-                 {tr("Entry"), true, 1},
-                 {"", false, 2.5}},
-                {},
-                tr("Attempts"),
-                0,
-                "attempts"};
-  std::vector<ReportAttempt> shown;
-  for (const auto& a : s.filing->attempts) {
-    if (!all && !a.released) continue;
-    shown.push_back(a);
-    t.rows.push_back({{{std::to_string(shown.size())},
-                       {a.date},
-                       {attempt_verdict(a)},
-                       {points_of(a.points, a.max)},
-                       {std::to_string(a.entry)},
-                       {attempt_remark(a)}},
-                      !a.doubt.empty(),
-                      std::string(a.doubt.empty() ? "sound" : "in_doubt") + (a.regraded ? " regraded" : "") + (a.simulated ? " simulated" : "") +
-                          (a.released ? "" : " unreleased")});
-  }
-  d.blocks.push_back(Pictures{{attempts_chart(shown, s.result.pass_percent)}});
-  d.blocks.push_back(progress_words(*s.filing));
-  d.blocks.push_back(std::move(t));
-}
-
-void add_regrade(Document& d, const grading::Comparison& c) {
-  d.blocks.push_back(Heading{tr("Beside the sealed result")});
-  ReportTable t{{{"", false, 2}, {tr("Sealed"), true, 1.5}, {tr("Regrade"), true, 1.5}, {tr("Change"), true, 1}, {tr("What changed"), false, 5}},
-                {},
-                tr("Sealed result and regrade"),
-                0,
-                "regrade"};
-  t.rows.push_back({{{tr("verdict")}, {tr("{}", Term{c.before.verdict})}, {tr("{}", Term{c.verdict})}, {""}, {tr(grading::all_of(c.rules))}}});
-  t.rows.push_back({{{tr("points")},
-                     {points_of(c.before.points, c.before.max)},
-                     {points_of(c.points, c.max)},
-                     {figure(grading::signed_points(c.points - c.before.points))},
-                     {""}}});
-  if (std::fabs(c.before.max - c.max) > 1e-9) {  // two scales: what is left of each
-    const double before = c.before.max > 0 ? 100 * c.before.points / c.before.max : 0, now = c.max > 0 ? 100 * c.points / c.max : 0;
-    t.rows.push_back({{{tr("of its own scale")},
-                       {figure(as_percent(before, 1))},
-                       {figure(as_percent(now, 1))},
-                       {figure({now - before, Unit::percent, 1, 0, true})},
-                       {""}}});
-  }
-  for (const auto& k : c.criteria) {
-    t.rows.push_back({{{k.id},
-                       {points_of(k.old_points, k.old_max)},
-                       {points_of(k.new_points, k.new_max)},
-                       {figure(grading::signed_points(k.difference()))},
-                       {tr(grading::all_of(k.why))}}});
-  }
-  d.blocks.push_back(std::move(t));
-}
-
 }  // namespace
+
+std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
+  return points ? tr("{} / {}", as_points(*points), as_points(max.value_or(0))) : k_dash;
+}
 
 TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
   if (tick < 0 || tick == grading::k_untimed_tick) return {k_dash};

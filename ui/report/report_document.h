@@ -19,6 +19,10 @@ void add_scan_parts(Document& document, const ReportSource& source);
 /// What the ledger knows that bears on the result: that a regrade gave it, and when and why; that the session was filed with findings, or is
 /// contested.
 void add_filing_notes(Document& document, const ReportSource& source);
+/// All attempts that the reader may see, and whether the marks changed by more than chance.
+void add_attempts(Document& document, const ReportSource& source);
+/// What a regrade changed, beside the sealed result.
+void add_regrade(Document& document, const grading::Comparison& comparison);
 /// The verdict of an attempt as a table shows it: one that is in doubt, was regraded, or was sat by a simulated operator, says so.
 [[nodiscard]] std::string attempt_verdict(const ReportAttempt& attempt);
 /// "this report, not released", and why it is in doubt.
@@ -29,6 +33,8 @@ void add_integrity(Document& document, const ReportSource& source);
 
 /// "12.3 s" as a cell that jumps there; a dash for a negative tick.
 [[nodiscard]] TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm);
+/// "7.5 / 10"; a dash for none.
+[[nodiscard]] std::string points_of(const std::optional<double>& points, const std::optional<double>& max);
 /// "1.20, 0.30, -2.10".
 [[nodiscard]] std::string place_text(const std::optional<Vec3>& site_mm);
 /// Of every figure of a floor's overcut, in the reader's language.

@@ -172,6 +172,35 @@ HeightMap top_of(const Slices& s) {
   return map;
 }
 
+/// Of the slices that are wide, as high as the widest.
+Vec3 chamber_middle(const Slices& s, int widest) {
+  double sum_x = 0, sum_y = 0, area = 0;
+  for (int z = 0; z < s.nz; ++z) {
+    if (area_of(s, z) < k_chamber * area_of(s, widest)) continue;
+    for (int y = 0; y < s.ny; ++y)
+      for (int x = 0; x < s.nx; ++x)
+        if (s.in[s.index(x, y, z)] != 0) {
+          sum_x += x;
+          sum_y += y;
+          area += 1;
+        }
+  }
+  return s.place(sum_x / area, sum_y / area, widest);
+}
+
+/// The lowest place of the pulp's top near the chamber's middle.
+std::optional<Vec3> chamber_roof(const HeightMap& top, Vec3 middle) {
+  constexpr double k_near_mm = 0.6;
+  std::optional<Vec3> roof;
+  for (int c = 0; c < top.count(); ++c) {
+    const Vec3 p = top.place(c);
+    const double dx = p.x - middle.x, dy = p.y - middle.y;
+    if (top.on[static_cast<std::size_t>(c)] == 0 || dx * dx + dy * dy > k_near_mm * k_near_mm || p.z < middle.z) continue;
+    if (!roof || p.z < roof->z) roof = Vec3{middle.x, middle.y, p.z};
+  }
+  return roof;
+}
+
 }  // namespace
 
 PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint8_t pulp, std::optional<double> neck_z, bool front) {
@@ -197,31 +226,14 @@ PulpMarks find_pulp_marks(const Tooth& tooth, const CrownFrame& frame, std::uint
     if (p.saddle >= 0 && top.at(p.saddle) > chamber_low && (!between_horns || top.at(p.saddle) < between_horns->z))
       between_horns = top.place(p.saddle);
   }
-  double sum_x = 0, sum_y = 0, area = 0;
-  for (int z = 0; z < s.nz; ++z) {
-    if (area_of(s, z) < k_chamber * area_of(s, widest)) continue;
-    for (int y = 0; y < s.ny; ++y)
-      for (int x = 0; x < s.nx; ++x)
-        if (s.in[s.index(x, y, z)] != 0) {
-          sum_x += x;
-          sum_y += y;
-          area += 1;
-        }
-  }
-  const Vec3 middle = s.place(sum_x / area, sum_y / area, widest);
+  const Vec3 middle = chamber_middle(s, widest);
   // a front tooth's chamber narrows into the horns: its roof is the saddle between them
   if (front && between_horns) {
     Vec3 sum;
     for (const Vec3 h : marks.horns) sum += h;
     marks.roof = Vec3{sum.x / static_cast<double>(marks.horns.size()), sum.y / static_cast<double>(marks.horns.size()), between_horns->z};
   }
-  constexpr double k_near_mm = 0.6;
-  for (int c = 0; !front && c < top.count(); ++c) {
-    const Vec3 p = top.place(c);
-    const double dx = p.x - middle.x, dy = p.y - middle.y;
-    if (top.on[static_cast<std::size_t>(c)] == 0 || dx * dx + dy * dy > k_near_mm * k_near_mm || p.z < middle.z) continue;
-    if (!marks.roof || p.z < marks.roof->z) marks.roof = Vec3{middle.x, middle.y, p.z};
-  }
+  if (!front) marks.roof = chamber_roof(top, middle);
   if (floor >= 1) {
     marks.floor = Vec3{middle.x, middle.y, chamber_low};
     marks.mouths = mouths_below(s, floor, chamber_low);

@@ -146,6 +146,17 @@ void smooth(Session& s, std::vector<double>& moved) {
   }
 }
 
+/// Slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration.
+double acceleration_at(const Session& s, std::size_t i, double row_s) {
+  const auto half =
+      (s.q > 0.0 || s.noise > 0.0) && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / row_s), 1L, 50L)) : 1;
+  const std::size_t before = i > half ? i - half : 0, after = std::min(static_cast<std::size_t>(s.n) - 1, i + half);
+  double mean = 0.0, moment = 0.0, square = 0.0;
+  for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
+  for (std::size_t j = before; j <= after; ++j) moment += (s.t[j] - mean) * s.smoothed[j].v, square += (s.t[j] - mean) * (s.t[j] - mean);
+  return square > 0.0 ? moment / square : 0.0;
+}
+
 void estimate(Session& s, Motion& out, Eigen::Index begin) {
   const auto n = static_cast<std::size_t>(s.n);
   set_observations(s);
@@ -190,19 +201,11 @@ void estimate(Session& s, Motion& out, Eigen::Index begin) {
     out.lasting_rows[row] = s.noise > 0.0 ? k_noisy_lasting_rows
                             : s.q > 0.0   ? std::clamp(s.run_rows[i], 1.0, std::max(1.0, k_lasting_s / row_s))
                                           : 1.0;
-    // slope of a straight line through the speeds around: what the steps of an encoder do from row to row is no acceleration
-    const auto half =
-        (s.q > 0.0 || s.noise > 0.0) && s.v == nullptr ? static_cast<std::size_t>(std::clamp(std::lround(k_slope_s / row_s), 1L, 50L)) : 1;
-    const std::size_t before = i > half ? i - half : 0, after = std::min(n - 1, i + half);
-    double mean = 0.0, moment = 0.0, square = 0.0;
-    for (std::size_t j = before; j <= after; ++j) mean += s.t[j] / static_cast<double>(after - before + 1);
-    for (std::size_t j = before; j <= after; ++j) moment += (s.t[j] - mean) * s.smoothed[j].v, square += (s.t[j] - mean) * (s.t[j] - mean);
-    out.a_mm_s2[row] = square > 0.0 ? moment / square : 0.0;
+    out.a_mm_s2[row] = acceleration_at(s, i, row_s);
   }
   if (s.q > 0.0 || s.noise > 0.0 || s.v != nullptr) return;
   // fine positions of a smooth motion give its speed better than a speed that walks at random would let them
-  const auto rows = static_cast<std::size_t>(s.n);
-  const std::vector<Slope> slope = slopes({s.t, rows}, {s.x, rows});
+  const std::vector<Slope> slope = slopes({s.t, n}, {s.x, n});
   for (std::size_t i = 0; i < n; ++i) {
     const Eigen::Index row = begin + static_cast<Eigen::Index>(i);
     if (slope[i].error_mm_s >= out.sd_v_mm_s[row]) continue;
