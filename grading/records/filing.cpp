@@ -83,7 +83,8 @@ void enter(Ledger& ledger, const Bytes& image, const SessionReader& session, con
   const std::string kept = ledger.places().session(file_sha256);
   make_private_folder(ledger.places().folder + "/sessions");
   write_private_file(kept, image);
-  if (read_file(kept) != image) throw DatabaseError(kept, msg("does not hold what was written"), msg("check the disk, and file the exam again"), DiskRefusal{});
+  if (read_file(kept) != image)
+    throw DatabaseError(kept, msg("does not hold what was written"), msg("check the disk, and file the exam again"), DiskRefusal{});
   SessionEntry entry = entry_of(session, setup, mark, file_sha256);
   const std::size_t entered = ledger.append_all([&](const LedgerContent& now) -> std::vector<Entry> {
     // again under the lock: somebody may have used the ticket meanwhile

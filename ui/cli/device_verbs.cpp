@@ -205,8 +205,9 @@ void add_device_verbs(CLI::App& app, int& exit_code) {
   const auto o = std::make_shared<DeviceArguments>();
   auto* devices = app.add_subcommand("devices", tr("What is plugged in and what is wrong with it"));
   devices->add_option("--pedal", o->id, tr("vendor and product, for example 068e:00f2; needed when there are several"));
-  auto* stylus = devices->add_option(
-      "--stylus", o->stylus, tr("{}: for --test, --self-check and --place", list_of(stylus_kinds().ids({StylusHand::person, StylusHand::candidate}))));
+  auto* stylus =
+      devices->add_option("--stylus", o->stylus,
+                          tr("{}: for --test, --self-check and --place", list_of(stylus_kinds().ids({StylusHand::person, StylusHand::candidate}))));
   auto* test_flag =
       devices->add_flag("--test", o->test,
                         tr("listen to the pedal: rate, jitter, longest gap, quantum; ends with 1 when it is silent. With --stylus: the same, "

@@ -69,9 +69,9 @@ void require_sound(const station::StationOptions& o, const std::string& author) 
   if (o.sitting.scenario.empty() && o.sitting.resume.empty())
     throw Error(msg("station"), msg("no scenario given"), msg("name a file such as data/scenarios/molar_access.toml"));
   if (o.sitting.device.name.empty())
-    throw Error(
-        msg("station"), msg("no device given"),
-        msg("say what is in the candidate's hand: --device {}", list_of(stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}))));
+    throw Error(msg("station"), msg("no device given"),
+                msg("say what is in the candidate's hand: --device {}",
+                    list_of(stylus_kinds().ids({StylusHand::mouse, StylusHand::person, StylusHand::candidate}))));
   if (!o.sitting.resume.empty()) {
     if (!o.sitting.scenario.empty() || !o.sitting.tickets.empty())
       throw Error(Name{"--resume " + o.sitting.resume}, msg("was asked for together with a scenario or tickets"),
