@@ -2,6 +2,7 @@
 // it into words, `cavum: where: what; what to do` on the command line.
 #pragma once
 
+#include <optional>
 #include <stdexcept>
 #include <string>
 #include <type_traits>
@@ -18,6 +19,11 @@ class ErrorCode {
   requires std::is_enum_v<E>
   constexpr ErrorCode(E code) noexcept : room_(&k_room<E>), value_(static_cast<int>(code)) {}  // NOLINT(google-explicit-constructor)
   friend constexpr bool operator==(const ErrorCode&, const ErrorCode&) = default;
+  /// As a value of E, where it is one.
+  template <class E>
+  [[nodiscard]] constexpr std::optional<E> as() const noexcept {
+    return room_ == &k_room<E> ? std::optional(static_cast<E>(value_)) : std::nullopt;
+  }
 
  private:
   template <class E>

@@ -13,9 +13,26 @@
 namespace cavum {
 namespace {
 
-constexpr std::array<std::string_view, 16> k_signs{"",    "mm", "mm²", "mm³", "µm", "N",    "°",    "s",
-                                                   "min", "ms", "rpm", "%",   "Hz", "mm/s", "N/mm", "bytes"};
-static_assert(k_signs.size() == static_cast<std::size_t>(Unit::byte) + 1);
+struct UnitRow {
+  std::string_view id, sign;
+};
+constexpr std::array<UnitRow, 16> k_units{{{"", ""},
+                                           {"mm", "mm"},
+                                           {"mm2", "mm²"},
+                                           {"mm3", "mm³"},
+                                           {"um", "µm"},
+                                           {"N", "N"},
+                                           {"deg", "°"},
+                                           {"s", "s"},
+                                           {"min", "min"},
+                                           {"ms", "ms"},
+                                           {"rpm", "rpm"},
+                                           {"%", "%"},
+                                           {"Hz", "Hz"},
+                                           {"mm/s", "mm/s"},
+                                           {"N/mm", "N/mm"},
+                                           {"bytes", "bytes"}}};
+static_assert(k_units.size() == static_cast<std::size_t>(Unit::byte) + 1);
 
 template <class... F>
 struct Overloaded : F... {
@@ -65,7 +82,12 @@ std::string filled(const std::string& sentence, const std::vector<std::string>& 
 
 }  // namespace
 
-std::string_view unit_sign(Unit unit) noexcept { return k_signs[static_cast<std::size_t>(unit)]; }
+std::string_view unit_sign(Unit unit) noexcept { return k_units[static_cast<std::size_t>(unit)].sign; }
+std::string_view unit_id(Unit unit) noexcept { return k_units[static_cast<std::size_t>(unit)].id; }
+std::optional<Unit> unit_of(std::string_view id) noexcept {
+  const auto* const row = std::find_if(k_units.begin(), k_units.end(), [&](const UnitRow& u) { return u.id == id; });
+  return row == k_units.end() ? std::nullopt : std::optional(static_cast<Unit>(row - k_units.begin()));
+}
 
 Message::Message(Name name) : english_("{}"), values_{Value(std::move(name))} {}
 

@@ -7,6 +7,7 @@
 
 #include <concepts>
 #include <cstdint>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -22,6 +23,10 @@ namespace cavum {
 enum class Unit : std::uint8_t { none, mm, mm2, mm3, um, newton, deg, second, minute, ms, rpm, percent, hz, mm_per_s, n_per_mm, byte };
 /// "mm³", "N", "%"; empty for none.
 [[nodiscard]] std::string_view unit_sign(Unit unit) noexcept;
+/// "mm3", "N", "%", as JSON and files have it; empty for none.
+[[nodiscard]] std::string_view unit_id(Unit unit) noexcept;
+/// None where it is no unit of ours.
+[[nodiscard]] std::optional<Unit> unit_of(std::string_view id) noexcept;
 
 /// A figure: rendered with `digits` after the point (k_as_needed: up to six significant ones), its bound behind ± where it has one, and its unit.
 struct Number {

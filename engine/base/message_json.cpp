@@ -72,11 +72,9 @@ Value value_of(const nlohmann::json& j, int depth) {
   if (j.contains("value")) {
     Number n{number_of(j.at("value")), Unit::none, k_as_needed};
     if (j.contains("unit")) {
-      const std::string sign = text_of(j.at("unit"));
-      int unit = 0;
-      while (unit <= static_cast<int>(Unit::byte) && unit_sign(static_cast<Unit>(unit)) != sign) ++unit;
-      if (unit > static_cast<int>(Unit::byte)) refuse("a unit that is not known");
-      n.unit = static_cast<Unit>(unit);
+      const auto unit = unit_of(text_of(j.at("unit")));
+      if (!unit) refuse("a unit that is not known");
+      n.unit = *unit;
     }
     if (j.contains("digits")) n.digits = small_number(j.at("digits"), k_max_digits);
     if (j.contains("bound")) n.bound = number_of(j.at("bound"));
@@ -131,6 +129,16 @@ nlohmann::ordered_json encode(const Message& message) {
   return j;
 }
 
+nlohmann::json values_json(const Message& message) {
+  nlohmann::json values = nlohmann::json::array();
+  for (const Value& v : message.values()) values.emplace_back(encode(v));
+  return values;
+}
+
+nlohmann::json fact_json(std::string_view kind, const Message& message) {
+  return {{"kind", kind}, {"values", values_json(message)}, {"text", message}};
+}
+
 nlohmann::ordered_json encode(const std::vector<Message>& messages) {
   Json list = Json::array();
   for (const Message& m : messages) list.push_back(encode(m));
@@ -142,7 +150,7 @@ nlohmann::ordered_json encode(const Value& value) {
     Json operator()(std::int64_t whole) const { return whole; }
     Json operator()(const Number& n) const {
       Json j = {{"value", n.value}};
-      if (n.unit != Unit::none) j["unit"] = unit_sign(n.unit);
+      if (n.unit != Unit::none) j["unit"] = unit_id(n.unit);
       if (n.digits != k_as_needed) j["digits"] = n.digits;
       if (n.bound != 0) j["bound"] = n.bound;
       if (n.sign) j["sign"] = true;

@@ -1,11 +1,11 @@
 // What does not hold of a recording: a kind, which programs ask for, and the sentence.
 #pragma once
 
-#include <array>
 #include <string_view>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/message_json.h"
+#include "engine/base/named_enum.h"
 
 namespace cavum {
 
@@ -27,16 +27,7 @@ namespace cavum {
   DAMAGE(open)      /* never closed */
 // clang-format on
 
-enum class DamageKind : std::uint8_t {
-#define CAVUM_DAMAGE_KIND(KIND) KIND,
-  CAVUM_DAMAGES(CAVUM_DAMAGE_KIND)
-#undef CAVUM_DAMAGE_KIND
-};
-[[nodiscard]] constexpr auto names_of(DamageKind) {
-#define CAVUM_DAMAGE_KIND(KIND) std::string_view(#KIND),
-  return std::array{CAVUM_DAMAGES(CAVUM_DAMAGE_KIND)};
-#undef CAVUM_DAMAGE_KIND
-}
+CAVUM_NAMED_ENUM(DamageKind, CAVUM_DAMAGES)
 
 struct Damage {
   DamageKind kind{};
@@ -49,10 +40,10 @@ using Damages = std::vector<Damage>;
   return out;
 }
 
-/// For other programs: {"kind", "text"}.
+/// For other programs: {"kind", "values", "text"}.
 template <class Json>
 void to_json(Json& json, const Damage& damage) {
-  json = {{"kind", names_of(damage.kind)[static_cast<std::size_t>(damage.kind)]}, {"text", damage.what}};
+  json = fact_json(name_in(damage.kind), damage.what);
 }
 
 }  // namespace cavum

@@ -14,11 +14,13 @@
 #include "engine/base/text.h"
 #include "grading/cohort/judge_names.h"
 #include "grading/records/exam_scale.h"
+#include "grading/result/result_json.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::cohort {
 namespace {
 
+using grading::Verdict;
 using nlohmann::json;
 
 constexpr double k_far = 2.5;  // standard deviations from the class, or from the judges
@@ -163,7 +165,7 @@ void look_at_sessions(ClassFigures& f, const records::Registry& registry, const 
   if (f.simulated > 0 && f.simulated < f.n)
     f.to_look_at.push_back({0, "", msg("{} of the {} are simulated operators, and count among people", f.simulated, f.n)});
   for (const auto& [candidate, s] : sat) {
-    if (s->result->value("verdict", "") == "review") f.to_look_at.push_back({s->seq, candidate, msg("verdict is review")});
+    if (s->undecided()) f.to_look_at.push_back({s->seq, candidate, msg("verdict is review")});
     const json truth = s->result->value("perforation", json::object()).value("truth", json::object());
     if (!truth.is_object() || !truth.value("perforated", false)) continue;
     const json tissue = truth.value("tissue", json()), first_s = truth.value("first_t_s", json());
@@ -203,8 +205,8 @@ ClassPoints points_of(ClassFigures& f, const CountingSessions& sat, const json& 
   for (const auto& [candidate, s] : sat) {
     const double points = points_in(*s->result, f.max_points);
     all.in_order.push_back(points);
-    const std::string verdict = s->result->value("verdict", "");
-    (verdict == "pass" ? f.pass : verdict == "fail" ? f.fail : f.review) += 1;
+    const Verdict verdict = grading::verdict_in(*s->result);
+    (verdict == Verdict::pass ? f.pass : verdict == Verdict::fail ? f.fail : f.review) += 1;
     all.by_station[s->station_key].push_back(points);
     if (!s->simulated.empty()) ++f.simulated;
     if (criteria_of(*s->result) != criteria_of(any)) continue;  // regraded by another rubric

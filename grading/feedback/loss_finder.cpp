@@ -201,7 +201,7 @@ void LossFinder::value_and_work() {
   const double by_work = points_at(spec_.full) < spec_.points ? spec_.points - points_at(spec_.full) : 0.0;
   const double by_value = spec_.points - c.points - by_work - accounted;
   if (by_value > 1e-9) {
-    const Number full{spec_.full, unit_of(c.unit), 2};
+    const Number full{spec_.full, unit_of(c.unit).value_or(Unit::none), 2};
     fact(*c.value < spec_.full ? msg("short of {}, which gives full marks", full) : msg("beyond {}, which gives full marks", full),
          std::fabs(*c.value - spec_.full), c.unit, c.first, c.bound);
     why_.items.back().points_lost = by_value;

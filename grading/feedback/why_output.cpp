@@ -1,6 +1,7 @@
 // What `grade --why` found, as JSON and as text.
 #include <nlohmann/json.hpp>
 
+#include "engine/base/message_json.h"
 #include "grading/feedback/why.h"
 #include "grading/measures/motion.h"
 #include "grading/result/loss.h"
@@ -14,7 +15,8 @@ using Json = nlohmann::ordered_json;
 
 Json to_json(const Why& w) {
   const auto& c = w.criterion;
-  Json items = Json::array();
+  Json items = Json::array(), facts = Json::array();
+  for (const Finding& f : c.facts) facts.push_back(to_json(f));
   for (const auto& i : w.items) {
     const auto time = [](std::int64_t tick) { return tick < 0 ? Json(nullptr) : Json(rounded(static_cast<double>(tick) * k_tick_s)); };
     const auto number = [](const std::optional<double>& v) { return v ? Json(rounded(*v)) : Json(nullptr); };
@@ -27,7 +29,8 @@ Json to_json(const Why& w) {
                      {"bound", number(i.bound)},
                      {"unit", i.unit},
                      {"points_lost", number(i.points_lost)},
-                     {"what", english_text(i.what)}});
+                     {"values", values_json(i.what)},
+                     {"what", i.what}});
   }
   return {{"criterion",
            {{"id", c.id},
@@ -41,7 +44,8 @@ Json to_json(const Why& w) {
             {"points", rounded(c.points)},
             {"max", rounded(c.max)},
             {"critical_failed", c.critical_failed},
-            {"reason", english_text(c.reason())}}},
+            {"facts", facts},
+            {"reason", c.reason()}}},
           {"points_lost", rounded(c.max - c.points)},
           {"moments", items},
           {"moments_left_out", w.left_out},
@@ -67,12 +71,12 @@ Lines to_text(const Why& w) {
     out.row({i.tick < 0            ? Message()
              : i.end_tick > i.tick ? msg("{} to {}", seconds(i.tick), seconds(i.end_tick))
                                    : msg("{}", seconds(i.tick)),
-             i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit), 3, i.bound.value_or(0)}) : Message(), i.what,
+             i.amount ? msg("{}", Number{*i.amount, unit_of(i.unit).value_or(Unit::none), 3, i.bound.value_or(0)}) : Message(), i.what,
              i.site_mm ? msg("{}", *i.site_mm) : Message(), i.tick >= 0 ? msg("tick {}", i.tick) : Message(),
              i.points_lost ? msg("{} points", as_points(*i.points_lost, 2)) : Message()},
             2);
   if (w.left_out == 0) return out;
-  const Number amount{w.left_out_amount, unit_of(w.items.front().unit), 3};
+  const Number amount{w.left_out_amount, unit_of(w.items.front().unit).value_or(Unit::none), 3};
   out.add(w.left_out_points > 0
               ? msgn("{} smaller moment, {} in all, {} points", "{} smaller moments, {} in all, {} points", static_cast<std::int64_t>(w.left_out),
                      w.left_out, amount, as_points(w.left_out_points, 2))

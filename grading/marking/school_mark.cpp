@@ -90,55 +90,31 @@ class ReplayedEvents {
 Message in_words(const json& value) {
   if (value.is_null()) return msg("none");
   if (value.is_number()) return msg("{}", as_number(value.get<double>()));
-  if (value.is_string()) return Name{value.get<std::string>()};
-  if (value.is_boolean()) return value.get<bool>() ? msg("yes") : msg("no");
-  return msgn("{} entry", "{} entries", static_cast<std::int64_t>(value.size()), value.size());
+  return Name{value.is_string() ? value.get<std::string>() : value.dump()};
 }
 
-std::map<std::string, const json*> criteria_of(const json& result) {
-  std::map<std::string, const json*> by_id;
-  if (const json& list = member_of(result, "criteria"); list.is_array())
-    for (const auto& c : list) by_id.emplace(text_in(c, "id"), &c);
-  return by_id;
+/// With the criteria by their ids, not by their places.
+json by_id(json result) {
+  if (!result.is_object() || !result.contains("criteria")) return result;
+  json criteria = json::object();
+  for (json& c : result["criteria"]) criteria[text_in(c, "id")] = std::move(c);
+  result["criteria"] = std::move(criteria);
+  return result;
 }
 
 }  // namespace
 
 std::vector<Message> result_differences(const json& sealed, const json& marked) {
+  const json was = by_id(sealed), is = by_id(marked);
+  json steps = json::diff(was, is);
+  std::stable_partition(steps.begin(), steps.end(), [](const json& s) { return !s["path"].get_ref<const std::string&>().starts_with("/criteria"); });
   std::vector<Message> out;
-  const auto compare = [&](const Message& name, const json& was, const json& is) {
-    if (was != is) out.push_back(msg("{}: {}, marked {}", name, in_words(was), in_words(is)));
-  };
-  const auto verdict = [](const json& of) { return msg("{}", Term{text_in(of, "verdict")}); };
-  if (member_of(sealed, "verdict") != member_of(marked, "verdict")) out.push_back(msg("verdict: {}, marked {}", verdict(sealed), verdict(marked)));
-  const json &then = member_of(sealed, "score"), &now = member_of(marked, "score");
-  compare(msg("points"), member_of(then, "points"), member_of(now, "points"));
-  compare(msg("greatest number of points"), member_of(then, "max"), member_of(now, "max"));
-  const auto was = criteria_of(sealed), is = criteria_of(marked);
-  for (const auto& [id, c] : is) {
-    const auto found = was.find(id);
-    if (found == was.end()) {
-      out.push_back(msg("criterion {} missing", id));
-      continue;
-    }
-    for (const auto& [key, value] : c->items()) {
-      const json& had = member_of(*found->second, key.c_str());
-      if (value.is_structured() && had.is_structured()) {
-        if (had != value) out.push_back(msg("criterion {}: other {}", id, key));
-      } else {
-        compare(msg("criterion {}: {}", id, key), had, value);
-      }
-    }
+  for (const json& step : steps) {
+    const std::string path = step.at("path"), op = step.at("op");
+    const json::json_pointer place(path);
+    out.push_back(msg("{}: {}, marked {}", path, op == "add" ? msg("missing") : in_words(was.at(place)),
+                      op == "remove" ? msg("none") : in_words(step.at("value"))));
   }
-  for (const auto& [id, c] : was)
-    if (!is.contains(id)) out.push_back(msg("criterion {} that the exam does not have", id));
-  if (marked.is_object())
-    for (const auto& [key, value] : marked.items())
-      if (key != "verdict" && key != "score" && key != "criteria") compare(msg("{}", key), member_of(sealed, key.c_str()), value);
-  if (sealed.is_object() && marked.is_object())
-    for (const auto& [key, value] : sealed.items())
-      if (!marked.contains(key)) out.push_back(msg("{}, which no result has", key));
-  if (out.empty() && sealed != marked) out.emplace_back(msg("another shape than a result has"));
   return out;
 }
 

@@ -16,11 +16,11 @@ namespace cavum::records {
 
 struct SessionExplanation {
   std::string file;
-  bool holds = false;            ///< closed, true, and as its ticket promised when it has one
-  bool interrupted = false;      ///< does not hold for one reason alone: nobody closed it; what is recorded is intact and can be resumed
-  std::vector<Message> proved;   ///< what holds, each with how it is known
-  Findings findings;             ///< what does not hold
-  std::vector<Message> remarks;  ///< what nobody can know from the file, and what the clocks show
+  bool holds = false;        ///< closed, true, and as its ticket promised when it has one
+  bool interrupted = false;  ///< does not hold for one reason alone: nobody closed it; what is recorded is intact and can be resumed
+  Findings proved;           ///< what holds, each with how it is known
+  Findings findings;         ///< what does not hold
+  Findings remarks;          ///< what nobody can know from the file, and what the clocks show
 };
 
 /// `school_key`: public key (hexadecimal) that must have signed the ticket; empty = whichever did. With one, a session without a ticket does not

@@ -10,10 +10,12 @@
 #include "engine/session/session.h"
 #include "grading/records/entry_text.h"
 #include "grading/result/finding.h"
+#include "grading/result/result_json.h"
 
 namespace cavum::records {
 namespace {
 
+using grading::Verdict;
 using nlohmann::json;
 
 constexpr double k_rounding = 1e-6;  // of the JSON
@@ -65,11 +67,12 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   const json& result = *session.shown;
   const json &points = result.at("score").at("points"), &max = result.at("score").at("max");
   const ExamScale by = scale_in(result);
-  const std::string verdict = result.value("verdict", "");
+  const Verdict verdict = grading::verdict_in(result);
   const List critical = critical_in(result);
   std::string critical_ids;
   for (const Message& id : critical.items) critical_ids += (critical_ids.empty() ? "" : ", ") + english_text(id);
-  ExportedGrade g{points, points, max, false, verdict + (critical_ids.empty() ? "" : fmt::format(" (critical: {})", critical_ids)), {}};
+  ExportedGrade g{
+      points, points, max, false, grading::verdict_name(verdict) + (critical_ids.empty() ? "" : fmt::format(" (critical: {})", critical_ids)), {}};
   if (own.max > 0 && by.max > 0 && std::fabs(own.max - by.max) > k_rounding) {
     g.by_another_rubric = true;
     g.points = std::round(points.get<double>() / by.max * own.max * 1e6) / 1e6;
@@ -79,8 +82,8 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   std::vector<Message>& told = g.feedback;
   const Number had = as_points(points), of = as_number(max);
   add_doubts(told, session);
-  told.push_back(critical.items.empty() ? msg("Verdict: {}.", Term{verdict}) : msg("Verdict: {} (critical: {}).", Term{verdict}, critical));
-  if (verdict == "review") {
+  told.push_back(critical.items.empty() ? msg("Verdict: {}.", word_of(verdict)) : msg("Verdict: {} (critical: {}).", word_of(verdict), critical));
+  if (verdict == Verdict::review) {
     g.grade = nullptr;
     told.push_back(msg("No grade before a person has decided: the {} of {} points do not count yet.", had, of));
   }
@@ -89,14 +92,14 @@ ExportedGrade exported_grade(const FiledSession& session, const std::map<std::st
   const auto reaches = [&](double percent) { return g.points.get<double>() >= 0.01 * percent * g.max.get<double>() - k_rounding; };
   const double own_percent = own.max > 0 ? own.pass_percent : by.pass_percent;
   const bool by_person = result.contains("decision");
-  if (verdict == "fail" && (!critical.items.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
+  if (verdict == Verdict::fail && (!critical.items.empty() || reaches(by.pass_percent) || reaches(own_percent))) {
     g.grade = 0;
     told.push_back(!critical.items.empty()    ? msg("Failed by what is critical: the {} of {} points do not count.", had, of)
                    : by_person                ? msg("Failed by a person's decision: the {} of {} points do not count.", had, of)
                    : reaches(by.pass_percent) ? msg("Failed by a criterion below the pass mark: the {} of {} points do not count.", had, of)
                                               : msg("Failed by another pass mark ({}, the exam's own is {}): the {} of {} points do not count.",
                                                     as_percent(by.pass_percent, k_as_needed), as_percent(own_percent, k_as_needed), had, of));
-  } else if (verdict == "pass" && !reaches(own_percent)) {
+  } else if (verdict == Verdict::pass && !reaches(own_percent)) {
     g.grade = std::round(0.01 * own_percent * g.max.get<double>() * 1e6) / 1e6;
     const Number grade = as_number(g.grade.get<double>());
     told.push_back(by_person ? msg("Passed by a person's decision: the {} of {} points count as the pass mark, {}.", had, of, grade)

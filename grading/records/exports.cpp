@@ -13,6 +13,7 @@
 #include "engine/base/text.h"
 #include "engine/session/session.h"
 #include "grading/records/history.h"
+#include "grading/result/result_json.h"
 
 namespace cavum::records {
 namespace {
@@ -110,7 +111,7 @@ json lti_scores(const Registry& registry, Identities& identities, Wording say, b
   json out = json::array();
   for (const auto& [key, s] : last) {
     const bool shown = s->shown->is_object();
-    const bool review = s->result->is_object() && s->result->value("verdict", "") == "review";
+    const bool review = s->result->is_object() && grading::verdict_in(*s->result) == grading::Verdict::review;
     json score = {{"userId", key.second},
                   {"timestamp", utc_ms_text(shown ? s->released_utc_ns : s->received_utc_ns)},
                   {"activityProgress", "Completed"},

@@ -2,14 +2,13 @@
 // sentence. What could not be checked is of the kind of trouble that it might have shown.
 #pragma once
 
-#include <array>
-#include <cstdint>
 #include <nlohmann/json_fwd.hpp>
 #include <optional>
 #include <string_view>
 #include <vector>
 
-#include "engine/base/message.h"
+#include "engine/base/message_json.h"
+#include "engine/base/named_enum.h"
 
 namespace cavum {
 struct JsonPlace;
@@ -89,7 +88,23 @@ namespace cavum::records {
   KIND(older_copy)             /* was put back */ \
   KIND(rewritten)              /* history was */ \
   KIND(witness_changed) \
+  /* what is proved of a recording */ \
+  KIND(unchanged)              /* since it was signed, or recorded */ \
+  KIND(motion_gives_forces)    /* forces, removed leaves and tooth again */ \
+  KIND(motion_gives_events)    /* events again, and the result where it is sealed by the same rules */ \
+  KIND(closed_by) \
+  KIND(promised)               /* by the school's ticket */ \
   /* of remarks */ \
+  KIND(school_not_compared)    /* whose key signed the ticket */ \
+  KIND(ticket_not_read) \
+  KIND(no_ticket) \
+  KIND(tried_to_leave)         /* a locked exam */ \
+  KIND(moved)                  /* to another place while it was recorded */ \
+  KIND(log_beside) \
+  KIND(station_not_known)      /* whose it is, is known to the ledger only */ \
+  KIND(hand_not_shown)         /* by any file */ \
+  KIND(earlier_end_not_shown) \
+  KIND(other_exam_not_shown)   /* with the same ticket */ \
   KIND(clock_set_back)         /* the ledger's own */ \
   KIND(clock_ahead) \
   KIND(restored)               /* went on from a backup, and what was lost by that */ \
@@ -97,16 +112,7 @@ namespace cavum::records {
   KIND(release_void)
 // clang-format on
 
-enum class FindingKind : std::uint8_t {
-#define CAVUM_LEDGER_KIND(KIND) KIND,
-  CAVUM_LEDGER_FINDINGS(CAVUM_LEDGER_KIND)
-#undef CAVUM_LEDGER_KIND
-};
-[[nodiscard]] constexpr auto names_of(FindingKind) {
-#define CAVUM_LEDGER_KIND(KIND) std::string_view(#KIND),
-  return std::array{CAVUM_LEDGER_FINDINGS(CAVUM_LEDGER_KIND)};
-#undef CAVUM_LEDGER_KIND
-}
+CAVUM_NAMED_ENUM(FindingKind, CAVUM_LEDGER_FINDINGS)
 
 struct Finding {
   FindingKind kind{};
@@ -124,10 +130,10 @@ using Findings = std::vector<Finding>;
 [[nodiscard]] Findings named(const Message& before, Findings findings);
 void append(Findings& to, const Findings& more);
 
-/// For other programs: {"kind", "text", "entry"}.
+/// For other programs: {"kind", "values", "text", "entry"}.
 template <class Json>
 void to_json(Json& json, const Finding& finding) {
-  json = {{"kind", names_of(finding.kind)[static_cast<std::size_t>(finding.kind)]}, {"text", finding.what}};
+  json = fact_json(name_in(finding.kind), finding.what);
   if (finding.entry) json["entry"] = *finding.entry;
 }
 // As our own files keep it: {"kind", "say", "of"}.

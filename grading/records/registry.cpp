@@ -34,6 +34,7 @@ const SharedJson& sound_result(const SharedJson& opened) {
                      (!score.contains("borderline_percent") || number(score, "borderline_percent")) && criteria.is_array() &&
                      std::all_of(criteria.begin(), criteria.end(), criterion);
   if (!sound) throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy"));
+  static_cast<void>(grading::verdict_in(result));
   for (const char* list : {"verdict_reasons", "notes"}) static_cast<void>(grading::findings_in(member_of(result, list)));
   for (const json& c : criteria) static_cast<void>(grading::findings_in(member_of(c, "facts")));
   return opened;

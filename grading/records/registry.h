@@ -12,6 +12,7 @@
 #include "grading/records/ledger_content.h"
 #include "grading/records/stations.h"
 #include "grading/records/ticket.h"
+#include "grading/result/result_json.h"
 
 namespace cavum::records {
 
@@ -75,7 +76,7 @@ struct FiledSession {
   std::uint64_t first_sitting = 0;          ///< entry of the ticket with which the row of sittings began that makeups go on; 0: there was no ticket
   bool chosen = false;  ///< released by name although it was filed with findings or contested: a person has looked at it, and it alone counts
   /// The program leaves it to a person, and none has decided.
-  [[nodiscard]] bool undecided() const { return result->is_object() && result->value("verdict", "") == "review"; }
+  [[nodiscard]] bool undecided() const { return result->is_object() && grading::verdict_in(*result) == grading::Verdict::review; }
   /// Taken back, and no other result was entered since: it is released by name only.
   [[nodiscard]] bool taken_back() const { return retracted_by && result_seq < *retracted_by; }
   /// The person's decision that gave the result in `entry`; null: it was marked.

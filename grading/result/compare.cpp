@@ -166,7 +166,8 @@ Comparison compare(const OldResult& sealed, const Result& again, const scenarios
         d.why.push_back({ChangeKind::sealed_otherwise});
       }
       if (constexpr double k_shown = 5e-4; o->value && n.value && std::fabs(*o->value - *n.value) >= k_shown)
-        d.why.push_back({ChangeKind::value, as_unit(*o->value, unit_of(n.unit), 3), as_unit(*n.value, unit_of(n.unit), 3)});
+        d.why.push_back({ChangeKind::value, as_unit(*o->value, unit_of(n.unit).value_or(Unit::none), 3),
+                         as_unit(*n.value, unit_of(n.unit).value_or(Unit::none), 3)});
       if (a != nullptr && !same(a->work_share, n.work_share)) d.why.push_back({ChangeKind::work_share});
     }
     c.criteria.push_back(std::move(d));

@@ -12,16 +12,15 @@
 namespace cavum::grading {
 namespace {
 
-/// As it is sealed: the same digits wherever it was worked out.
-Value as_sealed(Value value) {
+[[noreturn]] void refuse() { throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy")); }
+
+}  // namespace
+
+Value finding_detail::as_sealed(Value value) {
   if (auto* n = std::get_if<Number>(&value)) n->value = rounded(n->value), n->bound = rounded(n->bound);
   if (auto* p = std::get_if<Vec3>(&value)) *p = {rounded(p->x), rounded(p->y), rounded(p->z)};
   return value;
 }
-
-[[noreturn]] void refuse() { throw Error(msg("result"), msg("is none as grading writes it"), msg("use an intact copy")); }
-
-}  // namespace
 
 List sentences(const Findings& findings) {
   List all{{}, true};
@@ -31,7 +30,7 @@ List sentences(const Findings& findings) {
 
 nlohmann::ordered_json to_json(const Finding& f) {
   nlohmann::ordered_json values = nlohmann::ordered_json::object();
-  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = encode(as_sealed(f.values[i]));
+  for (std::size_t i = 0; i < f.values.size(); ++i) values[f.row().values[i]] = encode(f.values[i]);
   return {{"kind", f.row().name}, {"values", values}};
 }
 

@@ -183,11 +183,16 @@ using Findings = std::vector<Finding>;
 /// One sentence after the other.
 [[nodiscard]] List sentences(const Findings& findings);
 
+namespace finding_detail {
+/// To a millionth: the same digits wherever it is worked out, and wherever it is said.
+[[nodiscard]] Value as_sealed(Value value);
+}  // namespace finding_detail
+
 /// A finding of this kind: the compiler counts its values.
 template <FindingKind kind, class... A>
 [[nodiscard]] Finding finding(A&&... values) {
   static_assert(sizeof...(A) == k_findings[static_cast<std::size_t>(kind)].count(), "the kind has another number of values");
-  return {kind, {message_detail::value_of(std::forward<A>(values))...}};
+  return {kind, {finding_detail::as_sealed(message_detail::value_of(std::forward<A>(values)))...}};
 }
 
 /// {"kind", "values"}: each value by its name as decode_value reads it. No words: what is sealed and compared.

@@ -7,18 +7,10 @@
 
 namespace cavum::grading {
 
-Unit unit_of(std::string_view name) noexcept {
-  constexpr std::pair<std::string_view, Unit> k_units[] = {{"mm", Unit::mm},    {"mm2", Unit::mm2}, {"mm3", Unit::mm3},  {"N", Unit::newton},
-                                                           {"s", Unit::second}, {"deg", Unit::deg}, {"%", Unit::percent}};
-  for (const auto& [known, unit] : k_units)
-    if (known == name) return unit;
-  return Unit::none;
-}
-
 Value value_text(const scenarios::Measure& measure, double value, double bound, int digits) {
   if (measure.reads == scenarios::Reads::yes_no && (value == 0 || value == 1)) return Term{value == 1 ? measure.yes : measure.no};
   if (measure.reads == scenarios::Reads::count && bound == 0) return as_number(value);
-  return Number{value, unit_of(measure.unit), digits, bound};
+  return Number{value, unit_of(measure.unit).value_or(Unit::none), digits, bound};
 }
 
 Message drop_text(const ForceDrop& d) {

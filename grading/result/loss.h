@@ -43,8 +43,6 @@ namespace reason {
 [[nodiscard]] Loss first_violation(const Result& measured, const Asked& asked);
 }  // namespace reason
 
-/// "mm3" as a unit; none where it is no unit of ours.
-[[nodiscard]] Unit unit_of(std::string_view name) noexcept;
 /// A measure's value, as people read it: "opened", "3", "0.25 ± 0.05 mm".
 [[nodiscard]] Value value_text(const scenarios::Measure& measure, double value, double bound, int digits);
 /// In words: how much, how quick, from when, and how clear.

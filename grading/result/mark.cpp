@@ -212,7 +212,7 @@ void weigh_unjudged(Result& r, const scenarios::RubricSpec& rubric, const Standi
 
 }  // namespace
 
-Term word_of(Verdict v) { return {v == Verdict::pass ? said("pass") : v == Verdict::fail ? said("fail") : said("review")}; }
+Term word_of(Verdict v) { return {verdict_name(v)}; }
 
 double granted_stretch(const Result& r) {
   const scenarios::Accommodations& granted = r.accommodations;

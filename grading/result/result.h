@@ -293,8 +293,7 @@ struct Result {
 };
 
 [[nodiscard]] Term word_of(Verdict verdict);
-[[nodiscard]] inline const char* verdict_name(Verdict v) noexcept {
-  return v == Verdict::pass ? said("pass") : v == Verdict::fail ? said("fail") : said("review");
-}
+[[nodiscard]] constexpr auto names_of(Verdict) { return std::array{said("pass"), said("fail"), said("review")}; }
+[[nodiscard]] constexpr const char* verdict_name(Verdict v) noexcept { return names_of(v)[static_cast<std::size_t>(v)]; }
 
 }  // namespace cavum::grading

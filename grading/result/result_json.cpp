@@ -4,6 +4,8 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "engine/base/json_fields.h"
+#include "engine/base/json_struct.h"
 #include "engine/base/message_json.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
@@ -111,7 +113,6 @@ Json criterion_json(const Result& r, const CriterionResult& c) {
             {"facts", json_of(c.facts)},
             {"first_tick", tick_of(c.first)},
             {"first_t_s", time_of(c.first)}};
-  j.update(to_json(c.facts.front()));
   if (c.band) j["band"] = r.bands[*c.band].name;
   if (c.work_share < 1) j["work_share"] = rounded(c.work_share);
   if (!c.judged) j["judged"] = false;
@@ -251,6 +252,8 @@ Json to_json(const Result& r) {
   return j;
 }
 
+Verdict verdict_in(const nlohmann::json& result) { return json_value_of<Verdict>(member_of(result, "verdict"), {msg("the result's verdict"), {}}); }
+
 Json with_words(Json result) {
   const auto put = [](Json& findings) {
     List all{{}, true};
@@ -262,7 +265,10 @@ Json with_words(Json result) {
   };
   put(result["verdict_reasons"]);
   put(result["notes"]);
-  for (Json& c : result["criteria"]) c["reason"] = msg("{}", put(c["facts"]));
+  for (Json& c : result["criteria"]) {
+    c["reason"] = msg("{}", put(c["facts"]));
+    for (const char* of_first : {"kind", "values"}) c[of_first] = c["facts"].at(0).at(of_first);
+  }
   return result;
 }
 

@@ -86,9 +86,9 @@ void list(const DeviceArguments& o) {
       nlohmann::json axes = nlohmann::json::array();
       for (const auto& axis : p.axes) axes.push_back(axis_json(axis));
       all.push_back(
-          {{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", problem_text(p.problem)}, {"calibrated", calibrated(p)}});
+          {{"id", p.id()}, {"name", p.name}, {"path", p.path}, {"axes", axes}, {"problem", problem_json(p.problem)}, {"calibrated", calibrated(p)}});
     }
-    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", problem_text(calibration_problem)}, {"styluses", styluses_json(o.live)}});
+    print_json(nlohmann::json{{"pedals", all}, {"calibration_problem", problem_json(calibration_problem)}, {"styluses", styluses_json(o.live)}});
     return;
   }
   Lines out;

@@ -145,7 +145,7 @@ MadeReport made_report(const std::string& session, const std::string& out, const
   source.integrity = integrity_of(session, o, filed, grounds);
   const bool decided = source.filing && source.filing->regrade && !source.filing->regrade->person.empty();
   return {out.ends_with(".pdf") ? report::report_pdf(source) : report::report_html(source),
-          decided ? msg("{}", Term{source.filing->regrade->verdict}) : msg("{}", grading::word_of(m.result.verdict)),
+          msg("{}", grading::word_of(decided ? source.filing->regrade->verdict : m.result.verdict)),
           source.integrity.findings.empty() ? Message() : source.integrity.findings.front()};
 }
 

@@ -8,6 +8,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/file.h"
+#include "engine/base/message_json.h"
 #include "engine/base/scratch_folder.h"
 #include "engine/tooth/tooth.h"
 #include "grading/marking/session_input.h"
@@ -52,6 +53,7 @@ int check(const ScenarioArguments& o) {
                                {"where", p.where},
                                {"line", p.where.line},
                                {"column", p.where.column},
+                               {"values", values_json(p.what)},
                                {"what", p.what},
                                {"what_to_do", p.what_to_do}});
     j["expert_s"] = checked.expert.time_s ? nlohmann::ordered_json(std::round(*checked.expert.time_s)) : nlohmann::ordered_json(nullptr);

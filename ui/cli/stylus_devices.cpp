@@ -11,6 +11,8 @@
 #include <vector>
 
 #include "engine/base/file.h"
+#include "engine/base/message_json.h"
+#include "engine/device/device_error.h"
 #include "engine/device/hardware/open_stylus.h"
 #include "engine/device/hardware/stylus_probe.h"
 #include "ui/language/say.h"
@@ -57,7 +59,11 @@ Vec3 held_at(Stylus& stylus) {
 
 }  // namespace
 
-std::string problem_text(const std::optional<Error>& problem) { return problem ? english_text(problem->message()) : std::string(); }
+nlohmann::json problem_json(const std::optional<Error>& problem) {
+  if (!problem) return nullptr;
+  const auto kind = problem->code().as<DeviceError>();
+  return fact_json(kind ? name_in(*kind) : "error", problem->message());
+}
 
 nlohmann::json styluses_json(bool again) {
   nlohmann::json all = nlohmann::json::array();
@@ -65,7 +71,7 @@ nlohmann::json styluses_json(bool again) {
     all.push_back({{"id", s.id},
                    {"name", s.name},
                    {"there", s.there},
-                   {"problem", problem_text(s.problem)},
+                   {"problem", problem_json(s.problem)},
                    {"placed", placed(s.id)},
                    {"ratings", ratings(s.id)}});
   return all;
@@ -101,7 +107,7 @@ int test_stylus(const std::string& id, double seconds, bool friction, bool json)
                               {"quantum_mm", p.quantum_mm},
                               {"quantum_expected_mm", stylus->facts().position_quantum_mm},
                               {"friction_n", p.friction_n},
-                              {"friction_problem", problem_text(p.friction_problem)},
+                              {"friction_problem", problem_json(p.friction_problem)},
                               {"axes", axes}});
   } else {
     say(msg("{}: {}, jitter {}, longest gap {}", stylus->facts().name, as_unit(p.rate_hz, Unit::hz), as_unit(1e3 * p.jitter_s, Unit::ms, 2),

@@ -11,7 +11,7 @@
 namespace cavum::ui {
 
 /// Empty for none.
-[[nodiscard]] std::string problem_text(const std::optional<Error>& problem);
+[[nodiscard]] nlohmann::json problem_json(const std::optional<Error>& problem);
 /// For `cavum devices --json`: a list of {id, name, there, problem, placed, ratings}.
 /// `again`: asked twice a second, which not every driver likes; see list_styluses.
 [[nodiscard]] nlohmann::json styluses_json(bool again);

@@ -14,6 +14,7 @@
 #include "grading/records/class_regrade.h"
 #include "grading/records/ledger.h"
 #include "grading/records/passback.h"
+#include "grading/result/result.h"
 #include "ui/office/accounts.h"
 #include "ui/office/board.h"
 #include "ui/office/inbox.h"
@@ -38,7 +39,8 @@ struct Recording {
 
 /// What a candidate sees of a result of his, as it was released.
 struct OwnResult {
-  std::string exam, verdict;
+  std::string exam;
+  grading::Verdict verdict{};
   double points = 0, max = 0;
   std::string released;  ///< when, in this computer's time zone
   bool counts = false, simulated = false;

@@ -3,6 +3,7 @@
 #include "grading/records/erasure.h"
 #include "grading/records/exam_scale.h"
 #include "grading/records/exported_grade.h"
+#include "grading/result/result_json.h"
 #include "ui/office/desk.h"
 #include "ui/office/desk_parts.h"
 #include "ui/office/desk_turn.h"
@@ -61,7 +62,7 @@ std::vector<OwnResult> Desk::own_results(const std::string& number, const std::s
   for (const auto& s : turn.book.registry().sessions) {
     if (!s.shown->is_object() || (!exam.empty() && s.scenario_id != exam) || !is_own(identities, s, number)) continue;
     const records::ExportedGrade grade = records::exported_grade(s, scales);
-    out.push_back({s.scenario_id, text_in(*s.shown, "verdict"), number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
+    out.push_back({s.scenario_id, grading::verdict_in(*s.shown), number_in(grade.points).value_or(0), number_in(grade.max).value_or(0),
                    local_text(s.released_utc_ns), counting.at({s.candidate, s.scenario_id}) == s.seq, !s.simulated.empty(),
                    s.motion_erased_by || s.result_erased_by ? "" : s.file_sha256});
   }

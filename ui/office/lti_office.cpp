@@ -53,8 +53,8 @@ Reply go_to(int status, const std::string& address) {
   return reply;
 }
 
-std::string verdict_in_words(const std::string& verdict) {
-  return verdict == "pass" ? tr("passed") : verdict == "fail" ? tr("failed") : tr("a person decides");
+std::string verdict_in_words(grading::Verdict v) {
+  return v == grading::Verdict::pass ? tr("passed") : v == grading::Verdict::fail ? tr("failed") : tr("a person decides");
 }
 
 }  // namespace

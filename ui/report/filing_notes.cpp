@@ -43,7 +43,7 @@ void add_filing_notes(Document& d, const ReportSource& s) {
   }
   if (!s.filing) return;
   if (const auto& r = s.filing->regrade; r && !r->person.empty()) {
-    const Term verdict{r->verdict};
+    const Term verdict = word_of(r->verdict);
     const Message decided = s.reader == ReportReader::student
                                 ? msg("{}: {} (entry {} of the ledger, {})", verdict, r->reason, r->entry, r->date)
                                 : msg("{}, by {}: {} (entry {} of the ledger, {})", verdict, r->person, r->reason, r->entry, r->date);
@@ -59,7 +59,7 @@ void add_filing_notes(Document& d, const ReportSource& s) {
 }
 
 std::string attempt_verdict(const ReportAttempt& a) {
-  const Message verdict = a.verdict.empty() ? msg("no verdict") : msg("{}", Term{a.verdict});
+  const Message verdict = a.verdict ? msg("{}", word_of(*a.verdict)) : msg("no verdict");
   List out{{a.doubt.empty() ? verdict : msg("in doubt ({})", verdict)}, false};
   if (a.regraded) out.items.push_back(msg("regraded"));
   if (a.simulated) out.items.push_back(msg("simulated operator"));

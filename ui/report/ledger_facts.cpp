@@ -8,6 +8,7 @@
 #include "grading/records/decision.h"
 #include "grading/records/erasure.h"
 #include "grading/records/identities.h"
+#include "grading/result/result_json.h"
 
 namespace cavum::report {
 
@@ -65,7 +66,7 @@ void list_attempts(ReportFiling& f, const records::Registry& registry, const rec
     a.simulated = !s.simulated.empty();
     if (const auto doubts = doubts_of(s); !doubts.empty()) a.doubt = doubts.front();
     if (result.is_object() && result.contains("score") && result["score"].is_object()) {
-      a.verdict = result.value("verdict", "");
+      a.verdict = grading::verdict_in(result);
       a.points = result["score"].value("points", 0.0);
       a.max = result["score"].value("max", 0.0);
     }
@@ -108,12 +109,8 @@ ReportFiling filing_of(const ReportLedger& ledger, const records::FiledSession& 
   f.released = shown;
   f.findings = doubts_of(session);
   if (const records::Regrade* r = regrade_for(session, reader))
-    f.regrade = ReportRegrade{r->seq,
-                              utc_text(r->utc_ns),
-                              r->reason,
-                              r->person,
-                              r->person.empty() ? "" : r->result->value("verdict", ""),
-                              records::verdict_by_program(session, r->seq)};
+    f.regrade = ReportRegrade{
+        r->seq, utc_text(r->utc_ns), r->reason, r->person, grading::verdict_in(*r->result), records::verdict_by_program(session, r->seq)};
   for (const auto& c : ledger.content.checkpoints)  // the one that the receipt of this entry shows
     if (c.size > session.seq) {
       f.root = to_hex(c.root);

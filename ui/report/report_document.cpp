@@ -53,7 +53,7 @@ List limits_of(const scenarios::CriterionSpec& c) {
     const Term wanted{c.full == 0 ? measure.no : measure.yes};
     return {{c.critical_above || c.critical_below ? msg("full marks if {}; failed else", wanted) : msg("full marks if {}", wanted)}, true};
   }
-  const auto value = [&](double v) { return as_unit(v, grading::unit_of(measure.unit)); };
+  const auto value = [&](double v) { return as_unit(v, unit_of(measure.unit).value_or(Unit::none)); };
   List limits{{c.full <= c.zero ? msg("full up to {}, none from {}", value(c.full), value(c.zero))
                                 : msg("full from {}, none up to {}", value(c.full), value(c.zero))},
               true};
@@ -208,7 +208,7 @@ TableRow moment_row(const grading::WhyItem& m) {
   return {{time_cell(m.tick, m.site_mm),
            {place_text(m.site_mm)},
            {lasts ? tr("{} (until {})", m.what, as_s(static_cast<double>(m.end_tick) * k_tick_s)) : tr(m.what)},
-           {m.amount ? figure(as_unit(*m.amount, grading::unit_of(m.unit), 3)) : ""},
+           {m.amount ? figure(as_unit(*m.amount, unit_of(m.unit).value_or(Unit::none), 3)) : ""},
            {m.points_lost ? figure(as_points(*m.points_lost, 2)) : ""}},
           m.points_lost && *m.points_lost > 0};
 }
@@ -357,8 +357,8 @@ Document report_document(const ReportSource& s) {
     d.blocks.push_back(Paragraph{tr("{}.", grading::regrade_text(*s.regrade)), tr("Regrade"), Paragraph::Kind::note, "regrade"});
   add_filing_notes(d, s);
   const bool decided = s.filing && s.filing->regrade && !s.filing->regrade->person.empty();
-  const std::string verdict = decided ? s.filing->regrade->verdict : grading::verdict_name(r.verdict);
-  d.blocks.push_back(VerdictBox{verdict, tr("{}", Term{verdict}), tr("{} of {} points", as_points(r.points), as_points(r.max_points)),
+  const grading::Verdict verdict = decided ? s.filing->regrade->verdict : r.verdict;
+  d.blocks.push_back(VerdictBox{verdict, tr("{}", word_of(verdict)), tr("{} of {} points", as_points(r.points), as_points(r.max_points)),
                                 margin(r, s.reader), reasons_for(s)});
   if (s.regrade != nullptr && (s.reader == ReportReader::instructor || (s.filing && s.filing->regrade))) add_regrade(d, *s.regrade);
   // whether or not the rubric takes points for it

@@ -13,6 +13,7 @@
 #include "grading/marking/grade.h"
 #include "grading/marking/session_input.h"
 #include "grading/result/compare.h"
+#include "grading/result/result.h"
 #include "grading/scan/grade_scan.h"
 
 namespace cavum::report {
@@ -34,7 +35,7 @@ struct ReportIntegrity {
 struct ReportAttempt {
   std::uint64_t entry = 0;
   std::string date;  ///< when it was filed, UTC
-  std::string verdict;
+  std::optional<grading::Verdict> verdict;
   double points = 0, max = 0;
   bool released = false, this_one = false, regraded = false, simulated = false;
   Message doubt;  ///< why it does not stand as sound; empty when it does
@@ -44,8 +45,9 @@ struct ReportAttempt {
 struct ReportRegrade {
   std::uint64_t entry = 0;
   std::string date, reason;
-  std::string person, verdict;  ///< who decided, and how; empty: it was marked anew
-  std::string by_program;       ///< the verdict of the program, before anybody decided
+  std::string person;          ///< who decided; empty: it was marked anew
+  grading::Verdict verdict{};  ///< of that person
+  std::string by_program;      ///< the verdict of the program, before anybody decided
 };
 
 /// What the ledger says of a session.

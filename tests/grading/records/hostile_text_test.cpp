@@ -30,7 +30,7 @@ const char* const k_hostile[] = {"=cmd|' /C calc'!A0",
 
 /// A result with `text` wherever a result holds text.
 json result_of(const std::string& text) {
-  return {{"verdict", text},
+  return {{"verdict", "pass"},
           {"score", {{"points", 80.0}, {"max", 100.0}, {"pass_percent", 60.0}, {"borderline_percent", 5.0}}},
           {"criteria",
            {{{"id", text},

@@ -182,7 +182,7 @@ TEST_F(ReportFile, AChangeOverAttemptsIsToldOnlyBeyondWhatMarksVaryByThemselves)
     source.filing = ReportFiling{};
     for (const double percent : marks) {
       ReportAttempt attempt;
-      attempt.verdict = "pass";
+      attempt.verdict = grading::Verdict::pass;
       attempt.points = percent;
       attempt.max = 100;
       attempt.released = true;

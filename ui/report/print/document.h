@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "engine/base/vec.h"
+#include "grading/result/result.h"
 
 namespace cavum::report {
 
@@ -57,7 +58,7 @@ struct ReportTable {
 };
 
 struct VerdictBox {
-  std::string verdict;  ///< pass, fail or review
+  grading::Verdict verdict{};
   std::string verdict_words;
   std::string score;               ///< "71.2 of 100.0 points"
   std::vector<std::string> lines;  ///< margin and uncertainty

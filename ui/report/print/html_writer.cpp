@@ -61,7 +61,8 @@ class Writer {
     h_ += "</tbody></table>\n";
   }
   void operator()(const VerdictBox& b) {
-    h_ += fmt::format("<div class='verdict {}'><div><b>{}</b><br>{}", xml_text(b.verdict), text_html(b.verdict_words), text_html(b.score));
+    h_ +=
+        fmt::format("<div class='verdict {}'><div><b>{}</b><br>{}", grading::verdict_name(b.verdict), text_html(b.verdict_words), text_html(b.score));
     for (const auto& line : b.lines) h_ += fmt::format("<br><small>{}</small>", text_html(line));
     h_ += "</div><ul>";
     for (const auto& reason : b.reasons) h_ += fmt::format("<li>{}</li>", text_html(reason));

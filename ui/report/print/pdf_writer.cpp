@@ -17,10 +17,9 @@ constexpr double k_pt_per_px = 0.75, k_max_of_page = 0.42;
 // Of their size: pictures that stand on the rest of a page rather than leave it empty; one that has its line for itself, several side by side.
 constexpr double k_min_alone = 0.5, k_min_beside = 0.7;
 
-PdfColour verdict_colour(const std::string& verdict) {
-  if (verdict == "pass") return {0.0, 0.447, 0.698};
-  if (verdict == "fail") return {0.835, 0.369, 0.0};
-  return {0.541, 0.427, 0.0};
+PdfColour verdict_colour(grading::Verdict verdict) {
+  constexpr PdfColour k_colours[] = {{0.0, 0.447, 0.698}, {0.835, 0.369, 0.0}, {0.541, 0.427, 0.0}};  // pass, fail, review
+  return k_colours[static_cast<std::size_t>(verdict)];
 }
 
 class Printer {
