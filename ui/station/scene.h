@@ -39,6 +39,14 @@ struct SceneView {
 /// The running bur turns as far as an eye can follow from one picture to the next.
 void turn_bur(SceneView& view, double rpm, double frame_s);
 
+// What the table of an instrument's distances covers, tool frame, and where in it a place lies; higher than the last, a head has no ring below it.
+inline constexpr float k_widest_mm = 3.0F, k_lowest_mm = -1.5F, k_highest_mm = 8.5F;
+inline constexpr glm::vec3 k_tool_table(1.0F / k_widest_mm, 1.0F / (k_highest_mm - k_lowest_mm), -k_lowest_mm / (k_highest_mm - k_lowest_mm));
+inline constexpr float k_foot_ends_mm = 5.0F;
+[[nodiscard]] glm::mat4 to_glm(const Pose& pose);
+/// 0 to 1: a handpiece would hide the work from whoever looks along it.
+[[nodiscard]] float handpiece_opacity(const SceneView& view, int eye);
+
 class Scene {
  public:
   /// `target`: of practice; null = none is shown.

@@ -68,6 +68,8 @@ std::optional<ErrorCode> code_of(const Action& action) {
 inline bool tells(const Message& message, const Value& wanted) {
   const auto in = [&wanted](const Value& v) {
     if (v == wanted) return true;
+    if (const auto* is = std::get_if<Vec3>(&v), *place = std::get_if<Vec3>(&wanted); is != nullptr && place != nullptr)
+      return length(*is - *place) < 2e-6;  // as a result holds it, to a millionth
     if (const auto* place = std::get_if<FilePlace>(&v)) return wanted == Value(Name{place->file});
     if (const auto* term = std::get_if<Term>(&v)) return wanted == Value(Name{term->english});
     if (const auto* authored = std::get_if<Authored>(&v)) return wanted == Value(Name{authored->english});

@@ -122,9 +122,9 @@ TEST(Grade, NamesTheWallAndTheTickWhereTheLossBegan) {
   const auto& sides = r.criteria.at(1);
   EXPECT_LT(sides.points, sides.max);
   EXPECT_EQ(sides.first.tick, 2345);
-  const auto fact = to_json(r)["criteria"][1];
-  EXPECT_EQ(fact["values"]["wall"], "mesial") << fact;
-  EXPECT_EQ(fact["facts"][1]["values"]["tick"], 2345) << fact;
+  const auto facts = to_json(r)["criteria"][1]["facts"];
+  EXPECT_EQ(facts[0]["values"]["wall"], "mesial") << facts;
+  EXPECT_EQ(facts[1]["values"]["tick"], 2345) << facts;
   EXPECT_EQ(wall(r, scenarios::Wall::mesial).worst_over.tick, 2345);
   EXPECT_EQ(r.criteria.at(0).points, r.criteria[0].max);
   EXPECT_EQ(r.criteria[0].facts, Findings{finding<FindingKind::full_marks>()});

@@ -352,7 +352,7 @@ TEST_F(Attack, NoneIsAnExamThatWasKilledAndTakenUpAgainAtItsStation) {
   const SessionExplanation told = explain_session(cut, "");
   EXPECT_TRUE(told.holds);
   EXPECT_FALSE(told.interrupted);
-  expect_told(told.remarks, {"4000"});
+  expect_told(words_of(told.remarks), {"4000"});
 }
 TEST_F(Attack, TwoEndingsOfOneExam) {
   remember_use({parse_ticket(ticket_, "", "ticket"), ticket_, "t"}, "exam.cavum");

@@ -340,7 +340,7 @@ TEST_F(ReportFile, ADocumentOfAnyLengthFitsItsPages) {
   d.blocks = {Heading{text.substr(0, 900)},
               Paragraph{text, "Lead"},
               Bullets{{text, "short"}, true},
-              VerdictBox{"review", "review", "1 of 2", {text.substr(0, 300)}, {text.substr(0, 1500)}},
+              VerdictBox{grading::Verdict::review, "review", "1 of 2", {text.substr(0, 300)}, {text.substr(0, 1500)}},
               ReportTable{{{"a"}, {"b", true}}, {{{{text}, {"number"}}}, {{{"x"}, {"y"}}}}, "huge"},
               Paragraph{"the end is here", ""}};
   write_text_file(path("t.pdf"), pdf_of(d));
