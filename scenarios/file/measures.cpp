@@ -7,7 +7,7 @@
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
-#include "scenarios/file/names.h"
+#include "engine/tooth/tissue_grid.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -78,7 +78,7 @@ std::vector<Measure> wall_measures() {
 
 std::vector<Measure> tissue_measures() {
   std::vector<Measure> out;
-  for (const auto tissue : k_usual_tissues) out.push_back(tissue_measure(std::string(tissue)));
+  for (const Tissue& t : standard_tissues()) out.push_back(tissue_measure(t.name));
   return out;
 }
 

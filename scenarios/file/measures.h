@@ -93,7 +93,7 @@ struct Measure {
   [[nodiscard]] std::string key() const { return family != nullptr ? family : name; }
 };
 
-/// All of them, of tissues those of `k_usual_tissues`. Throws std::logic_error when two have one name.
+/// All of them, of tissues those of `standard_tissues()`. Throws std::logic_error when two have one name.
 [[nodiscard]] const std::vector<Measure>& measures();
 /// A measure by its name, touched_NAME_mm3 of any tissue; none when there is none of that name.
 [[nodiscard]] std::optional<Measure> find_measure(const std::string& name);
