@@ -137,13 +137,20 @@ TissueGrid part_without(const Octree& tree, const BrickBox& box, const TissueSet
 
 }  // namespace
 
-bool is_of_neighbour(std::string_view tissue) noexcept { return tissue.starts_with(k_neighbour_prefix); }
-bool stands_beside(std::string_view tissue) noexcept { return tissue == k_gum || is_of_neighbour(tissue); }
+bool is_of_neighbour(std::string_view tissue) noexcept { return known_tissue(tissue).kind == TissueKind::neighbour; }
+bool is_gum(std::string_view tissue) noexcept { return known_tissue(tissue).kind == TissueKind::gum; }
+bool stands_beside(std::string_view tissue) noexcept { return is_gum(tissue) || is_of_neighbour(tissue); }
+
+Message tissue_words(std::string_view tissue) {
+  const KnownTissue known = known_tissue(tissue);
+  std::string words(known.name == tissue ? known.words : tissue);
+  std::replace(words.begin(), words.end(), '_', ' ');
+  return msg("{}", Term{words});
+}
 
 TissueSet tissues_beside(const Tooth& tooth) { return tissues_that(tooth, stands_beside); }
-TissueSet tissues_of_neighbours(const Tooth& tooth) { return tissues_that(tooth, is_of_neighbour); }
-TissueSet tissues_of_gum(const Tooth& tooth) {
-  return tissues_that(tooth, [](std::string_view name) { return name == k_gum; });
+TissueSet tissues_of(const Tooth& tooth, TissueKind kind) {
+  return tissues_that(tooth, [kind](std::string_view name) { return known_tissue(name).kind == kind; });
 }
 
 bool has_beside(const Tooth& tooth) {
@@ -161,7 +168,7 @@ Tooth own_tooth(const Tooth& tooth) {
 }
 
 Octree neighbours_alone(const Tooth& tooth) {
-  const TissueSet neighbours = tissues_of_neighbours(tooth);
+  const TissueSet neighbours = tissues_of(tooth, TissueKind::neighbour);
   TissueSet others;
   for (std::size_t i = 0; i < others.size(); ++i) others[i] = i != k_air && !neighbours[i];
   const BrickBox box = bricks_around(tooth.octree, neighbours);

@@ -6,23 +6,22 @@
 #include <array>
 #include <string_view>
 
-#include "engine/base/text.h"
 #include "engine/tooth/tooth.h"
 
 namespace cavum {
 
-inline constexpr std::string_view k_neighbour_prefix = "neighbour_", k_gum = said("gingiva");
-
 /// By its name: "neighbour_enamel", "neighbour_dentin" or whatever begins like them.
 [[nodiscard]] bool is_of_neighbour(std::string_view tissue) noexcept;
-/// That, or gum.
+[[nodiscard]] bool is_gum(std::string_view tissue) noexcept;
+/// One of both.
 [[nodiscard]] bool stands_beside(std::string_view tissue) noexcept;
+/// What people read in a key: "neighbour's enamel", "gum", "caries"; of one without a row of its own (tissues.h) its name.
+[[nodiscard]] Message tissue_words(std::string_view tissue);
 
 /// By tissue id. False for air.
 using TissueSet = std::array<bool, 256>;
 [[nodiscard]] TissueSet tissues_beside(const Tooth& tooth);
-[[nodiscard]] TissueSet tissues_of_neighbours(const Tooth& tooth);
-[[nodiscard]] TissueSet tissues_of_gum(const Tooth& tooth);
+[[nodiscard]] TissueSet tissues_of(const Tooth& tooth, TissueKind kind);
 /// Whether the tooth's table lists any of them.
 [[nodiscard]] bool has_beside(const Tooth& tooth);
 

@@ -7,15 +7,10 @@
 #include <string>
 #include <vector>
 
-#include "engine/base/text.h"
 #include "engine/base/vec.h"
+#include "engine/tooth/tissues.h"
 
 namespace cavum {
-
-/// Tissue labels with fixed numbers; up to 255 in all, further ones are listed in the tooth's table.
-enum TissueId : std::uint8_t { k_air = 0, k_enamel = 1, k_dentin = 2, k_pulp = 3, k_periodontium = 4 };
-/// Of what stands beside a tooth (beside.h), where a tooth's own table leaves these numbers free.
-inline constexpr std::uint8_t k_neighbour_enamel = 12, k_neighbour_dentin = 13, k_gingiva = 14;
 
 /// One tissue of a tooth. A tissue that is not solid (pulp, periodontium) is void to the contact: the
 /// bur enters it without resistance, though its touch still counts with its own k and c.
@@ -28,10 +23,10 @@ struct Tissue {
 
 /// The four tissues that every importer knows.
 [[nodiscard]] inline std::vector<Tissue> standard_tissues() {
-  return {{k_enamel, said("enamel"), true},
-          {k_dentin, said("dentin"), true},
-          {k_pulp, said("pulp"), false},
-          {k_periodontium, said("periodontium"), false}};
+  std::vector<Tissue> four;
+  for (const KnownTissue& t : k_tissues)
+    if (t.id != k_air && t.id <= k_periodontium) four.push_back({t.id, t.name, t.solid});
+  return four;
 }
 
 /// Signed distance to the solid surface in one byte: positive outside (air and pulp), ±127 = ±2 leaves or more.

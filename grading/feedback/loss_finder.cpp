@@ -2,15 +2,29 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "grading/feedback/moments.h"
-#include "grading/feedback/moments_of_measure.h"
 #include "grading/measures/motion.h"
 #include "grading/measures/removed_map.h"
 #include "grading/result/loss.h"
 #include "grading/result/mark.h"
 
 namespace cavum::grading {
+namespace loss_list {
+#define LISTED(LIST, WORDS) constexpr LossList LIST{WORDS, &LossFinder::LIST};
+LOSS_LISTS(LISTED)
+#undef LISTED
+}  // namespace loss_list
+
+LossList loss_list_of(const scenarios::Measure& measure) {
+  static const std::map<std::string, LossList> k_all{
+#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) {NAME, loss_list::MOMENTS},
+#define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) {scenarios::KEY, loss_list::MOMENTS},
+#include "scenarios/file/measures_table.h"
+  };
+  return k_all.at(measure.key());
+}
 
 LossFinder::LossFinder(const GradeInput& input, const Result& result, const scenarios::CriterionSpec& spec, Why& why)
     : in_(input), r_(result), spec_(spec), why_(why), asked_(asked(spec.metric, spec.full)) {
@@ -21,7 +35,7 @@ LossFinder::LossFinder(const GradeInput& input, const Result& result, const scen
 }
 
 void LossFinder::find() {
-  (this->*moments_of(asked_.measure).list)();
+  (this->*loss_list_of(asked_.measure).list)();
   value_and_work();
 }
 

@@ -1,5 +1,4 @@
-// Finds the moments and facts behind the points that one criterion lost. Which of them a measure has is said in
-// grading/feedback/moments_of_measure.h.
+// Finds the moments and facts behind the points that one criterion lost. Which of them a measure has is said in scenarios/file/measures_table.h.
 #pragma once
 
 #include <functional>
@@ -12,6 +11,33 @@
 
 namespace cavum::grading {
 
+/// What a measure's moments may be: a function that lists them, and what that is, for the manual.
+#define LOSS_LISTS(LIST)                                                     \
+  LIST(missed_target, "what stayed, by wall")                                \
+  LIST(removed_in_zones, "what was removed there")                           \
+  LIST(dice, "what stayed, what was removed beyond")                         \
+  LIST(at_walls, "the walls' figures, furthest places, what was cut beyond") \
+  LIST(length, "both ends, when they were cut")                              \
+  LIST(width, "both ends, when they were cut")                               \
+  LIST(depth, "the deepest place, when it was cut")                          \
+  LIST(taper, "the side walls")                                              \
+  LIST(taper_error, "both slopes, the side walls")                           \
+  LIST(overhang, "each piece of roof, last cut near it")                     \
+  LIST(canals, "each mouth, last cut near it")                               \
+  LIST(floor_cut, "what was removed there")                                  \
+  LIST(dentin_over_pulp, "the thinnest place, when it was cut")              \
+  LIST(tissue, "what was removed of it")                                     \
+  LIST(nick, "the deepest place, what was removed of neighbours")            \
+  LIST(clearance, "both places, last cut near the first")                    \
+  LIST(gum, "what was removed of it")                                        \
+  LIST(perforation, "by tissue and by force")                                \
+  LIST(time, "events, idle times")                                           \
+  LIST(handpiece_time, "when it turned")                                     \
+  LIST(idle, "idle times")                                                   \
+  LIST(force, "when more was pressed than gives full marks")                 \
+  LIST(force_over_limit, "when more was pressed than the limit")             \
+  LIST(steps, "events")
+
 class LossFinder {
  public:
   /// All of them must outlive it; `why` is what it writes to.
@@ -19,31 +45,9 @@ class LossFinder {
   /// The moments of the criterion's measure, and what points they leave unsaid.
   void find();
 
-  // What a measure's moments may be
-  void missed_target();     ///< what of the target stayed, wall by wall, and when the candidate last cut of the target there
-  void removed_in_zones();  ///< in the zones that the measure counts
-  void dice();              ///< loses by what was missed and by what was removed beyond, each in proportion to its volume
-  void at_walls();          ///< of the measure's walls: figures, furthest places, what was cut beyond
-  void length();
-  void width();
-  void depth();
-  void taper();
-  void taper_error();
-  void overhang();
-  void canals();
-  void floor_cut();
-  void dentin_over_pulp();
-  void tissue();
-  void nick();
-  void clearance();
-  void gum();
-  void perforation();  ///< by tissue and by force
-  void time();
-  void handpiece_time();
-  void idle();
-  void force();             ///< stretches above what gives full marks
-  void force_over_limit();  ///< stretches above the scenario's limit
-  void steps();             ///< the exam as a row of events, each with what it took since the one before
+#define DECLARED(LIST, WORDS) void LIST();
+  LOSS_LISTS(DECLARED)
+#undef DECLARED
 
  private:
   void fact(const Message& what, std::optional<double> amount = {}, const std::string& unit = "", const Trace& t = {}, double bound = 0);
@@ -71,5 +75,12 @@ class LossFinder {
   Asked asked_;
   std::int64_t end_ = 0;
 };
+
+struct LossList {
+  const char* words;
+  void (LossFinder::*list)();
+};
+/// What `grade --why` lists for a measure.
+[[nodiscard]] LossList loss_list_of(const scenarios::Measure& measure);
 
 }  // namespace cavum::grading

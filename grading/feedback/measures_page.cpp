@@ -4,7 +4,7 @@
 
 #include <sstream>
 
-#include "grading/feedback/moments_of_measure.h"
+#include "grading/feedback/loss_finder.h"
 #include "grading/result/measure_marking.h"
 
 namespace cavum::grading {
@@ -79,7 +79,7 @@ std::string measures_page() {
     out << "| " << code(m.name) << " | " << m.unit << " | " << better_words(m.better) << " | "
         << (m.judges == scenarios::Judges::work ? "work" : "care") << " | " << ends << " | " << m.words << " | "
         << english_text(msg("{}", scenarios::counts_text(m.counts))) << " | " << needs_words(m.needs) << " | " << code(json_place(m)) << " | "
-        << moments_of(m).words << " |\n";
+        << loss_list_of(m).words << " |\n";
   }
   return out.str();
 }

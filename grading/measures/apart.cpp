@@ -11,8 +11,8 @@ std::shared_ptr<const ToothApart> take_apart(const Tooth& tooth) {
   apart->own = own_tooth(tooth);
   apart->neighbours = neighbours_alone(tooth);
   apart->beside = tissues_beside(tooth);
-  apart->of_neighbours = tissues_of_neighbours(tooth);
-  apart->of_gum = tissues_of_gum(tooth);
+  apart->of_neighbours = tissues_of(tooth, TissueKind::neighbour);
+  apart->of_gum = tissues_of(tooth, TissueKind::gum);
   return apart;
 }
 

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "engine/tooth/beside.h"
 #include "engine/tooth/octree_edit.h"
 #include "grading/measures/place_blocks.h"
 #include "grading/measures/solid_surface.h"
@@ -10,14 +11,8 @@
 namespace cavum::grading {
 namespace {
 
-std::array<bool, 256> pulp_of(const Tooth& tooth) {
-  std::array<bool, 256> pulp{};
-  for (const auto& t : tooth.tissues) pulp[t.id] = t.name == "pulp";
-  return pulp;
-}
-
 /// The pulp's wall.
-PlaceBlocks wall_of_pulp(const Octree& before, const std::array<bool, 256>& pulp) {
+PlaceBlocks wall_of_pulp(const Octree& before, const TissueSet& pulp) {
   PlaceBlocks wall;
   Octree::Cursor cursor;
   before.for_each_cube([&](IVec3 at, int edge, std::uint8_t tissue) {
@@ -39,7 +34,7 @@ OverPulpMeasures measure_over_pulp(const GradeInput& input, const RemovedMap& re
   OverPulpMeasures m;
   m.bound_mm = input.zones.leaf_mm() + input.surface_bound_mm;
   const Octree& before = input.before.octree;
-  const std::array<bool, 256> pulp = pulp_of(input.before);
+  const TissueSet pulp = tissues_of(input.before, TissueKind::pulp);
   const PlaceBlocks wall = wall_of_pulp(before, pulp);
   if (wall.empty()) return m;
   Octree::Cursor cursor, was;

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <stdexcept>
 
 namespace cavum::grading {
 namespace {
@@ -48,13 +47,13 @@ MetricValue of_tissue(const Result& r, const Asked& a) {
   return exactly(0.0);  // this tooth has none of it
 }
 
-MetricValue taper_error(const Result& r, const Asked&) {
+MetricValue taper_difference(const Result& r) {
   const double bound = r.shape.taper_bound_deg + r.access.target_taper_bound_deg;
   if (!r.shape.taper_deg || !r.access.target_taper_deg) return {std::nullopt, bound};
   return {std::fabs(*r.shape.taper_deg - *r.access.target_taper_deg), bound};
 }
 
-MetricValue fault_events(const Result& r, const Asked&) {
+MetricValue fault_events(const Result& r) {
   return exactly(static_cast<double>(
       std::count_if(r.perforation.events.begin(), r.perforation.events.end(), [](const auto& e) { return e.fault && e.confirmed; })));
 }
@@ -65,226 +64,6 @@ std::vector<scenarios::Zone> all_zones(bool with_target) {
                                      scenarios::Zone::container_bottom, scenarios::Zone::protected_,    scenarios::Zone::none};
   if (with_target) zones.insert(zones.begin(), scenarios::Zone::target);
   return zones;
-}
-
-using R = const Result&;
-using A = const Asked&;
-
-/// What was removed in some zones. `json` null: it has no place of its own.
-MeasureMarking in_zones_row(const char* measure, std::vector<scenarios::Zone> zones, const char* json = nullptr) {
-  return {.measure = measure,
-          .value = in_zones,
-          .reason = reason::removed_in_zones,
-          .zones = std::move(zones),
-          .json = json,
-          .bound_json = json != nullptr ? "/volumes/bounds/" : nullptr};
-}
-
-std::vector<MeasureMarking> volume_markings() {
-  return {
-      {.measure = "target_removed_percent",
-       .value = [](R r, A) { return known_to(r.volumes.target_removed_percent, r.volumes.target_removed_bound_percent); },
-       .reason = reason::missed_target,
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "missed_mm3",
-       .value = [](R r, A) { return of_volume(r.volumes.missed); },
-       .reason = reason::missed_target,
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = "removed_mm3",
-       .value = [](R r, A) { return of_volume(r.volumes.removed); },
-       .reason = reason::removed_in_zones,
-       .zones = all_zones(true),
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      in_zones_row("outside_mm3", {scenarios::Zone::none, scenarios::Zone::protected_}, "/volumes/"),
-      in_zones_row("protected_mm3", {scenarios::Zone::protected_}, "/volumes/"),
-      in_zones_row("leeway_sides_mm3", {scenarios::Zone::leeway_sides}, "/volumes/overcut/"),
-      in_zones_row("leeway_bottom_mm3", {scenarios::Zone::leeway_bottom}, "/volumes/overcut/"),
-      in_zones_row("container_sides_mm3", {scenarios::Zone::container_sides}, "/volumes/overcut/"),
-      in_zones_row("container_bottom_mm3", {scenarios::Zone::container_bottom}, "/volumes/overcut/"),
-      in_zones_row("container_mm3", {scenarios::Zone::container_sides, scenarios::Zone::container_bottom}),
-      in_zones_row("overcut_mm3",
-                   {scenarios::Zone::container_sides, scenarios::Zone::container_bottom, scenarios::Zone::protected_, scenarios::Zone::none}),
-      {.measure = "dice",
-       .value = [](R r, A) { return known_to(r.volumes.dice, r.volumes.dice_bound); },
-       .reason = reason::missed_and_beyond,
-       .zones = all_zones(false),
-       .json = "/volumes/",
-       .bound_json = "/volumes/bounds/"},
-      {.measure = scenarios::k_wall_family, .value = worst_wall, .reason = reason::at_walls},
-  };
-}
-
-std::vector<MeasureMarking> shape_markings() {
-  return {
-      {.measure = "outline_length_mm",
-       .value = [](R r, A) { return known_to(r.shape.length_mm, r.shape.bound_mm); },
-       .reason = reason::figure_alone,
-       .json = "/shape/",
-       .bound_json = "/shape/bound_mm"},
-      {.measure = "outline_width_mm",
-       .value = [](R r, A) { return known_to(r.shape.width_mm, r.shape.bound_mm); },
-       .reason = reason::figure_alone,
-       .json = "/shape/",
-       .bound_json = "/shape/bound_mm"},
-      {.measure = "outline_length_error_mm",
-       .value = [](R r, A) { return known_to(r.shape.length_error_mm, 2 * r.shape.bound_mm); },
-       .reason = reason::length_error},
-      {.measure = "outline_width_error_mm",
-       .value = [](R r, A) { return known_to(r.shape.width_error_mm, 2 * r.shape.bound_mm); },
-       .reason = reason::width_error},
-      {.measure = "depth_mm",
-       .value = [](R r, A) { return known_to(r.shape.depth_mm, r.shape.bound_mm); },
-       .reason = reason::figure_alone,
-       .json = "/shape/",
-       .bound_json = "/shape/bound_mm"},
-      {.measure = "depth_error_mm",
-       .value = [](R r, A) { return known_to(r.shape.depth_error_mm, 2 * r.shape.bound_mm); },
-       .reason = reason::depth_error},
-      {.measure = "taper_deg",
-       .value = [](R r, A) { return known_to(r.shape.taper_deg, r.shape.taper_bound_deg); },
-       .reason = reason::figure_alone,
-       .json = "/shape/",
-       .bound_json = "/shape/taper_bound_deg"},
-      {.measure = "taper_error_deg", .value = taper_error, .reason = reason::taper_error},
-  };
-}
-
-std::vector<MeasureMarking> access_markings() {
-  return {
-      {.measure = "overhang_mm3",
-       .value = [](R r, A) { return r.access.overhang ? of_volume(*r.access.overhang) : MetricValue{}; },
-       .reason = reason::overhang,
-       .json = "/access/",
-       .bound_json = "/access/bounds/"},
-      {.measure = "canals_covered_percent",
-       .value = [](R r, A) { return known_to(r.access.canals_covered_percent, r.access.canals_bound_percent); },
-       .reason = reason::canals_covered,
-       .json = "/access/",
-       .bound_json = "/access/bounds/"},
-      {.measure = "floor_cut_mm3",
-       .value = [](R r, A) { return of_volume(r.access.floor_cut); },
-       .reason = reason::floor_cut,
-       .json = "/access/",
-       .bound_json = "/access/bounds/"},
-      {.measure = "dentin_over_pulp_mm",
-       .value = [](R r, A) { return known_to(r.over_pulp.dentin_mm, r.over_pulp.bound_mm); },
-       .reason = reason::dentin_over_pulp,
-       .json = "/pulp/",
-       .bound_json = "/pulp/bounds/"},
-  };
-}
-
-std::vector<MeasureMarking> beside_markings() {
-  return {
-      {.measure = "neighbour_nick_depth_mm",
-       .value = [](R r, A) { return known_to(r.beside.nick_depth_mm, r.beside.nick_depth_bound_mm); },
-       .reason = reason::nick,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-      {.measure = "neighbour_nick_area_mm2",
-       .value = [](R r, A) { return known_to(r.beside.nick_area_mm2, r.beside.nick_area_bound_mm2); },
-       .reason = reason::nick,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-      {.measure = "neighbour_removed_mm3",
-       .value = [](R r, A) { return of_volume(r.beside.neighbour_removed); },
-       .reason = reason::nick,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-      {.measure = "proximal_clearance_mm",
-       .value = [](R r, A) { return known_to(r.beside.clearance_mm, r.beside.clearance_bound_mm); },
-       .reason = reason::clearance,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-      {.measure = "gum_removed_mm3",
-       .value = [](R r, A) { return of_volume(r.beside.gum_removed); },
-       .reason = reason::gum,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-      {.measure = "gum_touched_s",
-       .value = [](R r, A) { return known_to(r.beside.gum_touched_s, r.beside.gum_touched_bound_s); },
-       .reason = reason::gum,
-       .json = "/beside/",
-       .bound_json = "/beside/bounds/"},
-  };
-}
-
-std::vector<MeasureMarking> motion_markings() {
-  return {
-      {.measure = "time_s",
-       .value = [](R r, A) { return known_to(r.motion.time_s, r.motion.time_bound_s); },
-       .reason = reason::time_over,
-       .json = "/",
-       .bound_json = "/bounds/"},
-      {.measure = "handpiece_time_s",
-       .value = [](R r, A) { return known_to(r.motion.handpiece_time_s, r.motion.handpiece_bound_s); },
-       .reason = reason::figure_alone,
-       .json = "/",
-       .bound_json = "/bounds/"},
-      {.measure = "idle_s",
-       .value = [](R r, A) { return known_to(r.motion.idle_s, r.motion.idle_bound_s); },
-       .reason = reason::figure_alone,
-       .json = "/",
-       .bound_json = "/bounds/"},
-      {.measure = "force_mean_n",
-       .value = [](R r, A) { return known_to(r.motion.force_mean_n, r.motion.force_bound_n); },
-       .reason = reason::figure_alone,
-       .json = "/force/mean_n"},
-      {.measure = "force_peak_n",
-       .value = [](R r, A) { return known_to(r.motion.force_peak_n, r.motion.force_bound_n); },
-       .reason = reason::force_peak,
-       .json = "/force/peak_n"},
-      {.measure = "force_over_limit_s",
-       .value = [](R r, A) { return known_to(r.motion.force_over_limit_s, r.motion.over_limit_bound_s); },
-       .reason = reason::force_over_limit,
-       .json = "/force/over_limit_s",
-       .bound_json = "/bounds/over_limit_s"},
-      {.measure = "path_mm",
-       .value = [](R r, A) { return known_to(r.motion.path_mm, r.motion.path_bound_mm); },
-       .reason = reason::figure_alone,
-       .json = "/",
-       .bound_json = "/bounds/"},
-  };
-}
-
-std::vector<MeasureMarking> conduct_markings() {
-  return {
-      {.measure = "perforated",
-       .value = [](R r, A) { return exactly(r.perforation.fault.perforated ? 1.0 : 0.0); },
-       .reason = reason::fault_opened,
-       .json = "/perforation/truth/",
-       .whole = true},
-      {.measure = "perforation_volume_mm3",
-       .value = [](R r, A) { return known_to(r.perforation.fault.volume_mm3, r.perforation.fault.bound_mm3); },
-       .reason = reason::fault_opened,
-       .json = "/perforation/truth/volume_mm3",
-       .bound_json = "/perforation/truth/bound_mm3"},
-      {.measure = "soft_tissue_outside_mm3",
-       .value = [](R r, A) { return known_to(r.perforation.fault.outside_mm3, r.perforation.fault.bound_mm3); },
-       .reason = reason::swept_outside,
-       .json = "/perforation/truth/outside_mm3",
-       .bound_json = "/perforation/truth/bound_mm3"},
-      {.measure = "perforation_events", .value = fault_events, .reason = reason::fault_felt},
-      {.measure = scenarios::k_tissue_family, .value = of_tissue, .reason = reason::tissue_touched},
-      {.measure = "steps_completed",
-       .value = [](R r, A) { return exactly(r.progress.steps_completed); },
-       .reason = reason::figure_alone,
-       .json = "/steps/completed",
-       .whole = true},
-      {.measure = "steps_failed",
-       .value = [](R r, A) { return exactly(r.progress.steps_failed); },
-       .reason = reason::figure_alone,
-       .json = "/steps/failed",
-       .whole = true},
-      {.measure = "violations",
-       .value = [](R r, A) { return exactly(r.progress.violations); },
-       .reason = reason::first_violation,
-       .json = "/",
-       .whole = true},
-  };
 }
 
 std::string place_in(const char* pointer, const scenarios::Measure& m) {
@@ -303,32 +82,22 @@ std::string family_place(const scenarios::Measure& m, bool bound) {
 
 }  // namespace
 
-std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows) {
-  std::vector<std::string> keys;
-  for (const auto& row : rows) {
-    if (row.measure == nullptr || row.value == nullptr || row.reason == nullptr)
-      throw std::logic_error(fmt::format("measure_marking: {} lacks name, value or reason", row.measure != nullptr ? row.measure : "a row"));
-    keys.emplace_back(row.measure);
-  }
-  scenarios::require_row_for_each(keys, "measure_marking");
-  return rows;
-}
-
-const std::vector<MeasureMarking>& measure_markings() {
-  static const std::vector<MeasureMarking> k_rows = [] {
-    std::vector<MeasureMarking> all;
-    for (auto* some : {volume_markings, shape_markings, access_markings, beside_markings, motion_markings, conduct_markings})
-      for (auto& row : some()) all.push_back(std::move(row));
-    return checked_markings(std::move(all));
-  }();
-  return k_rows;
-}
-
 const MeasureMarking& marking_of(const scenarios::Measure& measure) {
+  using scenarios::Zone;
+  using R = const Result&;
+  using A = const Asked&;
+  static const std::vector<MeasureMarking> k_rows{
+#define IN(OBJECT) .json = OBJECT, .bound_json = OBJECT "bounds/"
+#define IN_OVERCUT .json = "/volumes/overcut/", .bound_json = "/volumes/bounds/"
+#define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) \
+  {.measure = NAME, .value = []([[maybe_unused]] R r, [[maybe_unused]] A a) -> MetricValue { return VALUE; }, .reason = reason::REASON IN_ROW PLACE},
+#define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) MEASURE(scenarios::KEY, , , VALUE, REASON, MOMENTS, ())
+#include "scenarios/file/measures_table.h"
+#undef IN
+#undef IN_OVERCUT
+  };
   const std::string key = measure.key();
-  for (const auto& row : measure_markings())
-    if (row.measure == key) return row;
-  throw std::logic_error("measure_marking: no row for the measure " + key);
+  return *std::find_if(k_rows.begin(), k_rows.end(), [&](const MeasureMarking& row) { return row.measure == key; });
 }
 
 Asked asked(const std::string& metric, double full) {

@@ -1,5 +1,5 @@
-// What marking adds to each measure of scenarios/file/measures.h: value with its bound, the reason why points were lost, its place in the result's
-// JSON. One record each, found by the measure's key.
+// What the rows of scenarios/file/measures_table.h say to marking: value with its bound, the reason why points were lost, its place in the result's
+// JSON. Found by the measure's key.
 #pragma once
 
 #include <optional>
@@ -36,10 +36,6 @@ struct MeasureMarking {
   bool whole = false;  ///< a count or yes and no, written as such
 };
 
-/// In the order of `measures()`. Throws std::logic_error when a measure has no row, a row no measure, or a row lacks value or reason.
-[[nodiscard]] const std::vector<MeasureMarking>& measure_markings();
-/// `rows`, held against the measures in that way.
-[[nodiscard]] std::vector<MeasureMarking> checked_markings(std::vector<MeasureMarking> rows);
 [[nodiscard]] const MeasureMarking& marking_of(const scenarios::Measure& measure);
 
 /// Throws Error when there is no measure of that name.

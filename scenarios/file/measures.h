@@ -1,6 +1,6 @@
-// The measures that a criterion of a rubric may use: one record each. Parser, checks, advice, marking, `grade --why`, the JSON of a result and
-// docs/measures.md are made of them. A room above adds what it knows of a measure by the record's key: grading/result/measure_marking.h value, bound
-// and reason, grading/feedback/moments_of_measure.h moments. `require_row_for_each` holds both tables against this one.
+// The measures that a criterion of a rubric may use: what is known of them here, of the rows of measures_table.h. Parser, checks, advice, marking,
+// `grade --why`, the JSON of a result and docs/measures.md are made of the same rows. What a row says to a room above is found there by the
+// measure's key: value, bound and reason in grading/result/measure_marking.h, moments in grading/feedback/loss_finder.h.
 #pragma once
 
 #include <optional>
@@ -69,8 +69,8 @@ enum class Reads : std::uint8_t { figure, count, yes_no };
 
 struct Measure {
   std::string name;
-  const char* unit = nullptr;  ///< left out: what its name ends with; of measures() and find_measure never null
   std::string words;
+  const char* unit = nullptr;  ///< left out: what its name ends with; of measures() and find_measure never null
   Better better = Better::less;
   Judges judges = Judges::care;
   const Most* most = nullptr;  ///< where its values end, from 0 on; null: nothing is known of that
@@ -93,7 +93,7 @@ struct Measure {
   [[nodiscard]] std::string key() const { return family != nullptr ? family : name; }
 };
 
-/// All of them, of tissues those of `k_usual_tissues`. Throws std::logic_error when two have one name.
+/// All of them, of tissues those of `standard_tissues()`. Throws std::logic_error when two have one name.
 [[nodiscard]] const std::vector<Measure>& measures();
 /// A measure by its name, touched_NAME_mm3 of any tissue; none when there is none of that name.
 [[nodiscard]] std::optional<Measure> find_measure(const std::string& name);
@@ -104,8 +104,5 @@ struct Measure {
 
 /// Where its values end in an exam, from 0 on; none when nothing is known of that.
 [[nodiscard]] std::optional<double> most_of(const Measure& measure, const ExamExtent& exam);
-
-/// Throws std::logic_error unless `keys`, those of the rows of a table, are the keys of all measures, each once. `table` names it.
-void require_row_for_each(const std::vector<std::string>& keys, const std::string& table);
 
 }  // namespace cavum::scenarios

@@ -41,7 +41,4 @@ inline constexpr std::array<LiveQuantity, 22> k_live_quantities{{
     {"perforated", "", "1 once a tissue under perforation.faults was touched", &most::fault},
 }};
 
-/// Tissues that most teeth have: whose names are proposed when one is misspelt.
-inline constexpr std::array<std::string_view, 4> k_usual_tissues{"enamel", "dentin", "pulp", "periodontium"};
-
 }  // namespace cavum::scenarios

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cctype>
 
+#include "engine/tooth/tissue_grid.h"
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"
 #include "scenarios/file/names.h"
@@ -16,7 +17,7 @@ void check_condition(CheckedTable& t, const char* key, const std::string& text) 
   if (text.empty()) return;
   std::vector<std::string> names;
   for (const auto& q : k_live_quantities) names.emplace_back(q.name);
-  for (const auto tissue : k_usual_tissues) names.push_back(fmt::format("touched_{}", tissue));
+  for (const Tissue& tissue : standard_tissues()) names.push_back("touched_" + tissue.name);
   constexpr std::size_t k_longest = 2000;
   if (text.size() > k_longest) {
     t.problem(key, msg("'{}' has {} characters", key, text.size()), msg("write at most 2000"), Mistake::too_large);

@@ -45,12 +45,11 @@ Message lacking(Needs needs, const Scenario& s, const Tooth& tooth) {
     case Needs::force_limit:
       return s.force_limit_n > 0 ? Message() : msg("there is no force limit");
     case Needs::pulp:
-      return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [](const Tissue& t) { return t.name == "pulp"; }) ? Message()
-                                                                                                                       : msg("the tooth has no pulp");
+      return any_of(tissues_of(tooth, TissueKind::pulp)) ? Message() : msg("the tooth has no pulp");
     case Needs::neighbour:
-      return any_of(tissues_of_neighbours(tooth)) ? Message() : msg("no tooth stands beside this one");
+      return any_of(tissues_of(tooth, TissueKind::neighbour)) ? Message() : msg("no tooth stands beside this one");
     case Needs::gum:
-      return any_of(tissues_of_gum(tooth)) ? Message() : msg("the tooth has no gum");
+      return any_of(tissues_of(tooth, TissueKind::gum)) ? Message() : msg("the tooth has no gum");
   }
   throw std::logic_error("rubric_check: a need that nothing is said of");
 }

@@ -150,7 +150,7 @@ void Adviser::walls() {
   const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
   std::array<std::uint64_t, k_walls> thin{};
   // a shell that is left before a neighbour is no wall
-  const TissueSet neighbours = tissues_of_neighbours(tooth_);
+  const TissueSet neighbours = tissues_of(tooth_, TissueKind::neighbour);
   const auto before_neighbour = [&](IVec3 at, IVec3 way) {
     constexpr double k_gap_mm = 1.0;
     for (double far = 0; far <= k_gap_mm; far += leaf, at = at + way)

@@ -75,7 +75,7 @@ double gap_mm(const Tooth& tooth, const TissueSet& neighbours, const TissueSet& 
 }  // namespace
 
 bool neighbour_stands(const Tooth& tooth, int side) {
-  const TissueSet neighbours = tissues_of_neighbours(tooth), beside = tissues_beside(tooth);
+  const TissueSet neighbours = tissues_of(tooth, TissueKind::neighbour), beside = tissues_beside(tooth);
   const Octree& tree = tooth.octree;
   double middle = 0, leaves = 0;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
@@ -94,7 +94,7 @@ ContactBox box_beside(const Tooth& tooth, const Landmarks& landmarks, int side, 
              *neck = furthest_along(landmarks.neck_mm, Vec3{1.0 * side, 0, 0});
   if (contact == nullptr || neck == nullptr || !neighbour_stands(tooth, side)) return box;
   box.shell = k_shell;
-  const TissueSet neighbours = tissues_of_neighbours(tooth), beside = tissues_beside(tooth);
+  const TissueSet neighbours = tissues_of(tooth, TissueKind::neighbour), beside = tissues_beside(tooth);
   const double half_leaf = 0.5 * tooth.octree.leaf_mm();
   // the floor's margin is as near as its nearest place
   const auto floor_gap = [&](double above) {
@@ -123,9 +123,9 @@ std::string beside_criteria(const Tooth& tooth, int opens) {
     return false;
   };
   std::string text;
-  if (any_of(tissues_of_neighbours(tooth))) text += k_nick_criterion;
+  if (any_of(tissues_of(tooth, TissueKind::neighbour))) text += k_nick_criterion;
   if (opens != 0 && neighbour_stands(tooth, opens)) text += k_clearance_criterion;
-  if (any_of(tissues_of_gum(tooth))) text += k_gum_criterion;
+  if (any_of(tissues_of(tooth, TissueKind::gum))) text += k_gum_criterion;
   return text;
 }
 

@@ -15,15 +15,12 @@ namespace cavum::scenarios {
 namespace {
 
 // Okabe and Ito's palette, told apart with every common colour blindness; tissues pale, findings strong.
-constexpr Palette k_usual{"#eef2f6", "#f2dfa6", "#e7a6a1", "#cfd8cf", "#d8c7e0", "#c9d6e3", "#b7c2cf", "#efb8b8",
-                          "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+constexpr Palette k_usual{&KnownTissue::usual, "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
 // For candidates who need stronger contrasts: light and dark alone tell the tissues apart.
-constexpr Palette k_strong{"#ffffff", "#ffd95a", "#c0143c", "#9aa39a", "#b58bd0", "#a9c6ee", "#7f9cc4", "#ff9fb5",
-                           "#0047ab", "#ff8c00", "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
+constexpr Palette k_strong{&KnownTissue::strong, "#0047ab", "#ff8c00", "#000000", "#0000cd", "#5a4600", "#7a0000", "#6a006a", 1.7};
 
 // For what many did: the tissues recede.
-constexpr Palette k_grey{"#f7f7f7", "#e9e9e9", "#cfcfcf", "#dddddd", "#e0e0e0", "#ececec", "#e4e4e4", "#d8d8d8",
-                         "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
+constexpr Palette k_grey{&KnownTissue::grey, "#56b4e9", "#f0b74d", "#d55e00", "#0072b2", "#8a6d00", "#8c2d04", "#8b3f78", 1.0};
 struct HeatBand {
   double from_percent;
   const char *over, *under;
@@ -86,26 +83,7 @@ const Palette& palette_of(bool high_contrast) { return high_contrast ? k_strong 
 
 const Palette& grey_palette() { return k_grey; }
 
-const char* tissue_colour(const Palette& colours, std::uint8_t t) {
-  switch (t) {
-    case k_enamel:
-      return colours.enamel;
-    case k_dentin:
-      return colours.dentin;
-    case k_pulp:
-      return colours.pulp;
-    case k_periodontium:
-      return colours.periodontium;
-    case k_neighbour_enamel:
-      return colours.neighbour_enamel;
-    case k_neighbour_dentin:
-      return colours.neighbour_dentin;
-    case k_gingiva:
-      return colours.gum;
-    default:
-      return colours.other;
-  }
-}
+const char* tissue_colour(const Palette& colours, std::uint8_t t) { return known_tissue(t).*colours.tissue; }
 
 const char* finding_colour(const Palette& colours, Zone zone) {
   switch (zone) {
@@ -141,10 +119,7 @@ struct Key {
   std::vector<KeyEntry> tissues, lines, removed, beside;
 };
 Key key_of(const Tooth& tooth, bool with_removed, const Palette& colours) {
-  Key key{{{colours.enamel, msg("{}", Term{"enamel"}), false},
-           {colours.dentin, msg("{}", Term{"dentin"}), false},
-           {colours.pulp, msg("{}", Term{"pulp"}), false},
-           {colours.periodontium, msg("{}", Term{"periodontium"}), false}},
+  Key key{{},
           {{colours.target_line, msg("target"), true}, {colours.leeway_line, msg("leeway"), true}, {colours.container_line, msg("container"), true}},
           {},
           {}};
@@ -153,11 +128,9 @@ Key key_of(const Tooth& tooth, bool with_removed, const Palette& colours) {
     key.removed = {{colours.removed, msg("removed, target"), false},
                    {colours.leeway, msg("removed, leeway"), false},
                    {colours.overcut, msg("removed, damage"), false}};
+  for (const Tissue& t : standard_tissues()) key.tissues.push_back({tissue_colour(colours, t.id), tissue_words(t.name), false});
   for (const Tissue& t : tooth.tissues)
-    if (t.name == k_gum)
-      key.beside.push_back({tissue_colour(colours, t.id), msg("gum"), false});
-    else if (is_of_neighbour(t.name))
-      key.beside.push_back({tissue_colour(colours, t.id), msg("neighbour's {}", Term{t.name.substr(k_neighbour_prefix.size())}), false});
+    if (stands_beside(t.name)) key.beside.push_back({tissue_colour(colours, t.id), tissue_words(t.name), false});
   return key;
 }
 

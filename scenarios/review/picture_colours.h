@@ -4,13 +4,13 @@
 #include <cstdint>
 #include <string>
 
+#include "engine/tooth/tissues.h"
 #include "scenarios/zones/zone_map.h"
 
 namespace cavum::scenarios {
 
 struct Palette {
-  const char *enamel, *dentin, *pulp, *periodontium, *other;
-  const char *neighbour_enamel, *neighbour_dentin, *gum;
+  const char* KnownTissue::*tissue;  ///< which of a tissue's colours
   const char *removed, *leeway, *overcut;
   const char *target_line, *leeway_line, *container_line, *guard_line;
   double line_px;

@@ -4,6 +4,7 @@
 #include <array>
 #include <cmath>
 
+#include "engine/tooth/beside.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/target_surface.h"
 
@@ -19,8 +20,7 @@ DepthField::DepthField(const Tooth& tooth, IVec3 low, IVec3 high, ZoneWork& work
   first_mm_ = tree.centre_mm(low);
   const std::size_t cells = cells_of(size_);
   work.body_leaves(cells);
-  std::array<bool, 256> enclosed{};
-  for (const auto& t : tooth.tissues) enclosed[t.id] = t.name == "pulp";
+  const TissueSet enclosed = tissues_of(tooth, TissueKind::pulp);
   ShapeField outside{size_, std::vector<float>(cells), std::vector<std::uint8_t>(cells)};
   soft_.assign(cells, false);
   Octree::Cursor cursor;

@@ -8,6 +8,7 @@
 #include <functional>
 
 #include "engine/base/svg.h"
+#include "engine/tooth/tissues.h"
 #include "ui/language/say.h"
 #include "ui/parts/chart_svg.h"
 
@@ -27,10 +28,6 @@ std::vector<ChartPoint> curve(double largest_k, const std::function<double(doubl
     points.push_back({k, force(k), 0});
   }
   return points;
-}
-
-std::string span_colour(const std::string& tissue) {
-  return tissue == "enamel" ? "#eef3f8" : tissue == "dentin" ? "#faf3e3" : tissue == "pulp" ? "#fbe9ea" : "#f1f1f1";
 }
 
 /// Green within the limit, from yellow to red with each factor of ten above it.
@@ -161,14 +158,14 @@ std::string tooth_svg(const ToothRigResult& r) {
   if (!r.from_contact.empty()) last_s = r.from_contact.back().t_s;
   for (std::size_t i = 0; i < r.layers.size(); ++i) {
     const double to = i + 1 < r.layers.size() ? r.layers[i + 1].from_s.mean : last_s;
-    whole.spans.push_back({r.layers[i].from_s.mean, to, tr("{}", Term{r.layers[i].tissue}), span_colour(r.layers[i].tissue)});
+    whole.spans.push_back({r.layers[i].from_s.mean, to, tr("{}", Term{r.layers[i].tissue}), known_tissue(r.layers[i].tissue).behind});
   }
   whole.x_range = {{0.0, std::max(1.0, last_s)}};
   if (r.counted > 0) {
     whole.marks.push_back({r.pulp_s.mean, true, ""});
     fall.marks.push_back({0.0, true, ""});
-    fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? tr("{}", Term{r.layers[r.layers.size() - 2].tissue}) : "", span_colour("dentin")});
-    fall.spans.push_back({0, 1e9, tr("pulp"), span_colour("pulp")});
+    fall.spans.push_back({-1e9, 0, r.layers.size() > 1 ? tr("{}", Term{r.layers[r.layers.size() - 2].tissue}) : "", known_tissue("dentin").behind});
+    fall.spans.push_back({0, 1e9, tr("pulp"), known_tissue("pulp").behind});
     fall.marks.push_back({r.before_n.mean, false, tr("before {}", as_n(r.before_n.mean))});
     fall.marks.push_back({r.after_n.mean, false, tr("after {}", as_n(r.after_n.mean))});
   }

@@ -81,7 +81,13 @@ json tissues_json(const Tooth& tooth, bool high_contrast) {
   for (const auto& t : tooth.tissues) most = std::max<std::size_t>(most, t.id);
   json list = json::array();
   for (std::size_t id = 0; id <= most; ++id) list.push_back({{"name", id == k_air ? "air" : "unused"}, {"colour", "#ffffff"}, {"solid", false}});
-  for (const auto& t : tooth.tissues) list[t.id] = {{"name", t.name}, {"colour", scenarios::tissue_colour(t.id, high_contrast)}, {"solid", t.solid}};
+  for (const auto& t : tooth.tissues)
+    list[t.id] = {{"name", t.name},
+                  {"words", tr(tissue_words(t.name))},
+                  {"colour", scenarios::tissue_colour(t.id, high_contrast)},
+                  {"solid", t.solid},
+                  {"pulp", known_tissue(t.name).kind == TissueKind::pulp},
+                  {"beside", stands_beside(t.name)}};
   return list;
 }
 
@@ -100,12 +106,6 @@ void add_words(json& data) {
   if (language() == "en") return;
   json words = json::object();
   for (const auto& m : page_messages()) words[m] = tr("{}", Term{m});
-  for (const auto& t : data["tissues"]) {
-    std::string name = t["name"];
-    if (name.starts_with(k_neighbour_prefix)) name.erase(0, k_neighbour_prefix.size());
-    std::replace(name.begin(), name.end(), '_', ' ');
-    words[name] = tr("{}", Term{name});
-  }
   for (int group = 0; group <= static_cast<int>(EventGroup::gap); ++group)
     words[name_of(static_cast<EventGroup>(group))] = tr(word_of(static_cast<EventGroup>(group)));
   data["words"] = std::move(words);

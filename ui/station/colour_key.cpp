@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "engine/tooth/beside.h"
 #include "ui/language/say.h"
 #include "ui/station/tissue_colours.h"
 #include "ui/station/window.h"
@@ -12,10 +13,9 @@ std::vector<ColourKeyEntry> colour_key(const std::vector<Tissue>& tissues, bool 
   const auto part = [](int i) { return static_cast<float>(k_target_colour[static_cast<std::size_t>(i)]) / 255.0F; };
   std::vector<ColourKeyEntry> key{{{part(0), part(1), part(2), 1}, msg("to be removed")}};
   for (const Tissue& t : tissues) {
-    const bool lesion = t.name == "lesion";
-    if (t.id != k_enamel && t.id != k_dentin && t.id != k_pulp && !lesion) continue;
-    const glm::vec3 colour = tissue_colour(t, high_contrast);
-    key.push_back({{colour.x, colour.y, colour.z, 1}, lesion ? msg("caries") : msg("{}", Term{t.name})});
+    if (stands_beside(t.name) || known_tissue(t.name).kind == TissueKind::around) continue;
+    const glm::vec3 colour = tissue_colour(t.name, high_contrast);
+    key.push_back({{colour.x, colour.y, colour.z, 1}, tissue_words(t.name)});
   }
   return key;
 }

@@ -147,12 +147,11 @@ void Scene::show_bodies(std::vector<GpuMesh> bodies) {
 }
 
 std::vector<glm::vec3> Scene::colours(bool high_contrast) const {
-  std::vector<glm::vec3> table(k_colours, tissue_colour({k_colours, "", true}, high_contrast));
-  for (const Tissue& t : {Tissue{k_air, "", false}, Tissue{k_enamel, "", true}, Tissue{k_dentin, "", true}, Tissue{k_pulp, "", false},
-                          Tissue{k_periodontium, "", false}})
-    table[t.id] = tissue_colour(t, high_contrast);
-  for (const Tissue& t : tissues_)
-    if (t.id < k_colours) table[t.id] = tissue_colour(t, high_contrast);
+  std::vector<glm::vec3> table(k_colours, tissue_colour("", high_contrast));
+  table[k_air] = glm::vec3(0.5F);
+  for (const auto& tissues : {standard_tissues(), tissues_})
+    for (const Tissue& t : tissues)
+      if (t.id < k_colours) table[t.id] = tissue_colour(t.name, high_contrast);
   for (glm::vec3& c : table) c *= c;  // light adds up in linear colours
   return table;
 }

@@ -5,14 +5,14 @@
 #include <cstdint>
 #include <glm/vec3.hpp>
 
-#include "engine/tooth/tissue_grid.h"
+#include "engine/tooth/tissues.h"
 
 namespace cavum::station {
 
 /// Of what is to be removed: red, green, blue, opaque.
 inline constexpr std::array<std::uint8_t, 4> k_target_colour{60, 190, 235, 255};
 
-/// As shown on the screen (sRGB, 0..1). Told apart by lightness as well as by hue, for eyes that see no red or green.
-[[nodiscard]] glm::vec3 tissue_colour(const Tissue& tissue, bool high_contrast);
+/// By its name, as shown on the screen (sRGB, 0..1).
+[[nodiscard]] glm::vec3 tissue_colour(std::string_view tissue, bool high_contrast);
 
 }  // namespace cavum::station

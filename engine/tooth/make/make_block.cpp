@@ -49,9 +49,6 @@ void check_leaf(double leaf_mm, const Where& where) {
   if (!(leaf_mm > 0 && std::isfinite(leaf_mm))) throw Error(where, msg("the leaf must be larger than 0 mm"), msg("give --leaf-mm 0.05, for example"));
 }
 
-/// Tissues that files of teeth name beside our own: the catalogue takes them from here.
-[[maybe_unused]] constexpr std::array k_further_tissues{said("bone"), said("caries"), said("cement"), said("cementum"), said("composite")};
-
 void check_tissue_name(const std::string& name, const Where& where) {
   if (!is_plain_text(name))
     throw Error(where, msg("the name of a tissue holds a control character or bytes that are no UTF-8"), msg("use letters and digits"));

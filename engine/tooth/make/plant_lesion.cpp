@@ -38,7 +38,7 @@ Tooth plant_lesion(Tooth tooth, const LesionShape& lesion) {
         }
       }
   if (turned == 0) throw Error(where, msg("no dentin lies there"), msg("move it, in the tooth frame: see `cavum tooth info` for the bounds"));
-  tooth.tissues.push_back({id, said("lesion"), true});
+  tooth.tissues.push_back({id, "lesion", true});
   tooth.octree = Octree(grid, tooth.tissues);
   tooth.name += ", hidden lesion";
   tooth.source.push_back(LesionPlanted{.centre_mm = c, .radii_mm = r, .surface = {}});

@@ -250,7 +250,8 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
   const auto taken = [&](std::uint8_t id) {
     return std::any_of(tooth.tissues.begin(), tooth.tissues.end(), [&](const Tissue& t) { return t.id == id; });
   };
-  const auto add = [&](std::uint8_t wanted, const std::string& name) {
+  const auto add = [&](const char* name) {
+    std::uint8_t wanted = known_tissue(name).id;
     while (taken(wanted)) ++wanted;
     tooth.tissues.push_back({wanted, name, true});
     return wanted;
@@ -259,10 +260,10 @@ BesideIds ids_for(Tooth& tooth, bool neighbours, bool gum) {
   if (tooth.tissues.size() > k_max_tissues) throw Error(msg("tooth"), msg("has too many tissues to set something beside it"), msg("use fewer"));
   BesideIds ids;
   if (neighbours) {
-    ids.enamel = add(k_neighbour_enamel, "neighbour_enamel");
-    ids.dentin = add(k_neighbour_dentin, "neighbour_dentin");
+    ids.enamel = add("neighbour_enamel");
+    ids.dentin = add("neighbour_dentin");
   }
-  if (gum) ids.gum = add(k_gingiva, "gingiva");
+  if (gum) ids.gum = add("gingiva");
   return ids;
 }
 
@@ -358,7 +359,7 @@ SetBeside set_beside(const Tooth& tooth, const BesideSpec& spec, const std::stri
   out.tooth.octree = Octree(grid, out.tooth.tissues);
   const auto counts = out.tooth.octree.count_leaves();
   for (const Tissue& t : out.tooth.tissues)
-    (t.name == k_gum ? out.gum_mm3 : out.neighbour_mm3) +=
+    (is_gum(t.name) ? out.gum_mm3 : out.neighbour_mm3) +=
         stands_beside(t.name) ? static_cast<double>(counts[t.id]) * out.tooth.octree.leaf_volume_mm3() : 0.0;
   return out;
 }

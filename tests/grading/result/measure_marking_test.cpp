@@ -1,10 +1,9 @@
-// The rows that marking adds to the measures, held against them and against the JSON that they say they are in.
+// What the measures say to marking, held against the JSON that they say they are in.
 #include "grading/result/measure_marking.h"
 
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
-#include <stdexcept>
 
 #include "grading/result/result_json.h"
 #include "tests/grading/carved.h"
@@ -17,27 +16,6 @@ using testing::Carved;
 using testing::chambered_block;
 using testing::k_chamber_target;
 using testing::opening_pulp;
-
-TEST(MeasureMarking, ARowThatIsLackingOrTooManyOrUnfinishedIsRefused) {
-  const auto rows = measure_markings();
-  EXPECT_NO_THROW(static_cast<void>(checked_markings(rows)));
-  auto changed = rows;
-  changed.pop_back();
-  EXPECT_THROW(static_cast<void>(checked_markings(changed)), std::logic_error);
-  changed = rows;
-  changed.push_back(rows[0]);
-  EXPECT_THROW(static_cast<void>(checked_markings(changed)), std::logic_error);
-  changed = rows;
-  changed.push_back(rows[0]);
-  changed.back().measure = "nonsense_mm3";
-  EXPECT_THROW(static_cast<void>(checked_markings(changed)), std::logic_error);
-  changed = rows;
-  changed[3].reason = nullptr;
-  EXPECT_THROW(static_cast<void>(checked_markings(changed)), std::logic_error);
-  changed = rows;
-  changed[3].value = nullptr;
-  EXPECT_THROW(static_cast<void>(checked_markings(changed)), std::logic_error);
-}
 
 TEST(MeasureMarking, EveryPlaceInTheJsonHoldsTheValueAndItsBound) {
   const std::string asked = "[[rubric.criteria]]\nid = \"left\"\nmetric = \"dentin_over_pulp_mm\"\nfull = 1\nzero = 0\npoints = 1\n";

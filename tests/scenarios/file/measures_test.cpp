@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <set>
-#include <stdexcept>
 
 #include "engine/base/error.h"
 #include "scenarios/file/names.h"
@@ -13,13 +12,6 @@
 
 namespace cavum::scenarios {
 namespace {
-
-std::vector<std::string> all_keys() {
-  std::vector<std::string> keys;
-  for (const auto& m : measures())
-    if (std::find(keys.begin(), keys.end(), m.key()) == keys.end()) keys.push_back(m.key());
-  return keys;
-}
 
 TEST(Measures, HaveEachItsOwnNameThatEndsInItsUnit) {
   std::set<std::string> names;
@@ -84,20 +76,6 @@ TEST(Measures, EndWhereTheExamDoes) {
   EXPECT_EQ(most("touched_composite_mm3"), std::nullopt);
   EXPECT_EQ(most("depth_mm"), std::nullopt);
   EXPECT_EQ(most("lingual_max_over_mm"), k_no_end);
-}
-
-TEST(Measures, ATableThatLacksOneOrHasOneTooManyIsRefused) {
-  std::vector<std::string> keys = all_keys();
-  EXPECT_NO_THROW(require_row_for_each(keys, "table"));
-  for (std::size_t i = 0; i < keys.size(); ++i) {
-    std::vector<std::string> lacking = keys, doubled = keys;
-    lacking.erase(lacking.begin() + static_cast<std::ptrdiff_t>(i));
-    doubled.push_back(keys[i]);
-    EXPECT_THROW(require_row_for_each(lacking, "table"), std::logic_error) << keys[i];
-    EXPECT_THROW(require_row_for_each(doubled, "table"), std::logic_error) << keys[i];
-  }
-  keys.emplace_back("canals_coverd_percent");
-  EXPECT_THROW(require_row_for_each(keys, "table"), std::logic_error);
 }
 
 TEST(Measures, ATissueWithoutItsUnitIsNoMeasureButWasTakenOnce) {

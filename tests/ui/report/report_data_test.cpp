@@ -229,7 +229,10 @@ TEST_F(ReportData, EventsMomentsAndInstrumentsAreThoseOfTheExam) {
   for (const auto& p : profile)
     if (p[0].get<double>() < 3) widest = std::max(widest, p[1].get<double>());
   EXPECT_NEAR(widest, 0.5, 0.01) << "a cylinder of 1 mm";
-  EXPECT_EQ(data_["tissues"][1], (json{{"name", "enamel"}, {"colour", data_["tissues"][1]["colour"]}, {"solid", true}}));
+  const json& enamel = data_["tissues"][1];
+  EXPECT_EQ(
+      enamel,
+      (json{{"name", "enamel"}, {"words", enamel["words"]}, {"colour", enamel["colour"]}, {"solid", true}, {"pulp", false}, {"beside", false}}));
 }
 
 TEST(PackedArray, GivesEveryValueBackWithAndWithoutDifferences) {

@@ -153,9 +153,9 @@ export function fixture(kind: "session" | "class" = "session"): ReportData {
     title: "A cylinder in an ellipsoid",
     tissues: [
       { name: "air", colour: "#ffffff", solid: false },
-      { name: "enamel", colour: "#ece5d3", solid: true },
-      { name: "dentin", colour: "#d9b98a", solid: true },
-      { name: "pulp", colour: "#b5403a", solid: false },
+      { name: "enamel", words: "enamel", colour: "#ece5d3", solid: true },
+      { name: "dentin", words: "dentin", colour: "#d9b98a", solid: true },
+      { name: "pulp", words: "pulp", colour: "#b5403a", solid: false, pulp: true },
     ],
     grid: { cell_mm: k_cell_mm, origin_mm, size, before: pack("u8", before), tissue: pack("u8", tissue), box: { low: box_low, size: box_size }, after: pack("u8", after), distance: pack("i8", distance) },
     scale_mm: 0.5,

@@ -15,6 +15,11 @@ export interface Tissue {
   name: string;
   colour: string;
   solid: boolean;
+  /** Of a tissue; air and what is none have no words. */
+  words?: string;
+  pulp?: boolean;
+  /** It stands beside the tooth. */
+  beside?: boolean;
 }
 
 export interface Grid {

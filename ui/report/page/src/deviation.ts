@@ -1,5 +1,6 @@
 // The colour map of the signed distance to the target: discrete bands, orange with stripes where too much went (+), blue with dots where target was
 // left standing (−), told apart without colour too. The same numbers colour the tooth and its key.
+import type { Tissue } from "./data.ts";
 import { fixed, tr } from "./words.ts";
 
 export const k_bands = 5;
@@ -60,15 +61,8 @@ export function key_element(edges: readonly number[], whole: number, unit: strin
   return key;
 }
 
-/** Words for a tissue's name: "neighbour's enamel", "gum". */
-export function tissue_words(name: string): string {
-  if (name === "gingiva") return tr("gum");
-  return name.startsWith("neighbour_") ? tr("neighbour's {}", tr(name.slice("neighbour_".length))) : tr(name.replaceAll("_", " "));
-}
-export const is_beside = (name: string): boolean => name === "gingiva" || name.startsWith("neighbour_");
-
 /** The key to the tissues' own colours. */
-export function tissue_key(tissues: readonly { name: string; colour: string }[]): HTMLElement {
+export function tissue_key(tissues: readonly Tissue[]): HTMLElement {
   const key = document.createElement("ul");
   key.className = "tissues";
   key.setAttribute("aria-label", tr("Colours of tissues"));
@@ -77,7 +71,7 @@ export function tissue_key(tissues: readonly { name: string; colour: string }[])
     const colour = document.createElement("span");
     colour.className = "swatch tissue";
     colour.style.backgroundColor = t.colour;
-    item.append(colour, tissue_words(t.name));
+    item.append(colour, t.words ?? "");
     key.append(item);
   }
   return key;

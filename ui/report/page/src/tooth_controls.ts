@@ -1,7 +1,7 @@
 // The controls of the 3D view: views, colouring, the target's outline, the cut-away plane, the key to the colours, and the value under the pointer.
 import { time_text } from "./clock.ts";
 import type { ReportData, Vec3 } from "./data.ts";
-import { distance_text, is_beside, key_element, tissue_key, tissue_words } from "./deviation.ts";
+import { distance_text, key_element, tissue_key } from "./deviation.ts";
 import { button, checkbox, dropdown, make, radios } from "./dom.ts";
 import { Compass } from "./compass.ts";
 import { k_views } from "./orbit.ts";
@@ -71,7 +71,7 @@ export class ToothControls {
     }
     // the deviation is drawn over paler tissues: what stands beside the tooth is told in either colouring
     const there = [...new Set(this.field.tissue)].sort((a, b) => a - b).map((id) => data.tissues[id]).filter((t) => t && t.name !== "air");
-    const tissues = tissue_key(there), beside = tissue_key(there.filter((t) => is_beside(t.name)));
+    const tissues = tissue_key(there), beside = tissue_key(there.filter((t) => t.beside));
     tissues.hidden = true;
     const colouring = radios(tr("Colour by"), "colouring", [["deviation", heat ? tr("the class") : tr("deviation")], ["tissue", tr("tissue")]], "deviation", (v) => {
       view.set_colouring(v === "deviation");
@@ -161,7 +161,7 @@ export class ToothControls {
       return;
     }
     const parts = [];
-    const tissue = tissue_words(this.data.tissues[reading.tissue]?.name ?? "");
+    const tissue = this.data.tissues[reading.tissue]?.words ?? "";
     if (this.data.kind !== "class" && reading.distance_mm !== null) {
       if (reading.cut) parts.push(distance_text(reading.distance_mm, this.options.whole));
       else if (reading.distance_mm < -this.options.edges[0] * this.options.whole && !reading.section) parts.push(tr("target, {} mm to its walls or floor, untouched", fixed(-reading.distance_mm, 2)));

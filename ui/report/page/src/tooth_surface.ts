@@ -28,7 +28,7 @@ export class ToothSurface {
     data.tissues.forEach((tissue, id) => {
       const rgb = parseInt(tissue.colour.slice(1), 16);
       this.palette.set([rgb >> 16, (rgb >> 8) & 255, rgb & 255], 3 * id);
-      this.fills[id] = tissue.name === "pulp" ? 1 : 0;
+      this.fills[id] = tissue.pulp ? 1 : 0;
     });
   }
 

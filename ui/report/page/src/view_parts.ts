@@ -7,7 +7,7 @@ import type { SharedUniforms } from "./tooth_material.ts";
 /** 1 for a solid tissue, 2 for pulp, 3 for what else surrounds the tooth, 0 for air and what is no tissue. */
 export function tissue_kind(tissue: Tissue | undefined): number {
   if (tissue === undefined || tissue.name === "air") return 0;
-  return tissue.solid ? 1 : tissue.name === "pulp" ? 2 : 3;
+  return tissue.solid ? 1 : tissue.pulp ? 2 : 3;
 }
 
 /** The sphere around all solid tissue, and the one that the view begins with: the tooth's breadth around the height of what was to be done. */
