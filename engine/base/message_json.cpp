@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <mutex>
+#include <nlohmann/json.hpp>
 #include <set>
 #include <stdexcept>
 

@@ -2,7 +2,7 @@
 // "unit": "mm3", "digits": 2}]}. What is kept so can still be said in every language.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 

@@ -2,7 +2,7 @@
 // row for each criterion for research. Names leave the school's identities only for results that were released.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "grading/records/exported_grade.h"

@@ -82,6 +82,8 @@ void Ledger::reload() {
                 msg("name that key's file with --key, or restore it; `cavum ledger key --replace` that was cut off goes on when it is run again"));
 }
 
+nlohmann::json Ledger::receipt(std::uint64_t seq) const { return make_receipt(content_, seq); }
+
 void Ledger::wipe() { wipe_erased(database_, places_.database()); }
 
 void Ledger::refresh() {

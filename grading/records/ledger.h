@@ -4,7 +4,7 @@
 #pragma once
 
 #include <functional>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <utility>
 #include <vector>
@@ -50,7 +50,7 @@ class Ledger {
   /// Enters that from now on `next` signs, good until `until_utc_ns` (0 = without end), or how long the present one is good (`next` is that one). The
   /// present key signs that, and `next` the entry and all that follow. Throws Error.
   void change_key(const SigningKey& next, std::int64_t until_utc_ns, const std::string& reason);
-  [[nodiscard]] nlohmann::json receipt(std::uint64_t seq) const { return make_receipt(content_, seq); }
+  [[nodiscard]] nlohmann::json receipt(std::uint64_t seq) const;
   /// Writes over on disk what entries have taken out. append() does so; this is for a program that was killed meanwhile. Throws Error.
   void wipe();
   /// Keeps what other parties have signed of the checkpoint of `size` entries. They were checked before.

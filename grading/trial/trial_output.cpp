@@ -1,5 +1,7 @@
 #include "grading/trial/trial_output.h"
 
+#include <nlohmann/json.hpp>
+
 #include "grading/result/result_json.h"
 
 namespace cavum::grading {

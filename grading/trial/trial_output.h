@@ -1,7 +1,7 @@
 // The table of faulty preparations, as text and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "engine/base/lines.h"

@@ -2,7 +2,7 @@
 
 Prints what is wrong and exits with 1: a source that includes a header of a room that is not below its own; a room that is above itself; a source that no
 room compiles; a header or source in a folder that is no room; a header that is not there; a namespace that is not the folder's; headers that include each
-other in a circle.
+other in a circle; a header that includes what is slow to compile.
 """
 import re
 import sys
@@ -19,6 +19,12 @@ NAMESPACES = {
     "grading/cohort": "cavum::cohort", "grading/pool": "cavum::pool", "ui": "cavum::ui", "ui/language": "cavum", "ui/report": "cavum::report", "ui/station": "cavum::station", "ui/office": "cavum::office",
 }
 PROGRAMS = {"ui/cli/main.cpp", "ui/office/routes_ts.cpp", "engine/tooth/volume/itk/cavum_read_volume.cpp"}
+# slow to compile: a header names their types ahead, by json_fwd.hpp and ui/parts/option_checks.h, except those that have them for templates or as members
+HEAVY = re.compile(r"^#include <(nlohmann/json\.hpp|CLI/.*)>", re.MULTILINE)
+HEAVY_HEADERS = {
+    "engine/base/json_struct.h", "grading/marking/school_mark.h", "grading/records/opening.h", "grading/records/passback.h", "ui/office/station_client.h",
+    "ui/office/lti/client.h", "ui/office/lti/keys.h", "ui/office/lti/launch.h",
+}
 # rooms that some builds leave out; their sources are then nobody's
 OPTIONAL = {"engine/tooth/volume", "engine/tooth/volume/itk", "engine/tooth/import"}
 
@@ -103,6 +109,8 @@ def problems(rooms, root):
             allowed = all_below(rooms, room_of[folder], {room_of[folder]})
             text = path.read_text(errors="replace")
             out += wrong_namespaces(file, folder, text)
+            if path.suffix == ".h" and file not in HEAVY_HEADERS:
+                out += [f"{file}: includes <{heavy}>, which sources alone do" for heavy in HEAVY.findall(text)]
             includes[file] = INCLUDE.findall(text)
             for included in includes[file]:
                 if not (root / included).is_file():

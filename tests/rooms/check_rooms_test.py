@@ -55,6 +55,10 @@ class CheckRooms(unittest.TestCase):
         self.write("engine/high/b.cpp", '#include "engine/low/gone.h"\n')
         self.assertEqual(self.found(), ["engine/high/b.cpp: includes engine/low/gone.h, which is not there"])
 
+    def test_a_header_that_is_slow_to_compile(self):
+        self.write("engine/low/a.h", "#include <nlohmann/json.hpp>\n")
+        self.assertEqual(self.found(), ["engine/low/a.h: includes <nlohmann/json.hpp>, which sources alone do"])
+
     def test_headers_that_include_each_other(self):
         self.write("engine/low/a.h", '#include "engine/low/b.h"\n')
         self.write("engine/low/b.h", '#include "engine/low/c.h"\n')

@@ -1,5 +1,6 @@
 #include "ui/cli/cohort_circuit.h"
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <map>
 #include <memory>

@@ -1,7 +1,7 @@
 // `cavum cohort circuit`: several exams of one class, and how dependable they are together.
 #pragma once
 
-#include <CLI/App.hpp>
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

@@ -1,7 +1,7 @@
 // `cavum cohort difficulty`: whether the forms of an exam, one task on several teeth, are equally hard.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

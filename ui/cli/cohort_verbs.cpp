@@ -1,6 +1,7 @@
 // `cavum cohort`: a class as a whole, and a class that is simulated.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -1,5 +1,7 @@
 #include "ui/cli/command_line_error.h"
 
+#include <CLI/CLI.hpp>
+
 namespace cavum::ui {
 namespace {
 

@@ -1,11 +1,11 @@
 // What is wrong with a command line. CLI11 says it in English, and knows only which kind of mistake it is: which option it is about is looked up.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/base/message.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

@@ -1,6 +1,7 @@
 // `cavum devices`: the foot pedals and styluses that are plugged in, what is wrong with them, how well they speak, and their calibration.
 #include <unistd.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <filesystem>

@@ -1,12 +1,12 @@
 // `cavum explain --dry-run`: what was understood of a recording, and the page with its plots. And the options by which a recording of others is read.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <memory>
 #include <string>
 #include <vector>
 
 #include "engine/lab/explain/recording/overview.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

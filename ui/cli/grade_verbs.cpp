@@ -1,6 +1,7 @@
 // `cavum grade`: recorded exams, marked.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <iostream>

@@ -1,28 +1,12 @@
 // The accommodations that a verb may grant to a candidate, beside those of the scenario.
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include "scenarios/file/accommodations.h"
-#include "ui/language/say.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 
 /// `grant` must live as long as the verb.
-inline void add_grant_options(CLI::App* verb, scenarios::Grant& grant) {
-  verb->add_option("--extra-time-percent", grant.extra_time_percent, tr("extra time for this candidate, instead of the scenario's"));
-  verb->add_option("--extra-time-s", grant.extra_time_s, tr("the same in seconds; both add up"));
-  // by callbacks: bound to an optional, a flag that is not given would be set to false, and take away what the scenario grants
-  const std::string shown = tr("for this candidate; recorded and shown with the result");
-  const std::string back = tr("takes back what the scenario grants");
-  verb->add_flag_callback(
-      "--left-handed", [&grant] { grant.left_handed = true; }, shown);
-  verb->add_flag_callback(
-      "--right-handed", [&grant] { grant.left_handed = false; }, back);
-  verb->add_flag_callback(
-      "--high-contrast", [&grant] { grant.high_contrast = true; }, shown);
-  verb->add_flag_callback(
-      "--normal-contrast", [&grant] { grant.high_contrast = false; }, back);
-}
+void add_grant_options(CLI::App* verb, scenarios::Grant& grant);
 
 }  // namespace cavum::ui

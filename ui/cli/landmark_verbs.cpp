@@ -1,4 +1,5 @@
 // `cavum tooth landmarks`: what a dentist would point at, as points in mm; drawn; and put by a person where the program is wrong.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>

@@ -1,4 +1,5 @@
 // `cavum ledger`: the names and options of its verbs.
+#include <CLI/CLI.hpp>
 #include <functional>
 #include <memory>
 

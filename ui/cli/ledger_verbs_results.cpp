@@ -18,6 +18,7 @@
 #include "grading/records/release.h"
 #include "grading/result/result_json.h"
 #include "ui/cli/ledger_verbs_parts.h"
+#include "ui/language/say.h"
 #include "ui/parts/option_checks.h"
 #include "ui/parts/own_places.h"
 #include "ui/parts/print_json.h"

@@ -1,6 +1,7 @@
 // `cavum tooth lesion`: caries grown into a tooth of one's own, by site, width and depth.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <memory>
 #include <nlohmann/json.hpp>

@@ -1,6 +1,7 @@
 // The manual page, the shell's completion and the udev rules, made of what the program says of itself with --help.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <iostream>
 #include <sstream>
 

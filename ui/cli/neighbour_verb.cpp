@@ -1,4 +1,5 @@
 // `cavum tooth neighbour`: sets teeth beside a tooth, and gum around their necks.
+#include <CLI/CLI.hpp>
 #include <cstdio>
 #include <filesystem>
 #include <memory>

@@ -1,5 +1,7 @@
 #include "ui/cli/platform_options.h"
 
+#include <CLI/CLI.hpp>
+
 #include "engine/base/file.h"
 #include "engine/base/json_reader.h"
 #include "engine/base/text.h"

@@ -1,8 +1,9 @@
 // Options of `cavum serve` that set up learning platforms (LTI 1.3), as the office's page does.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

@@ -1,10 +1,12 @@
 // By whom a verb's sessions are simulated and marked: threads here, or a Slurm cluster; and what is said of it meanwhile.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include <cstddef>
+#include <functional>
 #include <string>
 
 #include "grading/pool/makers.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

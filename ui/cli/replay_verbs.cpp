@@ -2,6 +2,7 @@
 // a folder, and writes JUnit for CI.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <chrono>
 #include <cstdio>

@@ -1,6 +1,7 @@
 // `cavum report` and `cavum ledger report`: reports of recorded exams, for instructors and for students.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <filesystem>
 #include <memory>

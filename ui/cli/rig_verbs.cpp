@@ -1,4 +1,5 @@
 // `cavum rig`: the paper's experiments on a virtual testing machine, the closed-loop press, and the servo in real time.
+#include <CLI/CLI.hpp>
 #include <cmath>
 #include <filesystem>
 #include <memory>

@@ -1,4 +1,5 @@
 // `cavum scan`: a prepared tooth, scanned, marked as a virtual one.
+#include <CLI/CLI.hpp>
 #include <chrono>
 #include <filesystem>
 #include <memory>

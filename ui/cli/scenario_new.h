@@ -1,7 +1,7 @@
 // `cavum scenario new`: a commented scenario to start from, by the landmarks of a tooth, or on the block.
 #pragma once
 
-#include <CLI/CLI.hpp>
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

@@ -1,4 +1,5 @@
 // `cavum scenario check | show | solve`: authoring help.
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
 #include <cmath>

@@ -1,4 +1,5 @@
 // `cavum session`: what a recorded exam holds, as files that others can use.
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 

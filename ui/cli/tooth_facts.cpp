@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "engine/tooth/anatomy/landmarks.h"
 #include "engine/tooth/octree_edit.h"

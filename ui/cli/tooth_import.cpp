@@ -1,4 +1,5 @@
 // `cavum tooth import`: a tooth from meshes, a CT volume or a label map.
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 #include <optional>

@@ -1,6 +1,7 @@
 // `cavum tooth`: make a tooth, import one, look at it, export its surface.
 #include <fmt/ranges.h>
 
+#include <CLI/CLI.hpp>
 #include <algorithm>
 #include <charconv>
 #include <cmath>
@@ -136,7 +137,7 @@ std::shared_ptr<MakeArgs> add_make_args(CLI::App* app) {
 template <class Maker>
 void make_tooth(const MakeArgs& c, const Maker& maker) {
   require_own_places({{"--out " + c.out, c.out}}, {});
-  save_and_tell(with_lesion(maker(), c.lesion), c.out, c.json);
+  save_and_tell(with_lesion(maker(), c.lesion), c.out, c.json, nlohmann::ordered_json::object());
 }
 
 /// `--seed`: another individual of the kind. What the plain tooth lets choose is drawn then, so the two do not go together.

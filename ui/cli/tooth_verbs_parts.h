@@ -1,13 +1,13 @@
 // What the verbs of `cavum tooth` share.
 #pragma once
 
-#include <CLI/CLI.hpp>
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 #include <vector>
 
 #include "engine/base/vec.h"
 #include "engine/tooth/tooth.h"
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 
@@ -16,7 +16,7 @@ namespace cavum::ui {
 /// Three of them.
 [[nodiscard]] Vec3 parse_vec(const std::string& text, const std::string& option);
 /// Saves the tooth and says what it is; `more` adds fields to the JSON.
-void save_and_tell(const Tooth& tooth, const std::string& path, bool json, const nlohmann::ordered_json& more = nlohmann::ordered_json::object());
+void save_and_tell(const Tooth& tooth, const std::string& path, bool json, const nlohmann::ordered_json& more);
 /// `cavum tooth import`.
 void add_import(CLI::App& tooth);
 /// `cavum tooth landmarks`.

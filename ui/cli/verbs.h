@@ -2,8 +2,9 @@
 // code: 0 done, 1 done and the answer is no. Unusable input is thrown as Error and ends with 2.
 #pragma once
 
-#include <CLI/CLI.hpp>
 #include <string>
+
+#include "ui/parts/option_checks.h"
 
 namespace cavum::ui {
 

@@ -1,6 +1,7 @@
 // `cavum verify-all`: a folder of sessions, or a whole ledger, simulated and marked again by threads, a cluster or the shards of a CI.
 #include <fmt/core.h>
 
+#include <CLI/CLI.hpp>
 #include <charconv>
 #include <filesystem>
 #include <fstream>

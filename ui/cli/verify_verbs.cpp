@@ -1,4 +1,5 @@
 // `cavum verify`: what is proved of one recorded exam, in words.
+#include <CLI/CLI.hpp>
 #include <memory>
 #include <nlohmann/json.hpp>
 

@@ -1,5 +1,7 @@
 #include "ui/office/station_request.h"
 
+#include <nlohmann/json.hpp>
+
 #include "engine/base/error.h"
 #include "engine/base/hash.h"
 #include "engine/base/json_fields.h"

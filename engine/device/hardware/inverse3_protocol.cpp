@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"

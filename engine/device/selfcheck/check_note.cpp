@@ -1,5 +1,7 @@
 #include "engine/device/selfcheck/check_note.h"
 
+#include <nlohmann/json.hpp>
+
 #include "engine/base/error.h"
 #include "engine/base/json_fields.h"
 #include "engine/base/json_reader.h"

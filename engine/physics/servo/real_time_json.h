@@ -1,8 +1,6 @@
 // How punctual a servo was, for files and screens.
 #pragma once
 
-#include <nlohmann/json.hpp>
-
 #include "engine/base/json_struct.h"
 #include "engine/physics/servo/real_time.h"
 

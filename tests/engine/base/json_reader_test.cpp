@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <ctime>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/file_error.h"
 #include "tests/engine/support/basics.h"

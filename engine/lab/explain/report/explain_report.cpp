@@ -1,6 +1,7 @@
 // The explanation as JSON and as words.
 #include <algorithm>
 #include <cmath>
+#include <nlohmann/json.hpp>
 
 #include "engine/lab/explain/inference/explain.h"
 #include "engine/lab/explain/inference/probability.h"

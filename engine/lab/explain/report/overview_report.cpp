@@ -1,5 +1,7 @@
 #include "engine/lab/explain/report/overview_report.h"
 
+#include <nlohmann/json.hpp>
+
 #include "engine/base/text.h"
 
 namespace cavum::explain {

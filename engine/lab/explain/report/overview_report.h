@@ -1,7 +1,7 @@
 // What was understood of a recording, as words and as JSON.
 #pragma once
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 #include <string>
 
 #include "engine/base/lines.h"

@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <filesystem>
+#include <nlohmann/json.hpp>
 
 #include "engine/base/file.h"
 #include "engine/lab/explain/report/model_file.h"
