@@ -21,7 +21,7 @@ LossList loss_list_of(const scenarios::Measure& measure) {
   static const std::map<std::string, LossList> k_all{
 #define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) {NAME, loss_list::MOMENTS},
 #define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) {scenarios::KEY, loss_list::MOMENTS},
-#include "scenarios/file/measures_table.h"
+#include "scenarios/file/measures_table.inc"
   };
   return k_all.at(measure.key());
 }

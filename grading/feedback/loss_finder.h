@@ -1,4 +1,4 @@
-// Finds the moments and facts behind the points that one criterion lost. Which of them a measure has is said in scenarios/file/measures_table.h.
+// Finds the moments and facts behind the points that one criterion lost. Which of them a measure has is said in scenarios/file/measures_table.inc.
 #pragma once
 
 #include <functional>

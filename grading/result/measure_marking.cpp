@@ -92,7 +92,7 @@ const MeasureMarking& marking_of(const scenarios::Measure& measure) {
 #define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) \
   {.measure = NAME, .value = []([[maybe_unused]] R r, [[maybe_unused]] A a) -> MetricValue { return VALUE; }, .reason = reason::REASON IN_ROW PLACE},
 #define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) MEASURE(scenarios::KEY, , , VALUE, REASON, MOMENTS, ())
-#include "scenarios/file/measures_table.h"
+#include "scenarios/file/measures_table.inc"
 #undef IN
 #undef IN_OVERCUT
   };

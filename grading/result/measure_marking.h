@@ -1,4 +1,4 @@
-// What the rows of scenarios/file/measures_table.h say to marking: value with its bound, the reason why points were lost, its place in the result's
+// What the rows of scenarios/file/measures_table.inc say to marking: value with its bound, the reason why points were lost, its place in the result's
 // JSON. Found by the measure's key.
 #pragma once
 

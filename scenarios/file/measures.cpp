@@ -103,7 +103,7 @@ std::vector<Measure> all_measures() {
   };
 #define MEASURE(NAME, WORDS, WHAT, VALUE, REASON, MOMENTS, PLACE) add({.name = NAME, .words = WORDS IN_ROW WHAT});
 #define FAMILY(KEY, MEMBERS, VALUE, REASON, MOMENTS) std::ranges::for_each(MEMBERS, add);
-#include "scenarios/file/measures_table.h"
+#include "scenarios/file/measures_table.inc"
   return all;
 }
 

@@ -1,4 +1,4 @@
-// The measures that a criterion of a rubric may use: what is known of them here, of the rows of measures_table.h. Parser, checks, advice, marking,
+// The measures that a criterion of a rubric may use: what is known of them here, of the rows of measures_table.inc. Parser, checks, advice, marking,
 // `grade --why`, the JSON of a result and docs/measures.md are made of the same rows. What a row says to a room above is found there by the
 // measure's key: value, bound and reason in grading/result/measure_marking.h, moments in grading/feedback/loss_finder.h.
 #pragma once

@@ -6,52 +6,38 @@
 #include <sstream>
 
 #include "engine/base/file_error.h"
-#include "engine/physics/force/coulomb_friction.h"
-#include "engine/physics/force/cutting_terms.h"
-#include "engine/physics/force/friction_terms.h"
-#include "engine/physics/force/loop_terms.h"
-#include "engine/physics/force/run_out.h"
-#include "engine/physics/force/series_compliance.h"
-#include "engine/physics/force/tissue_terms.h"
+#include "engine/physics/force/term_laws.h"
 
 namespace cavum {
 namespace {
 
 List all_kinds() {
   std::vector<std::string> names;
-  for (const auto* k : term_kinds()) names.emplace_back(k->name);
+  for (const auto& k : term_kinds()) names.emplace_back(k.name);
   return list_of(names);
 }
 
+class TermOfKind final : public ForceTerm {
+ public:
+  TermOfKind(const TermKind& kind, std::vector<double> values) : kind_(kind), values_(std::move(values)) {}
+  [[nodiscard]] TermForce evaluate(const TermInput& in, TermMemory& memory) const noexcept override { return kind_.law(values_.data(), in, memory); }
+  [[nodiscard]] bool counts_removed() const noexcept override { return kind_.counts_removed; }
+
+ private:
+  const TermKind& kind_;
+  std::vector<double> values_;
+};
+
 }  // namespace
 
-const std::vector<const TermKind*>& term_kinds() {
-  static const std::vector<const TermKind*> kinds{
-      &k_coulomb_friction,
-      &k_series_compliance,
-      &k_run_out,
-      &k_viscous_friction,
-      &k_stribeck_friction,
-      &k_hidden_layer,
-      &k_graded_stiffness,
-      &k_nonlinear_stiffness,
-      &k_feed_power_law,
-      &k_relaxation,
-      &k_edge_force,
-      &k_anisotropy,
-      &k_hysteresis,
-      &k_backlash,
-      &k_wear,
-      &k_chatter,
-      &k_coolant,
-      &k_thermal_softening,
-  };
-  return kinds;
+const std::vector<TermKind>& term_kinds() {
+  static const std::vector<TermKind> k_all = force_laws();
+  return k_all;
 }
 
 const TermKind* find_term_kind(const std::string& name) {
-  for (const auto* k : term_kinds())
-    if (name == k->name) return k;
+  for (const auto& k : term_kinds())
+    if (name == k.name) return &k;
   return nullptr;
 }
 
@@ -73,7 +59,7 @@ ForceTermPtr read_force_term(const toml::table& table, const std::string& where)
   if (table.size() < 2)
     in.fail(FileError::missing, "kind", msg("stands alone, so this term does nothing"),
             msg("give one of: {}", list_of(std::vector<std::string>(known.begin() + 1, known.end()))));
-  return kind->make(values);
+  return std::make_shared<TermOfKind>(*kind, std::move(values));
 }
 
 std::string force_term_toml(const std::string& kind, const std::vector<std::pair<std::string, double>>& parameters) {

@@ -1,5 +1,5 @@
-// The force terms that there are, by name. A new term is one class, and one line in term_kinds.cpp; its
-// parameters with their ranges are data here, so that reading, writing and fitting need no code of their own.
+// The force terms that there are, by name; each is a record in term_laws.h. Its parameters with their ranges are data, so that reading, writing and
+// fitting need no code of their own.
 #pragma once
 
 #include <memory>
@@ -22,13 +22,18 @@ struct TermParameter {
 };
 
 struct TermKind {
-  const char* name;  ///< as in [[terms]]
+  const char* name;    ///< as in [[terms]]
+  const char* adds;    ///< its formula
+  const char* source;  ///< of the formula; "" without one
+  const char* notes;   ///< and which values have no source
   std::vector<TermParameter> parameters;
-  ForceTermPtr (*make)(const std::vector<double>& values);  ///< values in the order of `parameters`, in range
+  /// ForceTerm::evaluate; `p`: values in the order of `parameters`, in range.
+  TermForce (*law)(const double* p, const TermInput& in, TermMemory& memory) noexcept;
+  bool counts_removed = false;  ///< it looks at what was removed
 };
 
 /// All of them, in fixed order.
-[[nodiscard]] const std::vector<const TermKind*>& term_kinds();
+[[nodiscard]] const std::vector<TermKind>& term_kinds();
 /// nullptr when there is none of that name.
 [[nodiscard]] const TermKind* find_term_kind(const std::string& name);
 

@@ -3,10 +3,7 @@
 
 #include "engine/base/text.h"
 #include "engine/lab/explain/model/mechanism.h"
-#include "engine/physics/force/cutting_terms.h"
-#include "engine/physics/force/run_out.h"
 #include "engine/physics/force/term_laws.h"
-#include "engine/physics/force/tissue_terms.h"
 
 namespace cavum::explain {
 namespace {
@@ -99,8 +96,6 @@ std::vector<NamedValue> line_parameters(const Shape& p, const Shape& own, Base) 
   return named;
 }
 
-std::vector<NamedValue> fraction(const char* name, const Shape& own) { return {{name, own[0]}}; }
-
 Mechanism edge_force() {
   return {
       .name = "edge_force",
@@ -108,16 +103,11 @@ Mechanism edge_force() {
       .words = said("a constant force of the cutting edges"),
       .separate = said("press the same site with the spindle off and on"),
       .seen_over = "spindle_rpm",
-      .term = &k_edge_force,
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             return Columns{{has(s, "spindle_rpm") ? Series(s.touching * s.spinning) : s.touching}, {}, {}};
           },
-      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("edge_n", own); },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{}, {value("edge_n")}};
-      },
+      .coefficients = {"edge_n"},
       .own = k_positive,
       .one_way = OneWay::looks_like_offset,
   };
@@ -130,7 +120,6 @@ Mechanism wear() {
       .words = said("a bur that wears"),
       .separate = said("cut the first site again last, with the worn and with a new bur"),
       .seen_over = "removed_mm3",
-      .term = &k_wear,
       .needs = {"removed_mm3"},
       .shape = {{"variant", 0, 1, false, false}},
       .grid =
@@ -141,7 +130,7 @@ Mechanism wear() {
           [](const Scene& s, const Shape& p) {
             return Columns{{s.force_n.binaryExpr(worn_mm3(s, p[0] > 0.5), &worn_n)}, {}, {}};
           },
-      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("per_mm3", own); },
+      .coefficients = {"per_mm3"},
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
         return Numbers{{value("carried") < 0.5 ? 0.0 : 1.0}, {value("per_mm3")}};
       },
@@ -159,7 +148,6 @@ Mechanism run_out() {
       .equation = said("A sin(2 pi turns + phase) in contact and spinning"),
       .words = said("a bur that turns off its axis"),
       .separate = said("record the force at more than twice the spindle's rate"),
-      .term = &k_run_out,
       .needs = {"spindle_rpm"},
       .shape = {{"variant", 0, 1, false, false}, {"rate_ratio", 0.999, 1.001, false, true}},
       .grid =
@@ -195,7 +183,6 @@ Mechanism chatter() {
       .equation = said("A sin(2 pi f t + phase) in contact"),
       .words = said("a vibration at a rate that is not the spindle's"),
       .separate = said("press at two depths and two spindle speeds: chatter keeps its rate"),
-      .term = &k_chatter,
       .shape = {{"frequency_hz", 0.1, 1e5, false, true}, {"spinning", 0, 1, false, false}},
       .grid =
           [](const Scene& s) {
@@ -249,17 +236,12 @@ Mechanism coolant() {
       .words = said("water, which changes the cutting force"),
       .separate = said("press one site dry, wet, and dry again"),
       .seen_over = "wet",
-      .term = &k_coolant,
       .needs = {"wet"},
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             return Columns{{s.force_n.binaryExpr(*s.recording->column("wet"), &watered_n)}, {}, {}};
           },
-      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("fraction", own); },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{}, {value("fraction")}};
-      },
+      .coefficients = {"fraction"},
   };
 }
 
@@ -270,18 +252,13 @@ Mechanism thermal_softening() {
       .words = said("tissue that softens as it warms"),
       .separate = said("cut for a minute, rest for a minute, cut again"),
       .seen_over = "temperature_c",
-      .term = &k_thermal_softening,
       .needs = {"temperature_c"},
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             const Series& t = *s.recording->column("temperature_c");
             return Columns{{s.force_n.binaryExpr(t - t[0], &warmed_n)}, {}, {}};
           },
-      .parameters = [](const Shape&, const Shape& own, Base) { return fraction("per_k", own); },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{}, {value("per_k")}};
-      },
+      .coefficients = {"per_k"},
       .own = k_positive,
   };
 }

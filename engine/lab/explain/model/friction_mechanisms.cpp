@@ -5,8 +5,6 @@
 #include "engine/base/order.h"
 #include "engine/base/text.h"
 #include "engine/lab/explain/model/mechanism.h"
-#include "engine/physics/force/coulomb_friction.h"
-#include "engine/physics/force/friction_terms.h"
 #include "engine/physics/force/term_laws.h"
 
 namespace cavum::explain {
@@ -54,7 +52,6 @@ Mechanism coulomb_friction() {
       .words = said("dry friction of joints or guides"),
       .separate = said("stroke to and fro in air: it flips with the direction"),
       .seen_over = "v_mm_s",
-      .term = &k_coulomb_friction,
       .shape = {{"v0_mm_s", 1e-5, 1000, true, true}},
       .ends =
           [](const Scene& s) { return std::pair(0.0, fastest_mm_s(s)); },  // a tanh wider than the motion is fast is friction in proportion to speed
@@ -66,13 +63,7 @@ Mechanism coulomb_friction() {
           [](const Scene& s, const Shape& p) {
             return Columns{{sign_of_motion(s, p[0])}, {}, {}};
           },
-      .parameters =
-          [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"fc_n", own[0]}, {"v0_mm_s", p[0]}};
-          },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("v0_mm_s")}, {value("fc_n")}};
-      },
+      .coefficients = {"fc_n"},
       .own = k_positive,
       .one_way = OneWay::looks_like_offset,
   };
@@ -85,7 +76,6 @@ Mechanism stribeck_friction() {
       .words = said("friction that falls as the motion becomes faster"),
       .separate = said("stroke to and fro in air at five speeds, the slowest near 0.01 mm/s"),
       .seen_over = "v_mm_s",
-      .term = &k_stribeck_friction,
       .shape = {{"vs_mm_s", 1e-5, 100, true, true}, {"v0_mm_s", 1e-5, 100, true, true}},
       .grid =
           [](const Scene& s) {
@@ -124,19 +114,11 @@ Mechanism viscous_friction() {
       .words = said("friction in proportion to speed"),
       .separate = said("stroke in air at three speeds"),
       .seen_over = "v_mm_s",
-      .term = &k_viscous_friction,
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             return Columns{{s.motion->v_mm_s}, {}, {}};
           },
-      .parameters =
-          [](const Shape&, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"b_n_s_per_mm", own[0]}};
-          },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{}, {value("b_n_s_per_mm")}};
-      },
+      .coefficients = {"b_n_s_per_mm"},
       .own = k_positive,
       .one_way = OneWay::needs_reversal,
   };

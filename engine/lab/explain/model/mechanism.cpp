@@ -9,11 +9,32 @@
 namespace cavum::explain {
 namespace {
 
+/// What a record leaves out.
+void complete(Mechanism& m) {
+  m.term = find_term_kind(m.name);
+  if (!m.grid && m.shape.empty()) m.grid = [](const Scene&) { return std::vector<std::vector<double>>(1); };
+  const bool all_fitted = std::all_of(m.shape.begin(), m.shape.end(), [](const ShapeRange& s) { return s.fitted; });
+  if (m.parameters || (m.coefficients.empty() && m.shape.empty())) return;
+  m.parameters = [names = m.coefficients, ranges = m.shape](const auto& shape, const auto& own, Base) {
+    std::vector<NamedValue> out;
+    for (std::size_t i = 0; i < std::min(names.size(), own.size()); ++i) out.push_back({names[i], own[i]});
+    for (std::size_t i = 0; i < ranges.size(); ++i)
+      if (ranges[i].fitted) out.push_back({ranges[i].name, shape[i]});
+    return out;
+  };
+  if (m.term == nullptr || m.from_term || !all_fitted) return;
+  m.from_term = [names = m.coefficients, ranges = m.shape](const TermReader& value, Base) {
+    Numbers n;
+    for (const ShapeRange& s : ranges) n.shape.push_back(value(s.name));
+    for (const char* name : names) n.own.push_back(value(name));
+    return std::optional(n);
+  };
+}
+
 /// Throws std::logic_error on a record that cannot be used.
 void check(const std::vector<Mechanism>& all) {
   const auto wrong = [](const std::string& what) { throw std::logic_error("table of laws: " + what); };
   std::set<std::string> names;
-  std::set<const TermKind*> terms;
   for (const auto& m : all) {
     for (const char* text : {m.name, m.equation, m.words, m.separate})
       if (text == nullptr) wrong(fmt::format("{} lacks a text", m.name != nullptr ? m.name : "a record"));
@@ -27,15 +48,13 @@ void check(const std::vector<Mechanism>& all) {
       if (m.from_term || m.shape_in_term) wrong(name + " has no force term, and speaks of one");
       continue;
     }
-    terms.insert(m.term);
-    if (name != m.term->name) wrong(fmt::format("{} names the force term {}", name, m.term->name));
     if (!m.from_term && !m.from_residual) wrong(name + " cannot be read from its force term");
   }
   for (const auto& m : all)
     for (const char* other : {m.variant_of, m.like_when_short})
       if (other != nullptr && !names.contains(other)) wrong(fmt::format("{} speaks of {}, which is not there", m.name, other));
-  const auto& kinds = term_kinds();
-  if (std::set<const TermKind*>(kinds.begin(), kinds.end()) != terms) wrong("force terms and laws differ");
+  for (const auto& kind : term_kinds())
+    if (!names.contains(kind.name)) wrong(fmt::format("the force term {} is no law", kind.name));
 }
 
 }  // namespace
@@ -44,7 +63,10 @@ const std::vector<Mechanism>& mechanisms() {
   static const std::vector<Mechanism> all = [] {
     std::vector<Mechanism> found;
     for (const auto family : {offset_mechanisms, friction_mechanisms, sensor_mechanisms, play_mechanisms, tissue_mechanisms, cutting_mechanisms})
-      for (auto& m : family()) found.push_back(std::move(m));
+      for (auto& m : family()) {
+        complete(m);
+        found.push_back(std::move(m));
+      }
     check(found);
     return found;
   }();

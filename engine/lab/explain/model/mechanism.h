@@ -70,24 +70,26 @@ struct Mechanism {
   const char* separate = nullptr;  ///< the experiment that shows it best
   /// What its picture shows it over: a column of the recording, x_mm, v_mm_s, t_s, a_mm_s2 or simulated_n (the base force); null: its own force.
   const char* seen_over = nullptr;
-  const TermKind* term = nullptr;  ///< acts in a live exam too, as this force term of the same name; null: only in the measurement
+  const TermKind* term = nullptr;  ///< acts in a live exam too, as the force term of its name (term_laws.h); null: only in the measurement
 
   // What it takes to show it
   std::vector<const char*> needs{};  ///< columns of the recording of which one must be there
   std::vector<ShapeRange> shape{};
   /// Ends of the first shape's range that these data set; none: the range's own.
   std::function<std::pair<double, double>(const Scene&)> ends{};
-  /// Points of the shape to start from, each of the size of `shape`; called when `needs` are there. Empty: these data cannot show it.
+  /// Points of the shape to start from, each of the size of `shape`; called when `needs` are there. Empty: these data cannot show it. Left out: a law
+  /// without shape can always be shown.
   std::function<std::vector<std::vector<double>>(const Scene&)> grid{};
   std::function<Columns(const Scene&, const std::vector<double>& shape)> columns{};
-  /// Parameters in the names of the formula, from shape and own coefficients.
+  std::vector<const char*> coefficients{};  ///< names of the own coefficients, where those are parameters as they are
+  /// Parameters in the names of the formula, from shape and own coefficients; left out: `coefficients`, and the fitted numbers of the shape.
   std::function<std::vector<NamedValue>(const std::vector<double>& shape, const std::vector<double>& own, Base base)> parameters{};
 
   /// Standard deviation of its parameters that is left open by rows being apart, whatever the noise; none: nothing.
   std::function<double(const Scene&)> open{};
 
   // To and from a force term
-  /// The inverse of `parameters`, from the force term; none when the term has a form that no shape is.
+  /// The inverse of `parameters`, from the force term; none when the term has a form that no shape is. Left out: as `parameters` left out.
   std::function<std::optional<Numbers>(const TermReader& value, Base base)> from_term{};
   /// Adds the term's parameters that stand in the shape and not in `parameters`. False: no force term is that shape.
   std::function<bool(const std::vector<double>& shape, TermParameters& out)> shape_in_term{};

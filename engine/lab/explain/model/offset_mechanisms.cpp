@@ -93,15 +93,11 @@ Mechanism bias() {
       .words = said("a constant offset of the load cell"),
       .separate = said("read the unloaded load cell before and after each session"),
       .seen_over = "t_s",
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             return Columns{{Series::Ones(s.force_n.size())}, {}, {}};
           },
-      .parameters =
-          [](const Shape&, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"bias_n", own[0]}};
-          },
+      .coefficients = {"bias_n"},
       .one_way = OneWay::is_offset,
   };
 }

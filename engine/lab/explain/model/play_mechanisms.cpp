@@ -4,7 +4,6 @@
 
 #include "engine/base/text.h"
 #include "engine/lab/explain/model/mechanism.h"
-#include "engine/physics/force/loop_terms.h"
 #include "engine/physics/force/term_laws.h"
 
 namespace cavum::explain {
@@ -65,16 +64,11 @@ Mechanism backlash() {
       .equation = said("k (play(X, b) - X), b half of the whole play"),
       .words = said("play between the measured position and the tip"),
       .separate = said("reverse within contact, slowly, several times"),
-      .term = &k_backlash,
       .shape = {{"variant", 0, 4, false, false}, {"b_mm", 1e-5, 100, true, true}},
       .grid = play_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
             return Columns{{}, (played(s, static_cast<int>(p[0]), p[1]) - s.motion->x_mm.max(0.0)) * s.active, {}};
-          },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"b_mm", p[1]}};
           },
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
         if (value("ahead_mm") > 0.0 || value("seen") >= 0.5) return std::nullopt;
@@ -99,17 +93,13 @@ Mechanism hysteresis() {
       .equation = said("alpha z, z' = V - (beta |V| z + gamma V |z|)/d in contact"),
       .words = said("a loop that does not depend on speed"),
       .separate = said("reverse within contact at two speeds, with strokes of several lengths"),
-      .term = &k_hysteresis,
       .shape = {{"variant", 0, 2, false, false}, {"d_mm", 2e-3, 100, true, true}},
       .grid = loop_grid,
       .columns =
           [](const Scene& s, const Shape& p) {
             return Columns{{loop_mm(s, static_cast<int>(p[0]), p[1])}, {}, {}};
           },
-      .parameters =
-          [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"alpha_n_per_mm", own[0]}, {"d_mm", p[1]}};
-          },
+      .coefficients = {"alpha_n_per_mm"},
       .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
         if (value("gamma") != 0.0 && value("gamma") != 0.5) return std::nullopt;
         return Numbers{{value("gamma") == 0.0 ? 1.0 : 0.0, value("d_mm")}, {value("alpha_n_per_mm")}};

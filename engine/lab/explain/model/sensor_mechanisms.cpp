@@ -109,10 +109,7 @@ Mechanism gain_error() {
           [](const Scene& s, const Shape&) {
             return Columns{{s.force_n}, {}, {}};
           },
-      .parameters =
-          [](const Shape&, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"gain", own[0]}};
-          },
+      .coefficients = {"gain"},
       .in_recordings = false,
   };
 }
@@ -133,12 +130,7 @@ Mechanism cross_talk() {
               if (const Series* f = s.recording->column(name)) c.own.push_back(*f);
             return c;
           },
-      .parameters =
-          [](const Shape&, const Shape& own, Base) {
-            std::vector<NamedValue> p{{"a", own[0]}};
-            if (own.size() > 1) p.push_back({"b", own[1]});
-            return p;
-          },
+      .coefficients = {"a", "b"},
       .several = true,
   };
 }
@@ -153,10 +145,6 @@ Mechanism delay() {
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
       .columns = [](const Scene& s, const Shape& p) { return delayed(s, p[0]); },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"tau_s", p[0]}};
-          },
       .open = clock_s,
       .like_when_short = "low_pass",
   };
@@ -172,10 +160,6 @@ Mechanism low_pass() {
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = lag_grid,
       .columns = [](const Scene& s, const Shape& p) { return lagged(s, p[0]); },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"tau_s", p[0]}};
-          },
       .open = clock_s,
       .variant_of = "delay",
       .like_when_short = "delay",
@@ -193,10 +177,6 @@ Mechanism position_late() {
       .shape = {{"tau_s", 2e-4, 2.0, true, true}},
       .grid = delay_grid,
       .columns = [](const Scene& s, const Shape& p) { return delayed(s, -p[0]); },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"tau_s", p[0]}};
-          },
       .open = clock_s,
       .variant_of = "delay",
   };

@@ -6,9 +6,7 @@
 #include "engine/base/text.h"
 #include "engine/lab/explain/model/lags.h"
 #include "engine/lab/explain/model/mechanism.h"
-#include "engine/physics/force/series_compliance.h"
 #include "engine/physics/force/term_laws.h"
-#include "engine/physics/force/tissue_terms.h"
 
 namespace cavum::explain {
 namespace {
@@ -99,7 +97,6 @@ Mechanism series_compliance() {
       .words = said("something elastic between the tool and the tooth"),
       .separate = said("press a block of steel in the same holder"),
       .seen_over = "simulated_n",
-      .term = &k_series_compliance,
       .shape = {{"softening_force_n", 1e-3, 1e6, true, true}, {"mm_per_n", 1e-3, 50.0, true, true}},
       .grid =
           [](const Scene& s) {  // either of the two: 0 = not that one
@@ -139,7 +136,6 @@ Mechanism nonlinear_stiffness() {
       .words = said("a stiffness that grows or falls as a power of the depth"),
       .separate = said("press slowly to twice the depth"),
       .seen_over = "x_mm",
-      .term = &k_nonlinear_stiffness,
       .shape = {{"m", 0.1, 5.0, false, true}},
       .grid =
           [](const Scene&) {
@@ -149,13 +145,6 @@ Mechanism nonlinear_stiffness() {
           [](const Scene& s, const Shape& p) {
             return Columns{{}, each(s.spring_mm, [&](double x) { return power_beyond_mm(x, p[0]); }), {}};
           },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"m", p[0]}};
-          },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("m")}, {}};
-      },
       .inside = true,
   };
 }
@@ -167,7 +156,6 @@ Mechanism hidden_layer() {
       .words = said("a layer below the surface with another stiffness"),
       .separate = said("press slowly through the depth of the kink, at two sites"),
       .seen_over = "x_mm",
-      .term = &k_hidden_layer,
       .shape = {{"d0_mm", 1e-4, 100, false, true}},
       .grid =
           [](const Scene& s) {
@@ -180,13 +168,7 @@ Mechanism hidden_layer() {
           [](const Scene& s, const Shape& p) {
             return Columns{{each(s.motion->x_mm, [&](double x) { return layer_mm(x, p[0]); }) * s.active}, {}, {}};
           },
-      .parameters =
-          [](const Shape& p, const Shape& own, Base) {
-            return std::vector<NamedValue>{{"dk_n_per_mm", own[0]}, {"d0_mm", p[0]}};
-          },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("d0_mm")}, {value("dk_n_per_mm")}};
-      },
+      .coefficients = {"dk_n_per_mm"},
       .inside = true,
   };
 }
@@ -198,8 +180,6 @@ Mechanism graded_stiffness() {
       .words = said("a stiffness that changes evenly with depth"),
       .separate = said("press slowly to twice the depth"),
       .seen_over = "x_mm",
-      .term = &k_graded_stiffness,
-      .grid = [](const Scene&) { return Grid{{}}; },
       .columns =
           [](const Scene& s, const Shape&) {
             return Columns{{each(s.spring_mm, [](double x) { return graded_n(1.0, -1.0, x); })}, {}, {}};
@@ -223,7 +203,6 @@ Mechanism anisotropy() {
       .words = said("a stiffness that depends on the angle of approach"),
       .separate = said("approach one site at 0, 45, 90 and 135 degrees"),
       .seen_over = "approach_deg",
-      .term = &k_anisotropy,
       .needs = {"approach_deg"},
       .shape = {{"variant", 0, 1, false, false}},
       .grid =
@@ -252,7 +231,6 @@ Mechanism relaxation() {
       .words = said("a force that decays while the tool is held still"),
       .separate = said("hold for ten seconds at constant depth, three depths"),
       .seen_over = "t_s",
-      .term = &k_relaxation,
       .shape = {{"tau1_s", 5e-3, 1e3, true, true},
                 {"tau2_s", 5e-3, 1e3, true, true},
                 {"exponent", 0.2, 5, false, false},
@@ -298,7 +276,6 @@ Mechanism feed_power_law() {
       .words = said("a force that grows with another power of the speed"),
       .separate = said("press at five speeds over two decades"),
       .seen_over = "v_mm_s",
-      .term = &k_feed_power_law,
       .shape = {{"n", 0.05, 4.0, false, true}},
       .grid =
           [](const Scene&) {
@@ -311,13 +288,6 @@ Mechanism feed_power_law() {
                                      return v / size * feed_beyond_mm_s(size, p[0]);
                                    }) * s.active};
           },
-      .parameters =
-          [](const Shape& p, const Shape&, Base) {
-            return std::vector<NamedValue>{{"n", p[0]}};
-          },
-      .from_term = [](const TermReader& value, Base) -> std::optional<Numbers> {
-        return Numbers{{value("n")}, {}};
-      },
       .inside = true,
   };
 }

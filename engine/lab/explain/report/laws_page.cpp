@@ -70,10 +70,13 @@ std::string laws_page() {
     out << "| " << m.name << " | " << cell(m.equation) << " | " << m.words << " | " << listed(parameter_names(m), text) << " | "
         << (m.term != nullptr ? "yes" : "no") << " | " << listed(m.needs, text) << " | " << (m.variant_of != nullptr ? m.variant_of : "") << " | "
         << m.separate << " |\n";
-  out << "\n## Parameters of the force terms\nEach name ends in its unit; beside it the range, and in brackets the value when a file does not give "
+  out << "\n## Force terms\nF in these is the law above without terms. The name of a parameter ends in its unit; beside it the range, and in "
+         "brackets the value when a file does not give "
          "it.\n\n"
-         "| `kind` | parameters |\n| --- | --- |\n";
-  for (const auto* kind : term_kinds()) out << "| " << kind->name << " | " << ranges(*kind) << " |\n";
+         "| `kind` | adds, N | parameters | source of the form | notes, and values without a source |\n| --- | --- | --- | --- | --- |\n";
+  for (const auto& kind : term_kinds())
+    out << "| " << kind.name << " | " << cell(kind.adds) << " | " << ranges(kind) << " | " << cell(kind.source) << " | " << cell(kind.notes)
+        << " |\n";
   return out.str();
 }
 

@@ -1,7 +1,6 @@
-#include "engine/physics/force/coulomb_friction.h"
-
 #include <gtest/gtest.h>
 
+#include "engine/physics/force/term_laws.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
@@ -20,18 +19,18 @@ Rig rig_with(const ForceModel& force, Vec3 tip_mm = {0, 0, 1}) { return {make_cu
 
 TEST(CoulombFriction, IsFcTanhOfSpeedAndFlipsInAirToo) {
   Random random(drawn_seed("CoulombFriction.IsFcTanhOfSpeedAndFlipsInAirToo"));
-  const CoulombFriction term(k_fc_n, k_v0_mm_s);
+  const ForceTermPtr term = make_force_term("coulomb_friction", {{"fc_n", k_fc_n}, {"v0_mm_s", k_v0_mm_s}}, "test");
   TermMemory memory{};
   for (int i = 0; i < 5000; ++i) {
     TermInput in;
     in.speed_mm_s = random.uniform(-3, 3);
     in.touching = random.below(2) == 0;
     in.rpm = random.uniform(0, 2e5);
-    const TermForce f = term.evaluate(in, memory);
+    const TermForce f = term->evaluate(in, memory);
     ASSERT_NEAR(f.drag_n, k_fc_n * std::tanh(in.speed_mm_s / k_v0_mm_s), 1e-12);
     ASSERT_EQ(f.tissue_n, 0.0);
     in.speed_mm_s = -in.speed_mm_s;
-    ASSERT_EQ(term.evaluate(in, memory).drag_n, -f.drag_n);
+    ASSERT_EQ(term->evaluate(in, memory).drag_n, -f.drag_n);
   }
   EXPECT_EQ(memory, TermMemory{});
 }

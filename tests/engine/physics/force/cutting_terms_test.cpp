@@ -1,12 +1,9 @@
-#include "engine/physics/force/cutting_terms.h"
-
 #include <gtest/gtest.h>
 
 #include <cmath>
 
 #include "engine/base/det_math.h"
-#include "engine/physics/force/series_compliance.h"
-#include "engine/physics/force/tissue_terms.h"
+#include "engine/physics/force/term_laws.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
@@ -31,17 +28,19 @@ TEST(CuttingTerms, WearCoolantAndAnisotropyFollowTheirFormulae) {
   TermInput in = cutting(0.5);
   in.removed_mm3 = 3.0;
   in.removed_on_mm3 = 7.0;
-  EXPECT_NEAR(Wear(0.02, false).evaluate(in, none).tissue_n, 0.5 * 0.02 * 3.0, 1e-15);
-  EXPECT_NEAR(Wear(0.02, true).evaluate(in, none).tissue_n, 0.5 * 0.02 * 7.0, 1e-15);
-  EXPECT_EQ(Coolant(-0.1).evaluate(in, none).tissue_n, 0.0);
+  EXPECT_NEAR(make_force_term("wear", {{"per_mm3", 0.02}}, "test")->evaluate(in, none).tissue_n, 0.5 * 0.02 * 3.0, 1e-15);
+  EXPECT_NEAR(make_force_term("wear", {{"per_mm3", 0.02}, {"carried", 1.0}}, "test")->evaluate(in, none).tissue_n, 0.5 * 0.02 * 7.0, 1e-15);
+  EXPECT_EQ(make_force_term("coolant", {{"fraction", -0.1}}, "test")->evaluate(in, none).tissue_n, 0.0);
   in.wet = 1.0;
-  EXPECT_NEAR(Coolant(-0.1).evaluate(in, none).tissue_n, -0.05, 1e-15);
+  EXPECT_NEAR(make_force_term("coolant", {{"fraction", -0.1}}, "test")->evaluate(in, none).tissue_n, -0.05, 1e-15);
   for (double phi = -90; phi < 270; phi += 17) {
     in.approach = {std::sin(2 * phi * k_pi / 180), std::cos(2 * phi * k_pi / 180)};
     const double turned = std::cos(2 * (phi - 25) * k_pi / 180);
-    EXPECT_NEAR(Anisotropy(0.2, 0.03, 25).evaluate(in, none).tissue_n, (0.2 * 0.5 + 0.03) * turned, 1e-12);
+    EXPECT_NEAR(make_force_term("anisotropy", {{"epsilon", 0.2}, {"amplitude_n", 0.03}, {"phi0_deg", 25}}, "test")->evaluate(in, none).tissue_n,
+                (0.2 * 0.5 + 0.03) * turned, 1e-12);
   }
-  EXPECT_EQ(Anisotropy(0.2, 0.03, 25).evaluate(TermInput{}, none).tissue_n, 0.0);
+  EXPECT_EQ(make_force_term("anisotropy", {{"epsilon", 0.2}, {"amplitude_n", 0.03}, {"phi0_deg", 25}}, "test")->evaluate(TermInput{}, none).tissue_n,
+            0.0);
 }
 
 TEST(CuttingTerms, ASpringThatSoftensLosesHalfAtItsForce) {
@@ -75,14 +74,14 @@ TEST(CuttingTerms, AVoigtBodyOnASpringIsALagOfASofterBody) {  // F = k (X − F/
 }
 
 TEST(CuttingTerms, ChatterIsASineOfTheTimeAndNotOfTheTicks) {
-  const Chatter term(0.05, 37.5, 0.25);
+  const ForceTermPtr term = make_force_term("chatter", {{"amplitude_n", 0.05}, {"frequency_hz", 37.5}, {"phase_turns", 0.25}}, "test");
   TermMemory none{};
   for (int i = 0; i < 2000; ++i) {
     TermInput in = cutting(0.5);
     in.time_s = 0.0137 * i;
-    EXPECT_NEAR(term.evaluate(in, none).tissue_n, 0.05 * std::sin(2 * k_pi * (37.5 * in.time_s + 0.25)), 1e-9);
+    EXPECT_NEAR(term->evaluate(in, none).tissue_n, 0.05 * std::sin(2 * k_pi * (37.5 * in.time_s + 0.25)), 1e-9);
   }
-  EXPECT_EQ(term.evaluate(TermInput{}, none).tissue_n, 0.0);
+  EXPECT_EQ(term->evaluate(TermInput{}, none).tissue_n, 0.0);
 }
 
 TEST(CuttingTerms, RunOutByTheClockKeepsItsPhaseWhenTheSpindleStops) {
@@ -98,43 +97,43 @@ TEST(CuttingTerms, RunOutByTheClockKeepsItsPhaseWhenTheSpindleStops) {
 }
 
 TEST(CuttingTerms, WarmthRisesAndFallsAsOneExponentialWhateverTheStep) {
-  const ThermalSoftening term(0.01, 2.0, 8.0);
+  const ForceTermPtr term = make_force_term("thermal_softening", {{"per_k", 0.01}, {"heating_k_per_n_s", 2.0}, {"cooling_s", 8.0}}, "test");
   for (const double dt : {0.001, 0.25}) {
     TermMemory memory{};
     TermInput in = cutting(0.5);
     in.dt_s = dt;
-    for (int i = 0; i < static_cast<int>(std::lround(5.0 / dt)); ++i) (void)term.evaluate(in, memory);
+    for (int i = 0; i < static_cast<int>(std::lround(5.0 / dt)); ++i) (void)term->evaluate(in, memory);
     const double hot = 2.0 * 0.5 * 8.0 * (1 - std::exp(-5.0 / 8.0));  // g F τ (1 − e^(−t/τ))
     EXPECT_NEAR(memory[0], hot, 1e-9);
-    const double force = term.evaluate(in, memory).tissue_n;
+    const double force = term->evaluate(in, memory).tissue_n;
     EXPECT_NEAR(force, -0.5 * 0.01 * memory[0], 1e-12);
     TermInput air;
     air.dt_s = dt;
     memory[0] = hot;
-    for (int i = 0; i < static_cast<int>(std::lround(3.0 / dt)); ++i) EXPECT_EQ(term.evaluate(air, memory).tissue_n, 0.0);
+    for (int i = 0; i < static_cast<int>(std::lround(3.0 / dt)); ++i) EXPECT_EQ(term->evaluate(air, memory).tissue_n, 0.0);
     EXPECT_NEAR(memory[0], hot * std::exp(-3.0 / 8.0), 1e-9);
   }
 }
 
 TEST(CuttingTerms, AMeasuredTemperatureCountsInsteadOfTheOwnLaw) {
-  const ThermalSoftening term(0.01, 2.0, 8.0);
+  const ForceTermPtr term = make_force_term("thermal_softening", {{"per_k", 0.01}, {"heating_k_per_n_s", 2.0}, {"cooling_s", 8.0}}, "test");
   TermMemory memory{};
   TermInput in = cutting(0.5);
   in.warmth_known = true;
   in.warmer_k = 12.0;
-  EXPECT_NEAR(term.evaluate(in, memory).tissue_n, -0.06, 1e-15);
+  EXPECT_NEAR(term->evaluate(in, memory).tissue_n, -0.06, 1e-15);
   EXPECT_EQ(memory, TermMemory{});
 }
 
 TEST(CuttingTerms, RelaxationOfAPowerOfTheDepthDecaysAsOne) {
-  const Relaxation term(0.5, 2.0, 0.0, 1.0, 2.0);
+  const ForceTermPtr term = make_force_term("relaxation", {{"k1_n_per_mm", 0.5}, {"tau1_s", 2.0}, {"exponent", 2.0}}, "test");
   TermMemory memory{};
   TermInput in = cutting(0);
   in.penetration_mm = 0.6;
   in.dt_s = 1e-4;
-  (void)term.evaluate(in, memory);  // nearly a jump: stretch X² = 0.36
+  (void)term->evaluate(in, memory);  // nearly a jump: stretch X² = 0.36
   in.dt_s = 0.5;
-  for (int i = 0; i < 4; ++i) (void)term.evaluate(in, memory);
+  for (int i = 0; i < 4; ++i) (void)term->evaluate(in, memory);
   EXPECT_NEAR(memory[0], 0.36 * std::exp(-1.0), 1e-5);
 }
 

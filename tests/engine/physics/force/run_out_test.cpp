@@ -1,8 +1,7 @@
-#include "engine/physics/force/run_out.h"
-
 #include <gtest/gtest.h>
 
 #include "engine/base/det_math.h"
+#include "engine/physics/force/term_laws.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 
@@ -28,11 +27,11 @@ TermInput at_speed(double rpm, double dt_s = 0.001) { return {true, 0.3, 0, 0, 0
 TEST(RunOut, IsASineOfTheTurnsMade) {
   for (const double dt : {0.001, 0.00025, 0.0137})
     for (const double rpm : {0.1, 1000.0, 40000.0, 199999.0, 200000.0}) {
-      const RunOut term(0.01, 20, 0.125);
+      const ForceTermPtr term = make_force_term("run_out", {{"amplitude_n", 0.01}, {"eccentricity_um", 20}, {"phase_turns", 0.125}}, "test");
       TermMemory memory{};
       for (int i = 1; i <= 4000; ++i) {
         const double turns = rpm / 60 * dt * i + 0.125, amplitude = 0.01 + 0.020 * 0.8;
-        ASSERT_NEAR(term.evaluate(at_speed(rpm, dt), memory).tissue_n, amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
+        ASSERT_NEAR(term->evaluate(at_speed(rpm, dt), memory).tissue_n, amplitude * std::sin(2 * k_pi * turns), 1e-7 * amplitude * (1 + turns));
         ASSERT_GE(memory[0], 0.0);
         ASSERT_LT(memory[0], 1.0);
       }
@@ -40,13 +39,13 @@ TEST(RunOut, IsASineOfTheTurnsMade) {
 }
 
 TEST(RunOut, FollowsASpindleThatRunsUp) {  // turns = ∫ rpm/60 dt
-  const RunOut term(0.05, 0, 0);
+  const ForceTermPtr term = make_force_term("run_out", {{"amplitude_n", 0.05}}, "test");
   TermMemory memory{};
   double turns = 0;
   for (int i = 0; i < 3000; ++i) {
     const double rpm = 50.0 * i;
     turns += rpm / 60 * 0.001;
-    ASSERT_NEAR(term.evaluate(at_speed(rpm), memory).tissue_n, rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
+    ASSERT_NEAR(term->evaluate(at_speed(rpm), memory).tissue_n, rpm > 0 ? 0.05 * std::sin(2 * k_pi * turns) : 0.0, 1e-9);
   }
 }
 

@@ -1,7 +1,6 @@
-#include "engine/physics/force/series_compliance.h"
-
 #include <gtest/gtest.h>
 
+#include "engine/physics/force/term_laws.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/closed_loop.h"
 

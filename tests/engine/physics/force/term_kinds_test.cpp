@@ -5,7 +5,6 @@
 #include <regex>
 
 #include "engine/base/file_error.h"
-#include "engine/physics/force/coulomb_friction.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {
@@ -64,11 +63,11 @@ TEST(ForceTerms, MistakesAreErrorsAtTheirPlaceAndNameWhatThereIs) {
 }
 
 TEST(ForceTerms, WrittenTextReadsBackToTheLastBit) {
-  for (const auto* kind : term_kinds()) {
+  for (const auto& kind : term_kinds()) {
     std::vector<std::pair<std::string, double>> parameters;
-    for (const auto& p : kind->parameters) parameters.emplace_back(p.name, std::min(p.high, std::max(p.low, 0.1) * 1.1 + 1e-9));
-    const std::string text = paper() + "\n" + force_term_toml(kind->name, parameters);
-    const ForceTermPtr back = parse_force_model(text, "m.toml").terms.at(0), direct = make_force_term(kind->name, parameters, "test");
+    for (const auto& p : kind.parameters) parameters.emplace_back(p.name, std::min(p.high, std::max(p.low, 0.1) * 1.1 + 1e-9));
+    const std::string text = paper() + "\n" + force_term_toml(kind.name, parameters);
+    const ForceTermPtr back = parse_force_model(text, "m.toml").terms.at(0), direct = make_force_term(kind.name, parameters, "test");
     TermMemory a{}, b{};
     for (int i = 0; i < 50; ++i) {
       const TermInput in{true, 0.01 * i, 0.1 * i, 0.1 * i, 0.8, 1.79, 0.3, 1000.0 * i, i, 0.001};
