@@ -4,8 +4,12 @@
 #include <cmath>
 
 #include "engine/base/det_math.h"
+#include "engine/physics/contact/tuning.h"
 
 namespace cavum {
+
+using namespace tuning;
+
 namespace {
 
 /// Moves a place near a bulging corner onto the fillet that rounds it.
@@ -141,8 +145,6 @@ ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm) {
   ContactTool tool;
   tool.bur = bur;
   tool.turning = turning_pieces(bur);
-  // a long head is sampled more coarsely: its sides are straight, and the count decides the time of a tick
-  constexpr double k_max_head_samples = 450;
   double head_area = 0;
   ProfilePoint before;
   for (const auto& p : bur.profile.walk(0.02, bur.cutting_length_mm)) {

@@ -43,10 +43,6 @@ struct ContactTool {
   [[nodiscard]] Vec3 furthest_along(Vec3 way) const noexcept;
 };
 
-/// Edges feel 0.08 mm round, as grit makes them: a sharper edge could not lie in the corner it has cut, for between
-/// leaves that corner is rounded. Cutting has the true edge.
-inline constexpr double k_edge_radius_mm = 0.08;
-
 /// Spreads samples at about `head_spacing_mm` (up to twice that on long heads) over the coated head, at 0.27 mm elsewhere. Each
 /// sample sits at a height of its own, so that no ring of them crosses a border in the same tick.
 [[nodiscard]] ContactTool make_contact_tool(const Bur& bur, double head_spacing_mm = 0.09);

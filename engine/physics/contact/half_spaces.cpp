@@ -3,15 +3,13 @@
 #include <algorithm>
 #include <cmath>
 
-namespace cavum {
-namespace {
+#include "engine/physics/contact/tuning.h"
 
-constexpr double k_enters_mm = 1e-8;  // a half space violated by more enters;
-constexpr double k_holds_mm = 1e-9;   // one that may leave is violated by less: else two that are nearly one would replace each other for ever
-constexpr double k_multiplier_tolerance = -1e-9;
-// Normals nearer to each other (rad), or to one plane, than that have no corner in reach. Cross products keep their digits where the
-// determinant of all the dot products loses them: the normals of a flat surface differ by 1e-3 to 1e-2 rad, by the rounding of distances.
-constexpr double k_parallel_rad = 1e-6;
+namespace cavum {
+
+using namespace tuning;
+
+namespace {
 
 double violation(const HalfSpace& h, Vec3 s) noexcept { return -h.slack_mm - dot(h.normal, s); }
 

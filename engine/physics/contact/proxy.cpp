@@ -5,30 +5,15 @@
 #include <cmath>
 
 #include "engine/base/hash.h"
+#include "engine/physics/contact/tuning.h"
 
 namespace cavum {
+
+using namespace tuning;
+
 namespace {
 
-constexpr int k_max_steps = 12;                                // of one leaf: the proxy follows 0.6 mm a tick at a 0.05 mm leaf
-constexpr double k_linear_leaves = 0.3, k_linear_mm = 0.0135;  // so far, or that far, a half space stands in for the curved surface
-constexpr double k_squeeze_leaves = 0.005;                     // what a squeezed tool may still move: the dead zone, and a little more
-constexpr double k_gather_more_leaves = 0.02;                  // beyond the step, against rounding
-constexpr double k_deepest_leaves = 0.5;                       // a sample that lies deeper is pushed out no faster
-constexpr double k_dead_leaves = 0.004;  // one that lies no deeper is not pushed at all: two walls that differ by rounding would squeeze the tool out
-constexpr double k_stays_near_mm = 0.3;  // what is near is not asked for air again before that much travel
-constexpr double k_settled_mm = 2e-5;    // a smaller step ends the search
-constexpr int k_refinements = 8;
-constexpr std::size_t k_refined_room = 32;
-// Half spaces say little of a crest of tissue between two samples, or of a sheet between head and neck: the proxy goes forth and back over it, and
-// gathers anew each time. So a step back makes the stride shorter, and the search ends for this tick once more places than that were looked up,
-// sooner after a second step back: the proxy goes on in the next tick. The last gathering comes on top (some 450 places in a deep hole).
-constexpr int k_max_looked_up = 1200, k_max_going_back = 300;
 constexpr int k_all_places = 1 << 30;
-constexpr int k_part_looked_up = 140;              // places of a gathering that is spread over ticks, in each of them
-constexpr double k_aside_leaves = 0.1;             // the proxy takes an opened way while it lies no further beside it
-constexpr double k_room_leaves = 0.01;             // and nothing there enters the tissue by more
-constexpr double k_resting_stride = 0.05;          // leaves: the shortest stride
-constexpr double k_shorter = 0.4, k_longer = 1.5;  // a stride after a step back, and after one onwards
 
 /// Furthest that a sample at unit distance from the tip moves when the rotation changes from `a` to `b` (Frobenius norm, an upper bound).
 double turn_bound_rad(const Mat3& a, const Mat3& b) noexcept {
@@ -72,7 +57,6 @@ double slack_mm(double distance_mm, double leaf_mm) noexcept {
 
 /// Begins to gather half spaces about a place, for steps of `reach_mm` and small moves.
 void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const ContactState& state, GatheredContact& g) noexcept {
-  constexpr double k_gather_leaves = 1.1;  // what touches where the surface will recede to is wanted, too
   const double leaf = tooth.leaf_mm();
   g.at_mm = at_mm;
   g.turned_rad = state.turned_rad;
@@ -92,7 +76,6 @@ bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, Con
     const double travel = travel_mm(state, patch.lever_mm), far_mm = travel + g.reach_mm + off_mm;
     if (far_mm <= state.patch_clear_until_mm[g.next_patch]) continue;
     if (travel + off_mm > state.patch_near_until_mm[g.next_patch]) {
-      constexpr double k_margin_mm = 0.5;
       const double r = patch.radius_mm + k_margin_mm;
       const Vec3 middle = g.at_mm + state.rotation * patch.centre_mm;
       if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {

@@ -4,22 +4,13 @@
 #include <cmath>
 
 #include "engine/physics/contact/proxy.h"
+#include "engine/physics/contact/tuning.h"
 
 namespace cavum {
-namespace {
 
-constexpr double k_same_normal2 = 1e-4;  // 0.01 rad: the areas seen along the normal have hardly changed
-// So little way changes no weight by more than 4 %, or 10 % after a carve.
-constexpr double k_same_means_leaves = 0.02, k_same_means_mm = 0.001, k_late_means_leaves = 0.05, k_late_means_mm = 0.0025;
-constexpr double k_touch_leaves = 0.2;      // a sample nearer than that touches fully; rounding of distances is far less
-constexpr double k_fade_leaves = 0.5;       // and from there it touches less and less
-constexpr double k_ahead_leaves = 1.6;      // so far before a sample its tissue is looked up: a last leaf over the pulp has faded out when it is cut
-constexpr double k_close_leaves = 0.1;      // and there, where a sheet is thinner than that: just inside the surface
-constexpr double k_void_near_leaves = 3.0;  // what is looked up ahead, and the eight leaves around it
-constexpr double k_furthest_mm2 = 1e-3;     // an eighth of what a sample of the head stands for
-constexpr double k_min_area_mm2 = 1e-9;     // rounding
-constexpr double k_min_radius_mm = 0.05;    // half a coarse grain: no grain stands still, though the axis does
-constexpr double k_even_share = 0.999;      // stiffnesses nearer than that are one tissue's
+using namespace tuning;
+
+namespace {
 
 /// Means of k, c, 1/τ and 1/K over the solid (or the void) tissues of a mix, and their share in it.
 double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants* tissue, bool solid, TissueConstants& mean) noexcept {

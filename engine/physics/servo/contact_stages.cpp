@@ -1,13 +1,14 @@
 // The stages that ask the tooth: where the tool is held, how far it is in, and what it touches.
 #include <algorithm>
 
+#include "engine/physics/contact/tuning.h"
 #include "engine/physics/servo/stages.h"
 
 namespace cavum {
-namespace {
 
-// A micrometre at a leaf of 0.05 mm. Less is no touch: many short ones would each begin a carve for nothing.
-constexpr double k_lift_share = 0.04;  // of a carve's step
+using namespace tuning;
+
+namespace {
 
 /// What a tool that lifts off still owes is carved where it was owed, or many short touches would cut nothing.
 void carve_at_lift_off(const Recession& owed, double leaf_mm, HeadCarving& carving) noexcept {

@@ -1,21 +1,15 @@
 // The stage that cuts: recession gathers, and the head is carved, one carve at a time and a part of it in each tick.
 #include <algorithm>
 
+#include "engine/physics/contact/tuning.h"
 #include "engine/physics/servo/grinding.h"
 #include "engine/physics/servo/stages.h"
 
 namespace cavum {
-namespace {
 
-// Units of 15 ns (Octree::plan), 24 µs in all: a tenth of the shortest tick, 0.25 ms. A whole carve in one tick takes 50 to 160 µs at leaves of
-// 0.05 mm and four times that at 0.025 (docs/decisions/0013-a-carve-takes-equal-parts-of-ticks.md); so much a tick ends it long before the next one
-// is due.
-constexpr int k_carve_work = 1600;
-// A tool that slides is carved after half a step, for the surface that it leaves behind is the one it felt; that it slides shows after two leaves
-// of 0.05 mm. Void tissue ahead: a quarter, so that the last leaf over a pulp goes in time.
-constexpr double k_slide_mm = 0.1, k_slide_share = 0.5, k_void_share = 0.25;
-// Void tissue gives no recession: it goes as the head sweeps through it, a leaf at a time.
-constexpr double k_sweep_leaves = 1.0;
+using namespace tuning;
+
+namespace {
 
 /// The head where the proxy is.
 CarvedHead head_here(const ServoState& state) noexcept { return {state.contact.proxy_mm, state.contact.rotation, state.contact.bur}; }

@@ -5,14 +5,13 @@
 #include <cmath>
 
 #include "engine/base/hash.h"
+#include "engine/physics/contact/tuning.h"
 
 namespace cavum {
-namespace {
 
-// Share of the pedal's way: a foot that only rests on it must not drill.
-constexpr double k_dead_travel = 0.02;
-// Share of the full speed, 2000 of 200,000 rpm: an exponential run-down would never end otherwise.
-constexpr double k_still_share = 0.01;
+using namespace tuning;
+
+namespace {
 
 /// Speed after a tick under a drive. The line of torque over speed is taken implicitly: a steep one would swing from tick to tick.
 double driven_rpm(const ServoConfig& config, const HandpieceDrive& drive, double wanted_rpm, const Handpiece& state) noexcept {

@@ -4,18 +4,15 @@
 #include <array>
 
 #include "engine/base/hash.h"
+#include "engine/physics/contact/tuning.h"
 
 namespace cavum {
+
+using namespace tuning;
+
 namespace {
 
-// A leaf of 0.025 mm goes at once, a coarse one in four: what a carve costs hardly depends on how deep it is, so that finer steps would cost more.
-constexpr double k_min_step_mm = 0.025, k_step_leaves = 0.25;
-// In carves: one that contact is following, one under way, and one that gathers. A head that neck or shank hold owes no more than that.
-constexpr double k_max_owed_steps = 3.0;
 // The distance field is cut wider than the head by a clearance of 0.01 leaf and more (carve_head.cpp): the proxy may be paid for that in advance.
-constexpr double k_max_ahead_leaves = 0.1;
-// Half the distance of two leaves: a proxy further aside stands in another hole.
-constexpr double k_same_hole_leaves = 0.5;
 
 /// What a proxy owes that comes back to where the head was carved, mm, at most 0: the hole is a clearance deeper than the head was.
 double owed_at_touch_mm(const ContactState& contact, const CarvedHead& carved, double leaf_mm) noexcept {

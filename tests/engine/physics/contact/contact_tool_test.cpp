@@ -3,6 +3,7 @@
 #include <gtest/gtest.h>
 
 #include "engine/base/det_math.h"
+#include "engine/physics/contact/tuning.h"
 #include "tests/engine/support/engine_testing.h"
 
 namespace cavum {
@@ -26,7 +27,8 @@ TEST(ContactTool, SamplesLieOnTheOutlineOrOnTheFilletOfAnEdge) {
       // a ball of the edge's radius behind the sample touches both sides of the edge from within (where a side is an arc, nearly)
       ++on_edges;
       EXPECT_LT(d, 1e-4) << name << " at height " << s.at_mm.z;
-      EXPECT_NEAR(outline.distance_mm(s.at_mm - s.normal * k_edge_radius_mm), -k_edge_radius_mm, 1e-4) << name << " at height " << s.at_mm.z;
+      EXPECT_NEAR(outline.distance_mm(s.at_mm - s.normal * tuning::k_edge_radius_mm), -tuning::k_edge_radius_mm, 1e-4)
+          << name << " at height " << s.at_mm.z;
     }
     if (name == "cylinder-flat-1.0") {
       EXPECT_GT(on_edges, 3);
@@ -120,7 +122,7 @@ TEST(ContactTool, PatchesHoldEverySampleOnceWithinTheirBall) {
         if (p < tool.head_patches) {
           EXPECT_LE(tool.samples[i].at_mm.z, tool.bur.cutting_length_mm + 1e-9) << name;
         } else {
-          EXPECT_GE(tool.samples[i].at_mm.z, tool.bur.cutting_length_mm - k_edge_radius_mm) << name;
+          EXPECT_GE(tool.samples[i].at_mm.z, tool.bur.cutting_length_mm - tuning::k_edge_radius_mm) << name;
         }
       }
     }

@@ -6,6 +6,7 @@
 #include <map>
 
 #include "engine/base/det_math.h"
+#include "engine/physics/contact/tuning.h"
 #include "engine/tooth/make/make_block.h"
 #include "tests/engine/support/engine_testing.h"
 
@@ -66,7 +67,7 @@ double preston_mm_s(double wear, double load_n) { return wear * load_n / (k_pi *
 struct FeltEnd {
   double per_turn = 0, sliding = 0;
   explicit FeltEnd(double leaf_mm = 0.05) {
-    constexpr double k_d = 1e-5, k_edge = k_edge_radius_mm;
+    constexpr double k_d = 1e-5, k_edge = tuning::k_edge_radius_mm;
     const auto add = [&](double area, double aside, double cosine) {
       const double r = k_radius_mm - k_edge + aside, gap = k_edge * (1 - cosine);
       const double seen = area * cosine * std::clamp(1 - (gap - 0.2 * leaf_mm) / (0.5 * leaf_mm), 0.0, 1.0);
