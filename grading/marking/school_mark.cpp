@@ -97,7 +97,7 @@ Message in_words(const json& value) {
 json by_id(json result) {
   if (!result.is_object() || !result.contains("criteria")) return result;
   json criteria = json::object();
-  for (json& c : result["criteria"]) criteria[text_in(c, "id")] = std::move(c);
+  for (const json& c : result["criteria"]) criteria[text_in(c, "id")] = c;
   result["criteria"] = std::move(criteria);
   return result;
 }

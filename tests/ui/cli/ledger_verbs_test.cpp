@@ -19,7 +19,7 @@ class LedgerVerbs : public testing_ui::Program {
     ASSERT_EQ(run("ledger init " + path("L") + " --school Dentistry").exit_code, 0);
     write_text_file(path("class.csv"), "id,name\n4711,Ann Lee\n4712,Bob Ray\n");
   }
-  std::string scenario() const { return std::string(CAVUM_SOURCE_DIR) + "/tests/replay/block_cavity.toml"; }
+  std::string scenario() const { return CAVUM_SOURCE_DIR "/tests/replay/block_cavity.toml"; }
   json tickets(const std::string& more = "") {
     const auto r = run("ledger ticket " + path("L") + " " + scenario() + " --candidates " + path("class.csv") +
                        " --from 2020-01-01T00:00Z --until 2190-01-01T00:00Z --out " + path("tickets") + " --json" + more);
