@@ -2,6 +2,7 @@
 # Brings the template cavum.pot, and the catalogues beside it, up to what the sources say. --check: changes nothing, and exits with 1 when something would change,
 # or when a message of a catalogue is missing or only guessed (fuzzy).
 #   C++    what stands in msg, msgn, tr, trn and said, in all files of engine, scenarios, grading and ui
+#   tasks  what stands as title, sentence or instruction in data/tasks, and as title of a criterion in data/scenarios
 #   pages  what stands in tr and said
 set -euo pipefail
 export LC_ALL=C.UTF-8  # what a letter is, and the order
@@ -23,8 +24,14 @@ extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1
 sed -e '/^#define/d' -e 's/ \\$//' "$root/grading/result/finding.h" >"$new/findings.h"
 extract "$new/findings.pot" C++ --keyword=FINDING:3 <<<"$new/findings.h"
 extract "$new/page.pot" JavaScript '--keyword=tr:1,"page"' '--keyword=said:1,"page"' <"$new/page"  # the comment says that the page needs it
+# titles, sentences and instructions of tasks, a line each, their gaps without names; and what criteria are called in them and in the scenarios that ship
+{
+  grep -hE '^ *(title|what|what_front|chosen|chosen_front|instruction) = ' "$root"/data/tasks/*.toml
+  awk '/^\[/ { criterion = /rubric.criteria/ } criterion && /^title = /' "$root"/data/scenarios/*.toml
+} | sed -E 's/^[^=]*= //; s/\{[a-z_]+\}/{}/g' | grep -oE '"[^"]+"' | sed 's/.*/said(&)/' >"$new/tasks.h"
+extract "$new/tasks.pot" C++ --keyword=said:1 <<<"$new/tasks.h"
 # the page stands first: what it shares with C++ must keep the comment that the page needs it
-msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" "$new/findings.pot" |
+msgcat --use-first --no-wrap --sort-output "$new/page.pot" "$new/sources.pot" "$new/findings.pot" "$new/tasks.pot" |
   sed -e '/^"POT-Creation-Date:/d' -e '/^#, c-format$/d' -e '/^#, javascript-format$/d' -e 's/^"Project-Id-Version: PACKAGE VERSION/"Project-Id-Version: cavum/' >"$new/all.pot"
 # nothing to translate: no letter outside gaps, such as "{}: {}" or "–"; but "." is the decimal sign
 msggrep --invert-match --no-wrap --msgid --extended-regexp --regexp='^(\{[^}]*\}|[^[:alpha:]{.]|([^[:alpha:]{]|\{[^}]*\}){2,})$' "$new/all.pot" >"$new/cavum.pot"

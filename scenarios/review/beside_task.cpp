@@ -13,46 +13,6 @@ namespace {
 constexpr double k_wanted_gap_mm = 0.35;  // along x: the straight distance is a little less
 constexpr double k_step_mm = 0.1;
 
-constexpr std::string_view k_shell = R"(
-# But for a shell before the neighbour: who keeps it cannot nick him, and a hand instrument breaks it out. It is leeway.
-[[zones.target]]
-shape = "tissue"
-tissue = "neighbour_enamel"
-offset_mm = 0.2
-combine = "subtract"
-)";
-
-constexpr std::string_view k_nick_criterion = R"(
-[[rubric.criteria]]
-id = "neighbour"
-title = "Neighbouring tooth not damaged"
-metric = "neighbour_nick_depth_mm"
-full = 0.1                           # what polishing takes off
-zero = 0.3
-points = 10
-critical_above = 0.3                 # deeper damage has to be restored
-)";
-constexpr std::string_view k_clearance_criterion = R"(
-[[rubric.criteria]]
-id = "clearance"
-title = "Contact opened"
-metric = "proximal_clearance_mm"     # a shell of enamel up to 0.5 mm thick does not count as left
-full = 0.2
-zero = 0.1
-points = 10
-critical_below = 0.1                 # the contact still stands
-)";
-constexpr std::string_view k_gum_criterion = R"(
-[[rubric.criteria]]
-id = "gum"
-title = "Gum spared"
-metric = "gum_removed_mm3"
-full = 0.2
-zero = 1
-points = 5
-critical_above = 1                   # the papilla is cut away
-)";
-
 /// From the tooth's surface to the neighbour's along x in a row of leaves, mm; large where one of them is not there.
 double gap_mm(const Tooth& tooth, const TissueSet& neighbours, const TissueSet& beside, int side, double y_mm, double z_mm) {
   constexpr double k_none_mm = 1e3;
@@ -93,7 +53,7 @@ ContactBox box_beside(const Tooth& tooth, const Landmarks& landmarks, int side, 
   const Vec3 *contact = furthest_along(landmarks.height_of_contour_mm, Vec3{1.0 * side, 0, 0}),
              *neck = furthest_along(landmarks.neck_mm, Vec3{1.0 * side, 0, 0});
   if (contact == nullptr || neck == nullptr || !neighbour_stands(tooth, side)) return box;
-  box.shell = k_shell;
+  box.shell = true;
   const TissueSet neighbours = tissues_of(tooth, TissueKind::neighbour), beside = tissues_beside(tooth);
   const double half_leaf = 0.5 * tooth.octree.leaf_mm();
   // the floor's margin is as near as its nearest place
@@ -115,18 +75,18 @@ ContactBox box_beside(const Tooth& tooth, const Landmarks& landmarks, int side, 
   return box;
 }
 
-std::string beside_criteria(const Tooth& tooth, int opens) {
+std::vector<std::string> beside_criteria(const Tooth& tooth, int opens) {
   const auto counts = tooth.octree.count_leaves();
   const auto any_of = [&](const TissueSet& set) {
     for (std::size_t t = 0; t < set.size(); ++t)
       if (set[t] && counts[t] > 0) return true;
     return false;
   };
-  std::string text;
-  if (any_of(tissues_of(tooth, TissueKind::neighbour))) text += k_nick_criterion;
-  if (opens != 0 && neighbour_stands(tooth, opens)) text += k_clearance_criterion;
-  if (any_of(tissues_of(tooth, TissueKind::gum))) text += k_gum_criterion;
-  return text;
+  std::vector<std::string> names;
+  if (any_of(tissues_of(tooth, TissueKind::neighbour))) names.emplace_back("neighbour_criterion");
+  if (opens != 0 && neighbour_stands(tooth, opens)) names.emplace_back("clearance_criterion");
+  if (any_of(tissues_of(tooth, TissueKind::gum))) names.emplace_back("gum_criterion");
+  return names;
 }
 
 }  // namespace cavum::scenarios

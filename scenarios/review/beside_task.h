@@ -2,6 +2,7 @@
 #pragma once
 
 #include <string>
+#include <vector>
 
 #include "engine/tooth/anatomy/landmarks.h"
 
@@ -10,7 +11,7 @@ namespace cavum::scenarios {
 /// A box at a contact area.
 struct ContactBox {
   double width_mm = 0.0, above_neck_mm = 0.0;
-  std::string shell;  ///< a [[zones.target]] that leaves a shell before the neighbour out of the target
+  bool shell = false;  ///< one before the neighbour stays out of the target
 };
 /// The box with its walls moved outwards and its floor down until its margins lie far enough from the neighbour on that side, as far as the crown has
 /// room (`least_above_neck_mm`, `widest_mm`). As it is, and without a shell, where none stands there.
@@ -20,7 +21,8 @@ struct ContactBox {
 /// Whether hard tissue of a neighbour lies on a side of the tooth.
 [[nodiscard]] bool neighbour_stands(const Tooth& tooth, int side);
 
-/// [[rubric.criteria]] for what stands beside the tooth; empty where nothing does. `opens`: the side on which the target opens the contact, 0: none.
-[[nodiscard]] std::string beside_criteria(const Tooth& tooth, int opens);
+/// Criteria on what stands beside the tooth, by their names in data/tasks/common.toml. `opens`: the side on which the target opens the contact, 0:
+/// none.
+[[nodiscard]] std::vector<std::string> beside_criteria(const Tooth& tooth, int opens);
 
 }  // namespace cavum::scenarios

@@ -1,23 +1,12 @@
 #include "scenarios/review/over_pulp.h"
 
-#include <fmt/core.h>
-
 #include <algorithm>
 
-#include "engine/base/text.h"
 #include "engine/tooth/distance_transform.h"
 
 namespace cavum::scenarios {
 namespace {
 constexpr double k_far_from_pulp = 2.0;
-}
-
-std::string over_pulp_criterion() {
-  return fmt::format(
-      "\n[[rubric.criteria]]\nid = \"over_pulp\"\ntitle = \"Hard tissue left over the pulp\"\nmetric = \"dentin_over_pulp_mm\"\nfull = {}\nzero = "
-      "{}\n"
-      "points = 5\ncritical_below = {}                 # with less the pulp is injured\n",
-      fixed(k_planned_over_pulp_mm - 0.1, 1), fixed(k_min_over_pulp_mm, 1), fixed(k_min_over_pulp_mm, 1));
 }
 
 double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones) {

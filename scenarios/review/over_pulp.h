@@ -1,8 +1,6 @@
 // What a task leaves over the pulp: as it is planned, and as its rubric asks for.
 #pragma once
 
-#include <string>
-
 #include "engine/tooth/tooth.h"
 #include "scenarios/zones/zone_map.h"
 
@@ -14,8 +12,5 @@ inline constexpr double k_planned_over_pulp_mm = 0.8, k_min_over_pulp_mm = 0.5;
 
 /// From the target to the pulp where they are nearest, mm; 2 mm and more is 2. Known to a leaf.
 [[nodiscard]] double planned_over_pulp_mm(const Tooth& tooth, const ZoneMap& zones);
-
-/// The criterion that fails a cavity which leaves too little, as TOML.
-[[nodiscard]] std::string over_pulp_criterion();
 
 }  // namespace cavum::scenarios

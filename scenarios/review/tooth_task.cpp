@@ -7,17 +7,16 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
-#include <functional>
 #include <sstream>
 
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
-#include "scenarios/file/template.h"
 #include "scenarios/review/beside_task.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/over_pulp.h"
 #include "scenarios/review/ridge_margins.h"
+#include "scenarios/review/task_texts.h"
 #include "scenarios/review/tooth_task_parts.h"
 #include "scenarios/zones/relief.h"
 #include "scenarios/zones/zone_map.h"
@@ -32,25 +31,20 @@ constexpr double k_isthmus_share = 0.25, k_narrowest_mm = 1.2, k_widest_mm = 1.5
 constexpr double k_box_share = 0.33, k_box_narrowest_mm = 2.2, k_box_widest_mm = 4.0;
 constexpr double k_below_contact_mm = 0.5, k_min_above_neck_mm = 0.8;
 constexpr double k_in_dentin_mm = 0.2;
-constexpr double k_crown_walls_share = 0.1;  // a crown's shell is large: a quarter of it is more than its container holds
-constexpr double k_min_walls_mm3 = 0.6;      // twice what the template's criterion on walls gives full marks for
+constexpr double k_min_walls_mm3 = 0.6;  // twice what the template's criterion on walls gives full marks for
 
 /// Sound ones looked at: the first without a warning that passes its trial is taken.
 constexpr std::size_t k_max_tried = 4;
 // The last step of a task asks for 87 % of the cavity, and the expert removes some 3 % less than that reach.
 constexpr double k_min_reach = 0.895;
 
+/// What of a task follows landmarks; its texts are data/tasks/WORD.toml.
 struct ToothTask {
   const char* word;
-  Message title;
-  const char* burs;
-  bool access;
-  const char *aims, *faults;
-  std::function<Message(const Tooth&, const Landmarks&)> why_not;
-  std::function<std::vector<TaskChoice>(const Tooth&, const Landmarks&)> choices;
-  int opens = 0;                    // the side on which it opens the contact: mesial 1, distal -1
-  std::string steps{}, criteria{};  // of its own; else as all cavities or accesses have them
-  double walls_share = 0.25;        // of the target's volume: so much sound wall cut fails
+  Message (*why_not)(const Tooth&, const Landmarks&);
+  std::vector<TaskChoice> (*choices)(const Tooth&, const Landmarks&);
+  int opens = 0;            // the side on which it opens the contact: mesial 1, distal -1
+  bool spares_pulp = true;  // an access opens it; a lesion may reach as far as it likes
 };
 
 bool has_tissue(const Tooth& tooth, const char* name) {
@@ -117,16 +111,17 @@ Message with_pits(Message what, const std::array<bool, 2>& left) {
   if (left[1]) return msg("{} The distal pit lies beside the cavity and stays.", what);
   return what;
 }
-/// The same for people, after other lengths.
+/// The lengths, and the same, for people.
 Message chosen_with_pits(List lengths, const std::array<bool, 2>& left) {
   if (left[0]) lengths.items.push_back(msg("the mesial pit stays"));
   if (left[1]) lengths.items.push_back(msg("the distal pit stays"));
   return msg("{}", std::move(lengths));
 }
 
-Message no_fissure(const Landmarks& l, int through) {
+template <int k_through>
+Message no_fissure(const Tooth&, const Landmarks& l) {
   if (l.central_fissure_mm.size() < 2) return msg("no central fissure is found on it");
-  const Message why = ridge_margins(l, isthmus_mm(l), through).why_none;
+  const Message why = ridge_margins(l, isthmus_mm(l), k_through).why_none;
   return why.empty() ? Message() : msg("{}; see `cavum tooth show`, and put ridge or pits by hand where they are wrong", why);
 }
 
@@ -136,18 +131,12 @@ std::vector<TaskChoice> class_1(const Tooth& tooth, const Landmarks& l) {
   const RidgeMargins ridges = ridge_margins(l, width, 0);
   for (const Floor& floor : floors(tooth, l))
     for (const RidgeMargin& margin : ridges.may)
-      list.push_back(
-          {fmt::format("# Along the central fissure; the marginal ridges stay.\n[[zones.target]]\nshape = \"column\"\n"
-                       "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {} }}\nbottom = {}\ntaper_deg = 0\n",
-                       fixed(width, 1), fixed(margin.ridge_mm, 1), floor.toml),
-           pulp_guard_text(0.5),
-           with_pits(msg("Cut along the central fissure: {} wide, flat floor {}, upright walls; take in its pits, leave both marginal ridges.",
-                         as_mm(width, 1), floor.words),
-                     ridges.pits_left),
-           chosen_with_pits({{msg("isthmus {}", as_mm(width, 1)), msg("floor {}", floor.words),
-                              msg("{} of each marginal ridge", as_mm(0.1 * std::floor(10.0 * margin.left_mm + 1e-6), 1))}},
-                            ridges.pits_left),
-           floor.toml});
+      list.push_back({.gaps = {gap_mm("width", width, 1),
+                               gap_mm("ridge", margin.ridge_mm, 1),
+                               {"floor", floor.toml, floor.words},
+                               gap_mm("left", 0.1 * std::floor(10.0 * margin.left_mm + 1e-6), 1)},
+                      .pits_left = ridges.pits_left,
+                      .floor = floor.toml});
   return list;
 }
 
@@ -156,156 +145,87 @@ Message no_contact(const Landmarks& l, int side) {
              ? msg("its contact area or its neck is not found")
              : Message();
 }
+template <int k_side>
+Message no_step(const Tooth& tooth, const Landmarks& l) {
+  const Message fissure = no_fissure<k_side>(tooth, l);
+  return fissure.empty() ? no_contact(l, k_side) : fissure;
+}
+template <int k_side>
+Message no_box(const Tooth&, const Landmarks& l) {
+  return l.incisal_edge_mm.empty() ? no_contact(l, k_side) : msg("a front tooth has no such box");
+}
 
-std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l, int side, bool with_step) {
+template <int k_side, bool k_with_step>
+std::vector<TaskChoice> box(const Tooth& tooth, const Landmarks& l) {
   std::vector<TaskChoice> list;
-  const std::string_view word = side > 0 ? "mesial" : "distal";
-  const double above_neck = std::max(k_min_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * side, 0, 0})->z -
-                                                              furthest_along(l.neck_mm, Vec3{1.0 * side, 0, 0})->z - k_below_contact_mm);
+  const double above_neck = std::max(k_min_above_neck_mm, furthest_along(l.height_of_contour_mm, Vec3{1.0 * k_side, 0, 0})->z -
+                                                              furthest_along(l.neck_mm, Vec3{1.0 * k_side, 0, 0})->z - k_below_contact_mm);
   const ContactBox beside =
-      box_beside(tooth, l, side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck, ""},
+      box_beside(tooth, l, k_side, {std::clamp(k_box_share * crown_width_mm(l), k_box_narrowest_mm, k_box_widest_mm), above_neck},
                  k_min_above_neck_mm, k_box_widest_mm);
-  const double isthmus = isthmus_mm(l);
-  const double above = beside.above_neck_mm;
-  const RidgeMargins ridges = with_step ? ridge_margins(l, isthmus_mm(l), side) : RidgeMargins{};  // the other ridge stands
+  const RidgeMargins ridges = k_with_step ? ridge_margins(l, isthmus_mm(l), k_side) : RidgeMargins{};  // the other ridge stands
   constexpr double k_usual_ridge_mm = 1.2;
   const auto usual = std::find_if(ridges.may.begin(), ridges.may.end(), [](const RidgeMargin& m) { return m.ridge_mm <= k_usual_ridge_mm; });
-  const std::string ridge = with_step ? fixed((usual != ridges.may.end() ? *usual : ridges.may[0]).ridge_mm, 1) : "";
-  const std::vector<Floor> all = with_step ? floors(tooth, l) : std::vector<Floor>{{}};
   for (const double more : {0.0, 0.5, 1.0})
-    for (const Floor& floor : all)
+    for (const Floor& floor : k_with_step ? floors(tooth, l) : std::vector<Floor>{{}})
       for (const double axial : {1.5, 1.2}) {
-        const double level = above + more;
-        std::string zones;
-        if (with_step)
-          zones = fmt::format(
-              "# The occlusal step along the fissure, through the {} ridge ...\n[[zones.target]]\nshape = \"column\"\n"
-              "outline = {{ kind = \"fissure\", width_mm = {}, ridge_mm = {}, through = \"{}\" }}\nbottom = {}\n\n# ... and the box at the contact "
-              "area.\n",
-              word, fixed(isthmus, 1), ridge, word, floor.toml);
-        else
-          zones = "# A box at the contact area, open to the neighbouring tooth.\n";
-        zones += fmt::format("[[zones.target]]\nshape = \"proximal_box\"\nside = \"{}\"\nwidth_mm = {}\ndepth_mm = {}\nabove_neck_mm = {}\n", word,
-                             fixed(beside.width_mm, 1), fixed(axial, 1), fixed(level, 1)) +
-                 beside.shell;
-        const Number width = as_mm(beside.width_mm, 1), step = as_mm(isthmus, 1), wall = as_mm(axial, 1), bottom = as_mm(level, 1);
-        Message what;
-        List lengths;
-        if (with_step) {
-          lengths.items = {msg("isthmus {}", step), msg("floor {}", floor.words)};
-          what =
-              side > 0
-                  ? msg("An occlusal step along the fissure, {} wide, floor {}, and a box {} wide through the mesial ridge, its axial wall {} from "
-                        "the surface, its floor {} above the neck.",
-                        step, floor.words, width, wall, bottom)
-                  : msg("An occlusal step along the fissure, {} wide, floor {}, and a box {} wide through the distal ridge, its axial wall {} from "
-                        "the surface, its floor {} above the neck.",
-                        step, floor.words, width, wall, bottom);
-        } else {
-          what = side > 0 ? msg("Cut a box {} wide through the mesial ridge, its axial wall {} from the surface, its floor {} above the neck.", width,
-                                wall, bottom)
-                          : msg("Cut a box {} wide through the distal ridge, its axial wall {} from the surface, its floor {} above the neck.", width,
-                                wall, bottom);
-        }
-        lengths.items.push_back(
-            side > 0
-                ? msg("a box {} wide through the mesial ridge, its axial wall {} from the surface, its floor {} above the neck", width, wall, bottom)
-                : msg("a box {} wide through the distal ridge, its axial wall {} from the surface, its floor {} above the neck", width, wall,
-                      bottom));
-        list.push_back({zones, pulp_guard_text(0.5), with_pits(what, ridges.pits_left), chosen_with_pits(std::move(lengths), ridges.pits_left)});
+        TaskChoice choice{
+            .gaps = {gap_mm("box_width", beside.width_mm, 1), gap_mm("axial", axial, 1), gap_mm("level", beside.above_neck_mm + more, 1)},
+            .shell = beside.shell,
+            .pits_left = ridges.pits_left};
+        if (k_with_step)
+          choice.gaps.insert(choice.gaps.end(), {gap_mm("width", isthmus_mm(l), 1),
+                                                 {"floor", floor.toml, floor.words},
+                                                 gap_mm("ridge", (usual != ridges.may.end() ? *usual : ridges.may[0]).ridge_mm, 1)});
+        list.push_back(std::move(choice));
       }
   return list;
 }
 
+Message no_access(const Tooth& tooth, const Landmarks& l) {
+  if (!has_tissue(tooth, "pulp")) return msg("it has no pulp");
+  if (!l.incisal_edge_mm.empty()) return why_no_front_access(tooth, l);
+  return l.chamber_roof_mm ? Message() : msg("no pulp chamber is found in it");
+}
 std::vector<TaskChoice> access(const Tooth& tooth, const Landmarks& l) {
   if (!l.incisal_edge_mm.empty()) return front_access(tooth, l);
   std::vector<TaskChoice> list;
   for (const auto& [wider, rounding] : {std::pair(0.1, 0.55), {0.1, 0.5}, {0.2, 0.55}, {0.3, 0.55}})  // a narrow chamber: as burs need it
-    list.push_back(
-        {fmt::format(
-             "# The chamber's shadow seen from above, {} mm wider, from the surface down to where the canals begin.\n[[zones.target]]\n"
-             "shape = \"column\"\noutline = {{ kind = \"projection\", tissue = \"pulp\", part = \"chamber\", offset_mm = {}, rounding_mm = {} }}\n"
-             "bottom = {{ kind = \"tissue_floor\", tissue = \"pulp\", part = \"chamber\" }}\n",
-             plain_number(wider), plain_number(wider), plain_number(rounding)),
-         "", msg("Remove the whole roof of the pulp chamber with its horns; leave walls and floor."),
-         msg("the chamber's shadow, {} wider, corners of {}", as_mm(wider, 1), as_mm(rounding, k_as_needed))});
+    list.push_back({.gaps = {gap_mm("wider", wider, 1), gap_mm("rounding", rounding, k_as_needed)}});
   return list;
 }
 
-std::vector<TaskChoice> lesion(const Tooth&, const Landmarks&) {
-  return {
-      {"# The lesion itself ...\n[[zones.target]]\nshape = \"tissue\"\ntissue = \"lesion\"\n\n# ... and the way to it: its shadow, down to its "
-       "roof.\n"
-       "[[zones.target]]\nshape = \"column\"\noutline = { kind = \"projection\", tissue = \"lesion\", rounding_mm = 0.55 }\n"
-       "bottom = { kind = \"tissue_roof\", tissue = \"lesion\" }\n",
-       pulp_guard_text(0.3), msg("Open the enamel above the softened dentin, remove all of it, spare the sound dentin."),
-       msg("the lesion and its shadow")}};
+Message no_lesion(const Tooth& tooth, const Landmarks&) {
+  return has_tissue(tooth, "lesion") ? Message() : msg("it has no lesion: `cavum tooth lesion` grows one");
 }
-
-/// Of a tooth's lesion, how much must go: as much of it as in the lesion task that ships.
-std::string lesion_criteria(const Tooth& tooth) {
+/// Of a tooth's lesion as much must go as in the lesion task that ships.
+std::vector<TaskChoice> lesion(const Tooth& tooth, const Landmarks&) {
   constexpr double k_full = 0.87, k_zero = 0.58;
   const double mm3 = static_cast<double>(tooth.octree.count_leaves()[tooth.tissue_id("lesion")]) * tooth.octree.leaf_volume_mm3();
-  return fmt::format(
-      "\n[[rubric.criteria]]\nid = \"lesion\"\ntitle = \"Soft dentin removed\"\nmetric = \"touched_lesion_mm3\"\nfull = {}                   # of {} "
-      "mm3\nzero = {}\npoints = 30\ncritical_below = {}         # with so much of it left the lesion goes on\n",
-      fixed(k_full * mm3, 2), fixed(mm3, 2), fixed(k_zero * mm3, 2), fixed(k_zero * mm3, 2));
+  return {{.gaps = {{"lesion_mm3", fixed(mm3, 2)}, {"lesion_full", fixed(k_full * mm3, 2)}, {"lesion_zero", fixed(k_zero * mm3, 2)}}}};
 }
 
-bool spares_the_pulp(const ToothTask& task, const Tooth& tooth) {
-  return !task.access && std::string_view(task.word) != "lesion" && has_tissue(tooth, "pulp");  // a lesion may reach as far as it likes
-}
+constexpr std::array<ToothTask, 12> k_tasks{{{"class_1", no_fissure<0>, class_1},
+                                             {"class_2_mesial", no_step<1>, box<1, true>, 1},
+                                             {"class_2_distal", no_step<-1>, box<-1, true>, -1},
+                                             {"slot_mesial", no_box<1>, box<1, false>, 1},
+                                             {"slot_distal", no_box<-1>, box<-1, false>, -1},
+                                             {"access", no_access, access, 0, false},
+                                             {"lesion", no_lesion, lesion, 0, false},
+                                             {"class_5", why_no_class_5, class_5},
+                                             {"crown", why_no_crown, crown_preparation},
+                                             {"dexterity_groove", why_no_dexterity, dexterity},
+                                             {"dexterity_circle", why_no_dexterity, dexterity},
+                                             {"dexterity_cross", why_no_dexterity, dexterity}}};
 
-constexpr const char* k_cavity_tray = R"(["cylinder-flat-1.0", "cylinder-round-1.0", "round-1.0"])";
-
-const std::vector<ToothTask>& tasks() {
-  const auto no_step = [](int side) {
-    return [side](const Tooth&, const Landmarks& l) {
-      const Message fissure = no_fissure(l, side);
-      return fissure.empty() ? no_contact(l, side) : fissure;
-    };
-  };
-  const auto no_box = [](int side) {
-    return [side](const Tooth&, const Landmarks& l) {
-      if (!l.incisal_edge_mm.empty()) return msg("a front tooth has no such box");
-      return no_contact(l, side);
-    };
-  };
-  const auto boxes = [](int side, bool with_step) {
-    return [side, with_step](const Tooth& tooth, const Landmarks& l) { return box(tooth, l, side, with_step); };
-  };
-  const auto shapes = [](DexterityShape shape) { return [shape](const Tooth&, const Landmarks& l) { return dexterity(l, shape); }; };
-  static const std::vector<ToothTask> k_tasks{
-      {"class_1", msg("Class I cavity along the central fissure"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])",
-       [](const Tooth&, const Landmarks& l) { return no_fissure(l, 0); }, class_1},
-      {"class_2_mesial", msg("Class II cavity, mesial"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(1), boxes(1, true), 1},
-      {"class_2_distal", msg("Class II cavity, distal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_step(-1), boxes(-1, true), -1},
-      {"slot_mesial", msg("Slot at the mesial surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(1), boxes(1, false), 1},
-      {"slot_distal", msg("Slot at the distal surface"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", no_box(-1), boxes(-1, false), -1},
-      {"access", msg("Access to the pulp chamber"), R"(["endo-access-1.0", "round-1.0", "cylinder-round-1.0"])", true, R"(["pulp"])",
-       R"(["periodontium"])",
-       [](const Tooth& tooth, const Landmarks& l) -> Message {
-         if (!has_tissue(tooth, "pulp")) return msg("it has no pulp");
-         if (!l.incisal_edge_mm.empty()) return why_no_front_access(tooth, l);
-         return l.chamber_roof_mm ? Message() : msg("no pulp chamber is found in it");
-       },
-       access},
-      {"lesion", msg("Removal of a hidden lesion"), R"(["round-1.0", "round-1.4", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       [](const Tooth& tooth, const Landmarks&) -> Message {
-         return has_tissue(tooth, "lesion") ? Message() : msg("it has no lesion: `cavum tooth lesion` grows one");
-       },
-       lesion},
-      {"class_5", msg("Class V cavity, buccal"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_class_5, class_5, 0,
-       side_steps_text()},
-      {"crown", msg("Preparation for a full crown"), R"(["taper-round-1.2", "cylinder-round-1.0"])", false, "[]", R"(["pulp", "periodontium"])",
-       why_no_crown, crown_preparation, 0, crown_steps_text(), crown_criteria_text(), k_crown_walls_share},
-      {"dexterity_groove", msg("Dexterity: a straight groove"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::groove), 0, side_steps_text()},
-      {"dexterity_circle", msg("Dexterity: a round pocket"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::circle), 0, side_steps_text()},
-      {"dexterity_cross", msg("Dexterity: a cross"), k_cavity_tray, false, "[]", R"(["pulp", "periodontium"])", why_no_dexterity,
-       shapes(DexterityShape::cross), 0, side_steps_text()}};
-  return k_tasks;
+/// The criteria that follow what the tooth has.
+std::string tooth_criteria(const TaskTexts& texts, const Tooth& tooth, int opens, bool spares_pulp) {
+  std::string text;
+  for (const auto& name : beside_criteria(tooth, opens)) text += texts.filled(name, {});
+  if (spares_pulp)
+    text += texts.filled("over_pulp_criterion",
+                         {{"over_pulp_full", fixed(k_planned_over_pulp_mm - 0.1, 1)}, {"over_pulp_least", fixed(k_min_over_pulp_mm, 1)}});
+  return text;
 }
 
 std::string id_of(const std::string& tooth_file, const std::string& task) {
@@ -346,7 +266,7 @@ double wall_limit_mm3(const ZoneMap& zones, double share) {
 
 std::vector<std::string> tooth_task_words() {
   std::vector<std::string> words;
-  for (const auto& t : tasks()) words.emplace_back(t.word);
+  for (const auto& t : k_tasks) words.emplace_back(t.word);
   return words;
 }
 
@@ -371,7 +291,7 @@ std::string language_table(const Scenario& s, const Message& title, const Messag
 
 std::vector<OfferedTask> offered_tasks(const Tooth& tooth, const Landmarks& landmarks) {
   std::vector<OfferedTask> list;
-  for (const auto& t : tasks()) list.push_back({t.word, t.title, t.why_not(tooth, landmarks)});
+  for (const auto& t : k_tasks) list.push_back({t.word, TaskTexts(t.word).sentence("title", {}), t.why_not(tooth, landmarks)});
   return list;
 }
 
@@ -379,7 +299,7 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
                              const std::string& task, const TaskTrial& trial, const TaskLanguage& language) {
   const ToothTask* asked = nullptr;
   List words;
-  for (const auto& t : tasks()) {
+  for (const auto& t : k_tasks) {
     if (t.word == task)
       asked = &t;
     else
@@ -390,8 +310,10 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   if (const Message why = asked->why_not(tooth, landmarks); !why.empty())
     throw Error(option, msg("'{}' is not fit for it: {}", tooth.name, why), msg("see `cavum tooth landmarks`, or choose another of {}", words));
 
-  const std::string criteria = (asked->criteria.empty() ? "" : "\n" + asked->criteria) + (task == "lesion" ? lesion_criteria(tooth) : std::string()) +
-                               beside_criteria(tooth, asked->opens) + (spares_the_pulp(*asked, tooth) ? over_pulp_criterion() : std::string());
+  const TaskTexts texts(task);
+  const bool spares_pulp = asked->spares_pulp && has_tissue(tooth, "pulp");
+  const Message title = texts.sentence("title", {});
+  const std::string criteria = tooth_criteria(texts, tooth, asked->opens, spares_pulp);
   Message refused, against;
   std::string too_deep;  // a floor that was left out for the pulp
   const auto holds = [&](const std::string& text) {
@@ -403,36 +325,35 @@ WrittenTask write_tooth_task(const Tooth& tooth, const Landmarks& landmarks, con
   double reaches = 0, spares_mm = 0;  // the most of any choice that was left out for it
   for (const TaskChoice& choice : asked->choices(tooth, landmarks)) {
     if (!too_deep.empty() && choice.floor == too_deep) continue;
-    TaskText text{.id = id_of(tooth_file, task),
-                  .title = english_text(asked->title),
-                  .what = english_text(choice.what),
-                  .tooth_file = tooth_file,
-                  .about = about(tooth),
-                  .burs = asked->burs,
-                  .time_limit_s = 7200,
-                  .access = asked->access,
-                  .aims = asked->aims,
-                  .faults = present(tooth, asked->faults),
-                  .zones = choice.zones,
-                  .guard = choice.guard,
-                  .steps = asked->steps,
-                  .criteria = criteria,
-                  .walls_limit_of = asked->walls_share == 0.25 ? "a quarter of the cavity" : "a tenth of what is taken off"};
-    CheckedScenario checked = check_whole(scenario_text(text), path);
+    const Message what = with_pits(texts.sentence("what", choice.gaps, choice.variant), choice.pits_left);
+    const auto text_with = [&](double limit_s, const std::string& walls_limit) {
+      Gaps gaps = choice.gaps;
+      gaps.insert(gaps.end(), {{"id", id_of(tooth_file, task)},
+                               {"title", english_text(title)},
+                               {"what", english_text(what)},
+                               {"tooth", tooth_file},
+                               {"about", about(tooth)},
+                               {"faults", present(tooth, texts.filled("faults", {}))},
+                               {"time_limit_s", plain_number(limit_s)},
+                               {"shell", choice.shell ? texts.filled("neighbour_shell", {}) : ""},
+                               {"walls_limit", walls_limit},
+                               {"tooth_criteria", criteria}});
+      return texts.filled("scenario", gaps, choice.variant);
+    };
+    CheckedScenario checked = check_whole(text_with(7200, ""), path);
     if (checked.sound() && checked.expert.reach < k_min_reach) {
       reaches = std::max(reaches, checked.expert.reach);
-    } else if (const double over_pulp =
-                   checked.laid && spares_the_pulp(*asked, tooth) ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_planned_over_pulp_mm;
+    } else if (const double over_pulp = checked.laid && spares_pulp ? planned_over_pulp_mm(tooth, checked.laid->zones) : k_planned_over_pulp_mm;
                checked.sound() && over_pulp < k_planned_over_pulp_mm) {
       spares_mm = std::max(spares_mm, over_pulp);
       too_deep = choice.floor;
     } else if (checked.sound()) {
-      text.time_limit_s = time_limit_s(checked.expert.time_s);
-      text.walls_limit_mm3 = wall_limit_mm3(checked.laid->zones, asked->walls_share);
-      const std::string written = scenario_text(text) + language_table(checked.laid->scenario, asked->title, choice.what, language);
+      const double walls_mm3 = wall_limit_mm3(checked.laid->zones, texts.number("walls_share"));
+      const std::string written = text_with(time_limit_s(checked.expert.time_s), texts.filled("walls_limit", {{"walls_mm3", fixed(walls_mm3, 1)}})) +
+                                  language_table(checked.laid->scenario, title, what, language);
       checked = check_whole_in(*checked.laid, written, path);
       if (checked.sound()) {
-        WrittenTask found{written, checked.problems, choice.chosen};
+        WrittenTask found{written, checked.problems, chosen_with_pits(texts.sentences("chosen", choice.gaps, choice.variant), choice.pits_left)};
         if (!found.problems.empty())
           unwise.push_back(std::move(found));
         else if (holds(written))

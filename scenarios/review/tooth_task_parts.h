@@ -1,22 +1,23 @@
 // The parts that tasks for any tooth are put together from: what there is to choose from, best first, and why a tooth is not fit.
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
 #include "engine/tooth/anatomy/landmarks.h"
+#include "scenarios/review/task_texts.h"
 
 namespace cavum::scenarios {
 
 /// One way to lay a task out on a tooth; the first that fits is taken.
 struct TaskChoice {
-  std::string zones, guard;  ///< TOML
-  Message what, chosen;      ///< what the candidate reads; the lengths, for people
-  std::string floor{};       ///< TOML; later choices of the same floor lie no further from the pulp; empty: nothing is said
+  Gaps gaps;                        ///< the lengths, as the task's texts name them
+  std::string variant{};            ///< "_front": texts of that ending go before
+  bool shell = false;               ///< leaves a shell before the neighbour out of the target
+  std::array<bool, 2> pits_left{};  ///< mesial, distal: beside the cavity
+  std::string floor{};              ///< TOML; later choices of the same floor lie no further from the pulp; empty: nothing is said
 };
-
-/// [[zones.protected]]: pulp with so much around it.
-[[nodiscard]] std::string pulp_guard_text(double offset_mm);
 
 /// A front tooth's access, leaning towards lingual. Empty `why_not`: the tooth shows what it needs.
 [[nodiscard]] Message why_no_front_access(const Tooth& tooth, const Landmarks& landmarks);
@@ -31,14 +32,7 @@ struct TaskChoice {
 [[nodiscard]] std::vector<TaskChoice> crown_preparation(const Tooth& tooth, const Landmarks& landmarks);
 
 /// Shapes of one depth in the buccal surface: manual dexterity.
-enum class DexterityShape { groove, circle, cross };
 [[nodiscard]] Message why_no_dexterity(const Tooth& tooth, const Landmarks& landmarks);
-[[nodiscard]] std::vector<TaskChoice> dexterity(const Landmarks& landmarks, DexterityShape shape);
-
-/// Steps of a cavity in a side, TOML: its axial wall is curved, so a straight bur leaves a little more of it.
-[[nodiscard]] std::string side_steps_text();
-/// Steps and further criteria that a crown's rubric has of its own, TOML.
-[[nodiscard]] std::string crown_steps_text();
-[[nodiscard]] std::string crown_criteria_text();
+[[nodiscard]] std::vector<TaskChoice> dexterity(const Tooth& tooth, const Landmarks& landmarks);
 
 }  // namespace cavum::scenarios

@@ -3,6 +3,7 @@
 #include <fmt/ranges.h>
 
 #include <CLI/CLI.hpp>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <memory>
@@ -15,7 +16,7 @@
 #include "grading/result/result_json.h"
 #include "grading/trial/trial.h"
 #include "scenarios/exam/exam.h"
-#include "scenarios/file/template.h"
+#include "scenarios/review/task_texts.h"
 #include "scenarios/review/tooth_task.h"
 #include "ui/cli/solved_exam.h"
 #include "ui/language/language.h"
@@ -28,6 +29,13 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
+/// A tooth of data/teeth by the word that `--tooth` takes for it.
+struct ShippedTooth {
+  std::string_view word, file;
+};
+constexpr std::array<ShippedTooth, 4> k_shipped_teeth{
+    {{"molar", "lower_molar.cvt"}, {"premolar", "upper_premolar.cvt"}, {"incisor", "upper_incisor.cvt"}, {"carious_molar", "molar_lesion.cvt"}}};
+
 struct NewArguments {
   std::string tooth = "molar", task, out;
   bool force = false, list = false, json = false, untried = false;
@@ -36,14 +44,14 @@ struct NewArguments {
 
 std::string tooth_names() {
   std::string names;
-  for (const auto& t : scenarios::shipped_teeth()) names += std::string(t.word) + ", ";
+  for (const auto& t : k_shipped_teeth) names += std::string(t.word) + ", ";
   return names + "block";
 }
 
 /// The file of the tooth that `--tooth` names.
 std::string tooth_file(const NewArguments& o) {
   if (o.tooth.ends_with(".cvt")) return o.tooth;
-  for (const auto& t : scenarios::shipped_teeth())
+  for (const auto& t : k_shipped_teeth)
     if (t.word == o.tooth) return scenarios::find_data_file("teeth", std::string(t.file), o.out);
   throw Error(Name{"--tooth " + o.tooth}, msg("there is no such tooth to write a scenario for"),
               msg("choose {}, or a tooth file (.cvt)", tooth_names()));
@@ -52,7 +60,7 @@ std::string tooth_file(const NewArguments& o) {
 /// A tooth's file as the scenario beside `out` names it: by its name where both lie together or it ships, else by its whole path.
 std::string named_from(const std::string& out, const std::string& tooth_file) {
   namespace fs = std::filesystem;
-  for (const auto& t : scenarios::shipped_teeth())
+  for (const auto& t : k_shipped_teeth)
     if (fs::path(tooth_file).filename() == t.file && fs::equivalent(tooth_file, scenarios::find_data_file("teeth", std::string(t.file), out)))
       return std::string(t.file);
   const fs::path tooth = fs::absolute(tooth_file).lexically_normal(), folder = fs::absolute(out).lexically_normal().parent_path();

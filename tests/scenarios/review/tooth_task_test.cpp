@@ -4,11 +4,14 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <set>
 
 #include "engine/base/error.h"
 #include "engine/tooth/make/make_premolar.h"
+#include "scenarios/exam/exam.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/ridge_margins.h"
+#include "scenarios/review/task_texts.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
@@ -25,6 +28,14 @@ TEST(ToothTask, AFrontToothAndABlockAreOfferedWhatMakesSense) {
     EXPECT_GE(offered, least) << file;
     EXPECT_LE(offered, most) << file;
   }
+}
+
+TEST(ToothTask, EveryTaskHasItsTextsAndEveryTextItsTask) {
+  std::set<std::string> files{"common"};
+  for (const auto& word : tooth_task_words()) files.insert(word);
+  for (const auto& word : block_task_words()) files.insert("block_" + word);
+  const auto there = data_names("tasks", "");
+  EXPECT_EQ(files, std::set<std::string>(there.begin(), there.end()));
 }
 
 TEST(ToothTask, WhatIsWrittenIsSoundAndFollowsTheLandmarks) {

@@ -1,10 +1,9 @@
 // Every task that `cavum scenario new` writes on the block.
-#include "scenarios/file/template.h"
-
 #include <gtest/gtest.h>
 
 #include "engine/base/error.h"
 #include "scenarios/review/check.h"
+#include "scenarios/review/task_texts.h"
 #include "tests/engine/support/basics.h"
 
 namespace cavum::scenarios {
