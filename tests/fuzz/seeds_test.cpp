@@ -21,8 +21,7 @@ std::vector<Bytes> findings_of(const std::string& name) {
   std::vector<Bytes> out;
   std::vector<std::filesystem::path> paths;
   std::error_code none;
-  for (const auto& entry : std::filesystem::directory_iterator(CAVUM_SOURCE_DIR "/tests/fuzz/seeds/" + name, none))
-    paths.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(CAVUM_SOURCE_DIR "/tests/fuzz/seeds/" + name, none)) paths.push_back(entry.path());
   std::sort(paths.begin(), paths.end());
   for (const auto& p : paths) out.push_back(read_file(p.string()));
   return out;

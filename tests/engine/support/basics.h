@@ -73,7 +73,7 @@ inline bool tells(const Message& message, const Value& wanted) {
     if (const auto* place = std::get_if<FilePlace>(&v)) return wanted == Value(Name{place->file});
     if (const auto* term = std::get_if<Term>(&v)) return wanted == Value(Name{term->english});
     if (const auto* authored = std::get_if<Authored>(&v)) return wanted == Value(Name{authored->english});
-    if (const auto *is = std::get_if<Number>(&v), *number = std::get_if<Number>(&wanted); is != nullptr && number != nullptr)
+    if (const auto* is = std::get_if<Number>(&v), *number = std::get_if<Number>(&wanted); is != nullptr && number != nullptr)
       return std::fabs(is->value - number->value) < 2e-6;
     if (const auto* inner = std::get_if<Message>(&v)) return tells(*inner, wanted);
     const auto* list = std::get_if<List>(&v);
