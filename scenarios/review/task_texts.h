@@ -45,7 +45,7 @@ class TaskTexts {
   std::map<std::string, Text> texts_;
 };
 
-/// Tasks on the block that ships, which has no landmarks: each data/tasks/block_NAME.toml.
+/// Tasks on the block that ships, which has no landmarks: each file of data/tasks that begins with block_.
 [[nodiscard]] std::vector<std::string> block_task_words();
 /// A whole scenario with comments, without mistakes. Throws Error that lists the tasks for any other word.
 [[nodiscard]] std::string block_task(const std::string& word);

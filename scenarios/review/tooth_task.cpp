@@ -38,7 +38,7 @@ constexpr std::size_t k_max_tried = 4;
 // The last step of a task asks for 87 % of the cavity, and the expert removes some 3 % less than that reach.
 constexpr double k_min_reach = 0.895;
 
-/// What of a task follows landmarks; its texts are data/tasks/WORD.toml.
+/// What of a task follows landmarks; its texts are the file of its name in data/tasks.
 struct ToothTask {
   const char* word;
   Message (*why_not)(const Tooth&, const Landmarks&);

@@ -14,7 +14,8 @@
 #define CAVUM_TUNING(NAME, VALUE) inline constexpr auto NAME = VALUE
 #endif
 
-namespace cavum::tuning {
+namespace cavum {
+namespace tuning {
 
 // Shape of the tool (contact_tool).
 /// mm. Edges are felt as round as that, as grit makes them: a sharper one could not lie in the corner it has cut, which is rounded between leaves.
@@ -127,4 +128,5 @@ CAVUM_TUNING(k_dead_travel, 0.02);
 /// Share of the full speed, 2000 of 200,000 rpm: an exponential run-down would never end otherwise.
 CAVUM_TUNING(k_still_share, 0.01);
 
-}  // namespace cavum::tuning
+}  // namespace tuning
+}  // namespace cavum
