@@ -45,12 +45,12 @@ class Differences {
  public:
   Differences(const PackedFits& like, const BrickLattice& lattice, const std::vector<PackedFits::Brick>& brick, const Bytes& tissue)
       : lattice_(lattice), near_(lattice.cells(), 0) {
-    constexpr int k_reach = 2;  // a label changes the layers of the bricks beside it, and these what is guessed there
+    constexpr int k_label_reach = 2;  // a label changes the layers of the bricks beside it, and these what is guessed there
     const int n = lattice.bricks_along();
     for (int z = 0; z < n; ++z)
       for (int y = 0; y < n; ++y)
         for (int x = 0; x < n; ++x)
-          if (differ(like, lattice[{x, y, z}], like.lattice[{x, y, z}], brick, tissue)) note({x, y, z}, k_reach);
+          if (differ(like, lattice[{x, y, z}], like.lattice[{x, y, z}], brick, tissue)) note({x, y, z}, k_label_reach);
   }
   /// Something differs at `at`: bricks up to `reach` away are worked out anew.
   void note(IVec3 at, int reach) noexcept {
