@@ -17,7 +17,7 @@ extract() { # OUT LANGUAGE KEYWORDS...; names of files from stdin
   (cd "$root" && xgettext --language="$language" --from-code=UTF-8 --no-wrap --no-location --sort-output --keyword "$@" \
     --force-po --add-comments=translators: --files-from=- --output="$out" 2>>"$new/warnings") || { cat "$new/warnings" >&2; exit 2; }
 }
-git -C "$root" ls-files {engine,scenarios,grading,ui}/{'*.h','*.cpp'} >"$new/sources"
+git -C "$root" ls-files {engine,scenarios,grading,ui}/{'*.h','*.cpp','*.inc'} >"$new/sources"
 git -C "$root" ls-files ui/{report,office}/page/src/'*.ts' >"$new/page"
 extract "$new/sources.pot" C++ --keyword=msg:1 --keyword=msgn:1,2 --keyword=tr:1 --keyword=trn:1,2 --keyword=said:1 <"$new/sources"
 # the table of findings is a macro, which xgettext passes over

@@ -1,10 +1,11 @@
 // What does not hold of a recording: a kind, which programs ask for, and the sentence.
 #pragma once
 
+#include <nlohmann/json_fwd.hpp>
 #include <string_view>
 #include <vector>
 
-#include "engine/base/message_json.h"
+#include "engine/base/message.h"
 #include "engine/base/named_enum.h"
 
 namespace cavum {
@@ -34,16 +35,9 @@ struct Damage {
   Message what;
 };
 using Damages = std::vector<Damage>;
-[[nodiscard]] inline std::vector<Message> words_of(const Damages& damages) {
-  std::vector<Message> out;
-  for (const Damage& d : damages) out.push_back(d.what);
-  return out;
-}
+[[nodiscard]] std::vector<Message> words_of(const Damages& damages);
 
 /// For other programs: {"kind", "values", "text"}.
-template <class Json>
-void to_json(Json& json, const Damage& damage) {
-  json = fact_json(name_in(damage.kind), damage.what);
-}
+void to_json(nlohmann::json& json, const Damage& damage);
 
 }  // namespace cavum

@@ -2,6 +2,7 @@
 
 #include "engine/base/json_fields.h"
 #include "engine/base/json_struct.h"
+#include "engine/base/message_json.h"
 #include "grading/marking/school_mark.h"
 
 namespace cavum::records {
@@ -34,6 +35,11 @@ Findings named(const Message& before, Findings findings) {
 }
 
 void append(Findings& to, const Findings& more) { to.insert(to.end(), more.begin(), more.end()); }
+
+void to_json(json& j, const Finding& finding) {
+  j = fact_json(name_in(finding.kind), finding.what);
+  if (finding.entry) j["entry"] = *finding.entry;
+}
 
 json write_json(const Finding& f) {
   json out = encode(f.what);

@@ -7,7 +7,7 @@
 #include <string_view>
 #include <vector>
 
-#include "engine/base/message_json.h"
+#include "engine/base/message.h"
 #include "engine/base/named_enum.h"
 
 namespace cavum {
@@ -131,11 +131,7 @@ using Findings = std::vector<Finding>;
 void append(Findings& to, const Findings& more);
 
 /// For other programs: {"kind", "values", "text", "entry"}.
-template <class Json>
-void to_json(Json& json, const Finding& finding) {
-  json = fact_json(name_in(finding.kind), finding.what);
-  if (finding.entry) json["entry"] = *finding.entry;
-}
+void to_json(nlohmann::json& json, const Finding& finding);
 // As our own files keep it: {"kind", "say", "of"}.
 [[nodiscard]] nlohmann::json write_json(const Finding& finding);
 void read_json(const nlohmann::json& from, const JsonPlace& at, Finding& finding);

@@ -1,6 +1,6 @@
-// Every constant by which contact, carving and the handpiece are tuned, each with its unit, its reason, and what it breaks when it is halved (½) or
-// doubled (2): measured by tests/bench/tuning.py on a slot, a cone and a press; "–": nothing there changes. "Leaves": edges of a leaf of the tooth.
-// What has a source in the world (stiffness, removal, limits of force) is no tuning: it stands in data/materials and in the servo's configuration.
+// The constants by which contact, carving and the handpiece are tuned, each with its unit and its reason; tests/bench/tuning.py measures what one
+// breaks when it is halved or doubled. "Leaves": edges of a leaf of the tooth. What has a source in the world (stiffness, removal, limits of force)
+// is no tuning: it stands in data/materials and in the servo's configuration.
 #pragma once
 
 #ifdef CAVUM_TUNABLE  // a build for measuring: the environment may give another value
