@@ -11,6 +11,7 @@
 #include "engine/base/text.h"
 #include "grading/trial/random_preparations.h"
 #include "grading/trial/shares_of_target.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/file/measures.h"
 
 namespace cavum::grading {
@@ -48,7 +49,7 @@ class Works {
   /// What is to be taken off lies around what stays: there is nothing beside it but the stump.
   [[nodiscard]] bool around_stump() const {
     const auto& target = task_.scenario.zones.target;
-    return !target.empty() && target[0].kind == scenarios::ShapeSpec::Kind::crown;
+    return !target.empty() && scenarios::body_is(target[0], scenarios::k_around_stump);
   }
   [[nodiscard]] bool longer_in_x() const { return f_.high_mm().x - f_.low_mm().x >= f_.high_mm().y - f_.low_mm().y; }
 

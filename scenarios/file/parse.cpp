@@ -11,6 +11,7 @@
 #include "engine/base/shipped.h"
 #include "engine/base/text.h"
 #include "engine/base/toml_limits.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/measures.h"
 #include "scenarios/file/parse_languages.h"
@@ -371,12 +372,11 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       const ShapeSpec& shape = (*list)[i];
       const std::string place = key + std::to_string(i);
-      const bool column = shape.kind == ShapeSpec::Kind::column;
-      if (shape.kind == ShapeSpec::Kind::tissue || shape.kind == ShapeSpec::Kind::canal_cone) need(shape.tissue, place + "/tissue");
-      if (column && shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
-      if (column && (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor))
+      if (field_of<TissueField>(shape.kind) != nullptr) need(shape.tissue, place + "/tissue");
+      if (shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
+      if (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor)
         need(shape.bottom.tissue, place + "/bottom");
-      if (column && shape.bottom.kind == BottomSpec::Kind::below_border) need("enamel", place + "/bottom");
+      if (shape.bottom.kind == BottomSpec::Kind::below_border) need("enamel", place + "/bottom");
     }
   for (std::size_t i = 0; i < s.rubric.criteria.size(); ++i) {
     const auto measure = find_measure(s.rubric.criteria[i].metric);

@@ -2,8 +2,9 @@
 
 #include <fmt/core.h>
 
-#include <array>
 #include <cmath>
+
+#include "scenarios/file/bodies.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -125,56 +126,30 @@ void read_axis(CheckedTable& t, ShapeSpec& s) {
   s.axis = normalized(along);
 }
 
-void read_place(CheckedTable& t, ShapeSpec& s) {
-  s.at_mm = t.vector("at_mm", 3, {}, true);
-  read_axis(t, s);
-}
-
-void read_turned_place(CheckedTable& t, ShapeSpec& s) {
-  read_place(t, s);
-  s.turn_deg = t.number("turn_deg", -360, 360, 0);
-}
-
-double read_length(CheckedTable& t, const char* key) { return t.number(key, 0.05, k_largest_mm, 1, true); }
-
-void read_box(CheckedTable& t, ShapeSpec& s) {
-  read_turned_place(t, s);
+void read_size(CheckedTable& t, ShapeSpec& s) {
   s.size_mm = t.vector("size_mm", 3, {1, 1, 1}, true);
   if (!(s.size_mm.x > 0 && s.size_mm.y > 0 && s.size_mm.z > 0))
     t.problem("size_mm", msg("'size_mm' must be positive"), msg("write three lengths in mm"), Mistake::out_of_range);
 }
 
-void read_cylinder(CheckedTable& t, ShapeSpec& s) {
-  read_place(t, s);
-  s.radius_mm = read_length(t, "radius_mm");
-  s.height_mm = read_length(t, "height_mm");
+void read_surface_name(CheckedTable& t, ShapeSpec& s) {
+  s.file = t.text("file", "", true);
+  const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
+  if (!s.file.empty() && !named)
+    t.problem("file", msg("'file' is no STL file"), msg("name a closed surface in mm, in the tooth's frame, ending in .stl"), Mistake::surface);
 }
 
-void read_cone(CheckedTable& t, ShapeSpec& s) {
-  read_place(t, s);
-  s.radius_mm = t.number("radius_mm", 0, k_largest_mm, 1, true);
-  s.top_radius_mm = t.number("top_radius_mm", 0, k_largest_mm, 1, true);
-  s.height_mm = read_length(t, "height_mm");
-}
-
-void read_ball(CheckedTable& t, ShapeSpec& s) {
-  s.at_mm = t.vector("at_mm", 3, {}, true);
-  s.radius_mm = read_length(t, "radius_mm");
-}
-
-void read_prism(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
-  read_turned_place(t, s);
-  s.height_mm = read_length(t, "height_mm");
-  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
-  if (s.outline.kind == OutlineSpec::Kind::projection || s.outline.kind == OutlineSpec::Kind::fissure)
+/// An outline that is not seen from occlusal is drawn.
+void check_seen(CheckedTable& t, const OutlineSpec& o, OutlineSeen seen) {
+  const bool follows = o.kind == OutlineSpec::Kind::projection || o.kind == OutlineSpec::Kind::fissure;
+  if (seen == OutlineSeen::along_axis && follows)
     t.problem("outline", msg("a prism cannot follow a tissue or a fissure"), msg("use shape = \"column\""), Mistake::contradictory);
+  if (seen == OutlineSeen::from_side && (follows || o.from_chamber))
+    t.problem("outline", msg("a cavity in a side has an outline of its own"),
+              msg("use a circle, a polygon or a stroke, counted from the neck's middle"), Mistake::contradictory);
 }
 
-void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
-  s.taper_deg = t.number("taper_deg", -30, 45, 0);
-  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
-  if (const auto* b = t.table("bottom", true)) s.bottom = read_bottom(*b, name, problems);
-  s.leans = t.word("lean", {"none", "lingual"}, 0) == 1;
+void check_lean(CheckedTable& t, const ShapeSpec& s) {
   const bool follows = s.outline.kind == OutlineSpec::Kind::projection &&
                        (s.bottom.kind == BottomSpec::Kind::tissue_roof || s.bottom.kind == BottomSpec::Kind::tissue_floor);
   if (s.leans && !follows)
@@ -183,88 +158,22 @@ void read_column(CheckedTable& t, ShapeSpec& s, const std::string& name, Problem
               Mistake::contradictory);
 }
 
-void read_tissue(CheckedTable& t, ShapeSpec& s) {
-  s.tissue = t.text("tissue", "pulp", true);
-  s.part = read_part(t);
-  s.offset_mm = t.number("offset_mm", -5, 5, 0);
-}
-
-void read_stl(CheckedTable& t, ShapeSpec& s) {
-  s.file = t.text("file", "", true);
-  const bool named = s.file.ends_with(".stl") || s.file.ends_with(".STL");
-  if (!s.file.empty() && !named)
-    t.problem("file", msg("'file' is no STL file"), msg("name a closed surface in mm, in the tooth's frame, ending in .stl"), Mistake::surface);
-}
-
-void read_canal_cone(CheckedTable& t, ShapeSpec& s) {
-  s.tissue = t.text("tissue", "pulp");
-  const std::size_t side =
-      t.word("canals", {"all", "mesial", "distal", "buccal", "lingual", "mesiobuccal", "mesiolingual", "distobuccal", "distolingual"}, 0);
-  constexpr std::array<std::array<int, 2>, 9> k_sides{{{0, 0}, {1, 0}, {-1, 0}, {0, 1}, {0, -1}, {1, 1}, {1, -1}, {-1, 1}, {-1, -1}}};
-  if (side != CheckedTable::k_wrong) {
-    s.canals_x = k_sides[side][0];
-    s.canals_y = k_sides[side][1];
-  }
-  s.radius_mm = t.number("radius_mm", 0.05, 5, 0);
-  s.taper_deg = t.number("taper_deg", 0, 45, 5);
-  s.deeper_mm = t.number("deeper_mm", -5, 5, 0);
-  read_axis(t, s);
-}
-
-void read_proximal_box(CheckedTable& t, ShapeSpec& s) {
-  s.side = t.word("side", {"mesial", "distal"}, 0, true) == 1 ? -1 : 1;
-  s.width_mm = t.number("width_mm", 0.5, 10, 3, true);
-  s.depth_mm = t.number("depth_mm", 0.2, 5, 1.5, true);
-  s.above_neck_mm = t.number("above_neck_mm", 0, 6, 1, true);
-}
-
-void read_side_cavity(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
-  s.side = t.word("side", {"buccal", "lingual"}, 0, true) == 1 ? -1 : 1;
-  s.depth_mm = t.number("depth_mm", 0.1, 5, 1.2, true);
-  s.level = t.word("heights", {"neck", "level"}, 0) == 1;
-  if (const auto* o = t.table("outline", true)) s.outline = read_outline(*o, name, problems);
-  using Kind = OutlineSpec::Kind;
-  if (s.outline.kind == Kind::projection || s.outline.kind == Kind::fissure || s.outline.from_chamber)
-    t.problem("outline", msg("a cavity in a side has an outline of its own"),
-              msg("use a circle, a polygon or a stroke, counted from the neck's middle"), Mistake::contradictory);
-}
-
-void read_crown(CheckedTable& t, ShapeSpec& s) {
-  s.above_neck_mm = t.number("above_neck_mm", 0, 4, 0.5, true);
-  s.depth_mm = t.number("depth_mm", 0.3, 3, 1, true);
-  s.taper_deg = t.number("taper_deg", 0, 20, 5, true);
-  s.occlusal_mm = t.number("occlusal_mm", 0.3, 4, 1.5, true);
-}
-
-/// What a body of its kind needs.
-void read_body(CheckedTable& t, ShapeSpec& s, const std::string& name, ProblemList& problems) {
-  using Kind = ShapeSpec::Kind;
-  switch (s.kind) {
-    case Kind::box:
-      return read_box(t, s);
-    case Kind::cylinder:
-      return read_cylinder(t, s);
-    case Kind::cone:
-      return read_cone(t, s);
-    case Kind::ball:
-      return read_ball(t, s);
-    case Kind::prism:
-      return read_prism(t, s, name, problems);
-    case Kind::column:
-      return read_column(t, s, name, problems);
-    case Kind::tissue:
-      return read_tissue(t, s);
-    case Kind::stl:
-      return read_stl(t, s);
-    case Kind::canal_cone:
-      return read_canal_cone(t, s);
-    case Kind::proximal_box:
-      return read_proximal_box(t, s);
-    case Kind::side_cavity:
-      return read_side_cavity(t, s, name, problems);
-    case Kind::crown:
-      return read_crown(t, s);
-  }
+void read_field(CheckedTable& t, ShapeSpec& s, const BodyField& f, const std::string& name, ProblemList& problems) {
+  std::visit(ForEachSort{[&](const NumberField& n) { s.*n.value = t.number(f.key, n.low, n.high, n.otherwise, f.required); },
+                         [&](const WordField& w) {
+                           if (const std::size_t i = t.word(f.key, w.words, 0, f.required); i != CheckedTable::k_wrong) w.choose(s, i);
+                         },
+                         [&](TissueField) { s.tissue = t.text(f.key, "pulp", f.required); }, [&](FileField) { read_surface_name(t, s); },
+                         [&](PlaceField) { s.at_mm = t.vector(f.key, 3, {}, f.required); }, [&](AxisField) { read_axis(t, s); },
+                         [&](SizeField) { read_size(t, s); },
+                         [&](BottomField) {
+                           if (const auto* b = t.table(f.key, f.required)) s.bottom = read_bottom(*b, name, problems);
+                         },
+                         [&](OutlineField o) {
+                           if (const auto* table = t.table(f.key, f.required)) s.outline = read_outline(*table, name, problems);
+                           check_seen(t, s.outline, o.seen);
+                         }},
+             f.as);
 }
 
 ShapeSpec read_shape(const toml::table& table, const std::string& name, const std::string& at, Places& places, ProblemList& problems) {
@@ -274,14 +183,13 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
   for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
-  const std::size_t kind =
-      t.word("shape", {"box", "cylinder", "cone", "ball", "prism", "column", "tissue", "stl", "canal_cone", "proximal_box", "side_cavity", "crown"},
-             0, true);
+  const std::size_t kind = t.word("shape", body_names(), 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<ShapeSpec::Kind>(kind);
   s.combine = static_cast<ShapeSpec::Combine>(combine);
-  read_body(t, s, name, problems);
+  for (const BodyField& field : body_kind(s.kind).fields) read_field(t, s, field, name, problems);
+  check_lean(t, s);
   t.finish();
   return s;
 }

@@ -54,36 +54,39 @@ struct BottomSpec {
   double deeper_mm = 0.0;  ///< moves a tissue's roof or floor down
 };
 
-/// A body in the tooth frame, or one relative to a tissue. Bodies of a list are combined in their order.
+/// A body of one of the kinds of bodies_table.inc, which says what belongs to each. Bodies of a list are combined in their order.
 struct ShapeSpec {
-  enum class Kind { box, cylinder, cone, ball, prism, column, tissue, stl, canal_cone, proximal_box, side_cavity, crown };
+  enum class Kind {
+#define BODY(KIND, ...) KIND,
+#include "scenarios/file/bodies_table.inc"
+  };
   enum class Combine { add, subtract, intersect };
-  Kind kind = Kind::box;
+  Kind kind{};
   Combine combine = Combine::add;
-  Vec3 at_mm;                                                    ///< centre of a box or ball; middle of the lower face of the others
+  Vec3 at_mm;                                                    ///< centre, or middle of the lower face
   Vec3 axis{0, 0, 1};                                            ///< from the lower face upwards, unit
   double turn_deg = 0.0;                                         ///< about the axis
-  Vec3 size_mm;                                                  ///< box
-  double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;  ///< canal_cone: radius at the mouth, 0 = the mouth's own
-  OutlineSpec outline;                                           ///< prism, column, side_cavity
-  BottomSpec bottom;                                             ///< column
-  double taper_deg = 0.0;                                        ///< column, canal_cone: its walls open by this angle towards the occlusal side
-  bool leans = false;                                            ///< column: along the way in from lingual of a front tooth (leaning_column.h)
-  std::string tissue = "pulp";                                   ///< tissue: the leaves of this tissue ...
+  Vec3 size_mm;                                                  ///< along x, y and the axis
+  double radius_mm = 0.0, top_radius_mm = 0.0, height_mm = 0.0;  ///< of a canal's cone: radius at the mouth, 0 = the mouth's own
+  OutlineSpec outline;
+  BottomSpec bottom;
+  double taper_deg = 0.0;       ///< its walls open by this angle towards the occlusal side; of a crown they lean inwards
+  bool leans = false;           ///< along the way in from lingual of a front tooth (leaning_column.h)
+  std::string tissue = "pulp";  ///< what it follows ...
   TissuePart part = TissuePart::all;
   double offset_mm = 0.0;                       ///< ... grown by this much
-  std::string file;                             ///< stl: as written, relative to the scenario's file
-  Sha256 file_sha256{};                         ///< stl: of the file, once it was read
-  std::shared_ptr<const TriangleMesh> surface;  ///< stl: what the file holds, tooth frame; null until read_surfaces (surface_files.h)
-  int canals_x = 0, canals_y = 0;               ///< canal_cone: only canals on this side of the chamber's middle, +1 mesial / buccal; 0 = either
-  double deeper_mm = 0.0;                       ///< canal_cone: begins this far below the canal's mouth
-  int side = 1;                                 ///< proximal_box: at the mesial (+1) or distal (-1) surface; side_cavity: buccal or lingual
-  double width_mm = 0.0;                        ///< proximal_box: from buccal to lingual
-  double depth_mm = 0.0;       ///< proximal_box: from the outer surface at its floor to its axial wall; side_cavity, crown: from the surface inwards
-  double above_neck_mm = 0.0;  ///< proximal_box, crown: of its floor or finish line above the cemento-enamel junction
-  bool level = false;          ///< side_cavity: heights count from the neck's middle, else from the neck below each place
-  double occlusal_mm = 0.0;    ///< crown: of what is taken off the occlusal surface or the incisal edge
-  int line = 0, column = 0;    ///< in the scenario file, for messages
+  std::string file;                             ///< STL: as written, relative to the scenario's file; else empty
+  Sha256 file_sha256{};                         ///< of the file, once it was read
+  std::shared_ptr<const TriangleMesh> surface;  ///< what the file holds, tooth frame; null until read_surfaces (surface_files.h)
+  int canals_x = 0, canals_y = 0;               ///< only canals on this side of the chamber's middle, +1 mesial / buccal; 0 = either
+  double deeper_mm = 0.0;                       ///< begins this far below the canal's mouth
+  int side = 1;                                 ///< at the mesial or buccal (+1), distal or lingual (-1) surface
+  double width_mm = 0.0;                        ///< from buccal to lingual
+  double depth_mm = 0.0;                        ///< from the outer surface inwards
+  double above_neck_mm = 0.0;                   ///< of its floor or finish line above the cemento-enamel junction
+  bool level = false;                           ///< heights count from the neck's middle, else from the neck below each place
+  double occlusal_mm = 0.0;                     ///< of what is taken off the occlusal surface or the incisal edge
+  int line = 0, column = 0;                     ///< in the scenario file, for messages
 };
 
 /// Width of a zone beside and below the target, mm, measured from the target's surface.

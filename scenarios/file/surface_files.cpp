@@ -22,7 +22,7 @@ template <class AnyScenario, class Visit>
 void for_each_surface(AnyScenario& s, const Visit& visit) {
   const auto all = [&](auto& list, const std::string& key) {
     for (std::size_t i = 0; i < list.size(); ++i)
-      if (list[i].kind == ShapeSpec::Kind::stl) visit(list[i], fmt::format("zones/{}/{}/file", key, i));
+      if (!list[i].file.empty()) visit(list[i], fmt::format("zones/{}/{}/file", key, i));
   };
   all(s.zones.target, "target");
   all(s.zones.protected_shapes, "protected");

@@ -10,6 +10,7 @@
 #include "engine/base/text.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"
@@ -144,7 +145,7 @@ void Adviser::walls() {
   const Facing facing = zones_.facing();
   // a finish line lies on the outer surface, so a crown's floor ends in the air
   const bool has_finish_line =
-      std::any_of(s_.zones.target.begin(), s_.zones.target.end(), [](const ShapeSpec& s) { return s.kind == ShapeSpec::Kind::crown; });
+      std::any_of(s_.zones.target.begin(), s_.zones.target.end(), [](const ShapeSpec& s) { return body_is(s, k_around_stump); });
   const ColumnMap surface = surface_relief(own_);
   const Octree& tree = own_.octree;
   const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope

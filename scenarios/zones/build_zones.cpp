@@ -6,6 +6,7 @@
 #include "engine/base/error.h"
 #include "engine/tooth/anatomy/landmarks_file.h"
 #include "engine/tooth/octree_edit.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/zones/leaf_parts.h"
 #include "scenarios/zones/placed.h"
 #include "scenarios/zones/shape.h"
@@ -63,12 +64,12 @@ Vec3 approach_of(const ZoneSpec& spec, ShapeMaker& maker) {
   constexpr double k_steep = 0.5;  // cosine: flatter ways in are no way for a handpiece
   if (spec.target.empty()) return {0, 0, 1};
   const Vec3 axis = maker.way_in(spec.target[0]);
-  if (spec.target[0].kind == ShapeSpec::Kind::side_cavity) return axis;
+  if (body_is(spec.target[0], k_from_side)) return axis;
   return axis.z >= k_steep ? axis : Vec3{0, 0, 1};
 }
 
 Facing facing_of(const ZoneSpec& spec, const ToothKind& tooth) {
-  return {!spec.target.empty() && spec.target[0].kind == ShapeSpec::Kind::side_cavity ? spec.target[0].side : 0, tooth.anterior()};
+  return {!spec.target.empty() && body_is(spec.target[0], k_from_side) ? spec.target[0].side : 0, tooth.anterior()};
 }
 
 /// Of a leaf outside the target that is not protected: by its distance, towards the sides or the bottom.

@@ -1,5 +1,4 @@
-#include "scenarios/zones/crown_shell.h"
-
+// What a full crown takes the place of: everything outside a tapered stump, above a finish line that follows the neck.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -10,6 +9,7 @@
 #include "engine/base/det_math.h"
 #include "engine/base/error.h"
 #include "scenarios/zones/depth_field.h"
+#include "scenarios/zones/shape.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -174,8 +174,13 @@ FinishLine finish_line(const Tooth& tooth, const ShapeSpec& spec, const Landmark
 
 }  // namespace
 
-std::unique_ptr<Shape> crown_shell(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const ColumnMap& surface,
-                                   const Message& where, ZoneWork& work) {
+/// The stump stands along +z about the middle of the neck. Its finish line runs `above_neck_mm` above the neck (its waves smoothed over 35 degrees)
+/// on the outer surface; from there a quarter circle of radius `depth_mm` leads in (chamfer), then the wall leans inwards by `taper_deg`. Everywhere
+/// it stays `depth_mm` below the outer surface, and under the occlusal surface (smoothed over 0.5 mm) by `occlusal_mm` square to its slope.
+/// Throws Error when the tooth shows no neck, or none of its surface at the finish line.
+std::unique_ptr<Shape> body_crown(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+  const Tooth& tooth = maker.own();
+  const Landmarks& landmarks = maker.landmarks();
   if (landmarks.neck_mm.empty())
     throw Error(where, msg("no neck is found on '{}'", tooth.name), msg("look at `cavum tooth landmarks`, or draw the crown's surface as STL"));
   const Octree& tree = tooth.octree;
@@ -184,9 +189,9 @@ std::unique_ptr<Shape> crown_shell(const Tooth& tooth, const ShapeSpec& spec, co
   double lowest = landmarks.neck_mm.front().z;
   for (const Vec3& p : landmarks.neck_mm) lowest = std::min(lowest, p.z);
   const IVec3 from = tree.leaf_at({middle.x, middle.y, lowest - k_field_below_mm});
-  DepthField depth(tooth, {0, 0, from.z}, tree.size(), work);
+  DepthField depth(tooth, {0, 0, from.z}, tree.size(), maker.work());
   const FinishLine line = finish_line(tooth, spec, landmarks, middle, depth, where);
-  ColumnMap top = stump_top(surface, spec.occlusal_mm);
+  ColumnMap top = stump_top(maker.surface(), spec.occlusal_mm);
   for (double& z : top.value)
     if (z == k_no_tooth_mm) z = k_out_mm;  // beside the crown the wall decides
   return std::make_unique<CrownShell>(spec, middle, line, std::move(top), std::move(depth));

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <span>
 
+#include "engine/base/error.h"
 #include "engine/tooth/distance.h"
 
 namespace cavum::scenarios {
@@ -131,6 +132,12 @@ double MeshBody::distance_mm(Vec3 p) const noexcept {
     if (share > 0) sum += share * static_cast<double>(value_mm_[lattice_.index(leaf)]);
   }
   return sum + length(q - c) * lattice_.leaf_mm;
+}
+
+std::unique_ptr<Shape> body_stl(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+  if (spec.surface == nullptr) throw Error(where, msg("the surface '{}' was not read", spec.file), msg("read it first"));
+  count_mesh_body(maker.tooth(), *spec.surface, maker.work());
+  return std::make_unique<MeshBody>(maker.tooth(), *spec.surface);
 }
 
 }  // namespace cavum::scenarios

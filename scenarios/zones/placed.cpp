@@ -8,6 +8,7 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/zones/outline.h"
 
 namespace cavum::scenarios {
@@ -76,11 +77,7 @@ Polyline begun_at_ridge(Polyline line, const MarginalRidge& ridge, double away_m
 }  // namespace
 
 bool follows_landmarks(const ZoneSpec& zones) noexcept {
-  const auto does = [](const ShapeSpec& s) {
-    using Kind = ShapeSpec::Kind;
-    return s.kind == Kind::proximal_box || s.kind == Kind::side_cavity || s.kind == Kind::crown || s.leans ||
-           s.outline.kind == OutlineSpec::Kind::fissure;
-  };
+  const auto does = [](const ShapeSpec& s) { return body_is(s, k_by_landmarks) || s.leans || s.outline.kind == OutlineSpec::Kind::fissure; };
   return std::any_of(zones.target.begin(), zones.target.end(), does) ||
          std::any_of(zones.protected_shapes.begin(), zones.protected_shapes.end(), does);
 }

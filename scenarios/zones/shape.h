@@ -16,8 +16,6 @@
 
 namespace cavum::scenarios {
 
-class Outline;
-
 class Shape {
  public:
   virtual ~Shape() = default;
@@ -54,28 +52,25 @@ class ShapeMaker {
   [[nodiscard]] const ColumnMap& surface();
   /// Where the tooth's cusps, fissures and ridges are; found when they are first asked for.
   [[nodiscard]] const Landmarks& landmarks();
-  /// The way in that a body of the list tells, unit, out of the tooth: its axis, or what it takes from landmarks (leaning_column.h, side_cavity.h).
-  /// The body has been made.
-  [[nodiscard]] Vec3 way_in(const ShapeSpec& spec);
+  /// Of a tissue or its chamber. Throws Error when the tooth has none.
+  [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const Message& where);
+  /// The way in that a body of the list tells, unit, out of the tooth: its axis, or what it took from landmarks when it was made.
+  [[nodiscard]] Vec3 way_in(const ShapeSpec& spec) const;
+  void set_way_in(const ShapeSpec& spec, Vec3 way);
+  /// With what stands beside it.
+  [[nodiscard]] const Tooth& tooth() const noexcept { return tooth_; }
   [[nodiscard]] ZoneWork& work() noexcept { return work_; }
 
  private:
-  /// Where a column ends: the height for each of the tooth's columns, and the one at which its outline is as drawn.
-  struct ColumnBottom {
-    ColumnMap height_mm;
-    double outline_z_mm = 0.0;
-  };
-  [[nodiscard]] std::unique_ptr<Shape> make_one(const ShapeSpec& spec);
-  [[nodiscard]] std::unique_ptr<Shape> make_side_cavity(const ShapeSpec& spec, const Message& where);
-  [[nodiscard]] std::unique_ptr<Shape> make_column(const ShapeSpec& spec, const Message& where);
-  [[nodiscard]] ColumnBottom bottom_of(const BottomSpec& bottom, const Outline& outline, const OutlineSpec& placed, const Message& where);
-  [[nodiscard]] double lowest_border_mm(const Outline& outline, const OutlineSpec& placed, const Message& where);
-  [[nodiscard]] const TissueRelief& relief(const std::string& tissue, TissuePart part, const Message& where);
   struct Cache;
   const Tooth& tooth_;
   std::string where_;
   ZoneWork work_;
   std::unique_ptr<Cache> cache_;
 };
+
+/// What each row of bodies_table.inc is on a tooth; `where` names it in errors. Each in a source of its own, some in that of their like.
+#define BODY(KIND, ...) [[nodiscard]] std::unique_ptr<Shape> body_##KIND(const ShapeSpec& spec, ShapeMaker& maker, const Message& where);
+#include "scenarios/file/bodies_table.inc"
 
 }  // namespace cavum::scenarios

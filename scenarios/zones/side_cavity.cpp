@@ -1,5 +1,5 @@
-#include "scenarios/zones/side_cavity.h"
-
+// A cavity in the buccal or lingual side of a crown, told by the neck: its outline is seen straight from that side, its axial wall follows the
+// surface.
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -121,7 +121,13 @@ Surface surface_in(const Ground& ground, const Outline& outline, const Bounds& r
 
 }  // namespace
 
-PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const Landmarks& landmarks, const Message& where, ZoneWork& work) {
+/// Points of the outline: x from the neck's middle towards mesial, y above the neck, mm, where it meets the surface in its middle. Heights count from
+/// the neck below each place, so that a rectangle bends with it (a kidney), or from its middle (`level`). Walls run straight in along the way; the
+/// axial wall lies `depth_mm` below the surface, square to it. Open outwards; nothing beyond the tooth's long axis. Throws Error when the tooth shows
+/// no neck on that side, or the outline lies beside it.
+std::unique_ptr<Shape> body_side_cavity(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+  const Tooth& tooth = maker.own();
+  const Landmarks& landmarks = maker.landmarks();
   Ground ground{spec.side, spec.level, landmarks.long_axis.through_mm,
                 0,         0,          NeckSide(landmarks.neck_mm, landmarks.long_axis.through_mm.y, spec.side)};
   if (!ground.neck.found())
@@ -138,7 +144,7 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
   const double pad = spec.depth_mm + k_field_pad_mm, out = spec.side > 0 ? tree.origin_mm().y + tree.size().y * tree.leaf_mm() : tree.origin_mm().y;
   const Vec3 low{ground.middle.x + reach.low.x - pad, std::min(ground.middle.y, out), lowest + reach.low.y - pad},
       high{ground.middle.x + reach.high.x + pad, std::max(ground.middle.y, out), highest + reach.high.y + pad};
-  DepthField depth(tooth, tree.leaf_at(low), tree.leaf_at(high) + IVec3{1, 1, 1}, work);
+  DepthField depth(tooth, tree.leaf_at(low), tree.leaf_at(high) + IVec3{1, 1, 1}, maker.work());
   auto outline = make_outline(spec.outline, spec.outline.centre_mm, nullptr);
   const Surface surface = surface_in(ground, *outline, reach, depth, out);
   if (!surface.middle_y)
@@ -146,8 +152,9 @@ PlacedSideCavity side_cavity(const Tooth& tooth, const ShapeSpec& spec, const La
   const Vec3 normal = normalized(surface.normal, {0, double(spec.side), 0});
   ground.surface_y = *surface.middle_y;
   ground.lean = std::clamp(normal.z / std::max(1e-6, spec.side * normal.y), -k_max_lean, k_max_lean);
-  const Vec3 way = normalized(Vec3{0, double(spec.side), ground.lean});
-  return {std::make_unique<SideCavity>(spec, std::move(ground), std::move(outline), std::move(depth)), way};
+  // the mean normal of the surface inside the outline, without its part along x
+  maker.set_way_in(spec, normalized(Vec3{0, double(spec.side), ground.lean}));
+  return std::make_unique<SideCavity>(spec, std::move(ground), std::move(outline), std::move(depth));
 }
 
 }  // namespace cavum::scenarios

@@ -83,6 +83,13 @@ std::unique_ptr<Shape> tissue_body(const Tooth& tooth, const TissueSet& tissues,
   return std::make_unique<TissueBody>(tooth, tissues, lowest_mm, offset_mm, work, asked);
 }
 
+std::unique_ptr<Shape> body_tissue(const ShapeSpec& spec, ShapeMaker& maker, const Message& where) {
+  const TissueRelief& part = maker.relief(spec.tissue, spec.part, where);  // also tells whether the tissue is there at all
+  TissueSet only{};
+  only[maker.tooth().tissue_id(spec.tissue)] = true;
+  return tissue_body(maker.tooth(), only, spec.part == TissuePart::chamber ? part.lowest_mm : -1e9, spec.offset_mm, maker.work());
+}
+
 bool any_within(const Octree& tree, const TissueSet& tissues, const LeafRange& asked) {
   bool any = false;
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {

@@ -8,6 +8,7 @@
 #include "engine/tooth/anatomy/placed.h"
 #include "engine/tooth/marching.h"
 #include "engine/tooth/surface_mesh.h"
+#include "scenarios/file/bodies.h"
 #include "scenarios/file/surface_files.h"
 #include "scenarios/review/check.h"
 #include "scenarios/zones/placed.h"
@@ -48,7 +49,10 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
 }
 
 bool counts_from_chamber(const scenarios::Scenario& s) {
-  const auto does = [](const scenarios::ShapeSpec& shape) { return shape.kind == scenarios::ShapeSpec::Kind::column && shape.outline.from_chamber; };
+  const auto does = [](const scenarios::ShapeSpec& shape) {
+    const auto* outline = scenarios::field_of<scenarios::OutlineField>(shape.kind);
+    return outline != nullptr && outline->seen == scenarios::OutlineSeen::from_occlusal && shape.outline.from_chamber;
+  };
   return std::any_of(s.zones.target.begin(), s.zones.target.end(), does) ||
          std::any_of(s.zones.protected_shapes.begin(), s.zones.protected_shapes.end(), does);
 }

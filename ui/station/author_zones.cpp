@@ -5,66 +5,23 @@
 #include <algorithm>
 #include <cmath>
 
+#include "scenarios/file/bodies.h"
+
 namespace cavum::station {
 namespace {
 
 using Spec = scenarios::ShapeSpec;
-using Kind = Spec::Kind;
-
-Term shape_word(Kind kind) {
-  constexpr const char* k_words[] = {said("box"),
-                                     said("cylinder"),
-                                     said("cone"),
-                                     said("ball"),
-                                     said("prism"),
-                                     said("column"),
-                                     said("tissue"),
-                                     said("STL file"),
-                                     said("canal cone"),
-                                     said("proximal box"),
-                                     said("cavity in a side"),
-                                     said("crown")};
-  return {k_words[static_cast<std::size_t>(kind)]};
-}
-
-/// Numbers of a shape beside those of its outline and bottom.
-struct ShapeNumber {
-  Kind kind;
-  const char *label, *key;
-  double Spec::*value;
-  double low, high;
-  Unit unit = Unit::mm;
-};
-constexpr ShapeNumber k_numbers[] = {
-    {Kind::column, said("taper of the walls"), "taper_deg", &Spec::taper_deg, -30, 45, Unit::deg},
-    {Kind::proximal_box, said("width"), "width_mm", &Spec::width_mm, 0.5, 10},
-    {Kind::proximal_box, said("axial depth"), "depth_mm", &Spec::depth_mm, 0.2, 5},
-    {Kind::proximal_box, said("floor above the neck"), "above_neck_mm", &Spec::above_neck_mm, 0, 6},
-    {Kind::side_cavity, said("depth below the surface"), "depth_mm", &Spec::depth_mm, 0.1, 5},
-    {Kind::crown, said("finish line above the neck"), "above_neck_mm", &Spec::above_neck_mm, 0, 4},
-    {Kind::crown, said("depth of the chamfer"), "depth_mm", &Spec::depth_mm, 0.3, 3},
-    {Kind::crown, said("taper of each wall"), "taper_deg", &Spec::taper_deg, 0, 20, Unit::deg},
-    {Kind::crown, said("occlusal reduction"), "occlusal_mm", &Spec::occlusal_mm, 0.3, 4},
-    {Kind::cylinder, said("height"), "height_mm", &Spec::height_mm, 0.05, 100},
-    {Kind::cylinder, said("radius"), "radius_mm", &Spec::radius_mm, 0.05, 100},
-    {Kind::cone, said("height"), "height_mm", &Spec::height_mm, 0.05, 100},
-    {Kind::cone, said("radius below"), "radius_mm", &Spec::radius_mm, 0, 100},
-    {Kind::cone, said("radius above"), "top_radius_mm", &Spec::top_radius_mm, 0, 100},
-    {Kind::ball, said("radius"), "radius_mm", &Spec::radius_mm, 0.05, 100},
-    {Kind::tissue, said("grown by"), "offset_mm", &Spec::offset_mm, -5, 5},
-    {Kind::canal_cone, said("begins below the mouth by"), "deeper_mm", &Spec::deeper_mm, -5, 5},
-    {Kind::canal_cone, said("taper"), "taper_deg", &Spec::taper_deg, 0, 45, Unit::deg},
-};
 
 /// "target 2, box": the how-manieth of its list, and whether it is laid over or under what stands before it.
 Message title_of(AuthorLayer layer, std::size_t number, const scenarios::ShapeSpec& s) {
+  const Term word{scenarios::body_kind(s.kind).word};
   switch (s.combine) {
     case scenarios::ShapeSpec::Combine::subtract:
-      return msg("{} {}, {}, taken away", word_of(layer), number, shape_word(s.kind));
+      return msg("{} {}, {}, taken away", word_of(layer), number, word);
     case scenarios::ShapeSpec::Combine::intersect:
-      return msg("{} {}, {}, in common", word_of(layer), number, shape_word(s.kind));
+      return msg("{} {}, {}, in common", word_of(layer), number, word);
     default:
-      return msg("{} {}, {}", word_of(layer), number, shape_word(s.kind));
+      return msg("{} {}, {}", word_of(layer), number, word);
   }
 }
 
@@ -115,32 +72,48 @@ void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::s
   zone.points_mm = o.points_mm;
 }
 
-AuthorZone zone_of(const Spec& s, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
+void add_vector(AuthorZone& zone, Vec3 v, const std::string& at, double low, const std::array<Message, 3>& labels) {
+  const double values[] = {v.x, v.y, v.z};
+  for (std::size_t i = 0; i < 3; ++i) zone.numbers.push_back({labels[i], fmt::format("{}/{}", at, i), values[i], low, 100});
+}
+
+/// Where the outline's points lie, on the level of the opening. One that is seen from a side is not drawn.
+void add_seen(AuthorZone& zone, const Spec& s, scenarios::OutlineSeen seen, const std::string& at, double opening_z_mm, Vec3 chamber_mm) {
+  if (seen == scenarios::OutlineSeen::from_side) return;
+  add_outline(zone, s.outline, at);
+  const Vec3 centre = s.outline.centre_mm;
+  if (seen == scenarios::OutlineSeen::from_occlusal) {
+    const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
+    zone.frame = {{from.x + centre.x, from.y + centre.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
+    return;
+  }
+  const scenarios::ShapeFrame f = zone.frame;
+  const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
+  zone.frame.at = f.at + f.z * up + f.x * centre.x + f.y * centre.y;
+}
+
+AuthorZone zone_of(const Spec& s, const std::string& body, double opening_z_mm, Vec3 chamber_mm) {
+  using namespace scenarios;
   AuthorZone zone;
   zone.line = s.line;
-  zone.frame = scenarios::shape_frame(s);
-  if (s.kind == Kind::column) {
-    add_bottom(zone, s.bottom, at + "/bottom");
-    add_outline(zone, s.outline, at + "/outline");
-    const Vec3 from = s.outline.from_chamber ? chamber_mm : Vec3{};
-    zone.frame = {{from.x + s.outline.centre_mm.x, from.y + s.outline.centre_mm.y, opening_z_mm}, {1, 0, 0}, {0, 1, 0}, {0, 0, 1}};
-  } else if (s.kind == Kind::prism) {
-    zone.numbers.push_back({msg("height"), at + "/height_mm", s.height_mm, 0.05, 100});
-    add_outline(zone, s.outline, at + "/outline");
-    const scenarios::ShapeFrame f = zone.frame;
-    const double up = f.z.z > 0.1 ? std::clamp((opening_z_mm - f.at.z) / f.z.z, 0.0, s.height_mm) : s.height_mm;
-    zone.frame.at = f.at + f.z * up + f.x * s.outline.centre_mm.x + f.y * s.outline.centre_mm.y;
-  } else if (s.kind == Kind::box) {
-    zone.numbers.push_back({msg("size along x"), at + "/size_mm/0", s.size_mm.x, 0.05, 100});
-    zone.numbers.push_back({msg("size along y"), at + "/size_mm/1", s.size_mm.y, 0.05, 100});
-    zone.numbers.push_back({msg("size along z"), at + "/size_mm/2", s.size_mm.z, 0.05, 100});
-  }
-  for (const ShapeNumber& n : k_numbers)
-    if (n.kind == s.kind) zone.numbers.push_back({msg("{}", Term{n.label}), fmt::format("{}/{}", at, n.key), s.*n.value, n.low, n.high, n.unit});
-  if (s.kind == Kind::box || s.kind == Kind::cylinder || s.kind == Kind::cone || s.kind == Kind::ball || s.kind == Kind::prism) {
-    zone.numbers.push_back({msg("place, mesial (x)"), at + "/at_mm/0", s.at_mm.x, -100, 100});
-    zone.numbers.push_back({msg("place, buccal (y)"), at + "/at_mm/1", s.at_mm.y, -100, 100});
-    zone.numbers.push_back({msg("place, occlusal (z)"), at + "/at_mm/2", s.at_mm.z, -100, 100});
+  zone.frame = shape_frame(s);
+  for (const BodyField& f : body_kind(s.kind).fields) {
+    const std::string at = fmt::format("{}/{}", body, f.key);
+    std::visit(
+        ForEachSort{
+            [&](const NumberField& n) {
+              if (n.label != nullptr)
+                zone.numbers.push_back({msg("{}", Term{n.label}), at, s.*n.value, n.low, n.high, at.ends_with("_deg") ? Unit::deg : Unit::mm});
+            },
+            [&](PlaceField) {
+              add_vector(zone, s.at_mm, at, -100, {msg("place, mesial (x)"), msg("place, buccal (y)"), msg("place, occlusal (z)")});
+            },
+            [&](SizeField) {
+              add_vector(zone, s.size_mm, at, 0.05, {msg("size along x"), msg("size along y"), msg("size along z")});
+            },
+            [&](BottomField) { add_bottom(zone, s.bottom, at); }, [&](OutlineField o) { add_seen(zone, s, o.seen, at, opening_z_mm, chamber_mm); },
+            [](const WordField&) {}, [](TissueField) {}, [](FileField) {}, [](AxisField) {}},
+        f.as);
   }
   return zone;
 }
