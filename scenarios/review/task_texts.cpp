@@ -12,6 +12,7 @@
 #include "engine/base/text.h"
 #include "engine/base/toml_reader.h"
 #include "scenarios/exam/exam.h"
+#include "scenarios/file/bodies.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -46,6 +47,7 @@ Gap gap_mm(const char* name, double mm, int digits) {
 TaskTexts::TaskTexts(const std::string& task) {
   read("common.toml");
   read(task + ".toml");
+  texts_["bodies"] = {bodies_as_comments(), 0.0, {}};
 }
 
 void TaskTexts::read(const std::string& file) {

@@ -1,5 +1,5 @@
 // The texts of the tasks that `cavum scenario new` writes: data/tasks/NAME.toml, one file a task, and data/tasks/common.toml for what all have in
-// common. A text has gaps, `{width}`: another text of the two files, or a length chosen on the tooth.
+// common. A text has gaps, `{width}`: another text of the two files, a length chosen on the tooth, or `{bodies}` (bodies.h).
 #pragma once
 
 #include <map>
