@@ -18,36 +18,38 @@ import unittest
 from jsonschema import Draft202012Validator
 
 CAVUM, SOURCE = sys.argv[1], pathlib.Path(sys.argv[2])
-SCHEMAS = {name: json.loads((SOURCE / f"data/schemas/{name}.schema.json").read_text()) for name in ("scenario", "result", "ticket")}
-
-# One of each shape, outline and bottom that no task of ours uses.
-SHAPES = [
-    {"shape": "box", "at_mm": [0, 0, 4], "size_mm": [1, 2, 3], "axis": [0, 0, 1], "turn_deg": 10},
-    {"shape": "cylinder", "at_mm": [0, 0, 4], "radius_mm": 1, "height_mm": 2, "axis": [0, 0.1, 1], "combine": "subtract"},
-    {"shape": "cone", "at_mm": [0, 0, 4], "radius_mm": 1, "top_radius_mm": 2, "height_mm": 2, "axis": [0, 0, 1]},
-    {"shape": "ball", "at_mm": [0, 0, 4], "radius_mm": 1, "combine": "intersect"},
-    {"shape": "prism", "at_mm": [0, 0, 4], "height_mm": 1, "axis": [0, 0, 1], "turn_deg": 5,
-     "outline": {"kind": "polygon", "points_mm": [[0, 0], [1, 0], [0, 1]], "centre_mm": [0, 0], "from": "tooth", "offset_mm": 0.1}},
-    {"shape": "column", "taper_deg": 3, "outline": {"kind": "circle", "radius_mm": 1, "centre_mm": [0, 0], "from": "chamber", "offset_mm": 0},
-     "bottom": {"kind": "level", "z_mm": 2}},
-    {"shape": "column", "outline": {"kind": "stroke", "points_mm": [[0, 0], [1, 0]], "width_mm": 1}, "bottom": {"kind": "below_mean", "depth_mm": 2}},
-    {"shape": "column", "outline": {"kind": "projection", "tissue": "pulp", "part": "all", "rounding_mm": 0.1, "offset_mm": 0.1},
-     "bottom": {"kind": "tissue_roof", "tissue": "pulp", "part": "chamber", "deeper_mm": 0.1}},
-    {"shape": "tissue", "tissue": "pulp", "part": "chamber", "offset_mm": 0.1},
-    {"shape": "stl", "file": "cavity.stl"},
-    {"shape": "canal_cone", "tissue": "pulp", "canals": "mesial", "radius_mm": 0.5, "taper_deg": 5, "deeper_mm": 0, "axis": [0, 0, 1]},
-    {"shape": "column", "outline": {"kind": "fissure", "width_mm": 1.2, "ridge_mm": 1.5, "branches": "all", "through": "mesial", "offset_mm": 0},
-     "bottom": {"kind": "below_border", "depth_mm": 0.2}},
-    {"shape": "proximal_box", "side": "distal", "width_mm": 3, "depth_mm": 1.2, "above_neck_mm": 1},
-    {"shape": "column", "lean": "lingual", "outline": {"kind": "projection", "tissue": "pulp"}, "bottom": {"kind": "tissue_floor", "tissue": "pulp"}},
-    {"shape": "side_cavity", "side": "lingual", "depth_mm": 1, "heights": "level",
-     "outline": {"kind": "circle", "radius_mm": 1, "centre_mm": [0, 4], "from": "tooth", "offset_mm": 0}},
-    {"shape": "crown", "above_neck_mm": 0.5, "depth_mm": 1, "taper_deg": 6, "occlusal_mm": 1.5},
-]
 
 
 def cavum(*arguments, **more):
     return subprocess.run([CAVUM, *map(str, arguments)], capture_output=True, text=True, **more)
+
+
+SCHEMAS = {name: json.loads((SOURCE / f"data/schemas/{name}.schema.json").read_text()) for name in ("result", "ticket")}
+SCHEMAS["scenario"] = json.loads(cavum("scenario", "schema").stdout)
+
+# What fields of bodies take that are neither a number nor a word.
+VALUES = {"at_mm": [0, 0, 4], "size_mm": [1, 2, 3], "axis": [0, 0.1, 1], "tissue": "pulp", "file": "cavity.stl", "bottom": {"kind": "level", "z_mm": 2},
+          "outline": {"kind": "circle", "radius_mm": 1, "centre_mm": [0, 4], "from": "tooth", "offset_mm": 0}}
+
+
+def one_of(branch):
+    """A body of one kind, with all its fields."""
+    fields = branch["then"]["properties"].items()
+    return {"shape": branch["if"]["properties"]["shape"]["const"]} | {
+        key: VALUES[key] if key in VALUES else s["enum"][0] if "enum" in s else (s["minimum"] + s["maximum"]) / 2 for key, s in fields if s is not True}
+
+
+# One of each shape, and of each outline and bottom that no task of ours uses.
+SHAPES = [one_of(branch) for branch in SCHEMAS["scenario"]["$defs"]["shape"]["allOf"]] + [
+    {"shape": "ball", "at_mm": [0, 0, 4], "radius_mm": 1, "combine": "intersect"},
+    {"shape": "prism", "at_mm": [0, 0, 4], "height_mm": 1, "axis": [0, 0, 1], "turn_deg": 5,
+     "outline": {"kind": "polygon", "points_mm": [[0, 0], [1, 0], [0, 1]], "centre_mm": [0, 0], "from": "tooth", "offset_mm": 0.1}},
+    {"shape": "column", "outline": {"kind": "stroke", "points_mm": [[0, 0], [1, 0]], "width_mm": 1}, "bottom": {"kind": "below_mean", "depth_mm": 2}},
+    {"shape": "column", "outline": {"kind": "projection", "tissue": "pulp", "part": "all", "rounding_mm": 0.1, "offset_mm": 0.1},
+     "bottom": {"kind": "tissue_roof", "tissue": "pulp", "part": "chamber", "deeper_mm": 0.1}},
+    {"shape": "column", "outline": {"kind": "fissure", "width_mm": 1.2, "ridge_mm": 1.5, "branches": "all", "through": "mesial", "offset_mm": 0},
+     "bottom": {"kind": "below_border", "depth_mm": 0.2}},
+]
 
 
 def toml(value):

@@ -1,4 +1,4 @@
-// `cavum scenario check | show | solve`: authoring help.
+// `cavum scenario check | show | solve | schema`: authoring help.
 #include <CLI/CLI.hpp>
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include "scenarios/operators/simulated_exam.h"
 #include "scenarios/review/check.h"
 #include "scenarios/review/picture.h"
+#include "scenarios/review/scenario_schema.h"
 #include "scenarios/zones/zone_map.h"
 #include "ui/cli/scenario_new.h"
 #include "ui/cli/solved_exam.h"
@@ -282,6 +283,9 @@ void add_scenario_verbs(CLI::App& app, int& exit_code) {
   solves->add_flag("--trial", o->trial, tr("also mark faulty preparations by the rubric: none may pass"));
   solves->add_flag("--json", o->json, tr("one JSON object on standard output"));
   solves->callback([o, &exit_code] { exit_code = solve(*o); });
+
+  auto* schema = verb->add_subcommand("schema", tr("Print the JSON Schema of a scenario file, for editors"));
+  schema->callback([] { print_json(scenarios::scenario_schema()); });
 
   add_scenario_new(*verb, exit_code);
 }
