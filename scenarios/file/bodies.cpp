@@ -1,6 +1,6 @@
 #include "scenarios/file/bodies.h"
 
-#include <fmt/ranges.h>
+#include <fmt/format.h>
 
 #include <sstream>
 
@@ -54,32 +54,27 @@ const std::vector<BodyKind>& kinds() {
   return k_kinds;
 }
 
-/// "at_mm (centre)", "side = "mesial" or "distal"", "depth_mm 0.2 to 5".
-std::string field_text(const BodyField& f, bool ranges) {
-  std::string text = f.key;
-  if (const auto* words = std::get_if<WordField>(&f.as)) text += fmt::format(" = \"{}\"", fmt::join(words->words, "\" or \""));
-  if (const auto* number = std::get_if<NumberField>(&f.as); number != nullptr && ranges)
-    text += fmt::format(" {} to {}", plain_number(number->low), plain_number(number->high));
-  return *f.meaning == '\0' ? text : fmt::format("{} ({})", text, f.meaning);
-}
-
+/// "at_mm (centre), side = "mesial" or "distal", depth_mm 0.2 to 5".
 std::string fields_text(const BodyKind& kind, bool ranges) {
-  std::vector<std::string> texts;
-  for (const BodyField& f : kind.fields) texts.push_back(field_text(f, ranges));
-  return fmt::format("{}", fmt::join(texts, ", "));
+  std::string text;
+  for (const BodyField& f : kind.fields) {
+    text += (text.empty() ? "" : ", ") + std::string(f.key);
+    if (const auto* words = std::get_if<WordField>(&f.as)) text += fmt::format(" = \"{}\"", fmt::join(words->words, "\" or \""));
+    if (const auto* number = std::get_if<NumberField>(&f.as); number != nullptr && ranges)
+      text += fmt::format(" {} to {}", plain_number(number->low), plain_number(number->high));
+    if (*f.meaning != '\0') text += fmt::format(" ({})", f.meaning);
+  }
+  return text;
 }
 
 }  // namespace
 
 const BodyKind& body_kind(ShapeSpec::Kind kind) { return kinds()[static_cast<std::size_t>(kind)]; }
 
-const std::vector<std::string>& body_names() {
-  static const std::vector<std::string> k_names = [] {
-    std::vector<std::string> names;
-    for (const BodyKind& kind : kinds()) names.emplace_back(kind.name);
-    return names;
-  }();
-  return k_names;
+std::vector<std::string> body_names() {
+  std::vector<std::string> names;
+  for (const BodyKind& kind : kinds()) names.emplace_back(kind.name);
+  return names;
 }
 
 std::string bodies_as_comments() {

@@ -64,7 +64,7 @@ struct BodyKind {
 
 [[nodiscard]] const BodyKind& body_kind(ShapeSpec::Kind kind);
 /// In the file, by their kind.
-[[nodiscard]] const std::vector<std::string>& body_names();
+[[nodiscard]] std::vector<std::string> body_names();
 [[nodiscard]] inline bool body_is(const ShapeSpec& shape, BodyIs what) { return (body_kind(shape.kind).is & what) != 0; }
 /// The first of a kind's fields that is of one sort; null where it has none.
 template <class Sort>

@@ -40,14 +40,14 @@ Json field_schema(const BodyField& f) {
   return schema;
 }
 
-Json body_schema(const std::string& name, const BodyKind& kind) {
+Json body_schema(const BodyKind& kind) {
   Json then{{"required", Json::array()}, {"properties", {{"shape", true}, {"combine", true}}}, {"additionalProperties", false}};
   if (*kind.what != '\0') then["description"] = kind.what;
   for (const BodyField& f : kind.fields) {
     if (f.required) then["required"].push_back(f.key);
     then["properties"][f.key] = field_schema(f);
   }
-  return {{"if", {{"properties", {{"shape", {{"const", name}}}}}}}, {"then", then}};
+  return {{"if", {{"properties", {{"shape", {{"const", kind.name}}}}}}}, {"then", then}};
 }
 
 }  // namespace
@@ -57,8 +57,7 @@ Json scenario_schema() {
   Json& shape = schema["$defs"]["shape"];
   shape.erase("description");
   shape["properties"]["shape"] = {{"enum", body_names()}};
-  for (std::size_t i = 0; i < body_names().size(); ++i)
-    shape["allOf"].push_back(body_schema(body_names()[i], body_kind(static_cast<ShapeSpec::Kind>(i))));
+  for (std::size_t i = 0; i < body_names().size(); ++i) shape["allOf"].push_back(body_schema(body_kind(static_cast<ShapeSpec::Kind>(i))));
   return schema;
 }
 
