@@ -44,9 +44,13 @@ void LiveExam::take(const ServoTick& tick) {
   }
   record_notes(tick.tick);
   if (end_asked_.load(std::memory_order_acquire) && !exam_->over()) exam_->end();
-  const RunnerState& runner = exam_->runner_state();
-  device_.held.store(Runner::paused(runner), std::memory_order_release);
+  device_.held.store(Runner::paused(exam_->runner_state()), std::memory_order_release);
   if (exam_->over()) servo_->ask_to_stop();
+  show(tick);
+}
+
+void LiveExam::show(const ServoTick& tick) {
+  const RunnerState& runner = exam_->runner_state();
   const std::lock_guard lock(mutex_);
   view_.ticks = runner.ticks;
   view_.paused_ticks = runner.paused_ticks;

@@ -95,6 +95,7 @@ class LiveExam {
   };
 
   void take(const ServoTick& tick);
+  void show(const ServoTick& tick);
   void record_notes(std::int64_t tick);
 
   std::unique_ptr<Exam> exam_;

@@ -129,6 +129,14 @@ double at_zero(Text t) {
   return Expression(text, names, values).value();
 }
 
+std::optional<ConditionFault> division_fault(Text by) {
+  if (by.empty() || at_zero(by) != 0.0) return std::nullopt;
+  if (names_in_expression(std::string(by)).empty())
+    return ConditionFault{ConditionFault::Kind::zero, msg("divides by 0"), msg("divide by something else, or take that part out")};
+  return ConditionFault{ConditionFault::Kind::zero_at_first, msg("divides by '{}', which is 0 when an exam begins", by),
+                        msg("multiply instead, or divide by max({}, 1)", by)};
+}
+
 }  // namespace
 
 std::optional<ConditionFault> condition_fault(const std::string& text) {
@@ -162,13 +170,7 @@ std::optional<ConditionFault> condition_fault(const std::string& text) {
                               msg("write for example \"depth_mm > 1 && depth_mm < 5\"")};
       i += op->size() - 1;
     } else if (c == '/') {
-      const Text by = divisor(t, i + 1);
-      if (!by.empty() && at_zero(by) == 0.0) {
-        if (names_in_expression(std::string(by)).empty())
-          return ConditionFault{ConditionFault::Kind::zero, msg("divides by 0"), msg("divide by something else, or take that part out")};
-        return ConditionFault{ConditionFault::Kind::zero_at_first, msg("divides by '{}', which is 0 when an exam begins", by),
-                              msg("multiply instead, or divide by max({}, 1)", by)};
-      }
+      if (auto fault = division_fault(divisor(t, i + 1))) return fault;
     }
     if (c != ' ' && c != '\t' && c != '\n') before = c;
   }

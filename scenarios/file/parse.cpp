@@ -195,6 +195,37 @@ GaugeSpec read_gauges(CheckedTable& scenario) {
   return gauges;
 }
 
+std::vector<std::string> read_burs(CheckedTable& scenario) {
+  std::vector<std::string> burs = scenario.texts("burs", true);
+  for (std::size_t i = 0; i < burs.size(); ++i)
+    if (burs[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || burs[i].empty())
+      scenario.problem_in("burs", i, msg("'{}' is no name of a bur", burs[i]), msg("use names of data/burs, such as round-1.0"), Mistake::bad_name);
+    else if (std::find(burs.begin(), burs.begin() + static_cast<std::ptrdiff_t>(i), burs[i]) != burs.begin() + static_cast<std::ptrdiff_t>(i))
+      scenario.problem_in("burs", i, msg("'{}' is listed twice", burs[i]), msg("list each bur once"), Mistake::duplicate);
+  if (burs.size() > k_max_tray) {
+    scenario.problem("burs", msg("'burs' has {} items", burs.size()), msg("list at most {}", k_max_tray), Mistake::too_large);
+    burs.resize(k_max_tray);
+  }
+  return burs;
+}
+
+PerforationSpec read_perforation(const toml::table& table, std::map<std::string, Place>& places, ProblemList& problems) {
+  CheckedTable t(table, "[perforation]", problems);
+  PerforationSpec p;
+  for (const auto& [key, list] : {std::pair("aims", &p.aims), std::pair("faults", &p.faults)}) {
+    *list = t.texts(key);
+    t.note(places, key, fmt::format("perforation/{}", key));
+    for (std::size_t i = 0; i < list->size(); ++i)
+      if (!good_id((*list)[i]))
+        t.problem_in(key, i, msg("'{}' is no name of a tissue", (*list)[i]), msg("use names such as pulp or periodontium"), Mistake::bad_name);
+  }
+  for (const auto& aim : p.aims)
+    if (std::find(p.faults.begin(), p.faults.end(), aim) != p.faults.end())
+      t.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"), Mistake::contradictory);
+  t.finish();
+  return p;
+}
+
 Scenario read_table(const toml::table& table, const std::string& path, ProblemList& problems) {
   CheckedTable t(table, msg("the scenario"), problems);
   Scenario s;
@@ -203,16 +234,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.title = t.text("title", "", true);
   s.description = t.text("description", "");
   s.tooth_file = t.text("tooth", "", true);
-  s.burs = t.texts("burs", true);
-  for (std::size_t i = 0; i < s.burs.size(); ++i)
-    if (s.burs[i].find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789.-_") != std::string::npos || s.burs[i].empty())
-      t.problem_in("burs", i, msg("'{}' is no name of a bur", s.burs[i]), msg("use names of data/burs, such as round-1.0"), Mistake::bad_name);
-    else if (std::find(s.burs.begin(), s.burs.begin() + static_cast<std::ptrdiff_t>(i), s.burs[i]) != s.burs.begin() + static_cast<std::ptrdiff_t>(i))
-      t.problem_in("burs", i, msg("'{}' is listed twice", s.burs[i]), msg("list each bur once"), Mistake::duplicate);
-  if (s.burs.size() > k_max_tray) {
-    t.problem("burs", msg("'burs' has {} items", s.burs.size()), msg("list at most {}", k_max_tray), Mistake::too_large);
-    s.burs.resize(k_max_tray);
-  }
+  s.burs = read_burs(t);
   s.max_rpm = t.number("max_rpm", 1000, 500000, 200000, true);
   s.time_limit_s = t.number("time_limit_s", 0.001, 36000, 600, true);
   s.force_limit_n = t.number("force_limit_n", 0, 100, 0);
@@ -231,20 +253,7 @@ Scenario read_table(const toml::table& table, const std::string& path, ProblemLi
   s.steps = read_steps(t, s.places, problems);
   check_pause_button(s, problems);
   if (const auto* z = t.table("zones", true)) s.zones = read_zones(*z, s.places, problems);
-  if (const auto* p = t.table("perforation", true)) {
-    CheckedTable pt(*p, "[perforation]", problems);
-    for (const auto& [key, list] : {std::pair("aims", &s.perforation.aims), std::pair("faults", &s.perforation.faults)}) {
-      *list = pt.texts(key);
-      pt.note(s.places, key, fmt::format("perforation/{}", key));
-      for (std::size_t i = 0; i < list->size(); ++i)
-        if (!good_id((*list)[i]))
-          pt.problem_in(key, i, msg("'{}' is no name of a tissue", (*list)[i]), msg("use names such as pulp or periodontium"), Mistake::bad_name);
-    }
-    for (const auto& aim : s.perforation.aims)
-      if (std::find(s.perforation.faults.begin(), s.perforation.faults.end(), aim) != s.perforation.faults.end())
-        pt.problem("faults", msg("'{}' is both an aim and a fault", aim), msg("keep it in one of the two lists"), Mistake::contradictory);
-    pt.finish();
-  }
+  if (const auto* p = t.table("perforation", true)) s.perforation = read_perforation(*p, s.places, problems);
   if (const auto* r = t.table("rubric", true)) s.rubric = read_rubric(*r, "[rubric]", s.places, problems);
   s.rubric.path = path;
   if (const auto* c = t.table("careless")) s.careless = read_careless(*c, s, problems);

@@ -34,6 +34,29 @@ struct Laid {
   std::array<double, 2> left_mm{1e9, 1e9};  // from the outline to the crest
 };
 
+/// None where the fissure is too short for so much ridge.
+std::optional<Laid> lay(const Landmarks& l, const std::array<End, 2>& ends, double width_mm, int through, double margin_mm) {
+  OutlineSpec spec;
+  spec.kind = OutlineSpec::Kind::fissure;
+  spec.width_mm = width_mm;
+  spec.ridge_mm = margin_mm;
+  spec.through = through;
+  std::vector<Vec3> line;
+  try {
+    line = place_fissure(spec, l, {}).paths_mm.front();
+  } catch (const Error&) {
+    return {};
+  }
+  Laid laid;
+  laid.margin_mm = margin_mm;
+  for (std::size_t e = 0; e < ends.size(); ++e) {
+    laid.takes_in[e] = !ends[e].asked || !ends[e].pit || away_mm(*ends[e].pit, line) <= 0.5 * width_mm - k_inside_mm;
+    if (ends[e].asked)
+      for (const Vec3& p : ends[e].ridge.crest_mm) laid.left_mm[e] = std::min(laid.left_mm[e], away_mm(p, line) - 0.5 * width_mm);
+  }
+  return laid;
+}
+
 }  // namespace
 
 RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
@@ -41,26 +64,10 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
   std::vector<Laid> all;
   std::array<bool, 2> can{false, false};
   for (const double margin : k_margins_mm) {
-    OutlineSpec spec;
-    spec.kind = OutlineSpec::Kind::fissure;
-    spec.width_mm = width_mm;
-    spec.ridge_mm = margin;
-    spec.through = through;
-    std::vector<Vec3> line;
-    try {
-      line = place_fissure(spec, l, {}).paths_mm.front();
-    } catch (const Error&) {
-      continue;  // a fissure too short for so much ridge
-    }
-    Laid laid{margin, {}, {}};
-    for (std::size_t e = 0; e < ends.size(); ++e) {
-      laid.takes_in[e] = !ends[e].asked || !ends[e].pit || away_mm(*ends[e].pit, line) <= 0.5 * width_mm - k_inside_mm;
-      laid.left_mm[e] = 1e9;
-      if (ends[e].asked)
-        for (const Vec3& p : ends[e].ridge.crest_mm) laid.left_mm[e] = std::min(laid.left_mm[e], away_mm(p, line) - 0.5 * width_mm);
-      can[e] = can[e] || (laid.takes_in[e] && laid.left_mm[e] >= k_min_left_mm);
-    }
-    all.push_back(laid);
+    const auto laid = lay(l, ends, width_mm, through, margin);
+    if (!laid) continue;
+    for (std::size_t e = 0; e < ends.size(); ++e) can[e] = can[e] || (laid->takes_in[e] && laid->left_mm[e] >= k_min_left_mm);
+    all.push_back(*laid);
   }
   RidgeMargins margins;
   for (const Laid& laid : all) {

@@ -8,7 +8,6 @@
 #include "engine/base/error.h"
 #include "engine/base/text.h"
 #include "engine/tooth/anatomy/polylines.h"
-#include "engine/tooth/distance_transform.h"
 #include "engine/tooth/octree_edit.h"
 #include "scenarios/zones/column.h"
 
@@ -50,6 +49,17 @@ Bounds tissue_box(const Octree& tree, const ShapeFrame& frame, std::uint8_t id, 
   return box;
 }
 
+/// With a pad around the box; 0 everywhere.
+ColumnMap columns_over(const Bounds& box, double leaf_mm) {
+  ColumnMap map;
+  map.leaf_mm = leaf_mm;
+  map.origin_mm = {box.low.x - k_pad_mm, box.low.y - k_pad_mm, 0};
+  map.nx = static_cast<int>((box.high.x + k_pad_mm - map.origin_mm.x) / leaf_mm) + 1;
+  map.ny = static_cast<int>((box.high.y + k_pad_mm - map.origin_mm.y) / leaf_mm) + 1;
+  map.value.assign(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny), 0.0);
+  return map;
+}
+
 }  // namespace
 
 ShapeFrame lingual_way(const Tooth& tooth, const Landmarks& landmarks, const Message& where) {
@@ -88,15 +98,8 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
   const Bounds box = tissue_box(tree, frame, id, counts);
   if (box.low.x > box.high.x)
     throw Error(where, msg("the tooth '{}' has no {} along the way in", tooth.name, tissue), msg("choose a tooth with it, or another zone"));
-  TissueRelief relief;
-  ColumnMap base;
-  base.leaf_mm = leaf;
-  base.origin_mm = {box.low.x - k_pad_mm, box.low.y - k_pad_mm, 0};
-  base.nx = static_cast<int>((box.high.x + k_pad_mm - base.origin_mm.x) / leaf) + 1;
-  base.ny = static_cast<int>((box.high.y + k_pad_mm - base.origin_mm.y) / leaf) + 1;
-  base.value.assign(static_cast<std::size_t>(base.nx) * static_cast<std::size_t>(base.ny), 0.0);
-  relief.roof_mm = relief.floor_mm = base;
-  relief.shadow.assign(base.value.size(), 0);
+  const ColumnMap base = columns_over(box, leaf);
+  TissueRelief relief(base);
   Octree::Cursor cursor;
   const double step = 0.5 * leaf;
   relief.lowest_mm = box.high.z;
@@ -121,14 +124,7 @@ TissueRelief relief_along(const Tooth& tooth, const ShapeFrame& frame, const std
       relief.highest_mm = std::max(relief.highest_mm, relief.roof_mm.value[i]);
     }
   if (count > 0) relief.middle_mm = sum / count;
-  const auto nearest = nearest_seed({base.nx, base.ny, 1}, relief.shadow);
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    if (nearest[i] < 0) continue;
-    relief.floor_mm.value[i] = relief.floor_mm.value[static_cast<std::size_t>(nearest[i])];
-    relief.roof_mm.value[i] = relief.roof_mm.value[static_cast<std::size_t>(nearest[i])];
-  }
-  relief.floor_mm.smooth(2);
-  relief.roof_mm.smooth(2);
+  relief.go_on_beside_shadow();
   return relief;
 }
 

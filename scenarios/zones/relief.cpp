@@ -112,6 +112,12 @@ Slices required_slices(const Tooth& tooth, const std::string& tissue, const Mess
   return s;
 }
 
+/// Of the whole tree.
+ColumnMap columns_of(const Octree& tree, double value) {
+  const IVec3 n = tree.size();
+  return {n.x, n.y, tree.leaf_mm(), tree.origin_mm(), std::vector<double>(static_cast<std::size_t>(n.x) * static_cast<std::size_t>(n.y), value)};
+}
+
 }  // namespace
 
 double ColumnMap::at(double x_mm, double y_mm) const noexcept {
@@ -139,20 +145,24 @@ void ColumnMap::smooth(int rounds) {
   }
 }
 
+void TissueRelief::go_on_beside_shadow() {
+  const auto nearest = nearest_seed({roof_mm.nx, roof_mm.ny, 1}, shadow);
+  for (ColumnMap* map : {&floor_mm, &roof_mm}) {
+    for (std::size_t i = 0; i < nearest.size(); ++i)
+      if (nearest[i] >= 0) map->value[i] = map->value[static_cast<std::size_t>(nearest[i])];
+    map->smooth(2);
+  }
+}
+
 ColumnMap surface_relief(const Tooth& tooth) {
   const Octree& tree = tooth.octree;
-  ColumnMap map;
-  map.nx = tree.size().x;
-  map.ny = tree.size().y;
-  map.leaf_mm = tree.leaf_mm();
-  map.origin_mm = tree.origin_mm();
-  std::vector<int> top(static_cast<std::size_t>(map.nx) * static_cast<std::size_t>(map.ny), -1);
+  ColumnMap map = columns_of(tree, k_no_tooth_mm);
+  std::vector<int> top(map.value.size(), -1);
   tree.for_each_cube([&](IVec3 at, int edge, std::uint8_t t) {
     if (!tree.is_solid(t)) return;
     for (int y = at.y; y < std::min(at.y + edge, map.ny); ++y)
       for (int x = at.x; x < std::min(at.x + edge, map.nx); ++x) top[map.index(x, y)] = std::max(top[map.index(x, y)], at.z + edge - 1);
   });
-  map.value.assign(top.size(), k_no_tooth_mm);
   for (int y = 0; y < map.ny; ++y)
     for (int x = 0; x < map.nx; ++x) {
       const int z = top[map.index(x, y)];
@@ -175,16 +185,7 @@ TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, Tissue
   const Octree& tree = tooth.octree;
   const int first = part == TissuePart::chamber ? chamber_floor(s, tree.leaf_mm()) : 0;
 
-  TissueRelief relief;
-  ColumnMap base;
-  base.nx = tree.size().x;
-  base.ny = tree.size().y;
-  base.leaf_mm = tree.leaf_mm();
-  base.origin_mm = tree.origin_mm();
-  base.value.assign(static_cast<std::size_t>(base.nx) * static_cast<std::size_t>(base.ny), 0.0);
-  relief.roof_mm = base;
-  relief.floor_mm = base;
-  relief.shadow.assign(base.value.size(), 0);
+  TissueRelief relief(columns_of(tree, 0.0));
   const auto face = [&](int z) { return tree.origin_mm().z + (s.low.z + z) * tree.leaf_mm(); };
   double count = 0;
   Vec3 sum;
@@ -199,7 +200,7 @@ TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, Tissue
           sum += tree.centre_mm(s.low + IVec3{x, y, z});
         }
       if (lowest < 0) continue;
-      const auto i = base.index(s.low.x + x, s.low.y + y);
+      const auto i = relief.roof_mm.index(s.low.x + x, s.low.y + y);
       relief.shadow[i] = 1;
       relief.floor_mm.value[i] = face(lowest);
       relief.roof_mm.value[i] = face(highest + 1);
@@ -207,13 +208,7 @@ TissueRelief tissue_relief(const Tooth& tooth, const std::string& tissue, Tissue
   relief.middle_mm = sum / count;
   relief.lowest_mm = face(first);
   relief.highest_mm = face(s.size.z);
-  const auto nearest = nearest_seed({base.nx, base.ny, 1}, relief.shadow);
-  for (std::size_t i = 0; i < nearest.size(); ++i) {
-    relief.floor_mm.value[i] = relief.floor_mm.value[static_cast<std::size_t>(nearest[i])];
-    relief.roof_mm.value[i] = relief.roof_mm.value[static_cast<std::size_t>(nearest[i])];
-  }
-  relief.floor_mm.smooth(2);
-  relief.roof_mm.smooth(2);
+  relief.go_on_beside_shadow();
   return relief;
 }
 

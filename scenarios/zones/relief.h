@@ -35,6 +35,11 @@ struct TissueRelief {
   double lowest_mm = 0.0;            ///< level where the part ends (the chamber: its floor)
   double highest_mm = 0.0;
   Vec3 middle_mm;  ///< centre of gravity
+
+  /// Of no column yet.
+  explicit TissueRelief(const ColumnMap& columns) : roof_mm(columns), floor_mm(columns), shadow(columns.value.size(), 0) {}
+  /// Roof and floor beside the shadow, of those in it; then smoothed.
+  void go_on_beside_shadow();
 };
 
 /// Height of the tooth's solid surface per column; columns without tooth hold k_no_tooth_mm.
