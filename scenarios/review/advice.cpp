@@ -10,7 +10,6 @@
 #include "engine/base/text.h"
 #include "engine/tooth/beside.h"
 #include "scenarios/exam/runner.h"
-#include "scenarios/file/bodies.h"
 #include "scenarios/file/checked_toml.h"
 #include "scenarios/file/condition.h"
 #include "scenarios/file/expression.h"
@@ -19,7 +18,7 @@
 #include "scenarios/file/rubric_check.h"
 #include "scenarios/operators/expert_time.h"
 #include "scenarios/operators/operator.h"
-#include "scenarios/zones/relief.h"
+#include "scenarios/review/wall_areas.h"
 
 namespace cavum::scenarios {
 namespace {
@@ -76,8 +75,7 @@ class Adviser {
   [[nodiscard]] ExamExtent extent() const;
   void step_condition(std::size_t step, const char* key, const std::string& text, const Ranges& ranges);
   void criterion(std::size_t i, const CriterionSpec& c, const Measure& measure, const ValueRange& range);
-  void wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2);
-  [[nodiscard]] std::array<double, k_walls> wall_mm2() const;
+  void wall_criterion(std::size_t i, const Measure& measure, const WallAreas& mm2);
 
   const Scenario& s_;
   const Tooth& tooth_;
@@ -142,53 +140,12 @@ void Adviser::leeway() {
 
 /// Walls that end in the air before the leeway does.
 void Adviser::walls() {
-  const Facing facing = zones_.facing();
-  // a finish line lies on the outer surface, so a crown's floor ends in the air
-  const bool has_finish_line =
-      std::any_of(s_.zones.target.begin(), s_.zones.target.end(), [](const ShapeSpec& s) { return body_is(s, k_around_stump); });
-  const ColumnMap surface = surface_relief(own_);
-  const Octree& tree = own_.octree;
-  const double leaf = zones_.leaf_mm(), rim_mm = 0.5 + s_.zones.leeway.sides_mm;  // so near the surface a wall is a slope
-  std::array<std::uint64_t, k_walls> thin{};
-  // a shell that is left before a neighbour is no wall
-  const TissueSet neighbours = tissues_of(tooth_, TissueKind::neighbour);
-  const auto before_neighbour = [&](IVec3 at, IVec3 way) {
-    constexpr double k_gap_mm = 1.0;
-    for (double far = 0; far <= k_gap_mm; far += leaf, at = at + way)
-      if (neighbours[tooth_.octree.tissue(at)]) return true;
-    return false;
-  };
-  const auto air_within = [&](IVec3 from, IVec3 way, double mm) {
-    IVec3 at = from + way;
-    if (zones_.zone(at) == Zone::target || tree.tissue(at) == k_air) return false;  // no wall there
-    for (double far = leaf; far <= mm; far += leaf) {
-      at = at + way;
-      if (tree.tissue(at) == k_air) return !before_neighbour(at, way);
-    }
-    return false;
-  };
-  const auto near_surface = [&](IVec3 at) {
-    if (!facing.lateral()) return surface.value[surface.index(at.x, at.y)] - zones_.centre_mm(at).z < rim_mm;
-    const IVec3 out = facing.in_tooth({0, 0, 1});
-    for (double far = 0; far < rim_mm; far += leaf, at = at + out)
-      if (!tree.is_solid(tree.tissue(at))) return true;
-    return false;
-  };
-  zones_.for_each_target_leaf([&](IVec3 at) {
-    const IVec3 n = tree.size();
-    if (at.x < 0 || at.y < 0 || at.x >= n.x || at.y >= n.y) return;
-    if (!has_finish_line && air_within(at, facing.in_tooth({0, 0, -1}), s_.zones.leeway.bottom_mm)) ++thin[static_cast<std::size_t>(Wall::floor)];
-    if (near_surface(at)) return;
-    for (const IVec3 way : {IVec3{1, 0, 0}, IVec3{-1, 0, 0}, IVec3{0, 1, 0}, IVec3{0, -1, 0}})
-      if (air_within(at, facing.in_tooth(way), s_.zones.leeway.sides_mm))
-        ++thin[static_cast<std::size_t>(wall_of({double(way.x), double(way.y), 0}))];
-  });
-  for (std::size_t w = 0; w < k_walls; ++w) {
-    const double mm2 = static_cast<double>(thin[w]) * leaf * leaf;
-    if (mm2 < k_thin_wall_mm2) continue;
-    warn("zones/leeway", msg("the leeway is wider than {} of the tooth over {}: it leads out into the air", wall_text(w, facing), as_mm2(mm2, 1)),
-         msg("make the leeway narrower, or move the target inwards"), Mistake::trespass);
-  }
+  const WallAreas thin = thin_walls_mm2(s_.zones, tooth_, own_, zones_);
+  for (std::size_t w = 0; w < k_walls; ++w)
+    if (thin[w] >= k_thin_wall_mm2)
+      warn("zones/leeway",
+           msg("the leeway is wider than {} of the tooth over {}: it leads out into the air", wall_text(w, zones_.facing()), as_mm2(thin[w], 1)),
+           msg("make the leeway narrower, or move the target inwards"), Mistake::trespass);
 }
 
 void Adviser::time(ExpertsPart& expert) {
@@ -340,20 +297,8 @@ void Adviser::criterion(std::size_t i, const CriterionSpec& c, const Measure& me
     warn(place + "/critical_below", msg("nobody can fail by this: {}", runs), msg("set it within that, or take it out"), Mistake::idle);
 }
 
-/// Hard tissue that stands beside the target, by wall.
-std::array<double, k_walls> Adviser::wall_mm2() const {
-  std::array<double, k_walls> mm2{};
-  const Octree& tree = own_.octree;
-  zones_.for_each_target_leaf([&](IVec3 leaf) {
-    for (const IVec3 step : k_six_neighbours)
-      if (const IVec3 beside = leaf + step; zones_.zone(beside) != Zone::target && tree.is_solid(tree.tissue(beside)))
-        if (const auto wall = static_cast<std::size_t>(zones_.wall(beside)); wall < k_walls) mm2[wall] += zones_.leaf_mm() * zones_.leaf_mm();
-  });
-  return mm2;
-}
-
 /// A figure of a wall that the cavity does not have.
-void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::array<double, k_walls>& mm2) {
+void Adviser::wall_criterion(std::size_t i, const Measure& measure, const WallAreas& mm2) {
   if (measure.walls != 1 || mm2[measure.first_wall] >= k_min_wall_mm2) return;
   const Term wall = wall_text(measure.first_wall, zones_.facing());
   warn(fmt::format("rubric/criteria/{}/metric", i),
@@ -364,7 +309,7 @@ void Adviser::wall_criterion(std::size_t i, const Measure& measure, const std::a
 
 void Adviser::criteria() {
   const ExamExtent exam = extent();
-  const auto walls_mm2 = wall_mm2();
+  const WallAreas walls_mm2 = hard_walls_mm2(own_, zones_);
   for (std::size_t i = 0; i < s_.rubric.criteria.size(); ++i) {
     const CriterionSpec& c = s_.rubric.criteria[i];
     const std::string place = fmt::format("rubric/criteria/{}", i);
