@@ -10,35 +10,38 @@ namespace cavum::scenarios {
 namespace {
 
 /// What the rows are written with.
+template <class S, class... Own>
 struct Rows {
-  using Spec = ShapeSpec;
+  using Spec = S;
+  using Row = Field<S, Own...>;
   static constexpr double k_largest_mm = 100.0;
+  static Row must(const char* key, double S::*value, double low, double high, double otherwise, const char* label, const char* meaning = "") {
+    return {key, true, NumberField<S>{value, low, high, otherwise, label}, meaning};
+  }
+  static Row may(const char* key, double S::*value, double low, double high, double otherwise, const char* label, const char* meaning = "") {
+    return {key, false, NumberField<S>{value, low, high, otherwise, label}, meaning};
+  }
+  static Row word(const char* key, std::vector<std::string> words, bool required, const char* meaning, void (*choose)(S&, std::size_t)) {
+    return {key, required, WordField<S>{std::move(words), choose}, meaning};
+  }
+  static Row part() {
+    return word("part", {"all", "chamber"}, false, "", [](S& s, std::size_t i) { s.part = i == 1 ? TissuePart::chamber : TissuePart::all; });
+  }
+  static Row tissue(bool required) { return {"tissue", required, TissueField{}, ""}; }
+};
 
-  static BodyField must(const char* key, double Spec::*value, double low, double high, double otherwise, const char* label,
-                        const char* meaning = "") {
-    return {key, true, NumberField{value, low, high, otherwise, label}, meaning};
-  }
-  static BodyField may(const char* key, double Spec::*value, double low, double high, double otherwise, const char* label, const char* meaning = "") {
-    return {key, false, NumberField{value, low, high, otherwise, label}, meaning};
-  }
-  static BodyField any_length(const char* key, double Spec::*value, const char* label) { return must(key, value, 0.05, k_largest_mm, 1, label); }
-  static BodyField turn() { return may("turn_deg", &Spec::turn_deg, -360, 360, 0, nullptr); }
-  static BodyField word(const char* key, std::vector<std::string> words, bool required, const char* meaning, void (*choose)(Spec&, std::size_t)) {
-    return {key, required, WordField{std::move(words), choose}, meaning};
-  }
-  static BodyField side(const char* positive, const char* negative) {
+struct BodyRows : Rows<ShapeSpec, FileField, PlaceField, AxisField, SizeField, BottomField, OutlineField> {
+  static Row any_length(const char* key, double Spec::*value, const char* label) { return must(key, value, 0.05, k_largest_mm, 1, label); }
+  static Row turn() { return may("turn_deg", &Spec::turn_deg, -360, 360, 0, nullptr); }
+  static Row side(const char* positive, const char* negative) {
     return word("side", {positive, negative}, true, "", [](Spec& s, std::size_t i) { s.side = i == 1 ? -1 : 1; });
   }
-  static BodyField part() {
-    return word("part", {"all", "chamber"}, false, "", [](Spec& s, std::size_t i) { s.part = i == 1 ? TissuePart::chamber : TissuePart::all; });
-  }
-  static BodyField tissue(bool required) { return {"tissue", required, TissueField{}, ""}; }
-  static BodyField file() { return {"file", true, FileField{}, ""}; }
-  static BodyField place(const char* meaning) { return {"at_mm", true, PlaceField{}, meaning}; }
-  static BodyField axis() { return {"axis", false, AxisField{}, ""}; }
-  static BodyField size() { return {"size_mm", true, SizeField{}, ""}; }
-  static BodyField bottom() { return {"bottom", true, BottomField{}, ""}; }
-  static BodyField outline(OutlineSeen seen) {
+  static Row file() { return {"file", true, FileField{}, ""}; }
+  static Row place(const char* meaning) { return {"at_mm", true, PlaceField{}, meaning}; }
+  static Row axis() { return {"axis", false, AxisField{}, ""}; }
+  static Row size() { return {"size_mm", true, SizeField{}, ""}; }
+  static Row bottom() { return {"bottom", true, BottomField{}, ""}; }
+  static Row outline(OutlineSeen seen) {
     return {"outline", true, OutlineField{seen}, seen == OutlineSeen::from_side ? "x from the neck's middle to mesial, y above the neck" : ""};
   }
   static std::vector<BodyKind> all() {
@@ -49,40 +52,77 @@ struct Rows {
   }
 };
 
-const std::vector<BodyKind>& kinds() {
-  static const std::vector<BodyKind> k_kinds = Rows::all();
-  return k_kinds;
-}
+struct OutlineRows : Rows<OutlineSpec, PointsField, CentreField> {
+  static Row points(std::size_t at_least, bool closed) { return {"points_mm", true, PointsField{at_least, closed}, ""}; }
+  static Row wider() { return may("offset_mm", &Spec::offset_mm, -5, 5, 0, said("outline wider by")); }
+  static Row centre() { return {"centre_mm", false, CentreField{}, ""}; }
+  static Row from() {
+    return word("from", {"tooth", "chamber"}, false, "what centre_mm is measured from", [](Spec& s, std::size_t i) { s.from_chamber = i == 1; });
+  }
+  static std::vector<OutlineKind> all() {
+#define OUTLINE(KIND, ...) {#KIND, {__VA_ARGS__}},
+    return {
+#include "scenarios/file/outlines_table.inc"
+    };
+  }
+};
+
+struct BottomRows : Rows<BottomSpec> {
+  static Row depth() { return must("depth_mm", &Spec::depth_mm, 0.05, 30, 1, said("depth")); }
+  static Row deeper() { return may("deeper_mm", &Spec::deeper_mm, -5, 5, 0, said("floor deeper than the tissue's")); }
+  static std::vector<BottomKind> all() {
+#define BOTTOM(KIND, ...) {#KIND, {__VA_ARGS__}},
+    return {
+#include "scenarios/file/bottoms_table.inc"
+    };
+  }
+};
 
 /// "at_mm (centre), side = "mesial" or "distal", depth_mm 0.2 to 5".
-std::string fields_text(const BodyKind& kind, bool ranges) {
+template <class S, class... Own>
+std::string fields_text(const std::vector<Field<S, Own...>>& fields, bool ranges) {
   std::string text;
-  for (const BodyField& f : kind.fields) {
+  for (const auto& f : fields) {
     text += (text.empty() ? "" : ", ") + std::string(f.key);
-    if (const auto* words = std::get_if<WordField>(&f.as)) text += fmt::format(" = \"{}\"", fmt::join(words->words, "\" or \""));
-    if (const auto* number = std::get_if<NumberField>(&f.as); number != nullptr && ranges)
+    if (const auto* words = std::get_if<WordField<S>>(&f.as)) text += fmt::format(" = \"{}\"", fmt::join(words->words, "\" or \""));
+    if (const auto* number = std::get_if<NumberField<S>>(&f.as); number != nullptr && ranges)
       text += fmt::format(" {} to {}", plain_number(number->low), plain_number(number->high));
     if (*f.meaning != '\0') text += fmt::format(" ({})", f.meaning);
   }
   return text;
 }
 
+/// "# outline = { kind = "circle", radius_mm }", a line a kind.
+template <class Kind>
+std::string alternatives(const char* key, const std::vector<Kind>& kinds) {
+  std::string text;
+  for (const Kind& k : kinds)
+    text +=
+        fmt::format("# {:7} {} {{ kind = \"{}\", {} }}\n", text.empty() ? key : "", text.empty() ? '=' : '|', k.name, fields_text(k.fields, false));
+  return text;
+}
+
 }  // namespace
 
-const BodyKind& body_kind(ShapeSpec::Kind kind) { return kinds()[static_cast<std::size_t>(kind)]; }
-
-std::vector<std::string> body_names() {
-  std::vector<std::string> names;
-  for (const BodyKind& kind : kinds()) names.emplace_back(kind.name);
-  return names;
+const std::vector<BodyKind>& body_kinds() {
+  static const std::vector<BodyKind> k_kinds = BodyRows::all();
+  return k_kinds;
+}
+const std::vector<OutlineKind>& outline_kinds() {
+  static const std::vector<OutlineKind> k_kinds = OutlineRows::all();
+  return k_kinds;
+}
+const std::vector<BottomKind>& bottom_kinds() {
+  static const std::vector<BottomKind> k_kinds = BottomRows::all();
+  return k_kinds;
 }
 
 std::string bodies_as_comments() {
   constexpr std::size_t k_widest = 150;
   std::string text;
-  for (const BodyKind& k : kinds()) {
+  for (const BodyKind& k : body_kinds()) {
     std::string line = fmt::format("#   {:12}", k.name);
-    std::istringstream words(fields_text(k, false) + (*k.what == '\0' ? "" : ": ") + k.what);
+    std::istringstream words(fields_text(k.fields, false) + (*k.what == '\0' ? "" : ": ") + k.what);
     for (std::string word; words >> word; line += " " + word)
       if (line.size() + word.size() >= k_widest) {
         text += line + "\n";
@@ -90,12 +130,12 @@ std::string bodies_as_comments() {
       }
     text += line + "\n";
   }
-  return text;
+  return text + alternatives("outline", outline_kinds()) + alternatives("bottom", bottom_kinds());
 }
 
 std::string bodies_as_table() {
   std::string text;
-  for (const BodyKind& k : kinds()) text += fmt::format("| `{}` | {} | {} |\n", k.name, fields_text(k, true), k.what);
+  for (const BodyKind& k : body_kinds()) text += fmt::format("| `{}` | {} | {} |\n", k.name, fields_text(k.fields, true), k.what);
   return text;
 }
 

@@ -20,17 +20,28 @@ enum BodyIs : unsigned {
 };
 
 /// Within [low, high]. With a label the station offers it.
+template <class Spec>
 struct NumberField {
-  double ShapeSpec::*value;
+  double Spec::*value;
   double low, high, otherwise;
   const char* label;
 };
 /// One of `words`, the first where it may be left out.
+template <class Spec>
 struct WordField {
   std::vector<std::string> words;
-  void (*choose)(ShapeSpec&, std::size_t);
+  void (*choose)(Spec&, std::size_t);
 };
 struct TissueField {};
+/// A field of a body, of an outline or of a bottom; Own: sorts that only they have.
+template <class Spec, class... Own>
+struct Field {
+  const char* key;
+  bool required;
+  std::variant<NumberField<Spec>, WordField<Spec>, TissueField, Own...> as;
+  const char* meaning;  ///< empty where the key says it
+};
+
 struct FileField {};
 struct PlaceField {};
 struct AxisField {};
@@ -41,12 +52,26 @@ enum class OutlineSeen { from_occlusal, along_axis, from_side };
 struct OutlineField {
   OutlineSeen seen;
 };
+struct BodyKind {
+  const char *name, *word;
+  unsigned is;
+  const char* what;
+  std::vector<Field<ShapeSpec, FileField, PlaceField, AxisField, SizeField, BottomField, OutlineField>> fields;
+};
 
-struct BodyField {
-  const char* key;
-  bool required;
-  std::variant<NumberField, WordField, TissueField, FileField, PlaceField, AxisField, SizeField, BottomField, OutlineField> as;
-  const char* meaning;  ///< empty where the key says it
+struct PointsField {
+  std::size_t at_least;
+  bool closed;  ///< they go round; else they are a path
+};
+struct CentreField {};
+struct OutlineKind {
+  const char* name;
+  std::vector<Field<OutlineSpec, PointsField, CentreField>> fields;
+};
+
+struct BottomKind {
+  const char* name;
+  std::vector<Field<BottomSpec>> fields;
 };
 
 /// What is done with each sort of field: one function a sort.
@@ -54,27 +79,34 @@ template <class... Function>
 struct ForEachSort : Function... {
   using Function::operator()...;
 };
+template <class... Function>
+ForEachSort(Function...) -> ForEachSort<Function...>;
 
-struct BodyKind {
-  const char *name, *word;
-  unsigned is;
-  const char* what;
-  std::vector<BodyField> fields;
-};
+/// In the order of their enums.
+[[nodiscard]] const std::vector<BodyKind>& body_kinds();
+[[nodiscard]] const std::vector<OutlineKind>& outline_kinds();
+[[nodiscard]] const std::vector<BottomKind>& bottom_kinds();
+/// In the file.
+template <class Kind>
+[[nodiscard]] std::vector<std::string> names_of(const std::vector<Kind>& kinds) {
+  std::vector<std::string> names;
+  for (const Kind& kind : kinds) names.emplace_back(kind.name);
+  return names;
+}
 
-[[nodiscard]] const BodyKind& body_kind(ShapeSpec::Kind kind);
-/// In the file, by their kind.
-[[nodiscard]] std::vector<std::string> body_names();
-[[nodiscard]] inline bool body_is(const ShapeSpec& shape, BodyIs what) { return (body_kind(shape.kind).is & what) != 0; }
-/// The first of a kind's fields that is of one sort; null where it has none.
+[[nodiscard]] inline const BodyKind& kind_of(const ShapeSpec& s) { return body_kinds()[static_cast<std::size_t>(s.kind)]; }
+[[nodiscard]] inline const OutlineKind& kind_of(const OutlineSpec& o) { return outline_kinds()[static_cast<std::size_t>(o.kind)]; }
+[[nodiscard]] inline const BottomKind& kind_of(const BottomSpec& b) { return bottom_kinds()[static_cast<std::size_t>(b.kind)]; }
+[[nodiscard]] inline bool body_is(const ShapeSpec& shape, BodyIs what) { return (kind_of(shape).is & what) != 0; }
+/// The first of a body's fields that is of one sort; null where it has none.
 template <class Sort>
-[[nodiscard]] const Sort* field_of(ShapeSpec::Kind kind) {
-  for (const BodyField& field : body_kind(kind).fields)
+[[nodiscard]] const Sort* field_of(const ShapeSpec& shape) {
+  for (const auto& field : kind_of(shape).fields)
     if (const auto* found = std::get_if<Sort>(&field.as)) return found;
   return nullptr;
 }
 
-/// All kinds with their fields, a line each: as comments of a scenario, and as the table of docs/scenarios.md, with ranges.
+/// All bodies, outlines and bottoms with their fields, as comments of a scenario; bodies as the table of docs/scenarios.md, with ranges.
 [[nodiscard]] std::string bodies_as_comments();
 [[nodiscard]] std::string bodies_as_table();
 

@@ -381,7 +381,7 @@ std::vector<Problem> missing_tissues(const Scenario& s, const Tooth& tooth) {
     for (std::size_t i = 0; i < list->size(); ++i) {
       const ShapeSpec& shape = (*list)[i];
       const std::string place = key + std::to_string(i);
-      if (field_of<TissueField>(shape.kind) != nullptr) need(shape.tissue, place + "/tissue");
+      if (field_of<TissueField>(shape) != nullptr) need(shape.tissue, place + "/tissue");
       if (shape.outline.kind == OutlineSpec::Kind::projection) need(shape.outline.tissue, place + "/outline");
       if (shape.bottom.kind == BottomSpec::Kind::tissue_roof || shape.bottom.kind == BottomSpec::Kind::tissue_floor)
         need(shape.bottom.tissue, place + "/bottom");

@@ -9,7 +9,6 @@
 namespace cavum::scenarios {
 namespace {
 
-constexpr double k_largest_mm = 100.0;
 constexpr std::size_t k_max_bodies = 12;  // of all zones
 
 using Places = std::map<std::string, Place>;
@@ -47,75 +46,43 @@ void check_outline(CheckedTable& t, const OutlineSpec& o) {
     t.problem("points_mm", msg("the polygon encloses nothing"), msg("give corners that do not lie on one line"), Mistake::outline);
 }
 
-TissuePart read_part(CheckedTable& t) { return t.word("part", {"all", "chamber"}, 0) == 1 ? TissuePart::chamber : TissuePart::all; }
+/// Fields that bodies, outlines and bottoms have alike.
+template <class Spec>
+struct ReadShared {
+  CheckedTable& t;
+  Spec& s;
+  const char* key;
+  bool required;
+  void operator()(const NumberField<Spec>& n) const { s.*n.value = t.number(key, n.low, n.high, n.otherwise, required); }
+  void operator()(const WordField<Spec>& w) const {
+    if (const std::size_t i = t.word(key, w.words, 0, required); i != CheckedTable::k_wrong) w.choose(s, i);
+  }
+  void operator()(TissueField) const { s.tissue = t.text(key, "pulp", required); }
+};
 
 OutlineSpec read_outline(const toml::table& table, const std::string& name, ProblemList& problems) {
-  using Kind = OutlineSpec::Kind;
   CheckedTable t(table, name + " outline", problems);
   OutlineSpec o;
-  const std::size_t kind = t.word("kind", {"circle", "polygon", "stroke", "projection", "fissure"}, 0, true);
+  const std::size_t kind = t.word("kind", names_of(outline_kinds()), 0, true);
   if (kind == CheckedTable::k_wrong) return o;  // what else it needs depends on the kind
-  o.kind = static_cast<Kind>(kind);
-  o.offset_mm = t.number("offset_mm", -5, 5, 0);
-  switch (o.kind) {
-    case Kind::circle:
-      o.radius_mm = t.number("radius_mm", 0.05, 20, 1, true);
-      break;
-    case Kind::polygon:
-      o.points_mm = t.points("points_mm", 3, true);
-      break;
-    case Kind::stroke:
-      o.points_mm = t.points("points_mm", 2, true);
-      o.width_mm = t.number("width_mm", 0.1, 20, 1, true);
-      break;
-    case Kind::projection:
-      o.tissue = t.text("tissue", "pulp");
-      o.part = read_part(t);
-      o.rounding_mm = t.number("rounding_mm", 0, 5, 0);
-      break;
-    case Kind::fissure: {
-      o.width_mm = t.number("width_mm", 0.1, 5, 1, true);
-      o.ridge_mm = t.number("ridge_mm", 0, 5, 1.6);
-      o.branches = t.word("branches", {"none", "all"}, 0) == 1;
-      const std::size_t through = t.word("through", {"none", "mesial", "distal"}, 0);
-      o.through = through == 1 ? 1 : through == 2 ? -1 : 0;
-      break;
-    }
-  }
-  if (o.kind != Kind::projection && o.kind != Kind::fissure) {
-    o.centre_mm = t.vector("centre_mm", 2, {});
-    o.from_chamber = t.word("from", {"tooth", "chamber"}, 0) == 1;
-  }
+  o.kind = static_cast<OutlineSpec::Kind>(kind);
+  for (const auto& f : kind_of(o).fields)
+    std::visit(
+        ForEachSort{ReadShared<OutlineSpec>{t, o, f.key, f.required}, [&](PointsField p) { o.points_mm = t.points(f.key, p.at_least, f.required); },
+                    [&](CentreField) { o.centre_mm = t.vector(f.key, 2, {}, f.required); }},
+        f.as);
   check_outline(t, o);
   t.finish();
   return o;
 }
 
 BottomSpec read_bottom(const toml::table& table, const std::string& name, ProblemList& problems) {
-  using Kind = BottomSpec::Kind;
   CheckedTable t(table, name + " bottom", problems);
   BottomSpec b;
-  const std::size_t kind =
-      t.word("kind", {"level", "below_surface", "below_lowest", "below_mean", "tissue_roof", "tissue_floor", "below_border"}, 0, true);
+  const std::size_t kind = t.word("kind", names_of(bottom_kinds()), 0, true);
   if (kind == CheckedTable::k_wrong) return b;
-  b.kind = static_cast<Kind>(kind);
-  switch (b.kind) {
-    case Kind::level:
-      b.z_mm = t.number("z_mm", -k_largest_mm, k_largest_mm, 0, true);
-      break;
-    case Kind::below_surface:
-    case Kind::below_lowest:
-    case Kind::below_mean:
-      b.depth_mm = t.number("depth_mm", 0.05, 30, 1, true);
-      break;
-    case Kind::below_border:
-      b.depth_mm = t.number("depth_mm", -5, 5, 0.2, true);
-      break;
-    default:
-      b.tissue = t.text("tissue", "pulp");
-      b.part = read_part(t);
-      b.deeper_mm = t.number("deeper_mm", -5, 5, 0);
-  }
+  b.kind = static_cast<BottomSpec::Kind>(kind);
+  for (const auto& f : kind_of(b).fields) std::visit(ReadShared<BottomSpec>{t, b, f.key, f.required}, f.as);
   t.finish();
   return b;
 }
@@ -158,24 +125,6 @@ void check_lean(CheckedTable& t, const ShapeSpec& s) {
               Mistake::contradictory);
 }
 
-void read_field(CheckedTable& t, ShapeSpec& s, const BodyField& f, const std::string& name, ProblemList& problems) {
-  std::visit(ForEachSort{[&](const NumberField& n) { s.*n.value = t.number(f.key, n.low, n.high, n.otherwise, f.required); },
-                         [&](const WordField& w) {
-                           if (const std::size_t i = t.word(f.key, w.words, 0, f.required); i != CheckedTable::k_wrong) w.choose(s, i);
-                         },
-                         [&](TissueField) { s.tissue = t.text(f.key, "pulp", f.required); }, [&](FileField) { read_surface_name(t, s); },
-                         [&](PlaceField) { s.at_mm = t.vector(f.key, 3, {}, f.required); }, [&](AxisField) { read_axis(t, s); },
-                         [&](SizeField) { read_size(t, s); },
-                         [&](BottomField) {
-                           if (const auto* b = t.table(f.key, f.required)) s.bottom = read_bottom(*b, name, problems);
-                         },
-                         [&](OutlineField o) {
-                           if (const auto* table = t.table(f.key, f.required)) s.outline = read_outline(*table, name, problems);
-                           check_seen(t, s.outline, o.seen);
-                         }},
-             f.as);
-}
-
 ShapeSpec read_shape(const toml::table& table, const std::string& name, const std::string& at, Places& places, ProblemList& problems) {
   CheckedTable t(table, name, problems);
   ShapeSpec s;
@@ -183,12 +132,23 @@ ShapeSpec read_shape(const toml::table& table, const std::string& name, const st
   s.column = static_cast<int>(table.source().begin.column);
   places[at] = {s.line, s.column};
   for (const char* key : {"tissue", "outline", "bottom", "file"}) t.note(places, key, fmt::format("{}/{}", at, key));
-  const std::size_t kind = t.word("shape", body_names(), 0, true);
+  const std::size_t kind = t.word("shape", names_of(body_kinds()), 0, true);
   const std::size_t combine = t.word("combine", {"add", "subtract", "intersect"}, 0);
   if (kind == CheckedTable::k_wrong || combine == CheckedTable::k_wrong) return s;
   s.kind = static_cast<ShapeSpec::Kind>(kind);
   s.combine = static_cast<ShapeSpec::Combine>(combine);
-  for (const BodyField& field : body_kind(s.kind).fields) read_field(t, s, field, name, problems);
+  for (const auto& f : kind_of(s).fields)
+    std::visit(ForEachSort{ReadShared<ShapeSpec>{t, s, f.key, f.required}, [&](FileField) { read_surface_name(t, s); },
+                           [&](PlaceField) { s.at_mm = t.vector(f.key, 3, {}, f.required); }, [&](AxisField) { read_axis(t, s); },
+                           [&](SizeField) { read_size(t, s); },
+                           [&](BottomField) {
+                             if (const auto* b = t.table(f.key, f.required)) s.bottom = read_bottom(*b, name, problems);
+                           },
+                           [&](OutlineField o) {
+                             if (const auto* outline = t.table(f.key, f.required)) s.outline = read_outline(*outline, name, problems);
+                             check_seen(t, s.outline, o.seen);
+                           }},
+               f.as);
   check_lean(t, s);
   t.finish();
   return s;

@@ -25,8 +25,11 @@ enum class TissuePart { all, chamber };
 
 /// A closed line on the occlusal surface, seen from above. All lengths in mm, tooth frame x and y.
 struct OutlineSpec {
-  enum class Kind { circle, polygon, stroke, projection, fissure };
-  Kind kind = Kind::circle;
+  enum class Kind {
+#define OUTLINE(KIND, ...) KIND,
+#include "scenarios/file/outlines_table.inc"
+  };
+  Kind kind{};
   Vec3 centre_mm;               ///< added to every point; z unused
   bool from_chamber = false;    ///< centre counted from the middle of the pulp chamber instead of the tooth's origin
   double radius_mm = 0.0;       ///< circle
@@ -45,8 +48,11 @@ struct OutlineSpec {
 
 /// Where a column ends.
 struct BottomSpec {
-  enum class Kind { level, below_surface, below_lowest, below_mean, tissue_roof, tissue_floor, below_border };
-  Kind kind = Kind::level;
+  enum class Kind {
+#define BOTTOM(KIND, ...) KIND,
+#include "scenarios/file/bottoms_table.inc"
+  };
+  Kind kind{};
   double z_mm = 0.0;      ///< level: height in the tooth frame
   double depth_mm = 0.0;  ///< below the surface (everywhere, or its lowest or mean height inside the outline), or below the lowest enamel under it
   std::string tissue = "pulp";

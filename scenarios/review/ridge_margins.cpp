@@ -35,7 +35,7 @@ struct Laid {
 };
 
 /// None where the fissure is too short for so much ridge.
-std::optional<Laid> lay(const Landmarks& l, const std::array<End, 2>& ends, double width_mm, int through, double margin_mm) {
+std::optional<Laid> laid_with(const Landmarks& l, const std::array<End, 2>& ends, double width_mm, int through, double margin_mm) {
   OutlineSpec spec;
   spec.kind = OutlineSpec::Kind::fissure;
   spec.width_mm = width_mm;
@@ -64,7 +64,7 @@ RidgeMargins ridge_margins(const Landmarks& l, double width_mm, int through) {
   std::vector<Laid> all;
   std::array<bool, 2> can{false, false};
   for (const double margin : k_margins_mm) {
-    const auto laid = lay(l, ends, width_mm, through, margin);
+    const auto laid = laid_with(l, ends, width_mm, through, margin);
     if (!laid) continue;
     for (std::size_t e = 0; e < ends.size(); ++e) can[e] = can[e] || (laid->takes_in[e] && laid->left_mm[e] >= k_min_left_mm);
     all.push_back(*laid);

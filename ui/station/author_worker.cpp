@@ -50,7 +50,7 @@ MeshData body_of(const Octree& tooth, IVec3 low, IVec3 high, int step, const std
 
 bool counts_from_chamber(const scenarios::Scenario& s) {
   const auto does = [](const scenarios::ShapeSpec& shape) {
-    const auto* outline = scenarios::field_of<scenarios::OutlineField>(shape.kind);
+    const auto* outline = scenarios::field_of<scenarios::OutlineField>(shape);
     return outline != nullptr && outline->seen == scenarios::OutlineSeen::from_occlusal && shape.outline.from_chamber;
   };
   return std::any_of(s.zones.target.begin(), s.zones.target.end(), does) ||

@@ -14,7 +14,7 @@ using Spec = scenarios::ShapeSpec;
 
 /// "target 2, box": the how-manieth of its list, and whether it is laid over or under what stands before it.
 Message title_of(AuthorLayer layer, std::size_t number, const scenarios::ShapeSpec& s) {
-  const Term word{scenarios::body_kind(s.kind).word};
+  const Term word{kind_of(s).word};
   switch (s.combine) {
     case scenarios::ShapeSpec::Combine::subtract:
       return msg("{} {}, {}, taken away", word_of(layer), number, word);
@@ -25,51 +25,43 @@ Message title_of(AuthorLayer layer, std::size_t number, const scenarios::ShapeSp
   }
 }
 
-void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
-  switch (b.kind) {
-    case scenarios::BottomSpec::Kind::below_border:
-      zone.numbers.push_back({msg("deeper than the enamel"), at + "/depth_mm", b.depth_mm, -5, 5});
-      break;
-    case scenarios::BottomSpec::Kind::level:
-      zone.numbers.push_back({msg("level of the floor, z"), at + "/z_mm", b.z_mm, -100, 100});
-      break;
-    case scenarios::BottomSpec::Kind::below_surface:
-    case scenarios::BottomSpec::Kind::below_lowest:
-    case scenarios::BottomSpec::Kind::below_mean:
-      zone.numbers.push_back({msg("depth"), at + "/depth_mm", b.depth_mm, 0.05, 30});
-      zone.depth_mm = b.depth_mm;
-      zone.depth_place = at + "/depth_mm";
-      break;
-    default:
-      zone.numbers.push_back({msg("floor deeper than the {}'s", Term{b.tissue}), at + "/deeper_mm", b.deeper_mm, -5, 5});
+/// Fields that bodies, outlines and bottoms have alike.
+template <class AnySpec>
+struct AddShared {
+  AuthorZone& zone;
+  const AnySpec& s;
+  std::string at;
+  void operator()(const scenarios::NumberField<AnySpec>& n) const {
+    if (n.label != nullptr)
+      zone.numbers.push_back({msg("{}", Term{n.label}), at, s.*n.value, n.low, n.high, at.ends_with("_deg") ? Unit::deg : Unit::mm});
   }
+  void operator()(const scenarios::WordField<AnySpec>&) const {}
+  void operator()(scenarios::TissueField) const {}
+};
+
+void add_bottom(AuthorZone& zone, const scenarios::BottomSpec& b, const std::string& at) {
+  using Kind = scenarios::BottomSpec::Kind;
+  for (const auto& f : kind_of(b).fields) std::visit(AddShared<scenarios::BottomSpec>{zone, b, fmt::format("{}/{}", at, f.key)}, f.as);
+  if (b.kind != Kind::below_surface && b.kind != Kind::below_lowest && b.kind != Kind::below_mean) return;
+  zone.depth_mm = b.depth_mm;
+  zone.depth_place = at + "/depth_mm";
 }
 
-void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::string& at) {
-  switch (o.kind) {
-    case scenarios::OutlineSpec::Kind::circle:
-      zone.numbers.push_back({msg("radius"), at + "/radius_mm", o.radius_mm, 0.05, 20});
-      break;
-    case scenarios::OutlineSpec::Kind::stroke:
-      zone.numbers.push_back({msg("width"), at + "/width_mm", o.width_mm, 0.1, 20});
-      zone.half_width_mm = 0.5 * o.width_mm + o.offset_mm;
-      break;
-    case scenarios::OutlineSpec::Kind::polygon:
-      zone.closed = true;
-      zone.least_points = 3;
-      break;
-    case scenarios::OutlineSpec::Kind::fissure:
-      zone.numbers.push_back({msg("width"), at + "/width_mm", o.width_mm, 0.1, 5});
-      zone.numbers.push_back({msg("ridges left"), at + "/ridge_mm", o.ridge_mm, 0, 5});
-      break;
-    case scenarios::OutlineSpec::Kind::projection:
-      zone.numbers.push_back({msg("rounding"), at + "/rounding_mm", o.rounding_mm, 0, 5});
-      break;
+void add_outline(AuthorZone& zone, const scenarios::OutlineSpec& o, const std::string& outline) {
+  for (const auto& f : kind_of(o).fields) {
+    const std::string at = fmt::format("{}/{}", outline, f.key);
+    std::visit(scenarios::ForEachSort{AddShared<scenarios::OutlineSpec>{zone, o, at},
+                                      [&](scenarios::PointsField p) {
+                                        zone.closed = p.closed;
+                                        zone.least_points = p.at_least;
+                                        if (!p.closed) zone.half_width_mm = 0.5 * o.width_mm + o.offset_mm;
+                                        if (o.points_mm.empty()) return;
+                                        zone.points_place = at;
+                                        zone.points_mm = o.points_mm;
+                                      },
+                                      [](scenarios::CentreField) {}},
+               f.as);
   }
-  zone.numbers.push_back({msg("outline wider by"), at + "/offset_mm", o.offset_mm, -5, 5});
-  if (o.points_mm.empty()) return;
-  zone.points_place = at + "/points_mm";
-  zone.points_mm = o.points_mm;
 }
 
 void add_vector(AuthorZone& zone, Vec3 v, const std::string& at, double low, const std::array<Message, 3>& labels) {
@@ -97,23 +89,18 @@ AuthorZone zone_of(const Spec& s, const std::string& body, double opening_z_mm, 
   AuthorZone zone;
   zone.line = s.line;
   zone.frame = shape_frame(s);
-  for (const BodyField& f : body_kind(s.kind).fields) {
+  for (const auto& f : kind_of(s).fields) {
     const std::string at = fmt::format("{}/{}", body, f.key);
-    std::visit(
-        ForEachSort{
-            [&](const NumberField& n) {
-              if (n.label != nullptr)
-                zone.numbers.push_back({msg("{}", Term{n.label}), at, s.*n.value, n.low, n.high, at.ends_with("_deg") ? Unit::deg : Unit::mm});
-            },
-            [&](PlaceField) {
-              add_vector(zone, s.at_mm, at, -100, {msg("place, mesial (x)"), msg("place, buccal (y)"), msg("place, occlusal (z)")});
-            },
-            [&](SizeField) {
-              add_vector(zone, s.size_mm, at, 0.05, {msg("size along x"), msg("size along y"), msg("size along z")});
-            },
-            [&](BottomField) { add_bottom(zone, s.bottom, at); }, [&](OutlineField o) { add_seen(zone, s, o.seen, at, opening_z_mm, chamber_mm); },
-            [](const WordField&) {}, [](TissueField) {}, [](FileField) {}, [](AxisField) {}},
-        f.as);
+    std::visit(ForEachSort{AddShared<Spec>{zone, s, at},
+                           [&](PlaceField) {
+                             add_vector(zone, s.at_mm, at, -100, {msg("place, mesial (x)"), msg("place, buccal (y)"), msg("place, occlusal (z)")});
+                           },
+                           [&](SizeField) {
+                             add_vector(zone, s.size_mm, at, 0.05, {msg("size along x"), msg("size along y"), msg("size along z")});
+                           },
+                           [&](BottomField) { add_bottom(zone, s.bottom, at); },
+                           [&](OutlineField o) { add_seen(zone, s, o.seen, at, opening_z_mm, chamber_mm); }, [](FileField) {}, [](AxisField) {}},
+               f.as);
   }
   return zone;
 }
