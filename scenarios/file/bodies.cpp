@@ -45,7 +45,7 @@ struct BodyRows : Rows<ShapeSpec, FileField, PlaceField, AxisField, SizeField, B
     return {"outline", true, OutlineField{seen}, seen == OutlineSeen::from_side ? "x from the neck's middle to mesial, y above the neck" : ""};
   }
   static std::vector<BodyKind> all() {
-#define BODY(KIND, WORD, IS, WHAT, ...) {#KIND, WORD, IS, WHAT, {__VA_ARGS__}},
+#define BODY(KIND, WORD, IS, WHAT, ...) BodyKind{#KIND, WORD, IS, WHAT, {__VA_ARGS__}},
     return {
 #include "scenarios/file/bodies_table.inc"
     };
@@ -60,7 +60,7 @@ struct OutlineRows : Rows<OutlineSpec, PointsField, CentreField> {
     return word("from", {"tooth", "chamber"}, false, "what centre_mm is measured from", [](Spec& s, std::size_t i) { s.from_chamber = i == 1; });
   }
   static std::vector<OutlineKind> all() {
-#define OUTLINE(KIND, ...) {#KIND, {__VA_ARGS__}},
+#define OUTLINE(KIND, ...) OutlineKind{#KIND, {__VA_ARGS__}},
     return {
 #include "scenarios/file/outlines_table.inc"
     };
@@ -71,7 +71,7 @@ struct BottomRows : Rows<BottomSpec> {
   static Row depth() { return must("depth_mm", &Spec::depth_mm, 0.05, 30, 1, said("depth")); }
   static Row deeper() { return may("deeper_mm", &Spec::deeper_mm, -5, 5, 0, said("floor deeper than the tissue's")); }
   static std::vector<BottomKind> all() {
-#define BOTTOM(KIND, ...) {#KIND, {__VA_ARGS__}},
+#define BOTTOM(KIND, ...) BottomKind{#KIND, {__VA_ARGS__}},
     return {
 #include "scenarios/file/bottoms_table.inc"
     };
