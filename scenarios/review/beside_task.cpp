@@ -14,7 +14,7 @@ constexpr double k_wanted_gap_mm = 0.35;  // along x: the straight distance is a
 constexpr double k_step_mm = 0.1;
 
 /// From the tooth's surface to the neighbour's along x in a row of leaves, mm; large where one of them is not there.
-double gap_mm(const Tooth& tooth, const TissueSet& neighbours, const TissueSet& beside, int side, double y_mm, double z_mm) {
+double distance_to_neighbour_mm(const Tooth& tooth, const TissueSet& neighbours, const TissueSet& beside, int side, double y_mm, double z_mm) {
   constexpr double k_none_mm = 1e3;
   const Octree& tree = tooth.octree;
   const IVec3 at = tree.leaf_at({tree.origin_mm().x, y_mm, z_mm});
@@ -60,7 +60,7 @@ ContactBox box_beside(const Tooth& tooth, const Landmarks& landmarks, int side, 
   const auto floor_gap = [&](double above) {
     double least = 1e3;
     for (double y = -0.5 * box.width_mm; y <= 0.5 * box.width_mm; y += k_step_mm)
-      least = std::min(least, gap_mm(tooth, neighbours, beside, side, contact->y + y, neck->z + above - half_leaf));
+      least = std::min(least, distance_to_neighbour_mm(tooth, neighbours, beside, side, contact->y + y, neck->z + above - half_leaf));
     return least;
   };
   while (box.above_neck_mm - k_step_mm >= least_above_neck_mm && floor_gap(box.above_neck_mm) < k_wanted_gap_mm) box.above_neck_mm -= k_step_mm;
@@ -68,7 +68,7 @@ ContactBox box_beside(const Tooth& tooth, const Landmarks& landmarks, int side, 
     double least = 1e3;
     for (double z = neck->z + box.above_neck_mm; z <= contact->z + 1.0; z += k_step_mm)
       for (const int sign : {1, -1})
-        least = std::min(least, gap_mm(tooth, neighbours, beside, side, contact->y + sign * (0.5 * width + half_leaf), z));
+        least = std::min(least, distance_to_neighbour_mm(tooth, neighbours, beside, side, contact->y + sign * (0.5 * width + half_leaf), z));
     return least;
   };
   while (box.width_mm + 2 * k_step_mm <= widest_mm && side_gap(box.width_mm) < k_wanted_gap_mm) box.width_mm += 2 * k_step_mm;

@@ -16,7 +16,7 @@ using nlohmann::json;
 namespace {
 
 /// What the trail says of an entry.
-struct Told {
+struct TrailLine {
   std::string what;                       ///< its kind; where one kind does several things, which of them
   std::string why = {};                   ///< its reason, or what was said
   std::vector<std::uint64_t> about = {};  ///< entries of whom it is about
@@ -41,7 +41,7 @@ class Trail {
   /// Without its people. Of incidents what happened only with `words`.
   [[nodiscard]] TrailEntry row(const records::LedgerEntry& e, bool words) const {
     const auto* session = e.as<records::SessionEntry>();
-    const Told told = told_of(e, words);
+    const TrailLine told = told_of(e, words);
     return {e.seq,     utc_text(e.utc_ns),
             told.what, e.by.account.empty() ? station_name(registry_, session == nullptr ? e.by.station : session->station_key) : e.by.account,
             told.why,  told.number};
@@ -49,7 +49,7 @@ class Trail {
 
   /// Pseudonyms.
   [[nodiscard]] std::vector<std::string> people(const records::LedgerEntry& e) const {
-    const Told told = told_of(e, false);
+    const TrailLine told = told_of(e, false);
     std::vector<std::string> out;
     if (!told.candidate.empty()) out.push_back(told.candidate);
     for (const auto seq : told.about)
@@ -59,8 +59,8 @@ class Trail {
   }
 
  private:
-  [[nodiscard]] Told told_of(const records::LedgerEntry& e, bool words) const {
-    Told t{e.what ? records::kind_name(*e.what) : "", e.by.reason, {}, {}, 0};
+  [[nodiscard]] TrailLine told_of(const records::LedgerEntry& e, bool words) const {
+    TrailLine t{e.what ? records::kind_name(*e.what) : "", e.by.reason, {}, {}, 0};
     const auto erased = [&](const std::vector<records::ErasedPart>& parts) {
       t.number = parts.size();
       for (const auto& part : parts) t.about.push_back(part.entry);

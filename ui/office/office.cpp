@@ -154,7 +154,7 @@ struct Office::Parts {
       static_assert(std::same_as<Answer, typename Given::Answer>);
       return std::move(given.stream);
     } else {
-      Told<Answer> told(std::move(given));
+      Answered<Answer> told(std::move(given));
       Reply reply = json_reply(to_json_value(told.body), told.status);
       reply.fields = std::move(told.fields);
       return reply;
@@ -171,7 +171,7 @@ struct Office::Parts {
     return out;
   }
 
-  Told<Nothing> answer(route::sign_out, const Call& c) {
+  Answered<Nothing> answer(route::sign_out, const Call& c) {
     site.sign_ins().end(c.cookie);
     return {Nothing(), cookie_field("", 0)};
   }
@@ -184,7 +184,7 @@ struct Office::Parts {
     return out;
   }
 
-  Told<Me> answer(route::sign_in, const SignIn& asked, const Call& call) {
+  Answered<Me> answer(route::sign_in, const SignIn& asked, const Call& call) {
     const std::string key = call.head.address + " " + asked.name;
     const std::int64_t now = steady_s();
     if (!tries.allow(call.head.address, k_tries_of_an_address, now) || !tries.allow(key, k_tries_of_a_name, now))
@@ -196,7 +196,7 @@ struct Office::Parts {
   }
 
   /// Who the proxy says it is, where that is an account here: its role is the account's.
-  Told<Me> answer(route::sign_in_by_proxy, const Call& call) {
+  Answered<Me> answer(route::sign_in_by_proxy, const Call& call) {
     if (!proxied) throw Refused{404, msg("there is nothing here")};
     if (call.proxied_as.empty()) throw Refused{401, msg("the school's sign-on says nobody: come by its address")};
     const std::int64_t now = steady_s();
@@ -206,7 +206,7 @@ struct Office::Parts {
     return signed_in(*account, now, call.proxied_as);
   }
 
-  Told<Me> signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
+  Answered<Me> signed_in(const Account& account, std::int64_t now, const std::string& proxied_as) {
     const std::string cookie = site.sign_ins().begin(account, now, proxied_as);
     return {me(*site.sign_ins().of(cookie, now)), cookie_field(cookie, k_absolute_end_s)};
   }
@@ -319,8 +319,8 @@ struct Office::Parts {
     board.report(c.station, report, utc_now_ns());
     return desk.word_for(c.station, report.heard, board.since_utc_ns(c.station));
   }
-  Told<HandInState> answer(route::pieces_had, const Call& c) { return said_of(pieces.have(c.station, c.tail)); }
-  Told<HandInState> answer(route::add_piece, const Call& c) {
+  Answered<HandInState> answer(route::pieces_had, const Call& c) { return said_of(pieces.have(c.station, c.tail)); }
+  Answered<HandInState> answer(route::add_piece, const Call& c) {
     const auto place = place_in(c.head.query);
     if (!place) throw Refused{400, msg("say where the piece stands: ?at=0&of=1000")};
     return said_of(pieces.add(c.station, c.tail, place->first, place->second, c.body), true);
@@ -334,7 +334,7 @@ struct Office::Parts {
   }
 
   /// 409: the piece was not the next one.
-  static Told<HandInState> said_of(const Pieces::Have& h, bool after_a_piece = false) {
+  static Answered<HandInState> said_of(const Pieces::Have& h, bool after_a_piece = false) {
     if (h.whole) return {HandInState{HandedState::waiting}, 202};
     return {HandInState{.have = h.have, .of = h.of}, after_a_piece && !h.taken ? 409 : 200};
   }

@@ -35,9 +35,9 @@ struct Refused {
 };
 /// An answer with another status than 200, or fields of its own.
 template <class Answer>
-struct Told {
-  Told(Answer answer, int with = 200) : body(std::move(answer)), status(with) {}
-  Told(Answer answer, const std::string& cookie) : body(std::move(answer)), fields{{"Set-Cookie", cookie}} {}
+struct Answered {
+  Answered(Answer answer, int with = 200) : body(std::move(answer)), status(with) {}
+  Answered(Answer answer, const std::string& cookie) : body(std::move(answer)), fields{{"Set-Cookie", cookie}} {}
   Answer body;
   int status = 200;
   std::vector<std::pair<std::string, std::string>> fields = {};

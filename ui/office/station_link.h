@@ -29,7 +29,7 @@ struct LinkOptions {
 };
 
 /// What an announcement says.
-struct Told {
+struct Announced {
   std::uint64_t entry = 0;
   std::string text;
   std::int64_t utc_ns = 0;  ///< when it was made, by the office's clock
@@ -48,7 +48,7 @@ struct LinkView {
   Message trouble;                  ///< why it does not
   std::uint64_t hold = 0;           ///< entry by which the exam here is paused; 0: it may run
   std::string hold_reason;          ///< why
-  std::vector<Told> told;           ///< not read yet, the oldest first
+  std::vector<Announced> told;           ///< not read yet, the oldest first
   std::size_t waiting = 0;          ///< recordings that are not handed in yet
   std::vector<std::string> failed;  ///< that the office refused, by name
 };

@@ -14,8 +14,8 @@ namespace cavum::report {
 namespace {
 
 constexpr double k_width_px = 900, k_height_px = 210;
-constexpr std::size_t k_bins = 700;         // points of a line
-constexpr double k_one_line_share = 0.016;  // of the time: events nearer than that share a line
+constexpr std::size_t k_max_line_points = 700;  // points of a line
+constexpr double k_one_line_share = 0.016;      // of the time: events nearer than that share a line
 
 std::vector<ui::ChartMark> event_marks(const std::vector<ReportEvent>& events, double duration_s) {
   std::vector<ui::ChartMark> marks;
@@ -53,7 +53,7 @@ Picture chart(const std::string& title, const std::string& unit, const std::stri
 
 std::vector<Picture> motion_charts(const ReportSource& s) {
   const MotionTrack m = make_motion_track(s.input);
-  const std::size_t n = m.size(), bin = std::max<std::size_t>(1, (n + k_bins - 1) / k_bins);
+  const std::size_t n = m.size(), bin = std::max<std::size_t>(1, (n + k_max_line_points - 1) / k_bins);
   std::vector<ui::ChartPoint> force, depth, speed;
   for (std::size_t i = 0; i < n; i += bin) {
     const std::size_t end = std::min(n, i + bin);

@@ -18,7 +18,7 @@
 namespace cavum::report {
 namespace {
 
-const std::string k_dash = "–";
+const std::string k_no_value = "–";
 constexpr double k_no_points = 0.005;  // reads 0.00
 
 /// How far from the pass mark, in points.
@@ -236,7 +236,7 @@ void add_moments(Document& d, const ReportSource& s) {
       if (s.reader == ReportReader::instructor || !cost_nothing) t.rows.push_back(moment_row(m));
     }
     if (w.left_out > 0)
-      t.rows.push_back({{{k_dash},
+      t.rows.push_back({{{k_no_value},
                          {""},
                          {trn("{} smaller moment", "{} smaller moments together", static_cast<long long>(w.left_out), w.left_out)},
                          {figure(as_number(w.left_out_amount, 3))},
@@ -296,11 +296,11 @@ void add_course(Document& d, const ReportSource& s) {
 }  // namespace
 
 std::string points_of(const std::optional<double>& points, const std::optional<double>& max) {
-  return points ? tr("{} / {}", as_points(*points), as_points(max.value_or(0))) : k_dash;
+  return points ? tr("{} / {}", as_points(*points), as_points(max.value_or(0))) : k_no_value;
 }
 
 TableCell time_cell(std::int64_t tick, const std::optional<Vec3>& site_mm) {
-  if (tick < 0 || tick == grading::k_untimed_tick) return {k_dash};
+  if (tick < 0 || tick == grading::k_untimed_tick) return {k_no_value};
   const double t_s = static_cast<double>(tick) * k_tick_s;
   return {figure(as_s(t_s, 3)), Jump{t_s, site_mm}};
 }

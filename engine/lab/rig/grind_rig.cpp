@@ -79,7 +79,7 @@ GrindRow grind(const ForceModel& force, const Bur& bur, const std::string& tissu
       z -= k_lowered_mm;
       continue;
     }
-    const double owed_mm = std::max(0.0, state.recession.owed_mm);
+    const double owed_mm = std::max(0.0, state.recession.pending_mm);
     depth_mm = bench.start_mm.z - k_over_bench_mm - out.proxy_mm.z + owed_mm;
     if (out.stiffness_n_per_mm > 0) z = std::max(z - k_fastest_mm, out.proxy_mm.z - owed_mm - load_n / out.stiffness_n_per_mm);
     if (depth_mm < bench.from_mm) continue;

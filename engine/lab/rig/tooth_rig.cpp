@@ -10,7 +10,7 @@
 namespace cavum {
 namespace {
 
-constexpr double k_air_mm = 0.3;         // before contact: long enough for the handpiece to reach its speed
+constexpr double k_approach_mm = 0.3;    // before contact: long enough for the handpiece to reach its speed
 constexpr double k_beyond_mm = 3.0;      // past the pulp's roof: then it is given up
 constexpr double k_chamber_mm = 1.0;     // pulp at least this high is a chamber, less a canal seen across
 constexpr double k_sample_s = 0.01;      // 100 Hz
@@ -141,7 +141,7 @@ ToothRun run_once(const ServoModel& servo, const Tooth& tooth, const ToothRigOpt
     if (tries > 2000)
       throw Error(RigError::no_pulp, msg("tooth"), msg("has no pulp under solid tissue around the chosen place"), msg("name another with --at"));
   }
-  const double start_mm = highest_under_mm(tooth.octree, run.x_mm, run.y_mm, servo.tray[0].bur.head_radius_mm) + k_air_mm;
+  const double start_mm = highest_under_mm(tooth.octree, run.x_mm, run.y_mm, servo.tray[0].bur.head_radius_mm) + k_approach_mm;
   TestingMachine machine(servo, tooth, {run.x_mm, run.y_mm, start_mm}, o.machine, random);
   const double dt = servo.config.tick_s;
   double slowest_s = 0.0;

@@ -65,11 +65,11 @@ struct Implicit {
 };
 
 Implicit implicit_at(Vec3 at, const Neighbours& neighbours, double radius_mm) {
-  constexpr int k_rounds = 3;
+  constexpr int k_passes = 3;
   constexpr double k_apart = 0.7;  // of unit normals, from which on they count less
   const double off_mm = 0.25 * radius_mm;
   Implicit f;
-  for (int round = 0; round < k_rounds; ++round) {
+  for (int round = 0; round < k_passes; ++round) {
     double weights = 0, values = 0;
     Vec3 slopes, slopes_of_values, normals;
     neighbours.around(at, [&](const SurfacePoint& p, Vec3 off, double r2) {

@@ -2,8 +2,10 @@
 // half space. Exact for three dimensions, deterministic, without allocation.
 #pragma once
 
+#include <array>
 #include <span>
 
+#include "engine/base/state_hash.h"
 #include "engine/base/vec.h"
 
 namespace cavum {
@@ -17,8 +19,9 @@ struct HalfSpace {
 /// The half spaces that hold the step, by their places in the list.
 struct ActiveSet {
   int count = 0;  ///< 0 to 3
-  int at[3] = {-1, -1, -1};
+  std::array<int, 3> at{-1, -1, -1};
 };
+CAVUM_STATE(ActiveSet, count, at)
 
 struct HalfSpaceSolution {
   Vec3 step;

@@ -1,10 +1,8 @@
 #include "engine/physics/contact/proxy.h"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
-#include "engine/base/hash.h"
 #include "engine/physics/contact/tuning.h"
 
 namespace cavum {
@@ -37,10 +35,10 @@ double tool_air_mm(const Octree& tooth, const ContactTool& tool, const Mat3& rot
 /// Forgets every clearance: another bur was mounted, or the first tick.
 void reset(ContactState& state, const ContactTool& tool, int bur) noexcept {
   state.bur = bur;
-  state.tool_air_until_mm = state.tool_near_until_mm = -1.0;
-  std::fill_n(state.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
-  std::fill_n(state.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
-  std::fill_n(state.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
+  state.clear.tool_air_until_mm = state.clear.tool_near_until_mm = -1.0;
+  std::fill_n(state.clear.patch_clear_until_mm.begin(), tool.patches.size(), -1.0);
+  std::fill_n(state.clear.patch_near_until_mm.begin(), tool.patches.size(), -1.0);
+  std::fill_n(state.clear.sample_clear_until_mm.begin(), tool.samples.size(), -1.0);
   state.gathered.turned_rad = -1.0;
   state.catching_up = false;
   state.opened = {};
@@ -68,31 +66,32 @@ void begin_gathering(const Octree& tooth, Vec3 at_mm, double reach_mm, const Con
 }
 
 /// Goes on to collect a half space for each sample that a step could bring into contact; true when all have been asked, false after `most` places.
-bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, ContactState& state, GatheredContact& g) noexcept {
+bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, ContactState& state, GatheredContact& g,
+                     ContactScratch& scratch) noexcept {
   const double leaf = tooth.leaf_mm(), off_mm = length(g.at_mm - state.proxy_mm);
-  const int last_looked_up = state.looked_up + most;
+  const int last_looked_up = scratch.looked_up + most;
   for (; g.next_patch < tool.patches.size(); ++g.next_patch) {
     const auto& patch = tool.patches[g.next_patch];
     const double travel = travel_mm(state, patch.lever_mm), far_mm = travel + g.reach_mm + off_mm;
-    if (far_mm <= state.patch_clear_until_mm[g.next_patch]) continue;
-    if (travel + off_mm > state.patch_near_until_mm[g.next_patch]) {
+    if (far_mm <= state.clear.patch_clear_until_mm[g.next_patch]) continue;
+    if (travel + off_mm > state.clear.patch_near_until_mm[g.next_patch]) {
       const double r = patch.radius_mm + k_margin_mm;
       const Vec3 middle = g.at_mm + state.rotation * patch.centre_mm;
       if (tooth.is_clear(middle - Vec3{r, r, r}, middle + Vec3{r, r, r})) {
-        state.patch_clear_until_mm[g.next_patch] = travel + k_margin_mm - off_mm;
+        state.clear.patch_clear_until_mm[g.next_patch] = travel + k_margin_mm - off_mm;
         continue;
       }
-      state.patch_near_until_mm[g.next_patch] = travel + k_stays_near_mm;
+      state.clear.patch_near_until_mm[g.next_patch] = travel + k_stays_near_mm;
     }
     for (std::uint32_t i = std::max(g.next_sample, patch.first); i < patch.last; ++i) {
-      if (far_mm <= state.sample_clear_until_mm[i]) continue;
-      if (state.looked_up >= last_looked_up) {
+      if (far_mm <= state.clear.sample_clear_until_mm[i]) continue;
+      if (scratch.looked_up >= last_looked_up) {
         g.next_sample = i;
         return false;
       }
-      const auto s = tooth.sample(g.at_mm + state.rotation * tool.samples[i].at_mm, state.cursor);
-      ++state.looked_up;
-      state.sample_clear_until_mm[i] = travel + s.distance_mm - off_mm;
+      const auto s = tooth.sample(g.at_mm + state.rotation * tool.samples[i].at_mm, scratch.cursor);
+      ++scratch.looked_up;
+      state.clear.sample_clear_until_mm[i] = travel + s.distance_mm - off_mm;
       if (s.distance_mm > g.reach_mm) continue;
       if (dot(s.gradient, s.gradient) < 1e-3) continue;  // no direction out: neighbours speak
       g.half_spaces.push_back({s.gradient, slack_mm(s.distance_mm, leaf)});
@@ -103,14 +102,14 @@ bool go_on_gathering(const Octree& tooth, const ContactTool& tool, int most, Con
 }
 
 /// Makes sure that the half spaces in force are good for a step of `reach_mm` from where the proxy is.
-void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state) noexcept {
+void gather(const Octree& tooth, const ContactTool& tool, double reach_mm, ContactState& state, ContactScratch& scratch) noexcept {
   GatheredContact& g = state.gathered;
   const double moved_mm = length(state.proxy_mm - g.at_mm);
   if (g.turned_rad == state.turned_rad && (g.edit == tooth.edit_hash() || state.catching_up) && moved_mm <= linear_mm(tooth.leaf_mm()) &&
       g.reach_mm >= reach_mm + moved_mm)
     return;
   begin_gathering(tooth, state.proxy_mm, reach_mm, state, g);
-  (void)go_on_gathering(tooth, tool, k_all_places, state, g);
+  (void)go_on_gathering(tooth, tool, k_all_places, state, g, scratch);
   state.active = {};
   state.catching_up = false;
 }
@@ -126,7 +125,7 @@ double opened_way_mm(const OpenedPlace& opened, Vec3 device_mm, double leaf_mm, 
 }
 
 /// After a carve: gathers anew a part in each tick, and then follows.
-void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, double reach_mm, ContactState& state) noexcept {
+void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, double reach_mm, ContactState& state, ContactScratch& scratch) noexcept {
   if (!state.touching || state.gathered.edit == tooth.edit_hash() || state.gathered.turned_rad != state.turned_rad) {
     state.catching_up = false;
     return;
@@ -137,7 +136,7 @@ void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, doub
     begin_gathering(tooth, opened_way_mm(state.opened, device_mm, leaf, state) > 0.0 ? state.opened.tip_mm : state.proxy_mm, reach_mm, state, coming);
     state.catching_up = true;
   }
-  if (!go_on_gathering(tooth, tool, k_part_looked_up, state, coming)) return;
+  if (!go_on_gathering(tooth, tool, k_part_looked_up, state, coming, scratch)) return;
   state.catching_up = false;
   std::swap(state.gathered, state.coming);
   state.active = {};
@@ -154,7 +153,8 @@ void catch_up(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, doub
 
 /// The step from `gathered.at_mm` nearest to the wanted one. Samples alone would let the head sink in between them: where it
 /// rests, the head's own furthest place against the surface is asked too, and becomes a half space if it enters the tissue.
-HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm, ContactState& state) noexcept {
+HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wanted, double stride_mm, ContactState& state,
+                        ContactScratch& scratch) noexcept {
   auto solution = nearest_step(wanted, state.gathered.half_spaces, state.active);
   const double leaf = tooth.leaf_mm();
   const Vec3 since = state.proxy_mm - state.gathered.at_mm;
@@ -166,7 +166,7 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
     for (int i = 0; i < solution.active.count; ++i) {
       const Vec3 normal = normalized(state.gathered.half_spaces[static_cast<std::size_t>(solution.active.at[i])].normal);
       const Vec3 furthest = tool.furthest_along(state.rotation.transposed(-normal));
-      const auto s = tooth.sample(state.gathered.at_mm + there + state.rotation * furthest, state.cursor);
+      const auto s = tooth.sample(state.gathered.at_mm + there + state.rotation * furthest, scratch.cursor);
       if (s.distance_mm >= -k_dead_leaves * leaf || dot(s.gradient, s.gradient) < 1e-3) continue;
       if (state.gathered.half_spaces.size() >= state.gathered.samples.size() + k_refined_room) {  // begin anew; the active ones go with them
         state.gathered.half_spaces.resize(state.gathered.samples.size());
@@ -185,12 +185,12 @@ HalfSpaceSolution solve(const Octree& tooth, const ContactTool& tool, Vec3 wante
 /// Is there nothing but air around the whole tool on its way to the device?
 bool way_is_free(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state) noexcept {
   const double way_mm = length(device_mm - state.proxy_mm), travel = travel_mm(state, tool.reach_mm);
-  if (state.tool_air_until_mm <= travel + way_mm && state.tool_near_until_mm <= travel) {
+  if (state.clear.tool_air_until_mm <= travel + way_mm && state.clear.tool_near_until_mm <= travel) {
     const double air_mm = tool_air_mm(tooth, tool, state.rotation, state.proxy_mm);
-    state.tool_air_until_mm = travel + air_mm;
-    if (air_mm == 0.0) state.tool_near_until_mm = travel + k_stays_near_mm;
+    state.clear.tool_air_until_mm = travel + air_mm;
+    if (air_mm == 0.0) state.clear.tool_near_until_mm = travel + k_stays_near_mm;
   }
-  return travel + way_mm < state.tool_air_until_mm;
+  return travel + way_mm < state.clear.tool_air_until_mm;
 }
 
 /// One step of the proxy.
@@ -203,14 +203,14 @@ struct ProxyStep {
 };
 
 /// The way to the device as far as the tooth and the stride allow. One back makes the stride shorter.
-ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, ContactState& state) noexcept {
+ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, ContactState& state, ContactScratch& scratch) noexcept {
   const double leaf = tooth.leaf_mm();
   double& stride = state.stride_mm;
-  gather(tooth, tool, std::min(length(rest), stride) + k_gather_more_leaves * leaf, state);
+  gather(tooth, tool, std::min(length(rest), stride) + k_gather_more_leaves * leaf, state, scratch);
   // The whole way is projected, and what is left of it shortened: a deep push must not hold back a slide.
   // The half spaces stand about the place where they were gathered: so do the steps.
   const Vec3 since = state.proxy_mm - state.gathered.at_mm;
-  auto solution = solve(tooth, tool, since + rest, stride, state);
+  auto solution = solve(tooth, tool, since + rest, stride, state, scratch);
   if (!solution.feasible) {  // squeezed between walls: do not enter them further, whatever the depth so far
     for (auto& h : state.gathered.half_spaces) h.slack_mm = std::max(h.slack_mm, k_squeeze_leaves * leaf);
     state.gathered.turned_rad = -1.0;
@@ -232,7 +232,7 @@ ProxyStep next_step(const Octree& tooth, const ContactTool& tool, Vec3 rest, Con
 }
 
 /// Moves the proxy towards the device, near the tooth; true when the tooth holds it before.
-bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state, bool& on_its_way) noexcept {
+bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, ContactState& state, ContactScratch& scratch, bool& on_its_way) noexcept {
   // A tool at rest in its hole needs to look around only a little; one on its way takes whole leaves. Where the surface turns under a step
   // the next one leads back: less far, or the proxy would go forth and back for ever.
   const double leaf = tooth.leaf_mm();
@@ -240,10 +240,10 @@ bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, Cont
   if (!state.touching) stride = leaf;
   bool strode = false, blocked = false;
   int times_back = 0;
-  catch_up(tooth, tool, device_mm, std::min(length(device_mm - state.proxy_mm), stride) + k_gather_more_leaves * leaf, state);
+  catch_up(tooth, tool, device_mm, std::min(length(device_mm - state.proxy_mm), stride) + k_gather_more_leaves * leaf, state, scratch);
   for (int i = 0; i < k_max_steps; ++i) {
     const Vec3 rest = device_mm - state.proxy_mm;
-    const ProxyStep s = next_step(tooth, tool, rest, state);
+    const ProxyStep s = next_step(tooth, tool, rest, state, scratch);
     times_back += s.back;
     blocked = s.blocked;
     if (s.mm <= k_settled_mm) break;  // settled: standing still keeps what was gathered
@@ -253,7 +253,7 @@ bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, Cont
     state.last_step_mm = s.step;
     strode |= s.is_long;
     if (s.is_long && !s.back) stride = std::min(k_longer * stride, leaf);
-    on_its_way = i + 1 == k_max_steps || state.looked_up > (times_back > 1 ? k_max_going_back : k_max_looked_up);
+    on_its_way = i + 1 == k_max_steps || scratch.looked_up > (times_back > 1 ? k_max_going_back : k_max_looked_up);
     if (on_its_way) break;
   }
   if (!strode) {  // at rest
@@ -263,20 +263,23 @@ bool approach(const Octree& tooth, const ContactTool& tool, Vec3 device_mm, Cont
   return blocked;
 }
 
+std::size_t most_samples(const std::vector<ContactTool>& tray) {
+  std::size_t most = 0;
+  for (const auto& t : tray) most = std::max(most, t.samples.size());
+  return most;
+}
+
 }  // namespace
 
 ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first_tip_mm) {
   ContactState state;
   state.proxy_mm = first_tip_mm;
-  std::size_t samples = 0, patches = 0;
-  for (const auto& t : tray) {
-    samples = std::max(samples, t.samples.size());
-    patches = std::max(patches, t.patches.size());
-  }
-  state.sample_clear_until_mm.assign(samples, -1.0);
-  state.patch_clear_until_mm.assign(patches, -1.0);
-  state.patch_near_until_mm.assign(patches, -1.0);
-  state.touched.counted.assign(samples, 0);
+  const std::size_t samples = most_samples(tray);
+  std::size_t patches = 0;
+  for (const auto& t : tray) patches = std::max(patches, t.patches.size());
+  state.clear.sample_clear_until_mm.assign(samples, -1.0);
+  state.clear.patch_clear_until_mm.assign(patches, -1.0);
+  state.clear.patch_near_until_mm.assign(patches, -1.0);
   for (GatheredContact* g : {&state.gathered, &state.coming}) {
     g->samples.reserve(samples);
     g->half_spaces.reserve(samples + k_refined_room);
@@ -284,9 +287,16 @@ ContactState make_contact_state(const std::vector<ContactTool>& tray, Vec3 first
   return state;
 }
 
-ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device, ContactState& state) noexcept {
+ContactScratch make_contact_scratch(const std::vector<ContactTool>& tray) {
+  ContactScratch scratch;
+  scratch.counted.assign(most_samples(tray), 0);
+  return scratch;
+}
+
+ContactResult solve_proxy(const Octree& tooth, const ContactTool& tool, int bur, const Pose& device, ContactState& state,
+                          ContactScratch& scratch) noexcept {
   const Vec3 before = state.proxy_mm;
-  state.looked_up = 0;
+  scratch.looked_up = 0;
   const Mat3 turned = rotation(device.rotation);
   state.turned_rad += turn_bound_rad(state.rotation, turned);
   state.rotation = turned;
@@ -299,7 +309,7 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int b
     state.moved_mm += length(device.tip_mm - state.proxy_mm);
     state.proxy_mm = device.tip_mm;
   } else {
-    blocked = approach(tooth, tool, device.tip_mm, state, result.on_its_way);
+    blocked = approach(tooth, tool, device.tip_mm, state, scratch, result.on_its_way);
   }
 
   result.moved_mm = state.proxy_mm - before;
@@ -314,14 +324,6 @@ ContactResult update_contact(const Octree& tooth, const ContactTool& tool, int b
   result.normal = state.normal;
   state.touching = result.touching;
   return result;
-}
-
-std::uint64_t hash_of(const ContactState& s, std::uint64_t seed) noexcept {
-  const std::array<double, 9> real{s.proxy_mm.x, s.proxy_mm.y, s.proxy_mm.z, s.normal.x, s.normal.y,
-                                   s.normal.z,   s.moved_mm,   s.turned_rad, s.stride_mm};
-  const std::array<std::uint64_t, 4> whole{static_cast<std::uint64_t>(s.bur), static_cast<std::uint64_t>(s.touching), s.gathered.edit,
-                                           s.touched.edit};
-  return fast_hash(whole.data(), sizeof whole, fast_hash(real.data(), sizeof real, seed));
 }
 
 }  // namespace cavum

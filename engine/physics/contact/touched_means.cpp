@@ -41,8 +41,7 @@ double mean_of(const Octree& tooth, const TissueMix& mix, const TissueConstants*
 }
 
 /// What was found the last time is good enough for this tick.
-bool still_hold(double leaf_mm, Vec3 tip, ContactState& state) noexcept {
-  TouchedMemory& last = state.touched;
+bool still_hold(double leaf_mm, Vec3 tip, const ContactState& state, const ContactScratch& scratch, TouchedMemory& last) noexcept {
   const Vec3 swung = state.normal - last.normal, moved = tip - last.tip_mm;
   if (last.turned_rad != state.turned_rad || dot(swung, swung) >= k_same_normal2) return false;
   const double moved2 = dot(moved, moved);
@@ -51,7 +50,7 @@ bool still_hold(double leaf_mm, Vec3 tip, ContactState& state) noexcept {
   // After a carve all is gathered anew, which is enough work for a tick. The tip, as the surface will have receded, stands where it
   // stood: what it touches may be looked up in the next tick, or, in one tissue, when that is done.
   const bool waits = state.catching_up && last.even;
-  if (!(waits || (state.looked_up > 0 && !last.late)) || moved2 >= late_mm * late_mm) return false;
+  if (!(waits || (scratch.looked_up > 0 && !last.late)) || moved2 >= late_mm * late_mm) return false;
   last.late = !waits;
   return true;
 }
@@ -59,13 +58,15 @@ bool still_hold(double leaf_mm, Vec3 tip, ContactState& state) noexcept {
 /// Sums over the places of a tool whose tip is, or will be, at `tip`.
 class Touching {
  public:
-  Touching(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, Vec3 tip, ContactState& state)
+  Touching(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, Vec3 tip, const ContactState& state,
+           ContactScratch& scratch)
       : tooth_(tooth),
         tool_(tool),
         voids_(voids),
         tissue_(tissue),
         tip_(tip),
         state_(state),
+        scratch_(scratch),
         leaf_mm_(tooth.leaf_mm()),
         ahead_(state.normal * (-k_ahead_leaves * leaf_mm_)),
         close_(state.normal * (-k_close_leaves * leaf_mm_)),
@@ -75,8 +76,8 @@ class Touching {
   void count_gathered() noexcept {
     const GatheredContact& gathered = state_.gathered;
     const Vec3 since = tip_ - gathered.at_mm;
-    state_.looked_up += static_cast<int>(gathered.samples.size());
-    std::fill_n(state_.touched.counted.begin(), head_end_, std::uint8_t{0});
+    scratch_.looked_up += static_cast<int>(gathered.samples.size());
+    std::fill_n(scratch_.counted.begin(), head_end_, std::uint8_t{0});
     std::size_t patch = 0;
     bool near = void_near(tool_.patches[patch]);
     for (std::size_t n = 0; n < gathered.samples.size(); ++n) {
@@ -84,7 +85,7 @@ class Touching {
       while (i >= tool_.patches[patch].last) near = void_near(tool_.patches[++patch]);  // samples stand in the order of their patches
       const auto& s = tool_.samples[i];
       const bool head = i < head_end_;
-      if (head) state_.touched.counted[i] = 1;
+      if (head) scratch_.counted[i] = 1;
       const double seen = -dot(state_.rotation * s.normal, state_.normal);
       const auto& h = gathered.half_spaces[n];
       if (seen > 0.0) count(s.at_mm, s.area_mm2 * seen, seen, h.slack_mm + dot(h.normal, since), head, near);
@@ -94,7 +95,7 @@ class Touching {
   /// A fine tip may touch between its samples: the furthest place counts a little, and alone if need be.
   void count_furthest() noexcept {
     const Vec3 at_tool = tool_.furthest_along(state_.rotation.transposed(-state_.normal)), furthest = tip_ + state_.rotation * at_tool;
-    count(at_tool, k_furthest_mm2, 1.0, tooth_.sample(furthest, state_.cursor).distance_mm, true, true);
+    count(at_tool, k_furthest_mm2, 1.0, tooth_.sample(furthest, scratch_.cursor).distance_mm, true, true);
   }
 
   /// Samples of the head that are far from the surface, and have void tissue before them.
@@ -102,13 +103,13 @@ class Touching {
     for (std::size_t p = 0; p < tool_.head_patches; ++p) {
       if (!void_near(tool_.patches[p])) continue;
       for (std::uint32_t i = tool_.patches[p].first; i < tool_.patches[p].last; ++i) {
-        if (state_.touched.counted[i] != 0) continue;
+        if (scratch_.counted[i] != 0) continue;
         const auto& s = tool_.samples[i];
         const double seen = -dot(state_.rotation * s.normal, state_.normal);
         if (seen <= 0.0) continue;
         const Vec3 at = tip_ + state_.rotation * s.at_mm + ahead_;
-        if (tooth_.tissue_at(at, state_.cursor) != k_air)
-          count_void(s.area_mm2 * seen * mean_of(tooth_, tooth_.mix(at, state_.cursor), tissue_, false, void_mean_));
+        if (tooth_.tissue_at(at, scratch_.cursor) != k_air)
+          count_void(s.area_mm2 * seen * mean_of(tooth_, tooth_.mix(at, scratch_.cursor), tissue_, false, void_mean_));
       }
     }
   }
@@ -150,10 +151,11 @@ class Touching {
     const Vec3 at = tip_ + state_.rotation * at_tool;
     double touch = std::clamp(1.0 - (gap_mm - k_touch_leaves * leaf_mm_) / (k_fade_leaves * leaf_mm_), 0.0, 1.0);
     if (touch <= 0.0 && !(head && void_near)) return;
-    const TissueMix mix = tooth_.mix(at + ahead_, state_.cursor);
+    const TissueMix mix = tooth_.mix(at + ahead_, scratch_.cursor);
     double solid_share = mean_of(tooth_, mix, tissue_, true, solid_mean_);
     const double void_share = mean_of(tooth_, mix, tissue_, false, void_mean_);
-    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth_, tooth_.mix(at + close_, state_.cursor), tissue_, true, solid_mean_) <= 0.0) touch = 0.0;
+    if (touch > 0.0 && solid_share <= 0.0 && mean_of(tooth_, tooth_.mix(at + close_, scratch_.cursor), tissue_, true, solid_mean_) <= 0.0)
+      touch = 0.0;
     if (touch > 0.0) {
       const double touched = area * touch;
       least_n_per_mm_ = std::min(least_n_per_mm_, solid_mean_.stiffness_n_per_mm);
@@ -186,7 +188,8 @@ class Touching {
   const VoidMap& voids_;
   const TissueConstants* tissue_;
   const Vec3 tip_;
-  ContactState& state_;
+  const ContactState& state_;
+  ContactScratch& scratch_;
   const double leaf_mm_;
   const Vec3 ahead_, close_;
   const std::uint32_t head_end_;
@@ -198,22 +201,21 @@ class Touching {
 }  // namespace
 
 TouchedMeans touched_means(const Octree& tooth, const ContactTool& tool, const VoidMap& voids, const TissueConstants* tissue, double recession_mm,
-                           ContactState& state) noexcept {
-  const Vec3 tip = state.proxy_mm - state.normal * recession_mm;
-  TouchedMemory& memory = state.touched;
-  if (still_hold(tooth.leaf_mm(), tip, state)) return memory.means;
-  memory.late = false;
-  memory.turned_rad = state.turned_rad;
-  memory.tip_mm = tip;
-  memory.edit = state.gathered.edit;
-  memory.normal = state.normal;
-  Touching touching(tooth, tool, voids, tissue, tip, state);
+                           const ContactState& contact, TouchedMemory& state, ContactScratch& scratch) noexcept {
+  const Vec3 tip = contact.proxy_mm - contact.normal * recession_mm;
+  if (still_hold(tooth.leaf_mm(), tip, contact, scratch, state)) return state.means;
+  state.late = false;
+  state.turned_rad = contact.turned_rad;
+  state.tip_mm = tip;
+  state.edit = contact.gathered.edit;
+  state.normal = contact.normal;
+  Touching touching(tooth, tool, voids, tissue, tip, contact, scratch);
   touching.count_gathered();
-  if (state.touching) touching.count_furthest();
+  if (contact.touching) touching.count_furthest();
   touching.count_void_ahead();
-  memory.even = touching.even();
-  memory.means = touching.means();
-  return memory.means;
+  state.even = touching.even();
+  state.means = touching.means();
+  return state.means;
 }
 
 }  // namespace cavum

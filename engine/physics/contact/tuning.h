@@ -103,7 +103,7 @@ CAVUM_TUNING(k_even_share, 0.999);
 CAVUM_TUNING(k_min_step_mm, 0.025);
 CAVUM_TUNING(k_step_leaves, 0.25);
 /// Carves that may be owed: one that contact is following, one under way, one that gathers. A head that neck or shank hold owes no more.
-CAVUM_TUNING(k_max_owed_steps, 3.0);
+CAVUM_TUNING(k_max_pending_steps, 3.0);
 /// Leaves. The distance field is cut wider than the head by a clearance of 0.01 leaf and more: the proxy may be paid for that in advance.
 CAVUM_TUNING(k_max_ahead_leaves, 0.1);
 /// Leaves: half the distance of two. A proxy further aside stands in another hole.

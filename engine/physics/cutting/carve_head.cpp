@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/hash.h"
 #include "engine/tooth/octree_edit.h"
 
 namespace cavum {
@@ -135,13 +134,6 @@ CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, 
   carving.last = room ? now : CarvedHead{};
   carving.now.bur = -1;
   return room ? CarvingStep::done : CarvingStep::no_room;
-}
-
-std::uint64_t hash_of(const HeadCarving& c, std::uint64_t seed) noexcept {
-  const std::array<double, 7> ways{c.last.tip_mm.x, c.last.tip_mm.y, c.last.tip_mm.z, c.now.tip_mm.x, c.now.tip_mm.y, c.now.tip_mm.z, c.swept_mm};
-  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(c.last.bur), static_cast<std::uint64_t>(c.now.bur),
-                                           c.under_way() ? c.plan.progress() : 0};
-  return fast_hash(whole.data(), sizeof whole, fast_hash(ways.data(), sizeof ways, seed));
 }
 
 }  // namespace cavum

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "engine/base/pose.h"
+#include "engine/base/state_hash.h"
 #include "engine/physics/bur/bur.h"
 #include "engine/tooth/octree.h"
 
@@ -16,6 +17,7 @@ struct CarvedHead {
   Mat3 rotation;
   int bur = -1;  ///< of the tray; -1 = none
 };
+CAVUM_STATE(CarvedHead, tip_mm, rotation, bur)
 
 /// A carve is worked out over several ticks and made in the last of them.
 struct HeadCarving {
@@ -23,9 +25,15 @@ struct HeadCarving {
   CarvedHead now;   ///< the carve under way
   Octree::Plan plan;
   bool worked_out = false;  ///< the plan is complete
-  double swept_mm = 0.0;    ///< way of the tool since `now` began; whoever moves it counts
+  double swept_mm = 0.0;    ///< path of the tool since `now` began; whoever moves it counts
   [[nodiscard]] bool under_way() const noexcept { return now.bur >= 0; }
 };
+/// The plan follows from the heads and the tooth: how far it has come is enough.
+template <class Visit>
+void each_member(Visit& visit, const HeadCarving& state) noexcept {
+  const auto& [last, now, plan, worked_out, swept_mm] = state;
+  visit(last, now, state.under_way() ? plan.progress() : 0, worked_out, swept_mm);
+}
 
 /// Begins to carve a head; what was under way is dropped.
 void begin_carving(HeadCarving& carving, const CarvedHead& head) noexcept;
@@ -40,8 +48,5 @@ inline constexpr int k_at_once = 1 << 30;
 /// the last carve is carved on its leading side alone: behind it nothing can change, for all heads are convex.
 /// `no_room`: part of the head was not carved, and the carving is over.
 CarvingStep go_on_carving(HeadCarving& carving, Octree& tooth, const Bur& head, int work, std::vector<RemovedLeaf>& removed) noexcept;
-
-/// For state_hash; the tooth has its own.
-[[nodiscard]] std::uint64_t hash_of(const HeadCarving& carving, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

@@ -3,8 +3,6 @@
 #include <algorithm>
 #include <cmath>
 
-#include "engine/base/hash.h"
-
 namespace cavum {
 namespace {
 
@@ -79,13 +77,6 @@ TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering,
   if (in.speed_mm_s > 0.0) out.drag_n = state.velocity_mm_s * (-f.drag_n / in.speed_mm_s);
   out.rendered_drag_n = -state.stretch_n;
   return out;
-}
-
-std::uint64_t hash_of(const TermsState& s, std::uint64_t seed) noexcept {
-  if (s.count == 0) return seed;
-  const std::array<double, 6> motion{s.velocity_mm_s.x, s.velocity_mm_s.y, s.velocity_mm_s.z, s.stretch_n.x, s.stretch_n.y, s.stretch_n.z};
-  seed = fast_hash(s.memory.data(), s.count * sizeof(TermMemory), fast_hash(motion.data(), sizeof motion, seed));
-  return s.counts_removed ? fast_hash(s.removed_leaves.data(), sizeof s.removed_leaves, seed) : seed;
 }
 
 }  // namespace cavum

@@ -5,6 +5,7 @@
 #include <span>
 #include <vector>
 
+#include "engine/base/state_hash.h"
 #include "engine/base/vec.h"
 #include "engine/physics/force/rendering.h"
 #include "engine/physics/force/term_kinds.h"
@@ -28,6 +29,14 @@ struct TermsState {
   bool counts_removed = false;                      ///< a term looks at what was removed
   std::array<std::uint32_t, 256> removed_leaves{};  ///< by each bur of the tray; 0 unless `counts_removed`
 };
+/// Of terms that are not in use nothing counts.
+template <class Visit>
+void each_member(Visit& visit, const TermsState& state) noexcept {
+  const auto& [count, velocity_mm_s, stretch_n, memory, counts_removed, removed_leaves] = state;
+  visit(count, velocity_mm_s, stretch_n, counts_removed);
+  for (std::size_t i = 0; i < count; ++i) visit(memory[i]);
+  if (counts_removed) visit(removed_leaves);
+}
 /// Before the first tick of a model with these terms.
 [[nodiscard]] TermsState make_terms_state(const ForceTerms& terms) noexcept;
 
@@ -44,8 +53,5 @@ struct TermsForce {
 /// itself; it holds like stiction, slides at the law's force, and gives back no more than it took.
 [[nodiscard]] TermsForce apply_terms(const ForceTerms& terms, const RenderingModel& rendering, TermInput in, Vec3 moved_mm,
                                      TermsState& state) noexcept;
-
-/// For state_hash; leaves `seed` as it is when there are no terms.
-[[nodiscard]] std::uint64_t hash_of(const TermsState& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

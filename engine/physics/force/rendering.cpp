@@ -2,8 +2,6 @@
 
 #include <array>
 
-#include "engine/base/hash.h"
-
 namespace cavum {
 
 void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept {
@@ -30,11 +28,6 @@ double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderSt
     state.branch_n = 0.0;
   }
   return std::max(0.0, tissue.stiffness_n_per_mm * depth_mm + state.branch_n + calm * state.speed_mm_s + terms_n);
-}
-
-std::uint64_t hash_of(const RenderState& s, std::uint64_t seed) noexcept {
-  const std::array<double, 2> parts{s.branch_n, s.speed_mm_s};
-  return fast_hash(parts.data(), sizeof parts, seed);
 }
 
 }  // namespace cavum

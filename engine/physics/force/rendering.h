@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 
+#include "engine/base/state_hash.h"
 #include "engine/physics/force/voigt.h"
 
 namespace cavum {
@@ -22,6 +23,7 @@ struct RenderState {
   double branch_n = 0.0;    ///< z, force of the Maxwell branch
   double speed_mm_s = 0.0;  ///< filtered approach speed, positive = deeper
 };
+CAVUM_STATE(RenderState, branch_n, speed_mm_s)
 
 /// Filtered approach speed after the tip moved `approach_mm` deeper in a tick of `dt_s`; 0 out of contact.
 void update_speed(const RenderingModel& model, RenderState& state, bool touching, double approach_mm, double dt_s) noexcept;
@@ -33,8 +35,5 @@ void update_speed(const RenderingModel& model, RenderState& state, bool touching
 [[nodiscard]] double render_force_n(const RenderingModel& model, Viscoelastic tissue, RenderState& state, bool touching, double depth_mm,
                                     double approach_mm, double dt_s, double terms_n = 0.0,
                                     double fastest_mm_s = std::numeric_limits<double>::infinity()) noexcept;
-
-/// For state_hash.
-[[nodiscard]] std::uint64_t hash_of(const RenderState& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

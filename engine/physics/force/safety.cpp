@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 
-#include "engine/base/hash.h"
 #include "engine/physics/force/notices.h"
 
 namespace cavum {
@@ -40,11 +39,6 @@ Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bo
   }
   state.force_n = wanted_n;
   return wanted_n;
-}
-
-std::uint64_t hash_of(const SafetyState& s, std::uint64_t seed) noexcept {
-  const std::array<double, 5> parts{s.force_n.x, s.force_n.y, s.force_n.z, s.used_budget_n_s, s.silent_s};
-  return fast_hash(parts.data(), sizeof parts, seed);
 }
 
 }  // namespace cavum

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "engine/base/state_hash.h"
 #include "engine/base/vec.h"
 
 namespace cavum {
@@ -22,11 +23,9 @@ struct SafetyState {
   double used_budget_n_s = 0;
   double silent_s = 0;  ///< since the last fresh pose
 };
+CAVUM_STATE(SafetyState, force_n, used_budget_n_s, silent_s)
 
 /// The force that may go to the device. Sets bits of TickNotice in `notices`.
 [[nodiscard]] Vec3 make_safe(const SafetyLimits& limits, SafetyState& state, Vec3 wanted_n, bool fresh, double dt_s, std::uint16_t& notices) noexcept;
-
-/// For state_hash.
-[[nodiscard]] std::uint64_t hash_of(const SafetyState& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

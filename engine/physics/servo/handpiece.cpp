@@ -4,7 +4,6 @@
 #include <array>
 #include <cmath>
 
-#include "engine/base/hash.h"
 #include "engine/physics/contact/tuning.h"
 
 namespace cavum {
@@ -40,10 +39,5 @@ void update_handpiece(const ServoConfig& config, const HandpieceDrive& drive, co
 }
 
 bool turns(const ServoConfig& config, const Handpiece& state) noexcept { return state.rpm >= k_still_share * config.max_rpm; }
-
-std::uint64_t hash_of(const Handpiece& state, std::uint64_t seed) noexcept {
-  const std::array<double, 2> real{state.rpm, state.load_n_mm};
-  return fast_hash(real.data(), state.load_n_mm == 0.0 ? sizeof state.rpm : sizeof real, seed);
-}
 
 }  // namespace cavum

@@ -4,6 +4,7 @@
 
 #include <cstdint>
 
+#include "engine/base/state_hash.h"
 #include "engine/physics/force/force_model.h"
 #include "engine/physics/servo/servo_config.h"
 #include "engine/physics/servo/tick.h"
@@ -14,6 +15,7 @@ struct Handpiece {
   double rpm = 0.0;
   double load_n_mm = 0.0;  ///< torque of what it grinds, from the tick before; 0 without a drive
 };
+CAVUM_STATE(Handpiece, rpm, load_n_mm)
 
 /// One tick, implicit Euler. A pedal that is not known stops it in this tick. Without a drive: rpm' = (pedal · max_rpm − rpm)/spin_up.
 /// With one: rpm' = max_rpm/spin_up · (clamp((pedal · max_rpm − rpm)/slip, −1, 1) − load/torque), never below 0: the rotor of which spin_up is the
@@ -22,8 +24,5 @@ void update_handpiece(const ServoConfig& config, const HandpieceDrive& drive, co
 
 /// Does it turn fast enough to cut?
 [[nodiscard]] bool turns(const ServoConfig& config, const Handpiece& state) noexcept;
-
-/// For state_hash; a load of 0 leaves the hash as it was without one.
-[[nodiscard]] std::uint64_t hash_of(const Handpiece& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

@@ -3,7 +3,8 @@
 #include <fmt/core.h>
 
 #include "engine/base/error.h"
-#include "engine/base/hash.h"
+#include "engine/base/state_hash.h"
+#include "engine/physics/servo/grinding.h"
 #include "engine/physics/servo/stages.h"
 #include "engine/tooth/beside.h"
 
@@ -56,12 +57,60 @@ ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 fi
   state.tooth = tooth.octree;
   state.tooth.reserve_edits(k_edit_room);
   state.contact = make_contact_state(model.tray, first_tip_mm);
+  state.scratch = make_contact_scratch(model.tray);
   state.recession.followed_edit = state.tooth.edit_hash();
   state.estimate = make_tip_estimate(make_tick_input({first_tip_mm, {}}, 0.0, 0, 0, {}).tip_nm);
   state.terms = make_terms_state(model.force.terms);
   state.removed.reserve(k_removed_room);
   return state;
 }
+
+namespace {
+
+/// The stages of a tick with a bur; the force that the device should render, N.
+Vec3 tick_with(const ServoModel& model, ServoState& state, const ContactTool& tool, const TickInput& input, Vec3 moved_mm, TickOutput& out) noexcept {
+  const double dt_s = model.config.tick_s, leaf_mm = state.tooth.leaf_mm(), rpm = state.handpiece.rpm;
+  Tick tick{.input = input, .tool = tool, .device = {state.estimate.tip_mm, input.pose().rotation}, .moved_mm = moved_mm};
+  tick.was_touching = state.contact.touching;
+  tick.contact = solve_proxy(state.tooth, tool, input.bur, tick.device, state.contact, state.scratch);  // p, n
+  const bool touching = tick.contact.touching;
+  const CarvedHead left = left_behind(tick, leaf_mm, state.recession);
+  tick.penetration_mm = penetration(tick, state.contact, state.carving.last, leaf_mm, state.recession);  // X = max(0, |p − s| − r)
+  tick.approach_mm = touching ? -dot(moved_mm, tick.contact.normal) : 0.0;
+  tick.means = tissue_mixture(model, state.tooth, tick, rpm, state.recession, state.contact, state.scratch, state.touched);  // k, c, 1/τ
+
+  update_speed(model.force.rendering, state.render, touching, tick.approach_mm, dt_s);  // V
+  const double speed_mm_s = state.render.speed_mm_s;
+  tick.terms = model_terms(model, state, tick, state.terms);  // Σ
+  out.contact = touching;
+  out.normal = touching ? tick.contact.normal : Vec3{};
+  out.penetration_mm = tick.penetration_mm;
+  out.approach_mm_s = speed_mm_s;
+  out.stiffness_n_per_mm = tick.tissue().stiffness_n_per_mm;
+  out.model_force_n = model_force(tick, speed_mm_s);  // F = max(0, k X + c V + Σ)
+  out.drag_n = tick.terms.drag_n;
+  if (!tick.terms.finite) out.notices |= k_notice_not_finite;
+  const Vec3 wanted_n = render(model, state, tick, state.render);  // k X + z + b V + Σ, along n
+
+  // F = k X + c V alone: what wear, water or run-out add is felt, and grinds nothing.
+  const double pressing_n = voigt_force_n(tick.tissue(), tick.penetration_mm, speed_mm_s);
+  if (model.force.drive.torque_n_mm > 0.0) state.handpiece.load_n_mm = grinding_torque_n_mm(tick.means.grinding, pressing_n, model.force.force_ratio);
+  if (!turns(model.config, state.handpiece)) {
+    drop_carving(state.carving);
+    return wanted_n;
+  }
+  if (tick.means.touching) {
+    recede(model, tick, rpm, pressing_n, state.contact, leaf_mm, state.recession);  // r' = X/τ · rpm/rpm_ref, or by pressure
+    out.cutting = tick.means.of.recession_per_s > 0 || tick.means.grinding.per_turn_n_per_mm > 0;
+  }
+  const Carved carved = carve(model, tick, left, state.recession, state.contact, state.tooth, state.removed, state.carving);
+  if (carved.opened) state.contact.opened = *carved.opened;
+  if (carved.no_room) out.notices |= k_notice_tooth_full;
+  if (state.terms.counts_removed) state.terms.removed_leaves[input.bur] += static_cast<std::uint32_t>(state.removed.size());
+  return wanted_n;
+}
+
+}  // namespace
 
 TickOutput step(const ServoModel& model, ServoState& state, const TickInput& input) noexcept {
   const ServoConfig& config = model.config;
@@ -73,14 +122,7 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
   const Vec3 tip_before_mm = state.estimate.tip_mm;
   update_tip_estimate(state.estimate, input.tip_nm, state.tick, config.position_quantum_mm, config.tick_s);
   if (input.bur < model.tray.size()) {
-    const Pose device{state.estimate.tip_mm, input.pose().rotation};
-    Tick tick{.input = input, .tool = model.tray[input.bur], .device = device, .moved_mm = device.tip_mm - tip_before_mm};
-    solve_proxy(state, tick);               // p, n
-    penetration(state, tick);               // X = max(0, |p − s| − r)
-    tissue_mixture(model, state, tick);     // k, c, 1/τ
-    model_force(model, state, tick, out);   // F = max(0, k X + c V + Σ)
-    wanted_n = render(model, state, tick);  // k X + z + b V + Σ, along n
-    cut(model, state, tick, out);           // r' = X/τ · rpm/rpm_ref, or by pressure
+    wanted_n = tick_with(model, state, model.tray[input.bur], input, state.estimate.tip_mm - tip_before_mm, out);
   } else {
     out.notices |= k_notice_bad_bur;
     state.handpiece = {};
@@ -96,16 +138,10 @@ TickOutput step(const ServoModel& model, ServoState& state, const TickInput& inp
 }
 
 std::uint64_t state_hash(const ServoState& s) noexcept {
-  const std::array<std::uint64_t, 3> whole{static_cast<std::uint64_t>(s.tick), s.trace_hash, s.tooth.edit_hash()};
-  std::uint64_t h = fast_hash(whole.data(), sizeof whole, k_physics_version);
-  h = hash_of(s.handpiece, h);
-  h = hash_of(s.estimate, h);
-  h = hash_of(s.contact, h);
-  h = hash_of(s.recession, h);
-  h = hash_of(s.render, h);
-  h = hash_of(s.terms, h);
-  h = hash_of(s.carving, h);
-  return hash_of(s.safety, h);
+  const auto& [tooth, tick, handpiece, estimate, contact, touched, recession, render, terms, carving, safety, trace_hash, removed, scratch] = s;
+  StateHash hash(k_physics_version);
+  hash(tick, trace_hash, tooth.edit_hash(), handpiece, estimate, contact, touched, recession, render, terms, carving, safety);
+  return hash.value();
 }
 
 }  // namespace cavum

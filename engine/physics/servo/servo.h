@@ -10,6 +10,7 @@
 
 #include "engine/physics/bur/bur.h"
 #include "engine/physics/contact/proxy.h"
+#include "engine/physics/contact/touched_means.h"
 #include "engine/physics/cutting/carve_head.h"
 #include "engine/physics/force/force_model.h"
 #include "engine/physics/force/rendering.h"
@@ -44,6 +45,7 @@ struct ServoState {
   Handpiece handpiece;
   TipEstimate estimate;
   ContactState contact;
+  TouchedMemory touched;
   Recession recession;
   RenderState render;
   TermsState terms;
@@ -51,13 +53,14 @@ struct ServoState {
   SafetyState safety;
   std::uint64_t trace_hash = 0;         ///< over every record so far
   ReservedVector<RemovedLeaf> removed;  ///< of the last tick; capacity is reserved once
+  ContactScratch scratch;
 };
 [[nodiscard]] ServoState make_servo_state(const ServoModel& model, const Tooth& tooth, Vec3 first_tip_mm);
 
 /// One tick. After it `state.removed` holds the leaves removed.
 TickOutput step(const ServoModel& model, ServoState& state, const TickInput& input) noexcept;
 
-/// Equal for equal histories. A chain: each stage hashes its own state with the hash of the stage before as its seed.
+/// Over every bit of the state but the removed leaves and what the contact may ask the tooth again: equal for equal histories.
 [[nodiscard]] std::uint64_t state_hash(const ServoState& state) noexcept;
 
 }  // namespace cavum

@@ -4,8 +4,6 @@
 #include <cmath>
 #include <limits>
 
-#include "engine/base/hash.h"
-
 namespace cavum {
 namespace {
 
@@ -53,13 +51,6 @@ double fastest_mm_s(const TipEstimate& state, Vec3 direction, std::int64_t tick,
     fastest += std::fabs(part(direction, i)) * 2.0 * std::fabs(static_cast<double>(state.way_nm[i])) * k_mm_per_nm / between_s * (late * late);
   }
   return fastest;
-}
-
-std::uint64_t hash_of(const TipEstimate& s, std::uint64_t seed) noexcept {
-  const std::array<double, 6> real{s.tip_mm.x, s.tip_mm.y, s.tip_mm.z, s.speed_mm_s.x, s.speed_mm_s.y, s.speed_mm_s.z};
-  std::uint64_t h = fast_hash(real.data(), sizeof real, seed);
-  for (const auto* whole : {&s.step_nm, &s.way_nm, &s.step_tick, &s.step_ticks}) h = fast_hash(whole->data(), sizeof *whole, h);
-  return h;
 }
 
 }  // namespace cavum

@@ -6,6 +6,7 @@
 #include <array>
 #include <cstdint>
 
+#include "engine/base/state_hash.h"
 #include "engine/base/vec.h"
 
 namespace cavum {
@@ -18,6 +19,7 @@ struct TipEstimate {
   std::array<std::int64_t, 3> step_tick{};   ///< when it was
   std::array<std::int64_t, 3> step_ticks{};  ///< time T1 between the last two
 };
+CAVUM_STATE(TipEstimate, tip_mm, speed_mm_s, step_nm, way_nm, step_tick, step_ticks)
 [[nodiscard]] TipEstimate make_tip_estimate(std::array<std::int32_t, 3> reading_nm) noexcept;
 
 /// One tick: s = clamp(s + V·dt, reading − q/2, reading + q/2) with V = way of the last step / T1, and 0 after a reversal, when
@@ -29,8 +31,5 @@ void update_tip_estimate(TipEstimate& state, std::array<std::int32_t, 3> reading
 /// being the time since the last step. So a tip at constant speed stays below half of it, and once the next step is overdue it
 /// falls. Infinite when `quantum_mm` is 0.
 [[nodiscard]] double fastest_mm_s(const TipEstimate& state, Vec3 direction, std::int64_t tick, double quantum_mm, double dt_s) noexcept;
-
-/// For state_hash.
-[[nodiscard]] std::uint64_t hash_of(const TipEstimate& state, std::uint64_t seed) noexcept;
 
 }  // namespace cavum

@@ -29,7 +29,6 @@ bool is_untestable(const Explanation& e, const char* name) {
   return std::any_of(e.not_testable.begin(), e.not_testable.end(), [&](const NotTestable& n) { return n.mechanism == name; });
 }
 
-const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
 bool alias_needs_reversal(const std::string& name) { return needs_reversal(mechanism_at(known_mechanism(name))); }
 
 /// What needs a reversal to be known, as the plain offset that fits best in its place.

@@ -16,8 +16,6 @@ namespace {
 constexpr double k_likely_enough = 0.75;    // less is no claim: of what would be named below it, two in five are false
 constexpr double k_min_gain_percent = 1.0;  // of the error on sessions left out: less is of no use to anybody
 
-const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
-
 const Interval& parameter(const Cause& c, const char* name) {
   return std::find_if(c.parameters.begin(), c.parameters.end(), [&](const auto& p) { return p.first == name; })->second;
 }

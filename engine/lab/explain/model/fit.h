@@ -16,6 +16,7 @@ struct Term {
   int mechanism = -1;  ///< in mechanisms()
   std::vector<double> shape;
 };
+[[nodiscard]] inline const Mechanism& mechanism_of(const Term& term) { return mechanism_at(term.mechanism); }
 
 /// A term whose columns are in the products.
 struct Hypothesis {

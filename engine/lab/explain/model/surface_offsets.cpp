@@ -11,7 +11,7 @@ namespace {
 
 constexpr Eigen::Index k_min_rows = 20;     // in air, and in contact
 constexpr double k_none_mm = 1e-9;          // an offset that is fitted, and not 0: a shape of 0 is one that is not there
-constexpr double k_ridge = 1e-6;            // of a column's own norm
+constexpr double k_offset_ridge = 1e-6;     // of a column's own norm
 constexpr Eigen::Index k_looked_at = 2000;  // rows of a session that an estimate is made from
 // Offsets are looked for in steps, this far to both sides of those before; in between they move together with k and c.
 constexpr std::array k_steps_mm{0.005, 0.0005, 0.0005, 0.0005}, k_reach_mm{k_farthest_surface_mm, 0.015, 0.01, 0.005};
@@ -76,7 +76,7 @@ struct Estimate {
         }
       });
     }
-    a.diagonal() *= 1.0 + k_ridge;
+    a.diagonal() *= 1.0 + k_offset_ridge;
     const Eigen::VectorXd by = Eigen::LDLT<Eigen::MatrixXd>(a).solve(b);
     const Base next{base.k_n_per_mm + by[0], std::max(0.0, base.c_n_s_per_mm + by[1])};
     if (!by.allFinite() || next.k_n_per_mm <= 0.0) return;

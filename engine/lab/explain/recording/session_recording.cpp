@@ -116,7 +116,7 @@ std::vector<std::vector<Row>> contacts_of(const SessionReader& session, Simulati
       const double apart_n = dot(out.rendered_force_n, out.normal) - out.model_force_n;
       rendering.square_sum += apart_n * apart_n;
       rendering.rows += 1.0;
-      const auto& touched = simulation.state.contact.touched.means.of;
+      const auto& touched = simulation.state.touched.means.of;
       const Vec3 axis = simulation.state.contact.rotation * Vec3{0, 0, 1};
       contacts.back().push_back({t, out.penetration_mm, out.approach_mm_s, *force, touched.stiffness_n_per_mm, touched.damping_n_s_per_mm, out.rpm,
                                  worn, static_cast<double>(input.bur), degrees(std::atan2(out.normal.x, out.normal.z)),

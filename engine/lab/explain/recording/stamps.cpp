@@ -13,8 +13,8 @@ namespace {
 constexpr double k_uneven = 0.02;      // scatter of the intervals, relative: below, stamps are even
 constexpr double k_smoother = 0.5;     // of the roughness over the stamps as they are
 constexpr double k_farthest_rows = 4;  // from the even stamp, all but one row in a hundred: beyond it rows are missing
-constexpr std::size_t k_late_rows = 100;
-constexpr Eigen::Index k_min_rows = 50;
+constexpr std::size_t k_one_late_in = 100;
+constexpr Eigen::Index k_min_stamps = 50;
 
 /// Straight line of the stamps over the number of the row.
 Series even_stamps_s(const Recording& r, const SessionRows& rows) {
@@ -27,7 +27,7 @@ Series even_stamps_s(const Recording& r, const SessionRows& rows) {
 double farthest_s(const Series& off) {
   std::vector<double> size;
   for (const double d : off) size.push_back(std::fabs(d));
-  const std::size_t at = size.size() - 1 - size.size() / k_late_rows;
+  const std::size_t at = size.size() - 1 - size.size() / k_one_late_in;
   return in_order(std::move(size), at);
 }
 
@@ -46,7 +46,7 @@ std::optional<Recording> with_even_stamps(const Recording& r) {
   double rough = 0.0, smooth = 0.0, off = 0.0;
   for (const auto& rows : r.sessions) {
     const Eigen::Index n = rows.end - rows.begin;
-    if (n < k_min_rows) return std::nullopt;
+    if (n < k_min_stamps) return std::nullopt;
     const Series t = r.t_s.segment(rows.begin, n), x = r.x_mm.segment(rows.begin, n), even = even_stamps_s(r, rows);
     const Series dt = t.tail(n - 1) - t.head(n - 1);
     const double mean_s = dt.mean();

@@ -73,7 +73,7 @@ TEST(ServoRig, ContactOfAHandHasABoundInEveryTickAndItsForceNeverDropsOut) {
       input = make_tick_input(r.pose, r.pedal, r.flags, r.bur, input);
       const TickOutput out = step(simulation.model, state, input);
       stylus.send_force(out.rendered_force_n);
-      looked_up.push_back(state.contact.looked_up);
+      looked_up.push_back(state.scratch.looked_up);
       most = std::max(most, looked_up.back());
       in_window += looked_up.back() - (i >= window ? looked_up[i - window] : 0);
       most_in_window = std::max(most_in_window, in_window);

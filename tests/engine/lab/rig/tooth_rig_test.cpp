@@ -15,7 +15,7 @@ using namespace testing_engine;
 
 Tooth layered() { return make_block({5, 5, 3.5}, {{"enamel", 0.5}, {"dentin", 0.6}, {"pulp", 1.4}, {"dentin", 1.0}}, 0.05); }
 
-ToothRigOptions small() {
+ToothRigOptions small_rig() {
   ToothRigOptions o;
   o.runs = 3;
   return o;
@@ -23,7 +23,7 @@ ToothRigOptions small() {
 
 TEST(ToothRig, ForceFallsToTheFrictionWhenTheTipReachesThePulp) {
   const double k = 0.8, c = 0.2, tau = 0.4, v = 0.25;
-  const ToothRigResult r = run_tooth_rig(layered(), hard_model(k, c, tau), shipped_bur("round-1.0"), small());
+  const ToothRigResult r = run_tooth_rig(layered(), hard_model(k, c, tau), shipped_bur("round-1.0"), small_rig());
   ASSERT_EQ(r.counted, 3);
   // the tip's proxy is X behind the crosshead
   EXPECT_NEAR(r.pulp_s.mean, (1.1 + v * tau) / v, 0.3);
@@ -38,7 +38,7 @@ TEST(ToothRig, ForceFallsToTheFrictionWhenTheTipReachesThePulp) {
 
 TEST(ToothRig, SameSeedSameFiguresAndPlacesLieWithinTheSpread) {
   const auto run = [](std::uint64_t seed) {
-    ToothRigOptions o = small();
+    ToothRigOptions o = small_rig();
     o.seed = seed;
     o.at_mm = {0.5, -0.5};
     o.spread_mm = 0.2;
@@ -53,14 +53,14 @@ TEST(ToothRig, SameSeedSameFiguresAndPlacesLieWithinTheSpread) {
 TEST(ToothRig, StifferEnamelShowsAsAStepBetweenTwoHardTissues) {
   ForceModel model = hard_model(0.4, 0.0, 0.2);
   model.materials.find("enamel")->second.voigt.stiffness_n_per_mm = 1.6;
-  const ToothRigResult r = run_tooth_rig(layered(), model, shipped_bur("round-1.0"), small());
+  const ToothRigResult r = run_tooth_rig(layered(), model, shipped_bur("round-1.0"), small_rig());
   EXPECT_GT(r.layers[0].force_n.mean, r.layers[1].force_n.mean + 0.02);
 }
 
 TEST(ToothRig, ToothWithoutPulpIsRefused) {
   const Tooth solid = make_block({3, 3, 2}, {{"enamel", 1.0}, {"dentin", 1.0}}, 0.1);
-  EXPECT_EQ(code_of([&] { (void)run_tooth_rig(solid, hard_model(0.8, 0.0), shipped_bur("round-1.0"), small()); }), RigError::no_pulp);
-  ToothRigOptions beside = small();
+  EXPECT_EQ(code_of([&] { (void)run_tooth_rig(solid, hard_model(0.8, 0.0), shipped_bur("round-1.0"), small_rig()); }), RigError::no_pulp);
+  ToothRigOptions beside = small_rig();
   beside.at_mm = {40.0, 0.0};
   EXPECT_THROW((void)run_tooth_rig(layered(), hard_model(0.8, 0.0), shipped_bur("round-1.0"), beside), Error);
 }

@@ -189,12 +189,13 @@ template <class Distance>
 PushFigures push(Random& random, const ContactTool& tool, const Octree& tooth, Vec3 start, Vec3 end, Quat turned, const Distance& distance,
                  Vec3 out) {
   ContactState state = make_contact_state({tool}, start);
+  ContactScratch scratch = make_contact_scratch({tool});
   PushFigures f;
   const double speed = std::exp(random.uniform(std::log(2.0), std::log(200.0)));  // mm/s
   const int n = std::clamp(static_cast<int>(length(end - start) / speed * 1000), 10, 1000);
   for (int i = 1; i <= n + 20; ++i) {
     const double share = std::min(1.0, static_cast<double>(i) / n);
-    const auto r = update_contact(tooth, tool, 0, {start + (end - start) * share, turned}, state);
+    const auto r = solve_proxy(tooth, tool, 0, {start + (end - start) * share, turned}, state, scratch);
     if (r.touching) f.flipped = std::max(f.flipped, -dot(r.normal, out));
     f.peak_x = std::max(f.peak_x, r.penetration_mm);
     if (i % 8 == 0 || i >= n) f.inside_leaves = std::max(f.inside_leaves, deepest_mm(tool, state.proxy_mm, turned, distance) / k_leaf);
@@ -258,11 +259,12 @@ TEST(Proxy, ABallInAnInnerCornerRestsWhereGeometryPutsIt) {
   double worst = 0, worst_degrees = 0;
   for (int i = 0; i < 60; ++i) {
     ContactState state = make_contact_state({tool}, Vec3{1.5, 0, 1.5} - to_centre);
+    ContactScratch scratch = make_contact_scratch({tool});
     const Vec3 centre{random.uniform(-0.5, 1), random.uniform(-0.2, 0.2), random.uniform(-0.5, 0.3)};
     ContactResult r;
     for (int t = 1; t <= 400; ++t) {
       const Vec3 at = Vec3{1.5, 0, 1.5} + (centre - Vec3{1.5, 0, 1.5}) * std::min(1.0, t / 300.0);
-      r = update_contact(corner.octree, tool, 0, {at - to_centre, turned}, state);
+      r = solve_proxy(corner.octree, tool, 0, {at - to_centre, turned}, state, scratch);
     }
     const Vec3 rests{std::max(centre.x, 0.5), centre.y, std::max(centre.z, 0.5)};  // nearest place where the ball fits
     const double x = length(rests - centre);

@@ -183,7 +183,7 @@ TEST(Cutting, NoTickOfSteadyDrillingLooksUpMoreThanAPart) {
     int most = 0;
     for (int t = 1; t <= 8000; ++t) {
       (void)rig.tick({0, 0, 0.05 - k_feed * 1e-3 * t}, 1.0);
-      if (t > 400) most = std::max(most, rig.state.contact.looked_up);
+      if (t > 400) most = std::max(most, rig.state.scratch.looked_up);
     }
     std::printf("leaf %.3f: at most %d places in a tick\n", leaf, most);
     EXPECT_LE(most, 320);
@@ -202,7 +202,7 @@ TEST(Cutting, ACarveIsMadeLongBeforeTheNextIsDueThoughATickDoesLittleOfIt) {
       carves += ends;
       now = rig.state.carving.under_way() ? now + 1 : 0;
       longest = std::max(longest, now);
-      most_mm = std::max(most_mm, rig.state.recession.owed_mm);
+      most_mm = std::max(most_mm, rig.state.recession.pending_mm);
     }
     std::printf("%s, leaf 0.025: %d carves, at most %d ticks each, %.4f mm owed\n", name, carves, longest + 1, most_mm);
     EXPECT_GT(longest, 1) << name << ": it should not be made in a single tick";

@@ -45,7 +45,7 @@ struct Weight {
     z = out.contact && out.stiffness_n_per_mm > 0 ? std::max(z - 1e-2, -depth_mm() - load_n / out.stiffness_n_per_mm) : z - 1e-3;
     return out;
   }
-  [[nodiscard]] double depth_mm() const { return std::max(0.0, rig.state.recession.owed_mm) - rig.state.contact.proxy_mm.z; }
+  [[nodiscard]] double depth_mm() const { return std::max(0.0, rig.state.recession.pending_mm) - rig.state.contact.proxy_mm.z; }
   /// Mean speed of recession, mm/s, between two depths.
   double speed_mm_s(double from_mm, double to_mm) {
     int ticks = 0;

@@ -96,7 +96,19 @@ TEST(Servo, TheHashSeesTheStateOfEveryStage) {
   changed(s.estimate.speed_mm_s.x, 1e-9);
   changed(s.contact.proxy_mm.z, 1e-9);
   changed(s.contact.stride_mm, 1e-9);
-  changed(s.recession.owed_mm, 1e-9);
+  changed(s.contact.last_step_mm.y, 1e-9);
+  changed(s.contact.opened.turned_rad, 1e-9);
+  changed(s.contact.gathered.reach_mm, 1e-9);
+  changed(s.contact.coming.next_sample, 1);
+  changed(s.contact.active.at[2], 1);
+  changed(s.touched.means.of.damping_n_s_per_mm, 1e-9);
+  changed(s.touched.means.grinding.head_share, 1e-9);
+  changed(s.handpiece.load_n_mm, 1e-9);
+  changed(s.estimate.way_nm[1], 1);
+  changed(s.recession.normal.z, 1e-9);
+  changed(s.carving.last.rotation.row_y.x, 1e-9);
+  changed(s.safety.silent_s, 1e-9);
+  changed(s.recession.pending_mm, 1e-9);
   changed(s.recession.followed_edit, 1);
   changed(s.recession.head.tip_mm.y, 1e-9);
   changed(s.render.branch_n, 1e-9);
@@ -105,7 +117,7 @@ TEST(Servo, TheHashSeesTheStateOfEveryStage) {
   changed(s.safety.used_budget_n_s, 1e-9);
   s.terms.count = 1;
   changed(s.terms.memory[0][0], 1e-9);
-  EXPECT_EQ(seen.size(), 15u);
+  EXPECT_EQ(seen.size(), 27u);
 }
 
 TEST(Servo, TheHandpieceSpinsUpExponentiallyWithThePedal) {

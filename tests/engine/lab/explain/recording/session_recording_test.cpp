@@ -18,7 +18,7 @@ constexpr std::int64_t k_ticks = 9000;
 
 /// What a load cell would read: the law of the tissue touched, friction of 0.2 N along the normal, and noise.
 double measured_n(const Simulation& s, const TickOutput& out, Random& random) {
-  const auto& of = s.state.contact.touched.means.of;
+  const auto& of = s.state.touched.means.of;
   const double law = voigt_force_n({of.stiffness_n_per_mm, of.damping_n_s_per_mm}, out.penetration_mm, out.approach_mm_s);
   return law + 0.2 * std::tanh(out.approach_mm_s / 0.3) + 0.02 * random.normal();
 }
