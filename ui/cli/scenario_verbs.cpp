@@ -50,7 +50,7 @@ int check(const ScenarioArguments& o) {
     nlohmann::ordered_json j{{"scenario", o.scenario}, {"sound", checked.sound()}, {"problems", nlohmann::ordered_json::array()}};
     for (const auto& p : checked.problems)
       j["problems"].push_back({{"severity", p.warning ? "warning" : "error"},
-                               {"kind", scenarios::k_mistake_names[static_cast<std::size_t>(p.mistake)]},
+                               {"kind", name_in(p.mistake)},
                                {"where", p.where},
                                {"line", p.where.line},
                                {"column", p.where.column},
