@@ -29,8 +29,7 @@ Content read_as(const std::string& path, std::uint64_t largest) {
   if (path.empty()) throw Error(msg("file"), msg("its name is empty"), msg("name a file"));
   const File file{::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NONBLOCK | O_NOCTTY)};  // a pipe that nobody writes to must not hold us
   if (file.fd < 0)
-    throw Error(errno == ENOENT ? ErrorCode(FileError::missing) : system_error_of(errno), Name{path}, msg("cannot be opened ({})", system_words(errno)),
-                msg("check the path and its permissions"));
+    throw Error(system_code(errno), Name{path}, msg("cannot be opened ({})", system_words(errno)), msg("check the path and its permissions"));
   struct stat info {};
   if (::fstat(file.fd, &info) != 0) throw Error(path, msg("cannot be read ({})", system_words(errno)), msg("check the disk and the permissions"));
   if (S_ISDIR(info.st_mode)) throw Error(FileError::not_a_file, Name{path}, msg("is a folder"), msg("name a file"));

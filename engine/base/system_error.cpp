@@ -4,6 +4,7 @@
 #include <cerrno>
 #include <iterator>
 
+#include "engine/base/file_error.h"
 #include "engine/base/text.h"
 
 namespace cavum {
@@ -11,10 +12,10 @@ namespace {
 
 struct Row {
   int number;
-  SystemError kind;
+  ErrorCode code;
   const char* english;
 };
-constexpr Row k_rows[] = {{ENOENT, SystemError::no_such_file, said("there is no such file or folder")},
+constexpr Row k_rows[] = {{ENOENT, FileError::missing, said("there is no such file or folder")},
                           {EACCES, SystemError::no_permission, said("permission is missing")},
                           {EPERM, SystemError::no_permission, said("permission is missing")},
                           {ENOSPC, SystemError::no_space, said("there is no space left")},
@@ -23,9 +24,9 @@ constexpr Row k_rows[] = {{ENOENT, SystemError::no_such_file, said("there is no 
                           {EMFILE, SystemError::too_many_open, said("too many files are open")},
                           {ENFILE, SystemError::too_many_open, said("too many files are open")},
                           {EIO, SystemError::input_output, said("the disk does not read or write")},
-                          {EEXIST, SystemError::exists, said("it is there already")},
+                          {EEXIST, FileError::exists, said("it is there already")},
                           {ENOTDIR, SystemError::not_a_folder, said("a part of the path is no folder")},
-                          {EISDIR, SystemError::is_a_folder, said("it is a folder")},
+                          {EISDIR, FileError::not_a_file, said("it is a folder")},
                           {ENAMETOOLONG, SystemError::name_too_long, said("the name is too long")},
                           {ENOMEM, SystemError::no_memory, said("there is not enough memory")}};
 
@@ -36,9 +37,9 @@ const Row* row_of(int number) noexcept {
 
 }  // namespace
 
-SystemError system_error_of(int number) noexcept {
+ErrorCode system_code(int number) noexcept {
   const Row* row = row_of(number);
-  return row == nullptr ? SystemError::system_error : row->kind;
+  return row == nullptr ? SystemError::system_error : row->code;
 }
 
 Message system_words(int number) {

@@ -52,7 +52,7 @@ int run_verb(CLI::App& app, const std::vector<std::string>& arguments, const int
     errors.emplace_back(cavum::MemoryError::ran_out, msg("memory"), msg("there is not enough"), msg("close other programs, and try again"));
   } catch (const std::filesystem::filesystem_error& e) {
     const int why = e.code().value();
-    errors.emplace_back(cavum::system_error_of(why), cavum::Name{e.path1().string().substr(0, 300)}, cavum::system_words(why),
+    errors.emplace_back(cavum::system_code(why), cavum::Name{e.path1().string().substr(0, 300)}, cavum::system_words(why),
                         msg("give another file or folder"));
   } catch (const cavum::Error& e) {
     errors.push_back(e);
