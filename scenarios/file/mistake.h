@@ -14,7 +14,15 @@ namespace cavum::scenarios {
   MISTAKE(out_of_range) \
   MISTAKE(too_large)           /* beyond a limit */ \
   MISTAKE(unknown_key) \
-  MISTAKE(unknown_name)        /* of a tissue, a measure, a bur, a criterion; a word that is none of those there are */ \
+  MISTAKE(unknown_name)        /* the word of a key is none of those there are */ \
+  MISTAKE(unknown_tissue) \
+  MISTAKE(unknown_measure)     /* or one of what the exam does not have */ \
+  MISTAKE(unknown_criterion) \
+  MISTAKE(unknown_gauge) \
+  MISTAKE(unknown_quantity)    /* of a condition */ \
+  MISTAKE(unknown_bur) \
+  MISTAKE(unknown_tooth)       /* its file */ \
+  MISTAKE(unknown_language) \
   MISTAKE(bad_name) \
   MISTAKE(duplicate) \
   MISTAKE(contradictory)       /* two things that do not go together */ \
